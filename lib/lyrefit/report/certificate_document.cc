@@ -15,7 +15,7 @@ namespace {
 constexpr int kProvedDigits = 10;
 constexpr int kRangeDigits = 6;
 
-// Whether larger Rs than those gone through were asked for.
+// Whether the requested range of Rs exceeds the searched one.
 bool OpenRange(const Certificate& certificate) {
   return certificate.options.rs_upper_ohm > certificate.rs_upper_ohm;
 }
@@ -40,7 +40,7 @@ bool Alike(const DiodeRanges& a, const DiodeRanges& b) {
          a.is_upper_A == b.is_upper_A;
 }
 
-// What holds for Iph and Rsh, and of each diode of a model.
+// Ranges of Iph and Rsh, and those of each diode of a model.
 std::string OtherRanges(const CertifyOptions& options) {
   const bool linear = options.iph_lower_A > 0 || options.iph_upper_A < kInfinity ||
                       options.rsh_lower_ohm > 0 || options.rsh_upper_ohm < kInfinity;
@@ -92,7 +92,7 @@ Section CertificateHead(const Certificate& certificate) {
 
 std::string GapText(double gap) { return fmt::format("{:.1e}", gap); }
 
-// A mixture goes through all points.
+// Whether a mixture passes through all points.
 bool Exact(const Floor& floor) { return floor.gap == 0 && floor.lower_bound_A == 0; }
 
 Section FloorSection(const Certificate& certificate) {
@@ -170,7 +170,7 @@ Section ProofSection(const Certificate& certificate) {
   return section;
 }
 
-// "Iph 0.760788 A, Is1 3.10685e-07 A, ..."
+// Symbols, values and units of a model's parameters: "Iph 0.760788 A, Is1 3.10685e-07 A, ..."
 std::string ModelValues(const ModelCertificate& model, const Conditions& conditions) {
   const Device device = MakeDevice(model.model, conditions);
   std::string values;
@@ -204,7 +204,7 @@ Section ModelSection(const Certificate& certificate) {
   return section;
 }
 
-// What all that comes to.
+// One sentence on the floor and the models.
 std::string Conclusion(const Certificate& certificate) {
   const std::size_t diodes = certificate.floor.diodes.size();
   const double gap = certificate.floor.gap;

@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-// Evenly spaced in 1/n, as the exponents are, and the diodes themselves.
+// Ideality factors evenly spaced in 1/n, as the exponents are, and those of the floor's diodes.
 std::vector<double> Idealities(const Certificate& certificate) {
   constexpr int kSteps = 600;
   const double low = 1 / certificate.options.n_upper;
@@ -23,7 +23,7 @@ std::vector<double> Idealities(const Certificate& certificate) {
   return n;
 }
 
-// Over n, in units of `unit`.
+// Cosines over n, in multiples of `unit`.
 Series Cosines(const Certificate& certificate, const std::vector<double>& n, double unit,
                Series series) {
   const std::vector<double> cosines = DualCosines(certificate, n);

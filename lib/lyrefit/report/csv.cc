@@ -97,13 +97,13 @@ std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
                   CsvField(JoinWith(cause.equivalents, " ")), CsvField(cause.sentence)});
 }
 
-// Digits with or without a sign, point and exponent.
+// Whether the text is a number of digits, signs, point and exponent.
 bool IsPlainNumber(std::string_view text) {
   return text.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
          ParseNumber(text).has_value();
 }
 
-// Whether a spreadsheet takes it for a formula; apostrophes before it do not count.
+// Whether a spreadsheet would run the text as a formula, ignoring apostrophes before it.
 bool RunsInSpreadsheets(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   constexpr std::string_view kSigns[] = {

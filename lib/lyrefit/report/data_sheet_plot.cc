@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSheetPlotPoints = 150;
 constexpr double kLowestIsDrawn_A = 1e-25;
-constexpr double kMostPowerDrawn = 0.25;  // of that of the picked member, either way
+constexpr double kMostPowerDrawn = 0.25;  // relative to the selected member's power
 constexpr char kGreen[] = "#009E73";
 
 const Look kKneeLook = {kGrey, 2};
@@ -23,7 +23,7 @@ const Look kHalfLook = {kVermilion};
 const Look kPickedLook = {"#000000"};
 const Look kLastLook = {kBlue};
 
-// What three points fix.
+// Key points that the three points of a data sheet fix.
 struct ThreePoints {
   double isc_A, voc_V, imp_A, vmp_V;
 };
@@ -72,7 +72,7 @@ std::string LastLegend(const DataSheetFamily& family) {
                      family.bound == FamilyBound::kSeriesResistance ? "Rs" : "1/Rsh");
 }
 
-// The panels over voltage: currents, and what they differ by from the picked member's.
+// The panels over voltage: currents of members, and their differences from the selected member's.
 std::vector<Panel> CurvePanels(const DataSheetFit& fit) {
   const DataSheetFamily& family = fit.family;
   const ThreePoints at = PointsOf(fit);
@@ -107,7 +107,7 @@ std::vector<Panel> CurvePanels(const DataSheetFit& fit) {
   return {std::move(curves), std::move(apart)};
 }
 
-// A panel over n with the n of the rounding.
+// A panel over n with a band for the n allowed by rounding.
 Panel OverIdeality(const DataSheetFit& fit, const std::string& title, const std::string& label) {
   const DataSheetFamily& family = fit.family;
   Panel panel{title, {"Ideality factor n", 0, 1.04 * family.members.back().n}, {label}};
@@ -117,7 +117,8 @@ Panel OverIdeality(const DataSheetFit& fit, const std::string& title, const std:
   return panel;
 }
 
-// A number of each member, a disc for the picked one and a ring for the limit at n = 0 if known.
+// One value of each member as a line, with a disc for the selected member and a ring for the limit
+// at n = 0 if known.
 template <class F>
 void AddMembers(const DataSheetFit& fit, const F& value, const Look& look, bool right_axis,
                 Panel* panel, double at_zero = kUnknown) {

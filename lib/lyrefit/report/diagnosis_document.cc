@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSizeDigits = 3;
 constexpr int kCauseDigits = 5;
-constexpr double kLargestShiftPercent = 1000;  // beyond it a relative difference says nothing
+constexpr double kLargestShiftPercent = 1000;  // above it a relative difference is meaningless
 
 // "200 to 1000", "25"
 std::string NoiseSpread(double low, double high) {
@@ -38,7 +38,7 @@ std::string ConditionsText(const Diagnosis& diagnosis) {
                      dark > 0 ? "; " + Plural(dark, "dark curve") : "");
 }
 
-// What a cause must be to be named.
+// Conditions for a cause to be named.
 std::string NamedText(const Diagnosis& diagnosis) {
   std::string text =
       fmt::format("certain at {:g} % over the whole catalogue", 100 * diagnosis.level);
@@ -109,7 +109,7 @@ std::string EffectText(const Cause& cause) {
   return text;
 }
 
-// "step of the irradiance (irr_step)"
+// Title and id of an effect: "step of the irradiance (irr_step)".
 std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
   for (const Trial& trial : diagnosis.trials) {
     if (trial.effect == id) return fmt::format("{} ({})", trial.title, id);
@@ -168,7 +168,7 @@ std::string WholePercent(double part) {
   return std::isfinite(part) ? fmt::format("{:.0f} %", 100 * part) : "-";
 }
 
-// What to measure next.
+// The next measurements that would separate the causes.
 Section PlanSection(const Diagnosis& diagnosis) {
   Section section = {"What would tell them apart"};
   if (!diagnosis.plan) return section;
@@ -197,7 +197,7 @@ Section PlanSection(const Diagnosis& diagnosis) {
   return section;
 }
 
-// Without a cause.
+// Gain of a diagnosis without a cause.
 Section BaseGainSection(const Gain& gain) {
   std::string text = Scientific(gain.rmse_before_A, 4) + " A, solved-current";
   if (std::isfinite(gain.held_out_before_A)) {
@@ -233,7 +233,7 @@ Section GainSection(const Gain& gain) {
   return section;
 }
 
-// How far the base model's value is from that of the extended one.
+// Relative difference of the base model's value from the extended model's.
 std::string OffBy(const ParameterShift& shift) {
   const double percent = 100 * (shift.before / shift.after - 1);
   return std::abs(percent) < kLargestShiftPercent ? fmt::format("{:+.2f} %", percent) : "-";
@@ -243,7 +243,7 @@ std::string ShiftLabel(const ParameterShift& shift) {
   return LabelWithUnit({shift.symbol, shift.name, shift.unit, ""});
 }
 
-// Where there is nothing to allow for.
+// Parameters of a diagnosis without causes to correct for.
 Section BaseSection(const std::vector<ParameterShift>& shifts) {
   Section section = {"Parameters of the base model"};
   if (shifts.empty()) return section;

@@ -123,7 +123,7 @@ Section TrialSection(const Diagnosis& diagnosis) {
 }
 
 Section UntriedSection(const Diagnosis& diagnosis) {
-  std::vector<std::pair<std::string, std::string>> reasons;  // and the effects they hold for
+  std::vector<std::pair<std::string, std::string>> reasons;  // each with its effects
   for (const Trial& trial : diagnosis.trials) {
     if (trial.tried) continue;
     const auto same = std::find_if(reasons.begin(), reasons.end(), [&trial](const auto& one) {

@@ -15,30 +15,30 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kManyOfAGroup = 150;  // of a group; from here on small symbols
-// Of one diode fitted to healthy modules: how far the curve departs from it, in % of Isc.
+constexpr std::size_t kManyOfAGroup = 150;  // points; larger groups have small symbols
+// Deviation of normal modules from a single-diode fit, in % of Isc.
 constexpr double kBand = 0.2;
-// Of causes: none of them the colour of a line.
+// Colours of causes, which differ from all colours of lines.
 constexpr std::array<const char*, 4> kMarks = {"#F0B400", "#E05080", "#40C0A0", "#9070E0"};
 
-// One direction of one curve.
+// The points of one direction of one curve.
 struct Group {
   Look look;
   std::vector<const DiagnosedPoint*> points = {};
 };
 
 struct ShownDiagnosis {
-  std::vector<Group> groups;        // up and down of the first curve, of the second, ...
+  std::vector<Group> groups;        // up and down of the first curve, then of the second, ...
   std::vector<std::string> legend;  // in the order of colours
-  bool triangles = false;           // those of the way down
+  bool triangles = false;           // whether downward sweeps are triangles
   double low_V = kUnknown;          // of all voltages; unknown without points
   double span_V = 0;
-  double unit_A = 1e-3;     // a hundredth of Isc; 1 mA where there is none
+  double unit_A = 1e-3;     // one hundredth of Isc; 1 mA without Isc
   std::vector<Band> bands;  // where causes act
   std::vector<Note> notes;  // their titles
 };
 
-// Whether the voltages of each segment fall.
+// Whether the voltages fall, for each segment.
 std::vector<bool> Falling(const std::vector<DiagnosedPoint>& points) {
   std::vector<bool> falling;
   std::vector<double> first_V;
@@ -53,7 +53,7 @@ std::vector<bool> Falling(const std::vector<DiagnosedPoint>& points) {
   return falling;
 }
 
-// Whether some curve was swept both ways.
+// Whether any curve was swept both ways.
 bool BothWays(const Diagnosis& diagnosis, const std::vector<bool>& falling) {
   std::vector<int> ways(diagnosis.curves.size());
   for (const DiagnosedPoint& point : diagnosis.points) {
@@ -62,8 +62,8 @@ bool BothWays(const Diagnosis& diagnosis, const std::vector<bool>& falling) {
   return std::find(ways.begin(), ways.end(), 3) != ways.end();
 }
 
-// A curve has one colour and, where directions matter, triangles for its way down; the only curve
-// has two colours instead.
+// Groups the points: each curve has one colour, with triangles for downward sweeps if any curve was
+// swept both ways. A single curve has one colour for each direction instead.
 void AddGroups(const Diagnosis& diagnosis, ShownDiagnosis* shown) {
   const std::vector<bool> falling = Falling(diagnosis.points);
   const bool both_ways = BothWays(diagnosis, falling);
@@ -82,8 +82,8 @@ void AddGroups(const Diagnosis& diagnosis, ShownDiagnosis* shown) {
   }
 }
 
-// Where a cause acts. Readings that stand together are one stretch; gaps that some readings in
-// between leave do not divide it.
+// Ranges of voltage in which a cause acts. Neighbouring readings form one range, across gaps of up
+// to gap_V.
 std::vector<std::pair<double, double>> Stretches(const Diagnosis& diagnosis, const Cause& cause,
                                                  double gap_V) {
   std::vector<double> at;
@@ -101,10 +101,10 @@ std::vector<std::pair<double, double>> Stretches(const Diagnosis& diagnosis, con
   return stretches;
 }
 
-// Bands behind the points where causes act, and their titles below the curve, each at its place.
+// Adds bands behind the points where causes act, with their titles below the curve.
 void AddCauses(const Diagnosis& diagnosis, ShownDiagnosis* shown) {
-  constexpr double kGap = 0.05;     // of the range of the voltages
-  constexpr double kLeast = 0.004;  // half of a band of one reading, of the range
+  constexpr double kGap = 0.05;     // relative to the range of the voltages
+  constexpr double kLeast = 0.004;  // half width of a band of one reading, relative to the range
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
   const double air = kLeast * shown->span_V;
   for (std::size_t i = 0; i < causes.size(); ++i) {
@@ -141,7 +141,7 @@ ShownDiagnosis Collect(const Diagnosis& diagnosis) {
   return shown;
 }
 
-// A number of each point of a group over the voltage.
+// One value of each point of a group over voltage.
 template <typename Value>
 Series OverVoltage(const Group& group, const Value& value) {
   Series series;
@@ -154,7 +154,7 @@ Series OverVoltage(const Group& group, const Value& value) {
   return series;
 }
 
-// Open or filled.
+// Points with open or filled symbols.
 Series Marked(const Group& group, Series series, bool filled) {
   series.kind = SeriesKind::kPoints;
   series.look = group.look;
@@ -171,7 +171,7 @@ Series ModelLine(const Group& group, double DiagnosedPoint::*model_A, double wid
   return series;
 }
 
-// The voltages are the same in all panels, so that points stand above each other.
+// A panel over voltage. All panels share one range, so that their points are aligned.
 Panel VoltagePanel(const ShownDiagnosis& shown, const std::string& title,
                    const std::string& y_label) {
   const double air = shown.span_V > 0 ? 0.03 * shown.span_V : 1;
@@ -192,7 +192,7 @@ Panel CurvesPanel(const ShownDiagnosis& shown, const Diagnosis& diagnosis) {
   for (const Group& group : shown.groups) {
     panel.series.push_back(Marked(group, OverVoltage(group, current), /*filled=*/false));
   }
-  // Above all points.
+  // Lines are drawn above all points.
   for (const Group& group : shown.groups) {
     panel.series.push_back(ModelLine(group, &DiagnosedPoint::before_A, 1.4, {"#000000", 2}));
     if (!found) continue;
@@ -206,7 +206,7 @@ Panel CurvesPanel(const ShownDiagnosis& shown, const Diagnosis& diagnosis) {
   return panel;
 }
 
-// Residuals with the band of what one diode misses of healthy modules.
+// Residuals, with the band that a single-diode fit leaves on normal modules.
 Panel ResidualPanel(const ShownDiagnosis& shown, const std::string& title,
                     double DiagnosedPoint::*model_A) {
   Panel panel = VoltagePanel(shown, title, "Model - measured (% of Isc)");

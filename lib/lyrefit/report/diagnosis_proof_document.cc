@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// "37 %", rounded up as it is an upper bound.
+// Percentage of an upper bound, rounded up: "37 %".
 std::string AtMostText(double part) {
   return std::isfinite(part) ? fmt::format("{:.0f} %", std::ceil(100 * part - 1e-9)) : "-";
 }

@@ -8,114 +8,113 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/figure.h"
 
-// A report as data: what is said, in the order in which it is read. How that looks in a terminal,
-// in Markdown or on a page is the business of who draws it.
+// A report as data: its content in reading order. The functions that draw it define its layout in a
+// terminal, in Markdown or on a page.
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a section is made of. Texts are plain: nobody has wrapped or escaped them.
+// Blocks of a section. Texts are plain, neither wrapped nor escaped.
 namespace block {
 
-// A name and what is to be said of it. One without a name is one more text under the name above.
+// A name and its text. A field without a name continues the named field above.
 struct Field {
   std::string name;  // may be empty
   std::string text;  // a line or several sentences
 };
 
-// A sentence or a few: a paragraph.
+// A paragraph.
 struct Sentence {
   std::string text;
 };
 
-// What must be known to read what comes next.
+// Explains the notation of the next blocks.
 struct Legend {
   std::string text;
 };
 
-// What the whole report comes to.
+// Conclusion of the whole report.
 struct Conclusion {
   std::string text;
 };
 
-// What is to be looked at twice.
+// A problem that the reader should check.
 struct Warning {
   std::string text;
 };
 
-// Sentences, each on its own.
+// Sentences, one on each line.
 struct List {
   std::vector<std::string> sentences;
 };
 
-// A title and what is to be said below it, one thing after the other.
+// A title and sentences below it.
 struct Entry {
   std::string title;
   std::vector<std::string> sentences = {};
 };
 
-// `alignment` holds one letter a column: 'l', 'r', or 'w' for a last column of long texts. Heads
-// that need more than one line have as many rows. Missing cells are empty.
+// A table. `alignment` has one letter for each column: 'l', 'r', or 'w' for a last column of
+// wrapped text. Heads of more than one line are several rows. Missing cells are empty.
 struct Table {
-  // One text a column.
+  // One text for each column.
   using Row = std::vector<std::string>;
-  // A line across the table which names the rows from `row` on to the next one.
+  // A line across the table that titles the rows from `row` up to the next span.
   struct Span {
     std::size_t row = 0;  // the first one below the line
     std::string title;
   };
-  std::string alignment;       // a letter a column
+  std::string alignment;       // one letter for each column
   std::vector<Row> heads;      // above the line
   std::vector<Row> rows = {};  // below it
   std::string caption = {};
   std::vector<Span> spans = {};
 };
 
-// Lines whose blanks matter, each with its newline.
+// Lines whose blanks are significant, each with its newline.
 struct Preformatted {
-  std::string lines;  // shown as they stand
+  std::string lines;  // shown unchanged
 };
 
-// A picture, of which a terminal shows nothing. Pages show the `file` it was drawn into, if there
-// is one, else the caption alone; DrawPage() of page.h draws the `figure`, and below it what it
-// shows in numbers.
+// A picture. A terminal omits it. Markdown and HTML pages show `file`, or the caption alone if it
+// is empty. DrawPage() of page.h draws `figure` with the table `readings` below it.
 struct Figure {
   std::string caption;
-  std::string file = {};        // that the picture was drawn into; may be empty
+  std::string file = {};        // path of the drawn picture; may be empty
   lyrefit::Figure figure = {};  // the picture as data
   Table readings = {};
 };
 
-// Any of these.
+// Any block.
 using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Entry, Table,
                          Preformatted, Figure>;
 
 }  // namespace block
 
-// A heading may be missing. A section of depth 1 belongs to the one of depth 0 before it.
+// A titled group of blocks. A section of depth 1 belongs to the last section of depth 0.
 struct Section {
   std::string heading;                  // may be empty
   std::vector<block::Any> blocks = {};  // in reading order
   int depth = 0;                        // 0, or 1 below the last of 0
-  bool warns = false;                   // of warnings, which pages show before all else
+  bool warns = false;                   // holds warnings, which pages show first
 };
 
-// A report: its sections in reading order, and what stands before and after them.
+// A report: its sections in reading order, with banners before them.
 struct Document {
-  std::vector<std::string> banners = {};  // what must be known before anything else is read
+  std::vector<std::string> banners = {};  // shown before everything else
   Section head = {};                      // its heading is the title
   std::vector<Section> sections = {};
-  // What the report comes to, in a line or a few: DrawPage() begins with it. Texts say it in one of
-  // their sections.
+  // The result in one line or a few, shown first by DrawPage(). DrawText() and DrawMarkdown() show
+  // it in one of the sections only.
   std::string verdict = {};
-  // Who signs it: DrawPage() has a line for each at the end of what is printed on paper.
+  // Names of signature lines, which DrawPage() adds at the end of the printed page.
   std::vector<std::string> signatures = {};
 };
 
-// Puts one more block at the end of a section.
+// Appends a block to a section.
 void AddField(std::string name, std::string text, Section* section);
 void AddSentence(std::string text, Section* section);
 void AddList(std::vector<std::string> sentences, Section* section);
 void AddTable(block::Table table, Section* section);
-void AddFigure(block::Figure figure, Section* section);  // not one without panels
+void AddFigure(block::Figure figure, Section* section);  // ignored without panels
 
 // A heading and a list below it.
 Section ListSection(std::string heading, std::vector<std::string> sentences);
@@ -123,17 +122,17 @@ Section ListSection(std::string heading, std::vector<std::string> sentences);
 // The section "Warnings".
 Section WarningSection(std::vector<std::string> warnings);
 
-// One after the other. A section without blocks has nothing to say and is left out.
+// Appends the sections in order and omits those without blocks.
 void AddSections(std::vector<Section> sections, Document* document);
 
 // For a terminal of 100 columns. Ends with a newline.
 std::string DrawText(const Document& document);
 
-// Whether texts are plain, and escaped so that they look as they are, or written as Markdown.
+// Whether texts are plain, and so must be escaped, or Markdown already.
 enum class Texts { kPlain, kMarkdown };
 std::string DrawMarkdown(const Document& document, Texts texts = Texts::kPlain);
 
-// A page of plain HTML 5 that is well-formed XML too. Nothing in it is run, nothing is fetched.
+// A page of plain HTML 5 that is also well-formed XML, without scripts or network access.
 std::string DrawHtml(const Document& document);
 
 }  // namespace lyrefit

@@ -6,9 +6,9 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
-// What there is to read of each record: as a document, drawn for a terminal of 100 columns, and in
-// one line that ends with a newline. "-" stands for what is not known; every RMSE stands under its
-// label, measured-current or solved-current.
+// Each record as a document, as text for a terminal of 100 columns, and as one line that ends with
+// a newline. "-" marks an unknown value. Every RMSE has its label, measured-current or
+// solved-current.
 namespace LYREFIT_PUBLIC lyrefit {
 
 struct Certificate;
@@ -22,52 +22,52 @@ struct ReferenceComparison;
 struct OutlierSweeps;
 struct TranslationReport;
 
-// A fit: the answer, then how far to trust it. '*' marks the objective that was fitted.
+// A fit: results, then their reliability. '*' marks the fitted objective.
 Document FitDocument(const FitReport& report);
 std::string FullReport(const FitReport& report);
 std::string BriefReport(const FitReport& report);
 
-// The fits of several files, each in a row, and why others have none.
+// The fits of several files, one row for each, and the reasons of those that failed.
 Document FitsDocument(const std::vector<FittedFile>& fits);
 
-// A family. A report without shared parameters is that of curves fitted one by one.
+// A family fit. A report without shared parameters is one of curves fitted individually.
 Document FamilyDocument(const FamilyReport& report);
-// The same with the picture of FamilyFigure(), which shows the readings of the set.
+// With the picture of FamilyFigure(), which shows the readings of `set`.
 Document FamilyDocument(const FamilyReport& report, const CurveSet& set);
 std::string FamilyText(const FamilyReport& report);
 std::string BriefFamily(const FamilyReport& report);
 
-// A diagnosis: the verdict first, then each cause with its size and what else it could be, then the
-// evidence. Every RMSE is solved-current and says so.
+// A diagnosis: the verdict, each cause with its size and equivalents, then the evidence. Every RMSE
+// is solved-current and labelled so.
 Document DiagnosisDocument(const Diagnosis& diagnosis);
 std::string DiagnosisText(const Diagnosis& diagnosis);
 std::string BriefDiagnosis(const Diagnosis& diagnosis);
 
-// A sweep against healthy ones: what it says, the table of now against expected, who was compared.
+// A sweep against reference sweeps: conclusion, table of measured and expected values, sweeps used.
 Document ReferenceDocument(const ReferenceComparison& comparison);
-// The same, then the diagnosis.
+// With the diagnosis after the comparison.
 Document ReferenceDocument(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
 std::string ReferenceText(const ReferenceComparison& comparison);
 std::string BriefReference(const ReferenceComparison& comparison);
 
-// The sweeps of a module against each other: the outliers first, each with its table; the others
-// are counted. In short a line for each outlier, and one.
+// Outliers among the sweeps of a module: each outlier with its table, the others as a count. The
+// brief text has one line for each outlier and a last line with the count.
 Document OutlierSweepsDocument(const OutlierSweeps& outlier);
 std::string OutlierSweepsText(const OutlierSweeps& outlier);
 std::string BriefOutlierSweeps(const OutlierSweeps& outlier);
 
-// A certificate: what was asked, the floor and the diodes that attain it, what proves it, and how
-// each model stands.
+// A certificate: the problem, the floor and its diodes, the proof, and each model's distance from
+// the floor.
 Document CertificateDocument(const Certificate& certificate);
 std::string CertificateText(const Certificate& certificate);
 std::string BriefCertificate(const Certificate& certificate);
 
-// The device behind a data sheet, and what it gives of what was printed.
+// The device fitted to a data sheet, and its values beside the printed ones.
 Document DataSheetDocument(const DataSheetFit& fit);
 std::string DataSheetText(const DataSheetFit& fit);
 
-// A curve at other conditions: the recommended result with its expanded uncertainties and the field
-// test first, then all procedures side by side, the budget, the conditions of the measurement.
+// A translated curve: the recommended result with its expanded uncertainties and the field test,
+// then all procedures, the budget, and the conditions of the measurement.
 Document TranslationDocument(const TranslationReport& report);
 std::string TranslationText(const TranslationReport& report);
 std::string BriefTranslation(const TranslationReport& report);

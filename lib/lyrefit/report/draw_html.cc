@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr const char* kUnreadable = "\xef\xbf\xbd";  // U+FFFD, in place of what a page may not hold
+constexpr const char* kUnreadable = "\xef\xbf\xbd";  // U+FFFD, for characters illegal in a page
 
 std::string HtmlText(const block::Field& field) {
   return (field.name.empty() ? "" : HtmlElement("dt", field.name)) + HtmlElement("dd", field.text) +
@@ -37,11 +37,11 @@ std::string HtmlText(const block::List& list) {
 std::string HtmlText(const block::Entry& entry) {
   std::string html = HtmlElement("dt", entry.title);
   for (const std::string& sentence : entry.sentences) html += HtmlElement("dd", sentence);
-  if (entry.sentences.empty()) html += HtmlElement("dd", "");  // no term goes without one
+  if (entry.sentences.empty()) html += HtmlElement("dd", "");  // each term needs one
   return html + "\n";
 }
 
-// The first cell of a row names it; a cell of the head that is empty names nothing.
+// A table row. The first cell of a row and each non-empty cell of the head are header cells.
 std::string HtmlRow(const std::string& alignment, const block::Table::Row& row, bool head) {
   std::string html = "<tr>";
   for (std::size_t c = 0; c < alignment.size(); ++c) {
@@ -69,7 +69,7 @@ std::string HtmlText(const block::Figure& figure) {
   return "<figure>" + picture + HtmlElement("figcaption", figure.caption) + "</figure>\n";
 }
 
-// Blocks that need to know how the page looks, and those that do not.
+// Draws a block; tables and figures also depend on the page's options.
 struct Draw {
   const HtmlLooks& looks;
 
@@ -171,7 +171,7 @@ std::string HtmlTable(const block::Table& table, const HtmlLooks& looks) {
          "</div>\n";
 }
 
-// Fields and entries that follow each other are one list.
+// Adjacent fields and entries form one list.
 std::string HtmlBlocks(const std::vector<block::Any>& blocks, const HtmlLooks& looks) {
   std::string html;
   bool in_fields = false;

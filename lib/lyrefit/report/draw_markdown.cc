@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-// Plain text as one line that shows what stands there.
+// Plain text as one line of Markdown that is displayed unchanged.
 std::string Literal(const std::string& text) {
   std::string line;
   for (const char c : text) {
@@ -18,7 +18,7 @@ std::string Literal(const std::string& text) {
   return line;
 }
 
-// The same at the beginning of a block, where '#', "- " or "1. " would open another one.
+// Plain text at the start of a block, where '#', "- " or "1. " would start another block.
 std::string Opening(const std::string& text) {
   std::string line = Literal(text);
   const std::size_t mark = line.find_first_not_of("0123456789");
@@ -31,7 +31,7 @@ std::string Opening(const std::string& text) {
   return line;
 }
 
-// '|' would end a cell.
+// A table row; '|' is escaped, as it would end a cell.
 std::string MarkdownRow(const block::Table::Row& cells, std::size_t columns) {
   std::string line = "|";
   for (std::size_t c = 0; c < columns; ++c) {
@@ -45,7 +45,7 @@ std::string MarkdownRow(const block::Table::Row& cells, std::size_t columns) {
   return line + "\n";
 }
 
-// Only one row can be the head of a table.
+// Markdown tables allow one head row only, so the heads are joined.
 block::Table::Row OneHead(const block::Table& table) {
   block::Table::Row head(table.alignment.size());
   for (const auto& row : table.heads) {
@@ -56,7 +56,7 @@ block::Table::Row OneHead(const block::Table& table) {
   return head;
 }
 
-// What each block looks like, with texts of one kind.
+// Draws blocks; texts are of one kind.
 struct Markdown {
   Texts texts;
 
@@ -64,8 +64,8 @@ struct Markdown {
     return texts == Texts::kPlain ? Literal(text) : text;
   }
 
-  // A paragraph or an item. Plain text stays on its line, since words that mean something at the
-  // beginning of one are everywhere in it.
+  // A paragraph or an item. Plain text is not wrapped: its words could start a block at the start
+  // of a line.
   std::string Block(const std::string& text) const {
     return texts == Texts::kPlain ? Opening(text) + "\n" : Wrap("", text);
   }
@@ -116,7 +116,7 @@ struct Markdown {
     return text;
   }
 
-  // A fence longer than any within.
+  // A fence longer than any within the text.
   std::string operator()(const block::Preformatted& text) const {
     std::string fence = "```";
     while (text.lines.find(fence) != std::string::npos) fence += '`';
@@ -129,7 +129,7 @@ struct Markdown {
     return "![" + caption + "](" + figure.file + ")\n";
   }
 
-  // Neighbours of one kind stand together, others apart.
+  // Adjacent blocks of one type are not separated by a blank line; others are.
   std::string operator()(const Section& section, const std::string& marks) const {
     std::string text;
     if (!section.heading.empty()) text = marks + " " + Inline(section.heading) + "\n\n";

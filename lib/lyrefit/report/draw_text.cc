@@ -6,13 +6,13 @@
 #include "lyrefit/report/readable.h"
 #include "lyrefit/report/text_layout.h"
 
-// The customs of the terminal: headings, titles, legends and conclusions stand at the left edge,
-// what is below them two columns in; a blank line goes before a section, before a table that has a
-// caption and after a banner.
+// Layout of the terminal: headings, titles, legends and conclusions start at the left edge, other
+// blocks in the third column. A blank line precedes a section and a table with a caption, and
+// follows a banner.
 namespace lyrefit {
 namespace {
 
-// A long one is wrapped; of others the blanks matter.
+// A heading; wrapped only if it is too long, as its blanks may matter.
 std::string Heading(const std::string& text) {
   return Columns(text) > kTextWidth ? Wrap("", text) : text + "\n";
 }
@@ -41,7 +41,7 @@ std::string TerminalText(const block::Entry& entry) {
   return text;
 }
 
-// A line of a table, or several where its last column is wrapped.
+// A line of a table, or several if its last column is wrapped.
 std::string TerminalRow(const std::string& alignment, const std::vector<std::size_t>& widths,
                         const block::Table::Row& row) {
   std::string line;
@@ -54,7 +54,7 @@ std::string TerminalRow(const std::string& alignment, const std::vector<std::siz
   return line + "\n";
 }
 
-// Each column as wide as its widest cell; below a line across the table names are indented.
+// A table with each column as wide as its widest cell. Rows below span titles are indented.
 std::string TerminalText(const block::Table& table) {
   std::vector<block::Table::Row> lines = table.heads;
   lines.insert(lines.end(), table.rows.begin(), table.rows.end());
@@ -75,7 +75,7 @@ std::string TerminalText(const block::Table& table) {
 
 std::string TerminalText(const block::Preformatted& text) { return text.lines; }
 
-std::string TerminalText(const block::Figure&) { return ""; }  // others show it
+std::string TerminalText(const block::Figure&) { return ""; }  // shown by the other formats
 
 std::string TerminalText(const std::vector<block::Any>& blocks) {
   std::string text;
@@ -96,7 +96,7 @@ std::string DrawText(const Document& document) {
     const bool seen =
         std::any_of(section.blocks.begin(), section.blocks.end(),
                     [](const auto& one) { return !std::holds_alternative<block::Figure>(one); });
-    if (!seen && !section.blocks.empty()) continue;  // pictures alone
+    if (!seen && !section.blocks.empty()) continue;  // figures only
     if (!text.empty()) text += "\n";
     if (!section.heading.empty()) text += Heading(section.heading);
     text += TerminalText(section.blocks);

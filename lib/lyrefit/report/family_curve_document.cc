@@ -13,15 +13,15 @@ namespace {
 constexpr std::size_t kMostRows = 40;
 constexpr std::size_t kWorstRows = 10;
 constexpr std::size_t kLongestId = 16;
-constexpr std::size_t kLongestFile = 24;  // of a file
-constexpr std::size_t kMostNamed = 10;    // of a list of curves; the JSON report has them all
+constexpr std::size_t kLongestFile = 24;  // of a file name
+constexpr std::size_t kMostNamed = 10;    // curves in a list; the JSON report has all
 constexpr int kHeldOutDigits = 4;
 
 double ErrorOf(const FamilyReport& report, const FamilyCurve& curve) {
   return (OneByOne(report) ? curve.individual_rmse : curve.rmse).Of(report.objective);
 }
 
-// The curves that the tables show: all of them, or the worst of too many.
+// The curves of the tables: all, or the worst if there are too many.
 std::vector<const FamilyCurve*> Shown(const FamilyReport& report) {
   std::vector<const FamilyCurve*> shown;
   for (const FamilyCurve& curve : report.curves) shown.push_back(&curve);
@@ -37,7 +37,7 @@ std::vector<const FamilyCurve*> Shown(const FamilyReport& report) {
   return shown;
 }
 
-// Where the other curves are.
+// States where the other curves are reported.
 void AddOthersNote(const FamilyReport& report, std::size_t shown, Section* section) {
   if (shown == report.curves.size()) return;
   AddSentence(fmt::format("These are the worst {} of {} curves by {} RMSE; all are in the JSON "
@@ -46,14 +46,14 @@ void AddOthersNote(const FamilyReport& report, std::size_t shown, Section* secti
               section);
 }
 
-// An id that leaves room for the other columns.
+// An id shortened in the middle to kLongestId.
 std::string ShortId(const std::string& id) {
   if (id.size() <= kLongestId) return id;
   const std::size_t half = (kLongestId - 2) / 2;
   return id.substr(0, half) + ".." + id.substr(id.size() - half);
 }
 
-// "1000.5", "1000?" where nobody stated it
+// A value with "?" if it was not stated: "1000.5", "1000?"
 std::string Stated(double value, bool known) {
   return fmt::format("{:.5g}{}", value, known ? "" : "?");
 }
@@ -174,7 +174,7 @@ block::Table::Row HeldOutRow(const std::string& name, const std::string& law, co
           Shortened(test.largest_id, kLongestId)};
 }
 
-// Whole curves as a test, of parameters from elsewhere too.
+// Errors of whole validation curves, or of parameters from elsewhere on the fitted curves.
 Section HeldOutSection(const FamilyReport& report) {
   Section section = {report.held_out ? "Curves that the fit did not see"
                                      : "Parameters from elsewhere on the curves fitted"};
@@ -212,7 +212,7 @@ std::string BothLabelled(const RmsePair& rmse) {
                      Scientific(rmse.measured_current_A, 4), Scientific(rmse.solved_current_A, 4));
 }
 
-// The first of many sentences, and how many there are beyond them.
+// The first of many sentences, and the number of the others.
 Section ShortList(const std::string& title, std::vector<std::string> sentences) {
   const std::size_t all = sentences.size();
   if (all > kMostNamed) {
@@ -223,7 +223,7 @@ Section ShortList(const std::string& title, std::vector<std::string> sentences) 
   return ListSection(title, std::move(sentences));
 }
 
-// What the shared parameters would be without the outlier curves.
+// Adds the shared parameters of a fit without the outlier curves.
 void AddWithoutOutliers(const FamilyReport& report, const WithoutOutliers& without, Section* section) {
   const char* const them = without.ids.size() == 1 ? "it" : "them";
   AddSentence(fmt::format("Without {}: RMSE {}.", them, BothLabelled(without.rmse)), section);

@@ -116,7 +116,7 @@ std::string WithRange(const Interval& interval, const std::string& unit) {
 
 std::string Percent(double part) { return Significant(100 * part, 2) + " %"; }
 
-// How the curves counted, and why.
+// Weights of the curves, and the reason for them.
 std::string WeightsText(const FamilyReport& report) {
   const bool relative = report.weights == FamilyWeights::kIsc;
   std::string used = relative ? "relative to the Isc of each curve" : "every point alike";
@@ -127,7 +127,7 @@ std::string WeightsText(const FamilyReport& report) {
                      std::fabs(*report.weights_gain));
 }
 
-// What hangs together in the errors, in a sentence each.
+// The sizes and correlations of the errors, and the curves that they are based on.
 std::string FamilyErrorText(const FamilyErrors& errors) {
   const std::string by =
       errors.judge == FamilyErrorJudge::kHeldOut
@@ -159,7 +159,7 @@ std::string FamilyErrorText(const FamilyErrors& errors) {
       by);
 }
 
-// What the shared intervals are when something else than independent points varies.
+// Adds intervals of the shared parameters by other methods than independent points.
 void AddOtherIntervals(const FamilyReport& report, Section* section) {
   const std::size_t count = report.estimates.size();
   const bool jackknife = report.jackknife.size() == count;

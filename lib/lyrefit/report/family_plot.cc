@@ -24,7 +24,7 @@ using CurveOf = std::map<std::string, const IvCurve*>;
 
 double OrZero(double value) { return std::isnan(value) ? 0 : value; }
 
-// Stated and corrected conditions of a curve.
+// Stated conditions of a curve plus their fitted corrections.
 double Irradiance(const FamilyReport& report, const FamilyCurve& curve) {
   return curve.irradiance_W_m2 + OrZero(curve.irradiance_offset_W_m2.value) +
          OrZero(report.irradiance_offset_W_m2.value);
@@ -34,7 +34,7 @@ double Temperature_K(const FamilyReport& report, const FamilyCurve& curve) {
          OrZero(report.temperature_offset_K.value);
 }
 
-// Those of a model with effects.
+// Currents of a model with effects.
 std::vector<double> ExtendedModelCurrents(const FamilyReport& report, const FamilyCurve& curve,
                                           const std::vector<double>& voltage_V) {
   const std::vector<IvCurve>& taken = report.taken->curves;
@@ -72,7 +72,7 @@ std::vector<double> ModelCurrents(const FamilyReport& report, const FamilyCurve&
   return SolveCurrents(device, curve.free_parameters.data(), voltage_V);
 }
 
-// Up to twelve curves, evenly spread over the irradiances: most of a sunny day looks alike.
+// Up to twelve curves, evenly spread over the irradiances; most curves of a sunny day are alike.
 std::vector<const FamilyCurve*> Drawn(const FamilyReport& report, const CurveOf& points) {
   std::vector<const FamilyCurve*> curves;
   for (const FamilyCurve& curve : report.curves) {
@@ -104,14 +104,14 @@ struct Extent {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  // Where an axis begins: at 0 if only the scatter of its first points lies below.
+  // Lower end of an axis: 0 if only noise of its first points is below 0.
   double AxisBegin() const {
     constexpr double kScatter = 0.02;
     return low < -kScatter * high ? kUnknown : 0;
   }
 };
 
-// Coloured by temperature.
+// Points coloured by temperature.
 Series Points(int symbol, double size) { return {SeriesKind::kPoints, {"", 1, symbol}, 1, size}; }
 
 Panel CurvesPanel(const FamilyReport& report, const CurveSet& set) {
@@ -146,8 +146,8 @@ Panel CurvesPanel(const FamilyReport& report, const CurveSet& set) {
   return panel;
 }
 
-// A number of each curve over its irradiance: filled those fitted, open those held out, beneath
-// them.
+// One value of each curve over its irradiance. Fitted curves are filled and drawn above the open
+// validation curves.
 template <typename Value>
 Panel PerCurvePanel(const FamilyReport& report, const std::string& title, const Value& value) {
   Series held_out = Points(6, 1.2);

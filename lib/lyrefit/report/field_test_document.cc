@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kWorthALine = 5e-4;  // share of the variance
+constexpr double kWorthALine = 5e-4;  // smallest share of the variance with its own line
 
 std::string PerCent(double part, int decimals) {
   return std::isfinite(part) ? fmt::format("{:.{}f} %", 100 * part, decimals) : "-";
@@ -27,7 +27,7 @@ block::Table::Row LineRow(const BudgetLine& line, const UncertainOutput& of, std
           PerCent(entry.share, 1), line.source};
 }
 
-// The largest first; what is not worth a line is counted.
+// Adds the lines of a budget, the largest first, and returns the number of the smaller ones.
 std::size_t AddLines(const UncertaintyBudget& budget, std::size_t output, block::Table* table) {
   std::vector<const BudgetLine*> lines;
   for (const BudgetLine& line : budget.lines) {

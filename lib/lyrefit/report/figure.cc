@@ -50,7 +50,7 @@ std::string AxisCommands(const std::string& axis, const Axis& is, bool empty) {
   return script;
 }
 
-// What lies behind the series and beside them. The numbers below 1000 are the panel's.
+// Bands and notes of a panel. Tags below 1000 belong to panels.
 std::string BandsAndNotes(const Panel& panel) {
   std::string script;
   int tag = 1;
@@ -73,7 +73,7 @@ std::string ColourOf(const Series& series) {
   return series.look.colour.empty() ? "palette" : fmt::format("rgb '{}'", series.look.colour);
 }
 
-// How a series is drawn, after its data.
+// gnuplot's style of a series, after its data.
 std::string Drawn(const Series& series, double point_size) {
   const Look& look = series.look;
   const std::string columns = look.colour.empty() ? "1:2:3" : "1:2";
@@ -134,7 +134,7 @@ void Series::Add(double x, double y, double colour) {
 }
 
 Look LookOf(int index) {
-  // Colours of Okabe and Ito without the yellow, and a grey.
+  // Colours of Okabe and Ito without the yellow, plus a grey.
   constexpr std::array<const char*, 8> kColours = {kBlue,     kVermilion, "#009E73", "#CC79A7",
                                                    "#000000", kOrange,    kSkyBlue,  "#8C8C8C"};
   constexpr std::array<int, 8> kPoints = {7, 5, 9, 11, 6, 4, 8, 10};
@@ -156,7 +156,7 @@ std::vector<LegendEntry> LegendOf(const std::vector<std::string>& names, LegendM
 void Series::EndLine() { ends.push_back(rows.size()); }
 
 std::string FigureScript(const Figure& figure, const std::string& terminal, PlotPoints points) {
-  const double point_size = terminal == "svg" ? 0.6 : 1;  // svg draws the same size larger
+  const double point_size = terminal == "svg" ? 0.6 : 1;  // gnuplot draws larger symbols in SVG
   const MostRows rows = points == PlotPoints::kAll ? MostRows() : MostOf(figure);
   const PageLayout page = LayOut(figure);
   std::string script = PageCommands(figure, page, terminal);

@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kReadingDigits = 6;
 constexpr int kResidualDigits = 3;
-constexpr std::size_t kMostReadings = 500;  // of a table that somebody looks at
+constexpr std::size_t kMostReadings = 500;  // rows of a table for reading
 
-// The places of the readings that a table shows, and what its caption says of the others.
+// Indices of the readings that a table shows; the caption states where the others are.
 std::vector<std::size_t> RowsShown(const std::vector<double>& voltage_V,
                                    const std::vector<double>& current_A, std::string* caption) {
   const std::size_t all = std::min(voltage_V.size(), current_A.size());

@@ -6,24 +6,24 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/report/figure.h"
 
-// Figures as parts of a page.
+// Figures as elements of an HTML page.
 namespace lyrefit {
 
-// A figure as it stands within a page.
+// A figure and its place in a page.
 struct PagePicture {
   const Figure* figure = nullptr;
-  std::string id;           // no two of a page have the same
-  std::string description;  // what is to be seen, for who does not see it
+  std::string id;           // unique within the page
+  std::string description;  // alternative text of the picture
 };
 
-// Each as an <svg> element, drawn by one run of gnuplot. Colours are those of the page, light or
-// dark: --c-RRGGBB for lines and marks, --t-RRGGBB for letters, where the page has them. Fails as
-// RunGnuplot() does.
+// Each figure as an <svg> element, all drawn by one run of gnuplot. Colours are CSS variables of
+// the page, light or dark: --c-RRGGBB for lines and marks, --t-RRGGBB for letters, with the
+// original colour as fallback. Errors: those of RunGnuplot().
 Expected<std::vector<std::string>> InlineSvgs(const std::vector<PagePicture>& pictures);
 
-// The figure as Plotly takes it, as JSON: "data" and "layout" for a page of `columns` panels side by
-// side, and "narrow", the parts of the layout that are different where all panels stand below each
-// other. "title" is the figure's, which the page writes. The same rows as in the SVG picture.
+// The figure for Plotly, as JSON. "data" and "layout" are for panels in `columns` columns; "narrow"
+// holds the members of the layout that differ when all panels are in one column. "title" is the
+// figure's title, which the page shows. The rows are those of the SVG picture.
 std::string PlotlyJson(const Figure& figure);
 
 }  // namespace lyrefit

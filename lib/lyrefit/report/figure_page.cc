@@ -7,16 +7,16 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kLeft = 96;  // room for the axis of the panels on the left
-constexpr int kGap = 64;   // between panels, for the numbers of the next axis
+constexpr int kLeft = 96;  // for the axis of the leftmost panels
+constexpr int kGap = 64;   // between panels, for the numbers of the right panel's axis
 constexpr int kRight = 24;
 constexpr int kRightAxis = 88;
 constexpr int kTitle = 44;
 constexpr int kLegendRow = 24;
 constexpr int kPanelTitle = 34;
-constexpr int kAxis = 64;  // under a panel
+constexpr int kAxis = 64;  // below a panel
 constexpr int kColourBarRoom = 60;
-constexpr int kLine = 36;  // length of a line in the legend
+constexpr int kLine = 36;  // length of a line sample in the legend
 constexpr int kLetter = 9;
 
 std::string Terminal(const PageLayout& page, const std::string& terminal) {
@@ -31,7 +31,7 @@ std::string Terminal(const PageLayout& page, const std::string& terminal) {
       1.5 * page.width, 1.5 * page.height);
 }
 
-// The numbers of what is drawn for all panels are above 1000.
+// The legend. Tags above 1000 belong to the page.
 std::string Legend(const Figure& figure, const PageLayout& page) {
   const double w = page.width;
   const double h = page.height;
@@ -84,7 +84,7 @@ PageLayout LayOut(const Figure& figure) {
   const int entries = static_cast<int>(figure.legend.size());
   PageLayout page;
   page.columns = std::max(1, std::min(figure.columns, panels));
-  // A page of few columns has room for wide panels.
+  // A page of few columns uses wider panels.
   page.panel_width = figure.panel_width > 0 ? figure.panel_width
                      : page.columns == 1    ? 640
                      : page.columns == 2    ? 500
@@ -132,7 +132,7 @@ std::string PlacePanel(const Figure& figure, const PageLayout& page, int p) {
   const double right = left + page.panel_width;
   const double bottom = page.top[p] + panel.height;
   std::string script;
-  if (p > 0) script += "unset arrow\nunset label\nunset object\n";  // these are drawn
+  if (p > 0) script += "unset arrow\nunset label\nunset object\n";  // already drawn
   script += fmt::format(
       "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
       "set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n"

@@ -17,9 +17,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTitleRoom = 36;  // pixels above a panel
 constexpr double kNarrowTitleRoom = 64;
-constexpr double kAxisRoom = 58;  // below it
+constexpr double kAxisRoom = 58;  // below a panel
 constexpr double kColourRoom = 76;
-constexpr double kColumnGap = 0.08;  // of the width
+constexpr double kColumnGap = 0.08;  // relative to the width
 
 std::string Named(const char* what, const std::string& number) {
   return std::string(what) + (number == "1" ? "" : number);
@@ -27,7 +27,7 @@ std::string Named(const char* what, const std::string& number) {
 
 double LogIf(bool log, double value) { return log ? std::log10(value) : value; }
 
-// The lowest and highest of what a panel draws on one of its axes.
+// Lowest and highest value of a panel's data on one axis.
 struct Ends {
   double low = kUnknown;
   double high = kUnknown;
@@ -45,7 +45,8 @@ Ends EndsOf(const Panel& panel, std::size_t coordinate, bool right_axis) {
   return ends;
 }
 
-// Unknown ends are those of the data with their air; ends that Plotly is to choose are null.
+// Range of an axis. Unknown ends follow the data with their margin; an end that Plotly selects is
+// null.
 Json RangeOf(const Axis& axis, Ends data) {
   if (axis.log) data = {std::log10(data.low), std::log10(data.high)};
   const double low = LogIf(axis.log, axis.low);
@@ -95,7 +96,7 @@ std::string RuleColour(const Rule& rule) {
 
 bool IsZeroLine(const Rule& rule) { return rule.y == 0 && !rule.right_axis; }
 
-// Rules, bands, notes and titles.
+// Adds rules, bands, notes and titles to the layout.
 void AddShapes(const Panel& panel, const PlotlyAxes& at, Json* layout) {
   Json& shapes = (*layout)["shapes"];
   Json& notes = (*layout)["annotations"];
@@ -125,7 +126,7 @@ void AddShapes(const Panel& panel, const PlotlyAxes& at, Json* layout) {
                       {"line", line}});
   };
   for (const Rule& one : panel.rules) {
-    if (IsZeroLine(one)) continue;  // Plotly has one of its own, which lies below the readings
+    if (IsZeroLine(one)) continue;  // Plotly draws its own zero line, below the readings
     rule(one.y, one.right_axis ? at.right : at.y,
          {{"color", RuleColour(one)}, {"width", one.width}, {"dash", PlotlyDash(one.dash)}});
   }
@@ -149,8 +150,8 @@ void AddShapes(const Panel& panel, const PlotlyAxes& at, Json* layout) {
   }
 }
 
-// Where the panels stand with so many side by side and so much room for a title, as the page
-// changes it with its width. The legend stands above all of it.
+// Positions of the panels for a number of columns and a height of titles, as the page changes them
+// with its width. The legend is above the panels.
 Json Places(const Figure& figure, int columns, double title_room) {
   const int panels = static_cast<int>(figure.panels.size());
   std::vector<double> top;
@@ -179,7 +180,7 @@ Json Places(const Figure& figure, int columns, double title_room) {
   return places;
 }
 
-// Whether two panels are to be zoomed together.
+// Whether two panels zoom along x together.
 bool SharesX(const Panel& a, const Panel& b) {
   return a.x.label == b.x.label && a.x.log == b.x.log && a.x.low == b.x.low && a.x.high == b.x.high;
 }
@@ -222,7 +223,7 @@ void AddAxes(const Figure& figure, std::size_t p, int columns, Json* layout) {
   right["overlaying"] = at.y;
   right["side"] = "right";
   right["showgrid"] = false;
-  right["tickmode"] = "auto";  // round numbers of its own
+  right["tickmode"] = "auto";  // independent round numbers
   (*layout)[long_name(at.right)] = right;
 }
 

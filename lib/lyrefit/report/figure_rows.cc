@@ -6,8 +6,8 @@
 namespace lyrefit {
 namespace {
 
-// Of a whole figure: what makes an svg of a megabyte. A mark takes ten times the room of a corner
-// of a line.
+// Rows of a whole figure that make an SVG of one megabyte. A mark takes ten times the bytes of a
+// corner of a line.
 constexpr std::size_t kMostMarksDrawn = 3 * kMostMarks;
 constexpr std::size_t kMostCorners = 4 * kMostMarks;
 
@@ -15,7 +15,7 @@ bool HasMarks(const Series& series) {
   return series.kind == SeriesKind::kPoints || series.kind == SeriesKind::kLineAndPoints;
 }
 
-// What each of some stretches may have at most for all to have `most`: short ones stay whole.
+// Largest length of each stretch for a total of at most `most`; short stretches are kept whole.
 std::size_t ShareOf(std::size_t most, std::vector<std::size_t> sizes) {
   std::sort(sizes.begin(), sizes.end());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -26,7 +26,7 @@ std::size_t ShareOf(std::size_t most, std::vector<std::size_t> sizes) {
   return kAllRows;
 }
 
-// Rows from `begin` to `end`; places are equally far apart as they are seen.
+// Thinned rows from `begin` to `end`. Distances in x are logarithmic on a logarithmic axis.
 std::vector<FigureRow> Stretch(const Panel& panel, const Series& series, std::size_t begin,
                                std::size_t end, std::size_t most) {
   const auto at = [&series](std::size_t i) { return series.rows.begin() + static_cast<long>(i); };
@@ -64,8 +64,8 @@ MostRows MostOf(const Figure& figure) {
 std::vector<std::vector<FigureRow>> RowsToDraw(const Panel& panel, const Series& series,
                                                const MostRows& most) {
   std::size_t each = HasMarks(series) ? most.marks : most.corners;
-  if (series.kind == SeriesKind::kStems) each = std::min(each, most.marks);  // as their points
-  if (series.kind == SeriesKind::kBox) each = kAllRows;  // its quartiles are those of all
+  if (series.kind == SeriesKind::kStems) each = std::min(each, most.marks);  // drawn with marks
+  if (series.kind == SeriesKind::kBox) each = kAllRows;  // quartiles require all rows
   std::vector<std::vector<FigureRow>> stretches;
   std::size_t begin = 0;
   for (const std::size_t end : series.ends) {

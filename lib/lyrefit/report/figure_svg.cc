@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// What stands between two pictures on gnuplot's standard output.
+// Start of each picture in gnuplot's standard output.
 constexpr char kPictureBegins[] = "<?xml ";
 
 void ReplaceAll(const std::string& what, const std::string& with, std::string* text) {
@@ -20,7 +20,7 @@ void ReplaceAll(const std::string& what, const std::string& with, std::string* t
   }
 }
 
-// "rgb(  0, 114, 178)" within a tag, as the page's colour of that name.
+// Replaces "rgb(  0, 114, 178)" within a tag by the page's CSS variable of that colour.
 void NameColours(bool letters, std::string* tag) {
   std::size_t at = 0;
   while ((at = tag->find("rgb(", at)) != std::string::npos) {
@@ -43,7 +43,7 @@ void NameColours(bool letters, std::string* tag) {
   }
 }
 
-// What gnuplot names is named once in its picture, but a page holds several.
+// Prefixes ids with that of the picture, as gnuplot's ids are unique in one picture only.
 void NameIds(const std::string& id, std::string* tag) {
   for (const char* quote : {"'", "\""}) {
     ReplaceAll(fmt::format(" id={}", quote), fmt::format(" id={}{}-", quote, id), tag);
@@ -52,7 +52,7 @@ void NameIds(const std::string& id, std::string* tag) {
   ReplaceAll("url(#", "url(#" + id + "-", tag);
 }
 
-// Whether a group that begins at `at` holds nothing; `end`: what comes after it.
+// Whether an empty group begins at `at`; `end` becomes the position after it.
 bool IsEmptyGroup(const std::string& svg, std::size_t at, std::size_t* end) {
   if (svg.compare(at, 3, "<g ") != 0) return false;
   const std::size_t close = svg.find('>', at);
@@ -63,7 +63,7 @@ bool IsEmptyGroup(const std::string& svg, std::size_t at, std::size_t* end) {
   return true;
 }
 
-// What is drawn, from the background on, which the page has.
+// The drawing without the background, which the page provides.
 Expected<std::string> Drawing(const std::string& svg, const std::string& id) {
   const std::size_t background = svg.find("fill=\"#ffffff\"/>");
   const std::size_t end = svg.rfind("</g>");

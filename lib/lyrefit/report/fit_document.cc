@@ -16,7 +16,7 @@ constexpr int kSearchedDigits = 5;
 constexpr int kValueDigits = 6;
 constexpr int kErrorDigits = 2;
 constexpr int kRmseDigits = 10;
-constexpr double kLargestPercent = 1000;  // beyond it a relative difference says nothing
+constexpr double kLargestPercent = 1000;  // above it a relative difference is meaningless
 
 Section FitHead(const FitReport& report) {
   Section head = {fmt::format("lyrefit {}: {} model of {}", report.version,
@@ -60,7 +60,7 @@ std::string Difference(double measured, double simulated) {
   return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
 }
 
-// How much room is left below. A gap that three digits do not show closes the floor.
+// Distance of the result from the floor. A gap below three digits counts as closed.
 std::string FloorText(const FloorReport& floor) {
   constexpr double kClosed = 1e-5;
   const std::string range = fmt::format("n in [{:g}, {:g}]", floor.n_lower, floor.n_upper);
@@ -104,12 +104,12 @@ std::string Optima(int count) {
 }
 
 std::string BestVisits(int count) {
-  if (count == 0) return "none of them the best";  // interrupted
+  if (count == 0) return "none of them the best";  // the fit was interrupted
   return "the best of them reached " + (count == 1 ? "once" : fmt::format("{} times", count));
 }
 
-// "14 of 49 went to their end, in 3 local optima, the best of them reached 6 times; the other 35 were
-// ..."
+// A sentence such as "14 of 49 went to their end, in 3 local optima, the best of them reached 6
+// times; the other 35 were ..."
 std::string DescentStarts(const OptimumCount& count, int starts) {
   if (count.ends == 0) return fmt::format("none of {} went to its end", starts);
   std::string text = fmt::format("{} of {} went to {} end, in {}, {}", count.ends, starts,
@@ -124,7 +124,7 @@ std::string DescentStarts(const OptimumCount& count, int starts) {
   return text;
 }
 
-// What may have been missed.
+// An estimate of local optima that were not found.
 std::string UnseenText(const OptimumCount& count) {
   const OptimumCount::Independent& of = count.independent;
   std::string text;
@@ -157,7 +157,7 @@ std::string StartsText(const RefineReport& refine) {
   return text;
 }
 
-// The sections on what came out.
+// Sections of the results.
 
 Section ChoiceSection(const FitReport& report) {
   if (!report.choice) return {};
@@ -173,7 +173,7 @@ Section ChoiceSection(const FitReport& report) {
   return {"Choice of the model", {table, block::Sentence{report.choice->sentence}}};
 }
 
-// What of the effects is free, where that followed from the shape of the curve.
+// Model variants of the effects, if they were selected by the shape of the curve.
 Section VariantSection(const FitReport& report) {
   if (report.variants.empty()) return {};
   block::Table table = {"rrw",
@@ -206,7 +206,7 @@ Section ParameterSection(const FitReport& report) {
   return section;
 }
 
-// The three sizes in words, and what they are good for.
+// The three error sizes, with their use.
 Section ErrorSection(const FitReport& report) {
   Section section = {"Errors of the readings"};
   if (!report.errors) return section;
@@ -273,7 +273,7 @@ Section KeyPointSection(const FitReport& report) {
   return {"Key points", {table}};
 }
 
-// The sections on how far to trust it.
+// Sections of the reliability of the results.
 
 Section ResidualSection(const FitReport& report) {
   const ResidualStatistics& r = report.residuals;

@@ -13,10 +13,10 @@ namespace lyrefit {
 namespace {
 
 constexpr int kModelPoints = 500;
-constexpr std::size_t kSomePoints = 60;   // from here on smaller symbols
-constexpr std::size_t kManyPoints = 150;  // from here on small pale ones
+constexpr std::size_t kSomePoints = 60;   // more points have smaller symbols
+constexpr std::size_t kManyPoints = 150;  // more points have small pale symbols
 
-// A prefix under which the largest number has its first digit around the point.
+// SI prefix that brings the largest number close to 1.
 struct Prefix {
   const char* text;
   double factor;
@@ -52,8 +52,8 @@ std::vector<double> Product(const std::vector<double>& a, const std::vector<doub
   return product;
 }
 
-// Gives both axes their zero at one height, where neither is squeezed into a third of the panel.
-// Whether it did.
+// Aligns the zeros of both axes, unless this squeezes either axis into a third of the panel.
+// Returns whether it did.
 bool AlignZeros(Span* a, Span* b) {
   if (!(a->high > 0 && b->high > 0)) return a->high == b->high;
   const double below_a = -a->low / a->high;
@@ -65,7 +65,7 @@ bool AlignZeros(Span* a, Span* b) {
   return true;
 }
 
-// With some air, and from zero where nothing lies below.
+// An axis with a margin, which starts at zero if no value is below.
 Axis AxisOf(const Span& span, const Prefix& prefix, const std::string& label, const char* colour) {
   const double air = span.high > span.low ? 0.06 * (span.high - span.low) : 1;
   return {label, (span.low < 0 ? span.low - air : 0.0) * prefix.factor,
@@ -92,7 +92,7 @@ Series Over(const std::vector<double>& x, const std::vector<double>& y, double f
   return series;
 }
 
-// Current on the left axis, power on the right one; the model above all points.
+// Current on the left axis, power on the right axis; the models are drawn above all points.
 Panel CurvePanel(const FitReport& report) {
   const std::vector<double>& voltage_V = report.curve.voltage_V;
   const std::vector<double>& current_A = report.curve.current_A;
@@ -113,9 +113,9 @@ Panel CurvePanel(const FitReport& report) {
               AxisOf(current, ampere, fmt::format("Current ({}A)", ampere.text), kBlue),
               AxisOf(power, watt, fmt::format("Power ({}W)", watt.text), kVermilion)};
   panel.rules = {{0, "black", 1, 0.8}};
-  // Where the power has a zero of its own it is drawn too.
+  // If the zeros are not aligned, that of the power is drawn too.
   if (!one_zero) panel.rules.push_back({0, kVermilion, 3, 0.8, /*right_axis=*/true});
-  // Symbols of many points are small and pale, so that the model is seen above them.
+  // Many points have small and pale symbols, so that the model remains visible.
   const std::size_t count = voltage_V.size();
   const bool many = count > kManyPoints;
   const double size = many ? 0.4 : count > kSomePoints ? 0.8 : 1.3;

@@ -43,14 +43,14 @@ std::string ReadFromStart(std::FILE* file) {
   return text;
 }
 
-// The first line of what gnuplot complained about.
+// The first line of gnuplot's error messages.
 std::string FirstComplaint(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\n\r^");
   if (begin == std::string::npos) return "no message";
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-// The exit status of gnuplot with the three files as its standard streams, or an errno below zero.
+// Runs gnuplot with the three files as its standard streams. Returns its exit status, or -errno.
 int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -61,7 +61,8 @@ int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
   char no_startup_files[] = "-d";
   char* const arguments[] = {program, no_startup_files, nullptr};
   pid_t child = 0;
-  // A limit of the file size ends it, whatever is ignored here: half a picture is none.
+  // SIGXFSZ has its default action in the child, even if it is ignored here: a file-size limit ends
+  // gnuplot, and half a picture is not used.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t limit;
@@ -80,7 +81,7 @@ int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// "svg" or "png", from the extension.
+// The terminal "svg" or "png" by the extension.
 Expected<std::string> TerminalFor(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
@@ -95,7 +96,7 @@ Expected<std::string> TerminalFor(const std::string& path) {
 }  // namespace
 
 Expected<std::string> RunGnuplot(const std::string& script) {
-  // Files rather than pipes: nothing can block, and a gnuplot that dies raises no SIGPIPE.
+  // Files instead of pipes cannot block, and a gnuplot that dies raises no SIGPIPE.
   const File input(std::tmpfile());
   const File output(std::tmpfile());
   const File messages(std::tmpfile());

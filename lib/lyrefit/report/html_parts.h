@@ -7,30 +7,30 @@
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/readable.h"
 
-// How a document becomes elements of a page, for who draws pages of it.
+// Conversion of a document to HTML elements, for functions that draw pages.
 namespace lyrefit {
 
-// What HTML reads as its own is spelled out; what no page may hold becomes U+FFFD.
+// Escapes characters with a meaning in HTML; characters that are illegal in a page become U+FFFD.
 std::string HtmlEscaped(const std::string& text);
 
-// The same of lines, whose ends and blanks stay.
+// Escapes lines as HtmlEscaped does and keeps line ends and blanks.
 std::string HtmlLines(const std::string& lines);
 
-// "<tag>text</tag>", the text escaped.
+// "<tag>text</tag>" with the text escaped.
 std::string HtmlElement(const std::string& tag, const std::string& text);
 
 struct HtmlLooks {
-  bool boxes = false;  // tables in boxes that scroll, which a keyboard can reach
-  // What stands for a picture; without it its file, or the caption alone.
+  bool boxes = false;  // tables in scrolling boxes that the keyboard can focus
+  // The element of a picture; without it the picture's file, or the caption alone.
   std::function<std::string(const block::Figure&)> figure = {};
 };
 
 std::string HtmlTable(const block::Table& table, const HtmlLooks& looks);
 
-// What stands in a section, below its heading.
+// The content of a section, below its heading.
 std::string HtmlBlocks(const std::vector<block::Any>& blocks, const HtmlLooks& looks);
 
-// With its heading. `id`, if any, is what links name it by.
+// A section with its heading. `id` is its target for links; it may be empty.
 std::string HtmlSection(const Section& section, const HtmlLooks& looks, const std::string& id);
 
 }  // namespace lyrefit

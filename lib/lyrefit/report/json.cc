@@ -7,7 +7,7 @@ namespace lyrefit {
 
 double RoundCelsius(double celsius) { return std::round(celsius * 1e9) / 1e9; }
 
-// The keys of the conditions that nobody stated.
+// Keys of the conditions that were not stated.
 static Json AssumedJson(const IvCurve& curve) {
   Json keys = Json::array();
   if (!curve.cells_known) keys.push_back("cells_in_series");
@@ -40,7 +40,7 @@ Json EffectParameterJson(const std::string& effect, const std::string& symbol,
   return {{"effect", effect}, {"symbol", symbol}, {"name", name}, {"unit", unit}};
 }
 
-// Symbol and name of an effect's parameter begin with the effect (see AddInfos).
+// Symbol and name of an effect's parameter have the effect as prefix (see AddInfos).
 void to_json(Json& j, const ParameterInfo& info) {
   const std::size_t dot = info.symbol.find('.');
   if (dot == std::string::npos) {

@@ -14,75 +14,76 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/translate/translation_report.h"
 
-// Records as the text of a JSON file. Keys stand in a fixed order, numbers have as many digits as
-// bring back the same bits, and what is not known or not finite is null. Every wall-clock time
-// stands under a key named `seconds`; apart from those the same seed gives the same text. What of a
-// record stands where is said by the schemas in data/schema.
+// Records as the text of a JSON file. Keys have a fixed order, numbers have enough digits to read
+// back to the same bits, and unknown or infinite values are null. Every wall-clock time has a key
+// named `seconds`; apart from those the text depends on the seed only. The schemas in data/schema
+// define the place of each member.
 //
-// A parameter is the same object everywhere: `symbol`, `name` (pvlib's where it has one), `unit`
-// and what is known of it: `searched` and `refined` of a fit, else `value`, `standard_error`,
-// `low_95`, `high_95`, ... It stands under its name or, one of an effect's, which has `effect` too,
-// under EFFECT.SYMBOL.
+// A parameter is one kind of object everywhere: `symbol`, `name` (pvlib's where it has one), `unit`
+// and its values: `searched` and `refined` of a fit, else `value`, `standard_error`, `low_95`,
+// `high_95`, ... Its key is its name. A parameter of an effect has the key EFFECT.SYMBOL and a
+// member `effect`.
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How much of the curve a report repeats under `data`.
+// How many readings of the curve a report repeats under `data`.
 enum class JsonPoints {
   kAll,
-  kThinned,  // of a curve of more than kMostJsonPoints every n-th reading, n in data.every, and the
-             // last; what every reading says stands in the other keys
+  kThinned,  // every n-th reading and the last, if there are more than kMostJsonPoints; n is
+             // data.every; other keys use all readings
 };
 
-// Curves of more readings are repeated with every n-th of them, unless all are asked for.
+// Longer curves are thinned under JsonPoints::kThinned.
 constexpr int kMostJsonPoints = 2000;
 
-// Without a polish `refined` and the polished RMSEs are null. The values the fit answers with stand
-// in `parameters.<name>.refined`, or `.searched` where that is null.
+// Without a polish, `refined` and the polished RMSEs are null. The result of the fit is
+// `parameters.<name>.refined`, or `.searched` where that is null.
 //
-// `causes` (ids) and `law` stand only in models with effects, `curves` (a number) where they
-// describe several.
+// `causes` (ids) and `law` exist only in models with effects, `curves` (a number) only in models of
+// several curves.
 //
-// For the single-diode model `singlediode` holds the five arguments of pvlib.pvsystem.singlediode
-// under pvlib's names; a perfect shunt (infinite resistance) is null there too.
+// For the single-diode model, `singlediode` holds the five arguments of pvlib.pvsystem.singlediode
+// under pvlib's names; an infinite shunt resistance is null there too.
 std::string JsonReport(const FitReport& report, JsonPoints points = JsonPoints::kAll);
 
-// An array of what JsonReport writes, each with its "file"; {"file", "error"} where there is none.
+// An array of the objects of JsonReport, each with its "file"; {"file", "error"} for a failed fit.
 std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points = JsonPoints::kAll);
 
-// Every RMSE is a pair under the labels measured_current_A and solved_current_A.
+// Every RMSE is a pair with the keys measured_current_A and solved_current_A.
 std::string FamilyJson(const FamilyReport& report);
 
-// With what it takes to check the floor at its Rs without lyrefit. With
+// A certificate with the data to verify the floor at its Rs without lyrefit. With
 //   v[k] = voltage_V[k] + resistance_series current_A[k],      y = floor.dual_A,
-// nothing that the model may add points along y: sum y <= 0, -sum y v <= 0, and
-// -sum y (exp(v / nNsVth) - 1) <= 0 for nNsVth = n module_thermal_voltage_V and every n in the
-// range. Then sum current_A y - sum y^2 / 2 <= N RMSE^2 / 2 for every mixture, and equality to
-// rounding for the floor.
+// no component of the model has a positive product with y: sum y <= 0, -sum y v <= 0, and -sum y
+// (exp(v / nNsVth) - 1) <= 0 for nNsVth = n module_thermal_voltage_V and every n in the range. Then
+// sum current_A y - sum y^2 / 2 <= N RMSE^2 / 2 for every mixture, with equality to rounding for
+// the floor.
 std::string CertificateJson(const Certificate& certificate);
 
-// The parameters found, and each check: what was asked for beside what the device gives.
+// The fitted parameters, and each check: the stated value beside that of the device.
 std::string DataSheetJson(const DataSheetFit& fit);
 
-// The parameters of the device `name` as pvlib takes them: which function, its keywords and no
-// others, so that function(1000, 25, **parameters) can be called, and the row of SAM's library of
-// modules, or why there is none. cells_in_series stands beside them (calcparams_pvsyst takes it as
-// well), d2mutau and NsVbi are those of pvlib's bishop88 functions.
+// The parameters of the device `name` in pvlib's form: the function's name and its keywords, for
+// the call function(1000, 25, **parameters), and the device's row in SAM's library of modules, or
+// the reason why it has none. cells_in_series is a separate member (calcparams_pvsyst takes it as
+// well); d2mutau and NsVbi belong to pvlib's bishop88 functions.
 std::string PvlibJson(const std::string& name, TranslationLaw law,
                       const std::vector<NamedValue>& keywords, const Expected<CecModule>& cec);
 
-// Points are named by their position in `points`. Several diagnoses: an array.
+// A diagnosis, which refers to points by index into `points`. Several diagnoses form an array.
 std::string DiagnosisJson(const Diagnosis& diagnosis);
 std::string DiagnosisJson(const std::vector<Diagnosis>& diagnoses);
 
-// The bare answers, for scripts that score many: {"name": [["cause", "equivalent", ...], ...]}, an
-// empty list where no cause was found. One name for each diagnosis.
+// Only the causes, for scripts that score many diagnoses: {"name": [["cause", "equivalent", ...],
+// ...]} with an empty list where no cause was found. `names` has one name for each diagnosis.
 std::string AnswersJson(const std::vector<std::string>& names,
                         const std::vector<Diagnosis>& diagnoses);
 
-// The comparison and, beside it, the diagnosis of what it leaves.
+// The comparison and the diagnosis of its remainder.
 std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
 std::string OutlierSweepsJson(const OutlierSweeps& outlier);
 
-// Sizes are in the units of what they are of, expanded ones k = 2. Curves stand in `points`.
+// Uncertainties are in the units of their values; expanded ones have k = 2. `points` holds the
+// curves.
 std::string TranslationJson(const TranslationReport& report);
 
 }  // namespace lyrefit

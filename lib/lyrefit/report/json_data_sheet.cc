@@ -18,7 +18,7 @@ Json DataSheetParametersJson(const DataSheetFit& fit) {
   return parameters;
 }
 
-// An infinite shunt is null, as everywhere.
+// A member of the family; an infinite shunt is null.
 Json SheetMemberJson(const DataSheetMember& member) {
   return {{"n", member.n},
           {"I_L_ref", member.photocurrent_A},
@@ -97,7 +97,7 @@ Json NamedJson(const std::vector<NamedValue>& values) {
   return json;
 }
 
-// Puts each value where its function takes it: what calcparams does not know raises a TypeError.
+// Sorts values by pvlib function: calcparams_* raises a TypeError for unknown keywords.
 void AddKeywords(const Json& values, bool pvsyst, Json* json) {
   Json arguments = Json::object(), bishop88 = Json::object();
   for (const auto& [name, value] : values.items()) {
@@ -114,7 +114,7 @@ void AddKeywords(const Json& values, bool pvsyst, Json* json) {
 
 }  // namespace
 
-// The row begins as SAM's own do.
+// The row starts with the columns of SAM's own rows.
 void to_json(Json& j, const CecModule& module) {
   j = {{"Name", module.name}, {"Technology", module.technology}};
   j.update(NamedJson(module.values));

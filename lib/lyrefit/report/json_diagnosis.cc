@@ -36,7 +36,7 @@ void to_json(Json& j, const Evidence& evidence) {
 
 namespace {
 
-// Those of an effect.
+// Parameters of an effect.
 Json CauseParametersJson(const std::string& effect, const std::vector<CauseParameter>& parameters) {
   Json list = Json::array();
   for (const CauseParameter& p : parameters) {
@@ -135,7 +135,7 @@ void to_json(Json& j, const DiagnosedCurve& curve) {
 
 namespace {
 
-// Columns, as the data of other reports.
+// Points as columns, like the data of other reports.
 Json PointsJson(const std::vector<DiagnosedPoint>& points) {
   const auto column = [&points](auto field) {
     Json list = Json::array();

@@ -3,7 +3,7 @@
 
 namespace lyrefit {
 
-// Null where nobody asked for it.
+// An interval, or null if it was not requested.
 void to_json(Json& j, const Interval& interval) {
   j = nullptr;
   if (std::isnan(interval.value)) return;
@@ -39,7 +39,7 @@ void to_json(Json& j, const HeldOut& held_out) {
 void to_json(Json& j, const Against& against) {
   j = {{"name", against.name}, {"law", against.law}};
   j.update(Json(against.result));
-  j.erase("how");  // as the joint fit
+  j.erase("how");  // equal to that of the joint fit
   j.erase("median_individual_solved_current_A");
 }
 
@@ -83,7 +83,7 @@ Json SharedJson(const FamilyReport& report) {
   return parameters;
 }
 
-// Values alone, under what their parameters stand under.
+// Values only, by the keys of their parameters.
 Json ValuesJson(const std::vector<ParameterInfo>& infos, const std::vector<double>& values) {
   if (values.empty()) return nullptr;
   Json json = Json::object();
@@ -140,10 +140,10 @@ Json CoefficientsJson(const FamilyReport& report) {
   return coefficients;
 }
 
-// What came out.
+// Adds the results.
 void AddFamilyAnswer(const FamilyReport& report, Json* json) {
   const TranslationSpec& spec = report.translation.spec;
-  const bool shared = !report.estimates.empty();  // else every curve stands on its own
+  const bool shared = !report.estimates.empty();  // else each curve has its own parameters
   Json& j = *json;
   j["family"] = shared ? ToText(spec.law) : "free";
   j["model"] = spec.model;
@@ -164,7 +164,7 @@ void AddFamilyAnswer(const FamilyReport& report, Json* json) {
   j["errors"] = report.errors;
 }
 
-// How far to trust it.
+// Adds the reliability of the results.
 void AddFamilyEvidence(const FamilyReport& report, Json* json) {
   Json& j = *json;
   j["held_out"] = report.held_out;

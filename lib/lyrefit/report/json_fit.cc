@@ -60,7 +60,8 @@ Json FitParametersJson(const FitReport& report) {
   return parameters;
 }
 
-// Null for the models that pvlib's function does not know; of a model with effects, its base.
+// pvlib's arguments; null for models that its function does not support. With effects, the base
+// model.
 Json SingleDiodeJson(const FitReport& report) {
   if (report.model != Model::kSingleDiode || report.refined.size() < 5) return nullptr;
   return {{"photocurrent", report.refined[kIph]},
@@ -81,7 +82,7 @@ Json FitRmseJson(const FitReport& report) {
           {"refined", report.polished ? rmse.refined : unknown}};
 }
 
-// Effects beside the diodes. Of the measurement in which they act all readings are kept.
+// The effects besides the diodes, with all readings of the measurement that they act on.
 Json FitLawJson(const FitReport& report) {
   const Extension& extension = *report.device.extension;
   if (extension.set != nullptr) return SetLawJson(extension.uses, *extension.set, &extension);
@@ -115,7 +116,7 @@ Json DataJson(const FitReport& report, JsonPoints points) {
   return json;
 }
 
-// What was fitted, and what came out.
+// Adds inputs and results of the fit.
 Json FitAnswerJson(const FitReport& report) {
   Json j = {{"lyrefit_version", report.version},
             {"curve", report.curve},
@@ -141,7 +142,7 @@ Json FitAnswerJson(const FitReport& report) {
 
 Json FitJson(const FitReport& report, JsonPoints points) {
   Json j = FitAnswerJson(report);
-  // How it was found and how far to trust it.
+  // Search and reliability.
   j["information"] = report.criteria;
   j["residuals"] = report.residuals;
   j["correlations"] = report.correlations;

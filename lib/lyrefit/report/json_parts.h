@@ -11,9 +11,9 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/report/json.h"
 
-// How records become JSON: a function to_json for each record, which nlohmann finds by the record's
-// type wherever one stands in another, in a list or in an optional. A number that is not finite is
-// written as null, and so is an optional without a value; an enumeration is its text.
+// Conversion of records to JSON: a function to_json for each record, which nlohmann finds by type
+// for members, lists and optionals. Numbers that are not finite and empty optionals are null; an
+// enumeration is its text.
 namespace nlohmann {
 
 template <class T>
@@ -39,7 +39,7 @@ struct adl_serializer<
 
 }  // namespace nlohmann
 
-// The to_json of a record whose keys are the names of these fields.
+// Defines to_json of a record whose keys are the names of its fields.
 #define LYREFIT_JSON_FIELDS(Record, ...)                                     \
   void to_json(Json& j, const Record& record) {                              \
     Json& nlohmann_json_j = j;                                               \
@@ -51,7 +51,7 @@ namespace lyrefit {
 
 using Json = nlohmann::ordered_json;
 
-// json.cc: what several records hold.
+// json.cc: parts of several records.
 void to_json(Json& j, const IvCurve& curve);  // name, source, conditions and assumptions
 void to_json(Json& j, const OptionEcho& option);
 void to_json(Json& j, const ParameterInfo& info);
@@ -63,7 +63,7 @@ void to_json(Json& j, const ResidualStatistics& record);  // all but the largest
 void to_json(Json& j, const ErrorReport& errors);
 void to_json(Json& j, const TracePoint& point);
 
-// What an effect's parameter is, where it is known by the names it has there.
+// A parameter of an effect, with the effect's own names for it.
 Json EffectParameterJson(const std::string& effect, const std::string& symbol,
                          const std::string& name, const std::string& unit);
 
@@ -71,12 +71,11 @@ Json LargestErrorJson(const ResidualStatistics& residuals);
 Json SearchJson(const SearchOptions& options, const SearchSummary& search,
                 std::int64_t curve_evaluations);
 
-// Temperatures: rounded where the subtraction from kelvin leaves 33.00000000000006.
+// Temperature rounded to 1e-9, which hides a subtraction residue such as 33.00000000000006.
 double RoundCelsius(double celsius);
 
-// Effects and the measurement of many curves in which they act, so that whoever reads the report
-// can simulate each of them. `shared`: one law stands behind all; without it each curve has its
-// own.
+// Effects and the measured curves that they act in, sufficient to simulate each curve. `shared`:
+// the law of all curves; nullptr: each curve has its own.
 Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const Extension* shared);
 
 // json_fit.cc

@@ -15,12 +15,12 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kPackedFrom =
-    200000;                              // bytes of JSON; what is less can be read in the source
-constexpr std::size_t kFewSections = 4;  // so many need no list of contents
+    200000;                              // bytes of JSON; smaller data stay readable in the source
+constexpr std::size_t kFewSections = 4;  // a page of fewer sections has no list of contents
 
 std::string FigureId(std::size_t number) { return fmt::format("figure-{}", number); }
 
-// The pictures of a document in the order in which they are read.
+// The pictures of a document in reading order.
 std::vector<const block::Figure*> FiguresOf(const Document& document) {
   std::vector<const block::Figure*> figures;
   const auto collect = [&figures](const Section& section) {
@@ -34,7 +34,7 @@ std::vector<const block::Figure*> FiguresOf(const Document& document) {
   return figures;
 }
 
-// A picture with its sentence, and below it, folded, what it shows in numbers.
+// A picture with its caption and, folded below it, a table of its numbers.
 std::string FigureElement(const block::Figure& figure, const std::string& id,
                           const std::string& still) {
   std::string html = fmt::format("<figure id=\"{}\" aria-labelledby=\"{}-caption\">\n", id, id);
@@ -54,7 +54,7 @@ std::string FigureElement(const block::Figure& figure, const std::string& id,
   return html + "</figure>\n";
 }
 
-// The pictures that stand still, drawn by one run of gnuplot; empty ones where none are wanted.
+// Static pictures, drawn by one run of gnuplot; empty if they are not requested.
 std::vector<std::string> DrawStills(const std::vector<const block::Figure*>& figures,
                                     const PageOptions& options) {
   if (!options.stills) return std::vector<std::string>(figures.size());
@@ -71,7 +71,7 @@ std::vector<std::string> DrawStills(const std::vector<const block::Figure*>& fig
   return std::vector<std::string>(figures.size(), why);
 }
 
-// Every picture as it stands in the page.
+// The HTML element of every picture.
 std::map<const block::Figure*, std::string> DrawFigures(
     const std::vector<const block::Figure*>& figures, const PageOptions& options) {
   const std::vector<std::string> stills = DrawStills(figures, options);
@@ -82,7 +82,7 @@ std::map<const block::Figure*, std::string> DrawFigures(
   return elements;
 }
 
-// Whether a section says the verdict and nothing else.
+// Whether a section holds only the verdict.
 bool IsVerdict(const Section& section, const std::string& verdict) {
   if (section.blocks.size() != 1) return false;
   const auto* const sentence = std::get_if<block::Sentence>(&section.blocks.front());
@@ -91,7 +91,7 @@ bool IsVerdict(const Section& section, const std::string& verdict) {
          (conclusion != nullptr && conclusion->text == verdict);
 }
 
-// The document in the order of a page: what stands below the title, and sections with their names.
+// The document in the order of a page: the summary below the title, then the sections.
 struct PageParts {
   std::string summary;
   std::vector<const Section*> sections;
@@ -153,7 +153,7 @@ std::string DrawPage(const Document& document, const std::string& json,
   PageShell page;
   page.title = document.head.heading;
   page.summary = parts.summary;
-  // Pictures first, then what was measured and how.
+  // Pictures first, then the fields of the measurement.
   std::vector<block::Any> fields;
   for (const block::Any& any : document.head.blocks) {
     const auto* const figure = std::get_if<block::Figure>(&any);

@@ -5,21 +5,19 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
-// A report as a page that can be sent: one file of HTML with pictures, tables and data, which
-// fetches nothing.
+// A report as one HTML file with pictures, tables and data that accesses no network.
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a page shows besides the document.
+// Optional content of a page.
 struct PageOptions {
-  bool interactive = true;  // charts to hover over and zoom, where this build has Plotly
-  // Pictures that gnuplot draws, beside the charts; false where no program can be run.
+  bool interactive = true;  // charts with hover and zoom, if this build has Plotly
+  // Pictures drawn by gnuplot besides the charts; false where no program can be run.
   bool stills = true;
 };
 
-// The verdict of the document first, then its warnings and pictures, then the rest in the document's
-// order. Pictures are drawn by one run of gnuplot, as they are read without scripts and on paper;
-// where there is no gnuplot the page says so. `json` is the record, which the page holds and gives
-// away with a button.
+// Draws the document's verdict first, then its warnings and pictures, then the rest in order. One
+// run of gnuplot draws all pictures, for paper and for browsers without scripts; without gnuplot
+// the page states that they are missing. `json` is the record, which the page embeds and can save.
 std::string DrawPage(const Document& document, const std::string& json,
                      const PageOptions& options = {});
 

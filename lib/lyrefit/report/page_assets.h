@@ -2,14 +2,14 @@
 
 #include <string_view>
 
-// What every page embeds, from `assets/` and from what the build found installed: written by
+// Files that every page embeds, from `assets/` and from the build machine. The source is written by
 // cmake/EmbedPageAssets.cmake.
 namespace lyrefit {
 
 std::string_view PageStyle();
 std::string_view PageScript();
 
-// Plotly's basic bundle, gzip; empty where it was not installed when this was built.
+// Plotly's basic bundle, gzipped; empty if it was not installed at build time.
 std::string_view PackedPlotly();
 std::string_view PlotlyLicence();
 

@@ -9,13 +9,13 @@
 namespace lyrefit {
 namespace {
 
-// Nothing is fetched from anywhere, whatever stands in the page: the browser sees to it.
+// The browser blocks all network access, whatever the page contains.
 constexpr char kNoNetwork[] =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
     "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
     "form-action 'none'\"/>\n";
 
-// Buttons are shown by the script that makes them work.
+// Buttons are hidden until the script that handles them runs.
 constexpr char kTools[] =
     "<div class=\"tools\" hidden=\"\" role=\"group\" aria-label=\"Page\">"
     "<button type=\"button\" data-page=\"theme\">Dark</button>"
@@ -32,7 +32,7 @@ std::string DataElement(const PageData& data) {
          "</script>\n";
 }
 
-// The words that its authors ask for go wherever it goes.
+// Plotly with its licence, which must accompany every copy.
 std::string PlotlyElements() {
   return "<details class=\"licence\"><summary>Parts by others</summary>\n<p>Charts: plotly.js "
          "(basic bundle), under the MIT licence.</p>\n<pre>" +
@@ -69,7 +69,7 @@ std::string ScriptSafe(std::string_view json) {
   std::string safe;
   safe.reserve(json.size());
   for (const char c : json) {
-    if (c == '<') {  // within strings only, and there this is the same
+    if (c == '<') {  // occurs in strings only, where the escape is equivalent
       safe += "\\u003c";
     } else {
       safe += c;
@@ -79,7 +79,7 @@ std::string ScriptSafe(std::string_view json) {
 }
 
 std::string Gzipped(std::string_view text) {
-  constexpr int kGzip = 15 + 16;  // the largest window, and gzip's header, which holds no time
+  constexpr int kGzip = 15 + 16;  // the largest window, and a gzip header without a time
   z_stream stream = {};
   deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
   std::string packed(deflateBound(&stream, text.size()), '\0');

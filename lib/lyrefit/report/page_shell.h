@@ -4,38 +4,38 @@
 #include <string_view>
 #include <vector>
 
-// What all pages share: one file of HTML that fetches nothing, in light and dark, on a phone and on
-// paper, for eyes, keyboard and screen reader. What stands in it is its caller's.
+// The common frame of all pages: one HTML file without network access, for light and dark, phones
+// and paper, keyboard and screen reader. The caller supplies the content.
 namespace lyrefit {
 
-// Data for scripts, `lyrefit.data(id)` there.
+// Data for scripts, which read it by `lyrefit.data(id)`.
 struct PageData {
   std::string id;
   std::string json;
-  bool packed = false;  // compressed: for what is large and nobody reads in the source
+  bool packed = false;  // compressed; for data too large to be read in the source
 };
 
 struct PageShell {
   std::string title;                      // plain text
   std::string summary;                    // HTML below the title
   std::string body;                       // HTML within <main>
-  std::string style;                      // CSS after what every page has
-  std::vector<std::string> scripts = {};  // JavaScript, in this order, when all else is there
+  std::string style;                      // CSS after the common style
+  std::vector<std::string> scripts = {};  // JavaScript, run in order after all else has loaded
   std::vector<PageData> data = {};
-  bool plotly = false;  // embed it, `lyrefit.plotly()` in scripts; not where it is not installed
+  bool plotly = false;  // embed Plotly for `lyrefit.plotly()`, if installed
 };
 
-// The page. Scripts find what page.js offers in `lyrefit`: data(id), bytes(id), plotly(), colour(hex),
-// onTheme(function). Without scripts everything in `body` is read as it stands.
+// Draws the page. Scripts find the functions of page.js in `lyrefit`: data(id), bytes(id),
+// plotly(), colour(hex), onTheme(function). `body` must be readable without scripts.
 std::string DrawShell(const PageShell& shell);
 
-// Whether DrawShell() has Plotly to embed.
+// Whether this build has Plotly to embed.
 bool PlotlyIsEmbedded();
 
-// JSON as it may stand within <script>, whatever names it holds.
+// JSON that is safe within <script>, whatever its strings contain.
 std::string ScriptSafe(std::string_view json);
 
-// gzip, the same bytes for the same text; and bytes as text.
+// gzip, with equal bytes for equal texts; bytes as base64 text.
 std::string Gzipped(std::string_view text);
 std::string Base64(std::string_view bytes);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// gnuplot's symbols by number, from 1.
+// Plotly's names of gnuplot's symbols, from number 1.
 constexpr std::array<const char*, 13> kSymbols = {
     "cross-thin-open", "x-thin-open",  "asterisk-open",    "square-open", "square",
     "circle-open",     "circle",       "triangle-up-open", "triangle-up", "triangle-down-open",
@@ -26,7 +26,7 @@ std::string SymbolOf(const Look& look) {
   return kSymbols[place % kSymbols.size()];
 }
 
-// "Current (mA)" is "mA"; an axis without a unit has none.
+// The unit in an axis label: "mA" of "Current (mA)"; empty without a unit.
 std::string UnitOf(const std::string& label) {
   const std::size_t open = label.rfind('(');
   if (open == std::string::npos || label.back() != ')') return "";
@@ -44,7 +44,7 @@ std::string HoverText(const Panel& panel, const Axis& y, const std::string& name
          PlotlyText(name) + "</extra>";
 }
 
-// The entry of the legend with its look; empty where there is none.
+// The legend entry with the look of a series; empty if there is none.
 std::string EntryOf(const Figure& figure, const Series& series) {
   const bool marks = series.kind == SeriesKind::kPoints;
   std::string name;
@@ -57,7 +57,7 @@ std::string EntryOf(const Figure& figure, const Series& series) {
   return name;
 }
 
-// Between the colours of the bar.
+// The colour of a value, interpolated between the colours of the bar.
 std::string BarColour(const ColourBar& bar, double value) {
   const double share =
       bar.high > bar.low ? std::clamp((value - bar.low) / (bar.high - bar.low), 0.0, 1.0) : 0.5;
@@ -88,7 +88,7 @@ Json MarkerOf(const Look& look, double size, const Json& colour) {
   return marker;
 }
 
-// A trace of its axes, hover and legend group, without points.
+// A trace without points: axes, hover text and legend group.
 Json EmptyTrace(const Figure& figure, const Panel& panel, const Series& series,
                 const PlotlyAxes& axes) {
   const std::string name = series.name.empty() ? EntryOf(figure, series) : series.name;
@@ -110,7 +110,7 @@ void Append(const Json& x, const Json& y, Json* trace) {
   (*trace)["y"].push_back(y);
 }
 
-// Between rows, as gnuplot's boxes: the quartiles with their whiskers, and what lies far out.
+// Quantile interpolated between rows, as in gnuplot's boxes.
 double Quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -149,7 +149,7 @@ void AddBox(const Series& series, const Json& empty, Json* data) {
     Append(x, to, &box);
   }
   data->push_back(box);
-  Json marks = empty;  // the numbers of the box under the pointer, and every run far out
+  Json marks = empty;  // hover values of the box, and every outlier
   marks["mode"] = "markers";
   marks["marker"] = {{"color", colour}, {"symbol", Json::array()}, {"size", 5}};
   const auto mark = [&](double at, const char* symbol) {
@@ -177,7 +177,7 @@ void AddSeries(const Figure& figure, const Panel& panel, const Series& series, c
     trace["mode"] = lines && marks ? "lines+markers" : lines ? "lines" : "markers";
     if (lines) trace["line"] = LineOf(look, series.width, colour);
     if (marks) trace["marker"] = MarkerOf(look, series.size, colour);
-    if (!lines) trace["cliponaxis"] = false;  // whole symbols at the edge
+    if (!lines) trace["cliponaxis"] = false;  // draws whole symbols at the edge
     data->push_back(trace);
     trace = empty;
   };
@@ -191,7 +191,7 @@ void AddSeries(const Figure& figure, const Panel& panel, const Series& series, c
       if (series.kind == SeriesKind::kStems) Append(nullptr, nullptr, &trace);
       colours.push_back(BarColour(bar, row[2]));
     }
-    if (by_row && lines) finish(BarColour(bar, stretch.front()[2]));  // a line has one colour
+    if (by_row && lines) finish(BarColour(bar, stretch.front()[2]));  // a line has a single colour
   }
   if (by_row && !trace["x"].empty()) {
     trace["mode"] = "markers";
@@ -217,7 +217,7 @@ std::string PlotlyText(const std::string& text) {
       case '>':
         plain += "&gt;";
         break;
-      case '{':  // of %{...}, which would be read as a value
+      case '{':  // of %{...}, which Plotly would replace by a value
         plain += "&#123;";
         break;
       default:
@@ -267,7 +267,7 @@ void AddPlotlyTraces(const Figure& figure, const Panel& panel, const PlotlyAxes&
     }
   }
   if (!panel.right || on_the_right) return;
-  Series none;  // an axis that nothing is drawn on is not shown
+  Series none;  // Plotly hides an axis without a trace
   none.right_axis = true;
   Json trace = EmptyTrace(figure, panel, none, axes);
   Append(nullptr, nullptr, &trace);

@@ -7,8 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A text as UTF-8. Names come from files, and files hold anything: a byte that is no UTF-8 becomes
-// U+FFFD.
+// A text as valid UTF-8: each byte that is not UTF-8 becomes U+FFFD. Names are read from files and
+// may contain any bytes.
 std::string Readable(std::string_view text);
 
 }  // namespace lyrefit

@@ -11,7 +11,7 @@
 #include "lyrefit/translate/field_test.h"
 #include "lyrefit/translate/uncertainty.h"
 
-// What the documents, tables and pictures of one kind of record share.
+// Functions shared by the documents, tables and pictures of one type of record.
 namespace lyrefit {
 
 struct Certificate;
@@ -20,71 +20,72 @@ struct DataSheetFit;
 struct MemberConditions;
 struct TranslationReport;
 
-// fits_document.cc: the parameters of the largest model: those of a smaller one are its first.
+// fits_document.cc: parameters of the largest model; smaller models have the first of them.
 std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
 
-// The answer of a fit and its standard error for the parameter with this symbol.
+// Final value and standard error of the parameter with this symbol.
 std::pair<double, double> ValueAndError(const FitReport& report, const ParameterInfo& info);
 
-// Whether the curves were fitted one by one, without shared parameters.
+// Whether the curves were fitted individually, without shared parameters.
 inline bool OneByOne(const FamilyReport& report) { return report.estimates.empty(); }
 
-// "De Soto", as people write it.
+// Title of a law: "De Soto".
 inline const char* LawTitle(TranslationLaw law) {
   return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
 }
 
-// Of a curve fitted on its own, in the order of FamilyCurve::free_parameters.
+// Parameters of an individually fitted curve, in the order of FamilyCurve::free_parameters.
 inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
   std::vector<ParameterInfo> infos = MakeDevice(report.translation.spec.model, {}).parameters;
   if (report.free) AddInfos(report.with, &infos);
   return infos;
 }
 
-// record_verdicts.cc: what a report comes to, in a sentence or two.
+// record_verdicts.cc: conclusions of one or two sentences.
 std::string ResidualVerdict(const ResidualStatistics& residuals);
 std::string FitVerdict(const FitReport& report);
 std::string FamilyVerdict(const FamilyReport& report);
 
-// figure_blocks.cc: the picture of a record for pages, with a sentence and what it shows in
-// numbers. A figure without panels where there is nothing to draw.
+// figure_blocks.cc: the picture of a record for pages, with a caption and a table of its numbers. A
+// figure without panels if there is nothing to draw.
 block::Figure FigureBlock(const FitReport& report);
 block::Figure FigureBlock(const Diagnosis& diagnosis);
 block::Figure FigureBlock(const Certificate& certificate);
 block::Figure FigureBlock(const FamilyReport& report, const CurveSet& set);
 
-// data_sheet_plot.cc: likewise. data_sheet_document.cc: some members, by rising n.
+// data_sheet_plot.cc: the picture of a data-sheet fit. data_sheet_document.cc: a table of some
+// members by rising n.
 block::Figure FigureBlock(const DataSheetFit& fit);
 block::Table MemberTable(const DataSheetFit& fit);
-// "200 W/m2", "50 C": what is not at the reference.
+// Conditions that differ from the reference: "200 W/m2", "50 C".
 std::string ConditionsText(const MemberConditions& at);
 
-// family_curve_document.cc: curve by curve, whole curves as a test, and those that were left out.
+// family_curve_document.cc: tables of curves, validation curves, and curves that were left out.
 std::vector<Section> FamilyCurveSections(const FamilyReport& report);
 
-// diagnosis_document.cc: each cause with its size and what else it could be.
+// diagnosis_document.cc: each cause with its size and its equivalents.
 std::vector<Section> CauseSections(const Diagnosis& diagnosis);
 
-// diagnosis_proof_document.cc: how much of the misfit causes can explain, where that was asked for.
+// diagnosis_proof_document.cc: upper bounds of the misfit that causes explain, where requested.
 Section ProofSection(const Diagnosis& diagnosis);
 
-// diagnosis_plot.cc: bands where causes act and their titles, in a panel over voltage whose ends are
-// known.
+// diagnosis_plot.cc: adds the bands and titles of causes to a panel over voltage with known ends.
 void MarkCauses(const Diagnosis& diagnosis, Panel* panel);
 
-// diagnosis_evidence_document.cc: how far a diagnosis is to be trusted.
+// diagnosis_evidence_document.cc: the reliability of a diagnosis.
 std::vector<Section> DiagnosisEvidenceSections(const Diagnosis& diagnosis);
 
-// field_test_document.cc: what the uncertainty of one result is made of, and whether both
-// propagations agree; the verdict on a rating with its figures and its own budget; the conditions,
-// each met, not met or not known, and what would make it known.
+// field_test_document.cc: the budget of one result, and whether both propagations agree; the
+// verdict on a rating with its own budget; the state of each condition of the measurement, and how
+// to determine or meet it.
 Section BudgetSection(const std::string& heading, const UncertaintyBudget& budget,
                       std::size_t output);
 std::vector<Section> FieldTestSections(const FieldTest& test);
 Section ChecklistSection(const Checklist& checklist);
 
-// translation_page.cc: what a page begins with that somebody signs. Under what the curve was taken
-// and by what, each with its source; the verdict in a line or a few; the picture with its numbers.
+// translation_page.cc: the first part of a page to be signed: conditions and instruments of the
+// measurement, each with its source; the verdict in one line or a few; the picture with its
+// numbers.
 void AddMeasurement(const TranslationReport& report, Section* section);
 std::string TranslationVerdict(const TranslationReport& report);
 block::Figure FigureBlock(const TranslationReport& report);

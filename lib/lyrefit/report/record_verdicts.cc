@@ -9,19 +9,19 @@
 namespace lyrefit {
 namespace {
 
-// Where the words about residuals change. They are words only: nothing is decided by them.
+// Limits for the wording on residuals; no decision depends on them.
 constexpr double kSurprising = 0.05;
 constexpr double kDurbinWatsonLow = 1.0;
 constexpr double kDurbinWatsonHigh = 3.0;
 
-// In the middle of a sentence.
+// The residual verdict in words for the middle of a sentence.
 std::string LeftWords(const ResidualStatistics& residuals) {
   std::string words = ResidualVerdict(residuals);
   if (words.find("consistent") == 0) return words;
   return "not noise alone, " + words;
 }
 
-// ", 0.10 % of Isc"; nothing where there is no Isc to take a part of.
+// A part of Isc such as ", 0.10 % of Isc"; empty if Isc is unknown.
 std::string PartOfIsc(double rmse_A, double isc_A) {
   if (!(isc_A > 0) || !std::isfinite(rmse_A)) return "";
   return fmt::format(", {} % of Isc", Significant(100 * rmse_A / isc_A, 2));

@@ -57,7 +57,7 @@ Section CauseSection(const ReferenceComparison& comparison) {
   return section;
 }
 
-// What there is to say of a sweep, below `heading` if there is one.
+// Adds the sections of one sweep, below `heading` if it is not empty.
 void AddSweep(const ReferenceComparison& comparison, const std::string& heading, Document* document) {
   std::vector<Section> details = {NowSection(comparison), CauseSection(comparison),
                                   ListSection("Not compared with", comparison.left_out),

@@ -10,7 +10,7 @@ std::string Significant(double value, int digits) {
   if (std::isnan(value)) return "-";
   if (value == 0) return "0";
   std::string text = fmt::format("{:#.{}g}", value, digits);
-  // The library adds ".0" where all the digits stand before the point.
+  // fmt adds ".0" if all digits are before the point.
   const auto shown =
       std::count_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
   const bool whole = text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0;
@@ -66,7 +66,7 @@ std::string Wrap(std::string_view first, std::string_view text) {
 
 std::size_t Columns(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // continuation bytes take none
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // continuation bytes take no column
   }));
 }
 

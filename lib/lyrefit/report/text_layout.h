@@ -7,27 +7,26 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-constexpr int kTextWidth = 100;  // columns of the terminal the text report is laid out for
+constexpr int kTextWidth = 100;  // columns of the terminal that text reports are laid out for
 
-// `value` with that many significant digits, trailing zeros kept: "0.760788", "3.10685e-07". NaN is
-// "-", an exact zero "0".
+// `value` with this number of significant digits, including trailing zeros: "0.760788",
+// "3.10685e-07". NaN is "-", an exact zero "0".
 std::string Significant(double value, int digits);
 
-// "9.860218779e-04", "-" for NaN.
+// `value` in scientific notation: "9.860218779e-04"; "-" for NaN.
 std::string Scientific(double value, int digits);
 
-// "low .. high" with as many digits as tell both ends apart to two or three digits of their
-// distance.
+// "low .. high", with enough digits to show two or three digits of their difference.
 std::string Range(double low, double high);
 
 // "12 ms", "3.21 s"; "-" for NaN.
 std::string Duration(double seconds);
 
-// Breaks `text` at blanks so that no line is longer than the terminal. The first line begins with
-// `first`, the others with as many blanks. Ends with a newline.
+// Wraps `text` at blanks to the width of the terminal. The first line begins with `first`, the
+// others with as many blanks. Ends with a newline.
 std::string Wrap(std::string_view first, std::string_view text);
 
-// Columns of a terminal that UTF-8 text takes.
+// Number of terminal columns of a UTF-8 text.
 std::size_t Columns(std::string_view text);
 
 }  // namespace lyrefit

@@ -9,10 +9,10 @@
 #include "lyrefit/law/extension.h"
 #include "lyrefit/report/document.h"
 
-// What the reports share.
+// Functions shared by the reports.
 namespace lyrefit {
 
-// "single-diode"
+// Title of a model: "single-diode".
 std::string ModelTitle(Model model);
 
 // "non-ohmic shunt (nonohmic_shunt), partial shading (shading)"
@@ -20,31 +20,32 @@ std::string EffectTitles(const std::vector<EffectUse>& uses);
 // " + nonohmic_shunt + shading"
 std::string PlusEffects(const std::vector<EffectUse>& uses);
 
-// The effects that a device has beside its diodes.
+// The effects of a device besides its diodes.
 std::vector<EffectUse> EffectsOf(const Device& device);
 
 // "1 cell", "3 cells"
 std::string Plural(std::size_t count, const std::string& noun);
 
-// With a full stop.
+// The text with a full stop at its end.
 std::string FullSentence(std::string text);
 
-// A proved bound, which must not be rounded up.
+// The text of a proved lower bound, which is never rounded up.
 std::string BoundText(double bound);
 
-// What stands above everything else of a report that is unfinished or worthless; else nothing.
-// `because` says why it is worthless, `doubts` what is doubtful about its readings.
+// Banners of a report that is interrupted or unusable; else none. `because` is the reason why it is
+// unusable, `doubts` are problems of its readings.
 std::vector<std::string> Banners(bool interrupted, bool usable, const std::string& because,
                                  const std::vector<std::string>& doubts);
 
-// The same, and how many warnings there are, at the end of a report of one line.
+// The marks of an interrupted or unusable report and the number of its warnings, for the end of a
+// one-line report.
 std::string BriefMarks(bool interrupted, bool usable, std::size_t warnings,
                        const std::string& because = {});
 
-// "Rs (ohm)", "n1".
+// Symbol and unit: "Rs (ohm)", "n1".
 std::string LabelWithUnit(const ParameterInfo& info);
 
-// "fixed", "lower bound, not identifiable"; empty where there is nothing to say.
+// Remarks on an estimate: "fixed", "lower bound, not identifiable"; may be empty.
 std::string EstimateMarks(const Estimate& estimate);
 
 // "Is1-n1 +0.9999, ..."
@@ -57,15 +58,15 @@ std::string SearchText(const SearchOptions& options, const SearchSummary& search
 // "seed = 1 (default 0), ..."
 std::string OptionsText(const std::vector<OptionEcho>& options);
 
-// The fields "curve" and "conditions" of a report's head.
+// Adds the fields "curve" and "conditions" to the head of a report.
 void AddCurve(const IvCurve& curve, Section* section);
 
-// The sizes of the errors of the readings, a field each, with what they mean.
+// Adds one field for each size of the errors of the readings, with its meaning.
 void AddErrorSizes(const ErrorReport& errors, Section* section);
-// One sentence on which intervals to believe.
+// One sentence on which intervals are reliable.
 std::string WhichToBelieve(const ErrorReport& errors);
 
-// A sentence for each parameter that cannot be told.
+// Adds a sentence for each parameter that is not identifiable.
 void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section);
 
 }  // namespace lyrefit

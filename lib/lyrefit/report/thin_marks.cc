@@ -21,7 +21,7 @@ std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::ve
   const auto [left, right] = std::minmax_element(places.begin(), places.end(), by_x);
   const double begin = x[*left];
   const double span = x[*right] - begin;
-  // Four points a bin: where it ends, and what is usual in it.
+  // Four points for each bin: the lowest, the highest and two typical ones.
   std::vector<std::vector<std::size_t>> bins((most - 2) / 4 + 1);
   const auto last = static_cast<double>(bins.size() - 1);
   for (const std::size_t i : places) {

@@ -19,7 +19,7 @@ std::string TargetWords(const TranslationTarget& target) {
   return fmt::format("{:g} W/m2, {:g} C", target.irradiance_W_m2, target.temperature_C);
 }
 
-// "248.3 +- 4.1": as many decimals as the uncertainty has digits to be believed.
+// A value with its uncertainty, "248.3 +- 4.1", to two significant digits of the uncertainty.
 std::string WithUncertainty(double value, double expanded) {
   if (!std::isfinite(value)) return "-";
   if (!(expanded > 0)) return Significant(value, kDigits);
@@ -68,7 +68,7 @@ Section RunSection(const TranslationReport& report) {
   return section;
 }
 
-// The answer.
+// The recommended result.
 Section AnswerSection(const TranslationReport& report) {
   Section section = {"At " + TargetWords(report.target)};
   const TranslatedResult* best = report.Recommended();
@@ -85,7 +85,7 @@ Section AnswerSection(const TranslationReport& report) {
   }
   AddTable(std::move(table), &section);
   AddSentence(fmt::format("Recommended is {}: {}.", best->title, report.reason), &section);
-  // That of Pmax stands under its budget.
+  // The sentence on Pmax is in its budget.
   for (std::size_t k = 0; k < best->budget.outputs.size(); ++k) {
     const std::string& sentence = best->budget.outputs[k].sentence;
     if (k != kMaxPowerOutput && !sentence.empty()) AddSentence(FullSentence(sentence), &section);
@@ -93,7 +93,7 @@ Section AnswerSection(const TranslationReport& report) {
   return section;
 }
 
-// All of them side by side.
+// All procedures side by side.
 Section ProcedureSection(const TranslationReport& report) {
   Section section = {"Procedures"};
   block::Table table = {"lrrrrrr", {{"", "Isc", "Voc", "Imp", "Vmp", "Pmax", "FF"}}};
@@ -125,7 +125,8 @@ Section ProcedureSection(const TranslationReport& report) {
   return section;
 }
 
-// What it comes to, and what becomes of the causes; the causes themselves stand below it.
+// The verdict of the diagnosis and which causes were kept or removed; other sections show the
+// causes.
 Section DiagnosisSection(const TranslationReport& report) {
   Section section = {"What the diagnosis says"};
   if (report.verdict.empty()) return section;

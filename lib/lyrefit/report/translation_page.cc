@@ -16,7 +16,7 @@ namespace lyrefit {
 namespace {
 
 constexpr int kReadingDigits = 6;
-constexpr std::size_t kMostReadings = 500;  // of a table that somebody looks at
+constexpr std::size_t kMostReadings = 500;  // rows of a table for reading
 
 const char* Words(LightSource source) {
   switch (source) {
@@ -86,7 +86,7 @@ std::string InstrumentText(const FieldNotes& notes) {
 
 std::string Watts(double value) { return fmt::format("{:.0f} W", value); }
 
-// "Fail: 4650 W at standard conditions ..."
+// A line such as "Fail: 4650 W at standard conditions ..."
 std::string PowerLine(const TranslationReport& report) {
   const FieldTest& test = *report.field_test;
   std::string zone = ToText(test.zone);

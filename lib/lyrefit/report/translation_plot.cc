@@ -16,7 +16,7 @@ Series Drawn(const CurvePoints& points, SeriesKind kind, const Look& look,
   series.look = look;
   series.name = name;
   for (std::size_t i = 0; i < points.voltage_V.size(); ++i) {
-    // What lies beyond open circuit is no part of what a device delivers.
+    // Points outside the first quadrant are omitted: the device delivers no power there.
     if (points.voltage_V[i] < 0 || points.current_A[i] < 0) continue;
     series.Add(points.voltage_V[i], points.current_A[i]);
   }

@@ -11,17 +11,18 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSureBy = 2;  // standard errors of a drawn end
-// How sure the drawn ends must be, in tolerances: 10,000 draws are enough for one digit of any u.
+constexpr double kSureBy = 2;  // standard errors of the end of a drawn interval
+// Largest standard error of a drawn end, in tolerances: 10,000 draws suffice for one digit of any
+// u.
 constexpr double kSharp = 0.6;
 constexpr std::size_t kMostReasons = 2;
 
 struct Reason {
-  double size = 0;  // how far it can move an end
+  double size = 0;  // largest change of an end of the interval
   std::string sentence;
 };
 
-// Results with one or two inputs moved by their standard uncertainties, times the signs.
+// Result with one or two inputs moved by their standard uncertainties, times the signs.
 class Moved {
  public:
   Moved(const UncertainModel& model, const std::vector<UncertainInput>& inputs, std::size_t output)
@@ -41,8 +42,8 @@ class Moved {
   std::vector<double> values_;
 };
 
-// How far the result leaves the straight line at one standard uncertainty of one input, and, of
-// two, how far they do more together than apart.
+// Adds the deviation of the result from linearity at one standard uncertainty of each input, and
+// the interaction of each pair of inputs.
 void AddBends(const UncertainModel& model, const std::vector<UncertainInput>& inputs,
               std::size_t output, double reported, std::vector<Reason>* reasons) {
   const Moved moved(model, inputs, output);
@@ -65,8 +66,8 @@ void AddBends(const UncertainModel& model, const std::vector<UncertainInput>& in
   }
 }
 
-// Rectangular lines end sooner than a normal one of the same standard deviation; choices lie aside
-// of the result as well.
+// Adds reasons from the shape of the sources: a rectangular line ends sooner than a normal one of
+// equal standard deviation, and the answers of a choice need not be centred on the result.
 void AddShapes(const UncertaintySources& sources, const UncertaintyBudget& budget,
                std::size_t output, std::vector<Reason>* reasons) {
   const UncertainOutput& of = budget.outputs[output];
@@ -101,7 +102,7 @@ std::string Why(const UncertainModel& model, const UncertaintySources& sources,
                    [](const Reason& a, const Reason& b) { return a.size > b.size; });
   std::string text;
   for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) {
-    // The second is told where it is not small beside the first.
+    // A second reason is added only if it is not small beside the first.
     if (i > 0 && reasons[i].size < 0.3 * reasons[0].size) break;
     text += (i > 0 ? "; " : "") + reasons[i].sentence;
   }
@@ -143,7 +144,7 @@ std::string Sentence(const UncertainModel& model, const UncertaintySources& sour
 double NumericalTolerance(double standard_uncertainty, int significant_digits) {
   if (!std::isfinite(standard_uncertainty)) return kUnknown;
   if (standard_uncertainty <= 0) return 0;
-  // u = c 10^l with c of that many digits, after rounding: 0.0996 to one digit is 0.1.
+  // u = c 10^l, where c has that many digits after rounding: 0.0996 to one digit is 0.1.
   const double scale = std::pow(10.0, significant_digits - 1);
   int exponent = static_cast<int>(std::floor(std::log10(standard_uncertainty)));
   const double digits = std::round(standard_uncertainty / std::pow(10.0, exponent) * scale);

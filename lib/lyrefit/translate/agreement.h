@@ -4,8 +4,9 @@
 
 namespace lyrefit {
 
-// JCGM 101, clause 8: whether each end of the linear interval lies within the tolerance of the
-// drawn one; where not, the sentence that says why.
+// Checks each linear interval against the drawn interval (JCGM 101, clause 8). Stores in every
+// output of `budget` whether both ends agree within the numerical tolerance. Where they do not, the
+// output's sentence states the reasons.
 void JudgeAgreement(const UncertainModel& model, const UncertaintySources& sources,
                     int significant_digits, UncertaintyBudget* budget);
 

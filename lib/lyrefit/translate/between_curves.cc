@@ -13,11 +13,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kOffLight = 0.02;  // part of the target's
+constexpr double kOffLight = 0.02;  // relative to the target's irradiance
 constexpr double kOff_K = 1;
-constexpr double kFarthest = 1;  // beyond either curve, in parts of their distance
+constexpr double kFarthest = 1;  // beyond either curve, in parts of the distance between them
 
-// A curve with its place.
+// A curve with its conditions.
 struct Placed {
   CurvePoints points;
   double g = 0;
@@ -25,7 +25,7 @@ struct Placed {
   std::optional<SingleDiodeFit> diode;
 };
 
-// The voltage at a current: currents fall along the points, but for noise.
+// The voltage at a current. Currents fall along the points except for noise.
 double VoltageAt(const CurvePoints& points, double current_A) {
   const std::size_t n = points.current_A.size();
   for (std::size_t i = n - 1; i > 0; --i) {
@@ -37,7 +37,7 @@ double VoltageAt(const CurvePoints& points, double current_A) {
   return kUnknown;
 }
 
-// At `a` of the way from one to the other.
+// The curve at a fraction `a` of the way from `one` to `two`.
 Expected<Placed> Along(const Placed& one, const Placed& two, double a) {
   if (!one.diode || !two.diode) return Fail("no single diode fits one of the curves");
   const auto isc = [](const Placed& at) {
@@ -61,11 +61,11 @@ Expected<Placed> Along(const Placed& one, const Placed& two, double a) {
     between.points.current_A.push_back(first.current_A[i] + a * step);
   }
   between.points = ByVoltage(std::move(between.points));
-  between.diode = one.diode;  // where its points end
+  between.diode = one.diode;  // extends the points of `one`
   return between;
 }
 
-// Light and temperature on one scale: 1 is all of the target's light, or 100 K.
+// Irradiance and temperature on one scale: 1 is the target's irradiance, or 100 K.
 struct Place {
   double light = 0;
   double heat = 0;
@@ -98,7 +98,7 @@ class Way {
     const double across = Cross(goal, side);
     if (std::fabs(across) < 1e-12) return Fail("the curves lie in line, the target does not");
     Steps steps;
-    const double reach = Cross(to, side) / across;  // goal times this ends on the side
+    const double reach = Cross(to, side) / across;  // goal times this is on the line of 2 and 3
     steps.second = 1 / reach;
     steps.first = Cross(to, goal) / across;
     if (TooFar(steps.first) || TooFar(steps.second)) {

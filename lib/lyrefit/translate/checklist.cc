@@ -24,7 +24,7 @@ CheckedCondition Item(const char* id, std::string title, const char* clause) {
   return item;
 }
 
-// A figure with the verdict that follows from it.
+// Sets a value and the state that follows from it.
 void Settle(bool met, double value, double limit, const char* unit, std::string found,
             std::string source, std::string cure, CheckedCondition* item) {
   item->state = met ? Condition::kMet : Condition::kNotMet;
@@ -71,7 +71,7 @@ bool IsOfLight(const std::string& effect) {
   return effect == "irr_step" || effect == "drift" || effect == "transient";
 }
 
-// What a diagnosis says of the light during the sweep.
+// Sets the steadiness of the light during the sweep by a diagnosis.
 void SteadyByDiagnosis(const Diagnosis& diagnosis, CheckedCondition* item) {
   for (const Cause& cause : diagnosis.verdict.causes) {
     if (!IsOfLight(cause.id)) continue;
@@ -271,7 +271,7 @@ CheckedCondition CheckCells(const IvCurve& curve) {
   return item;
 }
 
-// Procedure 1 moves points along straight lines: it is for small steps of the light.
+// Procedure 1 moves points along straight lines, which suits small steps of irradiance only.
 CheckedCondition CheckStep(const IvCurve& curve, const ConditionFacts& facts) {
   const bool small = facts.procedure == Procedure::kIec1;
   const double limit = small ? 20 : 30;

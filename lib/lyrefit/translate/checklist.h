@@ -14,7 +14,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Whether something that a standard asks for held.
+// Whether a condition of a standard is met.
 enum class Condition { kMet, kNotMet, kNotKnown };
 
 template <>
@@ -24,40 +24,39 @@ struct EnumTable<Condition> {
                                                   {Condition::kNotKnown, "not known"}};
 };
 
-// One thing that a standard asks for, and what is known of it.
+// One condition that a standard requires, and its state.
 struct CheckedCondition {
   std::string id;                          // "irradiance", "steadiness", ...
   std::string title;                       // "light above 700 W/m2"
-  Condition state = Condition::kNotKnown;  // nothing is met that nobody measured or said
+  Condition state = Condition::kNotKnown;  // stays unknown until somebody states or measures it
   double value = kUnknown;                 // the figure, in `unit`
-  double limit = kUnknown;                 // what it is held against, in the same
+  double limit = kUnknown;                 // threshold for `value`, in `unit`
   std::string unit;
-  std::string found;   // the figure in words; empty where nothing is known
-  std::string source;  // where the figure is from
-  std::string clause;  // of the standard that asks for it; empty: ours
-  std::string cure;    // what would make it known, or met; empty where it is met
+  std::string found;   // `value` in words; empty where it is unknown
+  std::string source;  // origin of the value
+  std::string clause;  // clause of the standard that requires it; empty: lyrefit's own
+  std::string cure;    // how to determine or meet it; empty where it is met
 };
 
-// All that the standards ask for.
+// All conditions, and how many have each state.
 struct Checklist {
   std::vector<CheckedCondition> conditions;  // in a fixed order
   int met = 0;                               // conditions that are met
-  int not_met = 0;                           // that are not
-  int not_known = 0;                         // of which nobody knows
+  int not_met = 0;
+  int not_known = 0;
   std::string sentence;
 };
 
-// What the conditions of one curve are judged by.
+// Inputs of CheckConditions besides the curve.
 struct ConditionFacts {
-  const Diagnosis* diagnosis = nullptr;  // of this curve: what it says of the light; may be missing
-  UncertaintyOptions uncertainty;        // sensors and instrument
-  std::optional<Procedure> procedure;    // that carries it to `target`
-  TranslationTarget target;              // where the curve is carried to
+  const Diagnosis* diagnosis = nullptr;  // of this curve, for steady light; or nullptr
+  UncertaintyOptions uncertainty;        // classes of sensors and instrument
+  std::optional<Procedure> procedure;    // the one used for the step to `target`
+  TranslationTarget target;              // conditions of the translated curve
 };
 
-// The conditions that IEC 61829:2015 (as summarised by others), IEC 60904-1, IEC 60891:2021 and
-// IEC 62446-1 ask for, one after the other. Nothing is taken as met that nobody has said or
-// measured.
+// Checks the conditions of IEC 61829:2015 (as summarised by others), IEC 60904-1, IEC 60891:2021
+// and IEC 62446-1, in a fixed order. A condition is met only if somebody has stated or measured it.
 Checklist CheckConditions(const IvCurve& curve, const ConditionFacts& facts,
                           const ChecklistOptions& options);
 

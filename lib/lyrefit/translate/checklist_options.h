@@ -7,7 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Limits of the conditions of a field measurement, and what no curve can say of itself.
+// Limits of the conditions of a field measurement, and the wind, which is not recorded with a
+// curve.
 struct ChecklistOptions {
   double least_irradiance_W_m2 = 700;
   double most_sweep_s = 5;

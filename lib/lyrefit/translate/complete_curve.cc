@@ -16,11 +16,13 @@ double JunctionCurrentOf(const SingleDiodeFit& d, double junction_V) {
          junction_V / d.resistance_shunt_ohm;
 }
 
-// The junction voltage at which the diode delivers this current. The current falls ever faster, so
-// that Newton's steps come from the right and never pass the root but once, at the first.
+// The junction voltage at which the diode delivers this current. The current falls ever faster with
+// voltage. Newton's iteration therefore approaches the root from the right and overshoots at most
+// in its first step.
 double JunctionAt(const SingleDiodeFit& d, double current_A) {
   const double through_diode = d.photocurrent_A - current_A;
-  // Where the shunt takes nothing; without a diode that could carry it, all through the shunt.
+  // Start without shunt current; if the diode cannot carry the current, with all of it in the
+  // shunt.
   const double alone = through_diode / d.saturation_current_A;
   double v = alone > -0.5 ? d.nNsVth_V * std::log1p(alone)
                           : (through_diode + d.saturation_current_A) * d.resistance_shunt_ohm;
@@ -36,7 +38,7 @@ double JunctionAt(const SingleDiodeFit& d, double current_A) {
   return v;
 }
 
-// From the last reading on to lower currents.
+// Adds points from the last reading to lower currents.
 void BeyondOpenCircuit(const SingleDiodeFit& d, double lowest_A, CurvePoints* points) {
   const double last_V = points->voltage_V.back(), last_A = points->current_A.back();
   if (last_A <= lowest_A) return;
@@ -51,7 +53,7 @@ void BeyondOpenCircuit(const SingleDiodeFit& d, double lowest_A, CurvePoints* po
   }
 }
 
-// From the first reading down to lower voltages: the diode's slope there hardly bends.
+// Adds points from the first reading to lower voltages, where the diode's slope is nearly constant.
 void BeyondShortCircuit(const SingleDiodeFit& d, double lowest_V, CurvePoints* points) {
   const double first_V = points->voltage_V.front(), first_A = points->current_A.front();
   if (first_V <= lowest_V) return;

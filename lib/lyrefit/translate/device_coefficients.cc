@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 20;
 
-// Band gaps and their slopes as pvlib's calcparams_desoto lists them (c-Si, CdTe, CIGS), alpha,
-// beta and gamma as data sheets of each kind print them.
+// Band gaps and their slopes are those of pvlib's calcparams_desoto (c-Si, CdTe, CIGS). Alpha, beta
+// and gamma are typical of data sheets of each technology.
 constexpr TechnologyCoefficients kTechnologies[] = {
     {"c-Si", 0.05, 0.02, -0.31, 0.03, -0.41, 1.121, -0.0002677, true},
     {"PERC", 0.05, 0.015, -0.28, 0.02, -0.36, 1.121, -0.0002677, true},
@@ -33,10 +33,10 @@ constexpr TechnologyCoefficients kTechnologies[] = {
 };
 
 struct Spelling {
-  const char* part;  // of what is written, in lower case
+  const char* part;  // of the name, in lower case
   const char* name;
 };
-// The first that fits counts.
+// The first match is used.
 constexpr Spelling kSpellings[] = {
     {"perc", "PERC"},      {"topcon", "TOPCon"}, {"hjt", "HJT"},     {"hit", "HJT"},
     {"heterojunc", "HJT"}, {"cdte", "CdTe"},     {"cigs", "CIGS"},   {"cis", "CIGS"},
@@ -46,7 +46,7 @@ constexpr Spelling kSpellings[] = {
 
 constexpr double kEpsilon_V = 1.232;  // n Eg / q of crystalline silicon, IEC 60891:2021
 
-// A coefficient per kelvin, in percent where a sign says so.
+// Reads a coefficient per kelvin, in percent if the text ends with a percent sign.
 Expected<void> ReadPerKelvin(const std::string& text, std::optional<double>* absolute,
                              std::optional<double>* percent) {
   const bool sign = !text.empty() && text.back() == '%';
@@ -71,7 +71,7 @@ void KeepOr(const std::optional<double>& read, std::optional<double>* kept) {
   if (!*kept) *kept = read;
 }
 
-// Of a pair of forms neither is taken where the other is there.
+// Sets the absolute or relative coefficient only if neither is set.
 void KeepPair(const std::optional<double>& absolute, const std::optional<double>& percent,
               std::optional<double>* kept_absolute, std::optional<double>* kept_percent) {
   if (*kept_absolute || *kept_percent) return;
@@ -107,7 +107,7 @@ Expected<StatedCoefficients> CoefficientsOf(const nlohmann::json& object, const 
   return c;
 }
 
-// Voc at 1000 W/m2 and 25 C as near as a diode's logarithm and beta, in parts or in V/K, lead to.
+// Voc at 1000 W/m2 and 25 C, estimated by the diode's logarithm and by beta in percent or V/K.
 double VocAtReference(const StatedCoefficients& stated, const TranslationInputs& at, double voc,
                       double nNsVth_V, double beta_percent) {
   const double lit = voc + nNsVth_V * std::log(1000 / EquivalentIrradiance(at));
@@ -116,7 +116,7 @@ double VocAtReference(const StatedCoefficients& stated, const TranslationInputs&
   return lit / (1 + beta_percent / 100 * dt);
 }
 
-// What is missing is of no use to anybody: 0.
+// Replaces a missing value by 0.
 double Finite(double value) { return std::isfinite(value) ? value : 0; }
 
 class Settling {
@@ -144,7 +144,7 @@ class Settling {
     nNsVth_V_ = 1.1 * thermal_V_;
     if (!curve.diode) return;
     diode_ = TrueDiode(*curve.diode, values);
-    // A fit that a fault has bent says nothing of how Voc follows the light.
+    // The fitted nNsVth is clamped: a fault distorts it, and then it does not describe Voc(G).
     constexpr double kLowest = 0.9, kHighest = 1.5;
     nNsVth_V_ = thermal_V_ * std::clamp(diode_->nNsVth_V / thermal_V_, kLowest, kHighest);
   }
@@ -202,7 +202,7 @@ class Settling {
     if (!derived.empty()) Assume("nobody stated " + derived + ": taken from the curve's own shape");
   }
 
-  // What the laws of a diode follow the temperature by.
+  // Inputs of the temperature laws of the diode.
   void Junction() {
     TranslationInputs& at = settled_.values;
     at.epsilon_V = stated_.epsilon_V.value_or(kEpsilon_V);
@@ -219,7 +219,7 @@ class Settling {
   KeyPoints key_{};
   std::optional<SingleDiodeFit> diode_;
   double thermal_V_ = 0;
-  double nNsVth_V_ = 0;  // of a healthy junction
+  double nNsVth_V_ = 0;  // of a faultless junction
   double voc_stc_ = 0;
 };
 

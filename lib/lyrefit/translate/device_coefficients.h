@@ -12,8 +12,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a data sheet or a laboratory says of a device's coefficients. Of alpha and beta either form;
-// relative ones are of Isc and Voc at standard conditions.
+// Coefficients of a device from a data sheet or a laboratory. Alpha and beta are absolute or
+// relative; relative values refer to Isc and Voc at standard conditions.
 struct StatedCoefficients {
   std::optional<double> alpha_A_K;
   std::optional<double> alpha_percent_K;
@@ -29,7 +29,7 @@ struct StatedCoefficients {
   std::optional<double> mu_gamma_1_K;
 };
 
-// "-0.3%" is in percent per kelvin, "-0.12" in the unit per kelvin.
+// Read one coefficient: "-0.3%" is in percent per kelvin, "-0.12" in A/K or V/K.
 Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients);
 Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients);
 std::vector<std::string> AlphaTexts(const StatedCoefficients& coefficients);
@@ -58,53 +58,54 @@ inline constexpr OptionRow<StatedCoefficients> kCoefficientTable[] = {
      &StatedCoefficients::mu_gamma_1_K, OptionTrait::kUnchecked},
 };
 
-// From JSON: {"alpha_sc_A_K" or "alpha_sc_percent_K", "beta_oc_V_K" or "beta_oc_percent_K",
-// "kappa_ohm_K", "resistance_series_ohm", "B1", "B2", "epsilon_V",
-// "EgRef_eV", "dEgdT_1_K", "mu_gamma_1_K"}, also under "coefficients"; sidecars' alpha_Isc_A_per_K
-// and beta_Voc_V_per_K are understood. What is there already stays. Errors: no JSON object, a value
-// that is no number, no coefficient at all.
+// Reads coefficients from a JSON file, at the top or under "coefficients": alpha_sc_A_K or
+// alpha_sc_percent_K, beta_oc_V_K or beta_oc_percent_K, kappa_ohm_K, resistance_series_ohm, B1, B2,
+// epsilon_V, EgRef_eV, dEgdT_1_K and mu_gamma_1_K. The sidecar names alpha_Isc_A_per_K and
+// beta_Voc_V_per_K are accepted too. Values that are set in `coefficients` already are kept.
+// Errors: no JSON object, a value that is no number, no coefficient at all.
 Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coefficients);
 
-// What is usual of a technology, at standard conditions, with what modules of that kind scatter by
-// (standard deviations).
+// Typical coefficients of a technology at standard conditions, and their standard deviations among
+// modules of that technology.
 struct TechnologyCoefficients {
   const char* name;  // "c-Si"
   double alpha_percent_K;
-  double alpha_scatter;  // in percent per kelvin
+  double alpha_scatter;  // standard deviation, in percent per kelvin
   double beta_percent_K;
-  double beta_scatter;     // the same
+  double beta_scatter;     // standard deviation, in percent per kelvin
   double gamma_percent_K;  // of Pmax
   double EgRef_eV;
   double dEgdT_1_K;
-  bool crystalline_silicon;  // procedure 4
+  bool crystalline_silicon;  // procedure 4 applies
 };
 
-// By what people write: "mono-Si", "Multi-c-Si", "PERC", "TOPCon", "HJT", "HIT-Si", "CdTe", "CIGS",
-// "a-Si", "perovskite"; nullptr for what is not known. Empty: crystalline silicon.
+// Typical coefficients by a technology name as commonly spelled: "mono-Si", "Multi-c-Si", "PERC",
+// "TOPCon", "HJT", "HIT-Si", "CdTe", "CIGS", "a-Si", "perovskite". An empty text is crystalline
+// silicon; an unknown one gives nullptr.
 const TechnologyCoefficients* FindTechnology(const std::string& text);
 
-// Values of all inputs of a translation, and how they came to be.
+// Values of all inputs of a translation, and their origin.
 struct SettledInputs {
   TranslationInputs values;
-  std::vector<std::string> assumptions;  // sentences on what nobody stated
-  // Relative standard deviations of what was assumed; none: stated, or not used.
+  std::vector<std::string> assumptions;  // sentences on values that nobody stated
+  // Relative standard deviations of assumed values; none: the value is stated or not used.
   std::optional<double> alpha_scatter;
   std::optional<double> beta_scatter;
-  std::string usual_of;              // the technology that assumed values are of
-  double usual_gamma_percent_K = 0;  // its temperature coefficient of Pmax, for who was told none
-  double cell_correction_K = 0;      // in `values`: of the cells against their sensor
-  bool bandgap_stated = false;       // else De Soto's law has one with which Voc moves by beta
-  bool mu_gamma_stated = false;      // the same of PVsyst's
-  bool crystalline_silicon = true;   // procedure 4 is for no other
+  std::string usual_of;              // technology of the assumed values
+  double usual_gamma_percent_K = 0;  // its temperature coefficient of Pmax, where none is stated
+  double cell_correction_K = 0;      // included in `values`: cell minus sensor temperature
+  bool bandgap_stated = false;       // else De Soto's band gap is fitted so that Voc follows beta
+  bool mu_gamma_stated = false;      // else PVsyst's mu_gamma is fitted so that Voc follows beta
+  bool crystalline_silicon = true;   // procedure 4 applies to no other technology
 };
 
-// What is stated, completed: alpha, beta and the band gap by technology, kappa, Rs, B1 and B2 by the
-// fit and the shape of the curve:
-//   kappa = (Voc - Vmp - Rs Imp) / (T1 Imp)   so that the voltage at the maximum power moves as that
-//                                             of a junction does, in proportion to its distance
-//                                             from the barrier
-//   B1 = Ns n k 298 K / (q Voc_stc), B2 = B1^2   of a diode in the light
-// `values` comes with what is known of the curve: light, temperature, gains, leads.
+// Completes the stated coefficients: alpha, beta and the band gap by technology, kappa, Rs, B1 and
+// B2 by the fit and the shape of the curve:
+//   kappa = (Voc - Vmp - Rs Imp) / (T1 Imp)   so that the voltage at maximum power moves like that
+//                                             of a junction, in proportion to its distance from the
+//                                             barrier
+//   B1 = Ns n k 298 K / (q Voc_stc), B2 = B1^2   of an illuminated diode
+// `values` holds the measured inputs: irradiance, temperature, gains, leads.
 SettledInputs SettleInputs(const StatedCoefficients& stated, const std::string& technology,
                            const PreparedCurve& curve, TranslationInputs values);
 

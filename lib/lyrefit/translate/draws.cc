@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kBlock = 256;  // draws that one thread does on end
+constexpr int kBlock = 256;  // consecutive draws of one thread
 
 int BlocksOf(int draws) { return (draws + kBlock - 1) / kBlock; }
 
@@ -41,7 +41,7 @@ void AddChoice(const ChoiceRange& range, const std::vector<double>& reported, Ra
   }
 }
 
-// samples[result][draw]; not all are drawn where `shared` stops.
+// samples[result][draw]; incomplete if `shared` was stopped.
 std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
                                          const UncertaintySources& sources, int threads,
                                          const UncertaintyBudget& budget, SharedObserver* shared) {
@@ -69,7 +69,7 @@ std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
   return samples;
 }
 
-// Moments in the order drawn, so that they do not depend on anything else.
+// Moments are summed in the order of the draws, so that they are reproducible.
 void AddMoments(const std::vector<double>& samples, DrawnInterval* drawn) {
   const double n = static_cast<double>(samples.size());
   double sum = 0;
@@ -86,8 +86,8 @@ void AddMoments(const std::vector<double>& samples, DrawnInterval* drawn) {
   drawn->skewness = variance > 0 ? cubes / n / (variance * std::sqrt(variance)) : 0;
 }
 
-// The standard error of the order statistic at `part`, from the spacing of its neighbours: the rank
-// of a quantile is binomial.
+// Standard error of the order statistic at `part`. The rank of a quantile is binomial, so the error
+// is half the distance of the samples one standard deviation in rank to either side.
 double EndError(const std::vector<double>& rising, double part) {
   const double n = static_cast<double>(rising.size());
   const double spread = std::sqrt(n * part * (1 - part));

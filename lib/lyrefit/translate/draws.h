@@ -4,8 +4,9 @@
 
 namespace lyrefit {
 
-// The propagation of distributions: fills what is drawn of the outputs that AddLinearBudget left.
-// Where it is stopped nothing is, and the budget's `draws` are 0.
+// Propagates the distributions by Monte Carlo (JCGM 101). Fills `drawn`, `samples` and
+// `failed_draws` of the outputs that AddLinearBudget created. If `observer` stops it, they stay
+// empty and the budget's `draws` becomes 0.
 void AddDraws(const UncertainModel& model, const UncertaintySources& sources, int threads,
               const Observer& observer, UncertaintyBudget* budget);
 

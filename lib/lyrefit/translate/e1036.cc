@@ -20,8 +20,8 @@ struct Window {
   }
 };
 
-// Coefficients of the polynomial through the window, the constant first; none with too few points
-// or places.
+// Coefficients of the least-squares polynomial of the window, constant first. None where the window
+// has fewer than degree + 1 distinct x.
 std::optional<Eigen::VectorXd> Polynomial(const Window& window, int degree) {
   const int rows = static_cast<int>(window.x.size());
   std::vector<double> places = window.x;
@@ -46,8 +46,8 @@ double ValueAt(const Eigen::VectorXd& coefficients, double x) {
   return value;
 }
 
-// Where the polynomial is largest within the window, by golden section around the best of an even
-// grid; none where that is an end.
+// Position of the polynomial's maximum within the window: an even grid, then golden section. None
+// where the maximum of the grid is at an end.
 std::optional<double> Top(const Eigen::VectorXd& coefficients, double low, double high) {
   constexpr int kGrid = 200;
   constexpr double kGolden = 0.6180339887498949;

@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kSweepPoints = 400;
 constexpr int kCoarsePoints = 80;
-constexpr double kHealthyShunt = 25;  // least Rsh Isc / Voc of healthy modules
-constexpr double kSamePeak = 0.05;    // of Vmp: else the curve's top and the model's are two peaks
+constexpr double kHealthyShunt = 25;  // least Rsh Isc / Voc of modules without a leak
+constexpr double kSamePeak = 0.05;    // of Vmp: a larger distance means two different peaks
 
 double ValueOf(const FitReport& fit, const std::string& symbol) {
   for (const Estimate& estimate : fit.estimates) {
@@ -31,7 +31,7 @@ double ValueOf(const FitReport& fit, const std::string& symbol) {
   return kUnknown;
 }
 
-// The causes that act in the device wherever it stands, and those that were of the sweep.
+// Sorts the causes into those of the device, which act at any conditions, and those of the sweep.
 std::vector<EffectUse> KeptUses(const FitReport& fit, ExtendedModel* model) {
   std::vector<EffectUse> uses;
   for (const std::string& id : fit.causes) {
@@ -45,7 +45,7 @@ std::vector<EffectUse> KeptUses(const FitReport& fit, ExtendedModel* model) {
   return uses;
 }
 
-// Values as the report has them, in the order of the device.
+// Parameters of the report in the order of the device.
 Expected<std::vector<double>> ReportedParameters(const FitReport& fit, const Device& device) {
   std::vector<double> values;
   for (const ParameterInfo& info : device.parameters) {
@@ -60,7 +60,7 @@ Expected<std::vector<double>> ReportedParameters(const FitReport& fit, const Dev
   return values;
 }
 
-// The model's device with its reference at the temperature of the inputs and the sky of the wish.
+// The model's device at conditions (g, t_C), with its reference temperature from the inputs.
 Device SkyDevice(const ExtendedModel& model, const TranslationInputs& in, double g, double t_C) {
   Device device = UnderSky(model.device, g / kReferenceIrradiance_W_m2, t_C + kZeroCelsius_K);
   auto extension = std::make_shared<Extension>(*device.extension);
@@ -70,9 +70,10 @@ Device SkyDevice(const ExtendedModel& model, const TranslationInputs& in, double
   return device;
 }
 
-// The shunt in other light: what healthy modules have of it goes with the light (De Soto's law), the
-// rest is a path that leaks by day and night. Up to the most that healthy ones have it is all
-// theirs; beside a leak of its own it is more likely something below.
+// Shunt resistance at `brighter` times the irradiance. The conductance of a normal module is in
+// proportion to the irradiance (De Soto's law); the rest is a constant leak. Conductance up to
+// healthy_shunt_S counts as normal. Beside a leak the normal part is probably smaller, down to
+// half.
 double ShuntUnder(const ExtendedModel& model, double shunt_ohm, double brighter) {
   const double conductance = 1 / shunt_ohm, most = model.healthy_shunt_S;
   const double reference =
@@ -80,7 +81,7 @@ double ShuntUnder(const ExtendedModel& model, double shunt_ohm, double brighter)
   return 1 / (conductance + reference * (brighter - 1));
 }
 
-// The parameters under these inputs in light of `g`, as TrueDiode has those of a single diode.
+// The parameters for these inputs at irradiance `g`, corrected for gains and leads as in TrueDiode.
 std::vector<double> ParametersUnder(const ExtendedModel& model, const TranslationInputs& in,
                                     double g) {
   std::vector<double> p = model.parameters;
@@ -101,11 +102,11 @@ std::vector<double> ParametersUnder(const ExtendedModel& model, const Translatio
   return p;
 }
 
-// The model under some inputs in some light, ready to be solved.
+// The model at given inputs and conditions.
 struct PlacedModel {
   Device device;
   std::vector<double> parameters;
-  double highest_V = 0;  // beyond its open circuit
+  double highest_V = 0;  // beyond open circuit
 };
 
 Expected<PlacedModel> Place(const ExtendedModel& model, const TranslationInputs& in, double g,
@@ -113,8 +114,8 @@ Expected<PlacedModel> Place(const ExtendedModel& model, const TranslationInputs&
   if (!(EquivalentIrradiance(in) > 0)) return Fail("the curve was taken without light");
   PlacedModel placed = {SkyDevice(model, in, g, t_C), ParametersUnder(model, in, g)};
   const std::vector<double>& p = placed.parameters;
-  // Voc of the diodes alone is above that of the device with what is wrong with it; a little more
-  // for causes that raise it.
+  // Voc of the diodes alone exceeds that of the device with its faults; 3 % are added for causes
+  // that raise it.
   const double suns = g / EquivalentIrradiance(in);
   const double nNsVth = model.cells_in_series * p[IdealityIndex(0)] *
                         ThermalVoltage(in.temperature_C + kZeroCelsius_K);
@@ -147,7 +148,7 @@ std::vector<double> EvenVoltages(double highest_V, int count) {
 Expected<CurvePoints> Sweep(const PlacedModel& placed) {
   CurvePoints points;
   TRY(AddPoints(placed, EvenVoltages(placed.highest_V, kSweepPoints), &points));
-  // What lies far beyond open circuit is of no use to anybody.
+  // Points far beyond open circuit are removed.
   const double isc = points.current_A.front();
   while (points.current_A.size() > 2 &&
          points.current_A[points.current_A.size() - 2] < -0.1 * isc) {
@@ -157,11 +158,11 @@ Expected<CurvePoints> Sweep(const PlacedModel& placed) {
   return points;
 }
 
-// Voltages between points of a coarse sweep where a fine one would decide: around open circuit, and
-// around every peak of the power that may be the highest.
+// Voltages that refine a coarse sweep around open circuit and around every peak of power that may
+// be the highest.
 std::vector<double> FineVoltages(const CurvePoints& coarse) {
   constexpr int kParts = kSweepPoints / kCoarsePoints + 1;
-  constexpr double kMaybe = 0.99;  // of the highest; between coarse points it rises by less
+  constexpr double kMaybe = 0.99;  // of the highest; between coarse points the power rises by less
   const auto power = [&](std::size_t k) { return coarse.voltage_V[k] * coarse.current_A[k]; };
   double highest = 0;
   for (std::size_t k = 0; k < coarse.voltage_V.size(); ++k) highest = std::max(highest, power(k));
@@ -177,7 +178,7 @@ std::vector<double> FineVoltages(const CurvePoints& coarse) {
   return fine;
 }
 
-// As of a sweep with kSweepPoints or more, at a part of its cost.
+// Key points as accurate as those of kSweepPoints even points, at lower cost.
 Expected<KeyPoints> KeyPointsOf(const ExtendedModel& model, const TranslationInputs& in, double g,
                                 double t_C) {
   TRY(const PlacedModel placed, Place(model, in, g, t_C));
@@ -205,7 +206,7 @@ Expected<std::shared_ptr<const ExtendedModel>> MakeExtendedModel(const IvCurve& 
   const std::vector<EffectUse> uses = KeptUses(fit, model.get());
   CurveSet set = SetOfOne(curve);
   Conditions& at = set.curves.front().conditions;
-  // The law may have counted other cells than were stated.
+  // The diagnosis may have used another number of cells than the stated one; nNsVth gives it.
   const double n = ValueOf(fit, "n1");
   if (std::isfinite(fit.nNsVth) && n > 0) {
     at.cells_in_series = std::max(

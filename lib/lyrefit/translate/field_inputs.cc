@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kFactor = 2;  // of all sizes among the options
+constexpr double kFactor = 2;  // coverage factor of all sizes in the options
 constexpr double kStandard_W_m2 = 1000;
 
 const char* LightTitle(LightSource source) {
@@ -45,7 +45,7 @@ std::string LightWhy(const UncertaintyOptions& options) {
   return "nobody said what it was read from: as of a pyranometer, 5 %";
 }
 
-// A stated size, or that of the class.
+// Source of a size: stated, or that of its class.
 std::string Why(bool stated, const std::string& otherwise) {
   return stated ? std::string("stated") : otherwise;
 }
@@ -61,7 +61,8 @@ class Collector {
  public:
   explicit Collector(const TranslationInputs& at) : at_(at) {}
 
-  // `expanded` in the unit of the quantity. `name`, `part`: of something that is in the quantity.
+  // `expanded` is in the unit of the quantity. `name` and `part` are set for a component of a
+  // quantity.
   void Add(const char* quantity, const std::string& title, const char* group, double expanded,
            std::string source, const char* name = nullptr, double part = 0) {
     if (!(expanded > 0)) return;
@@ -78,7 +79,7 @@ class Collector {
     inputs.push_back(std::move(input));
   }
 
-  // In per cent of the value.
+  // Adds an uncertainty in percent of the value.
   void AddPart(const char* quantity, const char* group, double percent, std::string source) {
     const double value = at_.*QuantityOf(quantity).field;
     Add(quantity, "", group, std::fabs(value) * percent / 100, std::move(source));
@@ -126,7 +127,7 @@ void AddInstrument(const UncertaintyOptions& options, Collector* to) {
   to->AddPart("lead_resistance_ohm", "electrical", options.lead_percent, "of what is stated");
 }
 
-// Stated, else as its technology scatters, else usual.
+// Adds the stated uncertainty, else the scatter of the technology, else `usual_percent`.
 void AddTempco(const char* quantity, std::optional<double> stated_percent,
                std::optional<double> scatter, double usual_percent, Collector* to) {
   const double assumed = scatter ? kFactor * 100 * *scatter : usual_percent;

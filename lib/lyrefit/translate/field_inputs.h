@@ -8,15 +8,15 @@
 
 namespace lyrefit {
 
-// How sure the inputs of a translation are, by the class of what they were read from. All sizes
-// expanded, k = 2, normal:
+// Uncertainties of the inputs of a translation, by the class of their sensor. All sizes are
+// expanded, k = 2, and normal:
 //
-//   irradiance    reference cell 3 %, pyranometer 5 %     as IEC 61829:2015 asks of the sensors
-//                 laboratory 1.2 %                        so that Pmax comes to the 1.5 .. 1.8 %
-//                                                         that laboratories state
-//                 the curve itself 3 %                    usual tolerance of the rated Isc; what
-//                                                         dims all cells alike is not in it
-//                 unknown 5 %                             as of a pyranometer
+//   irradiance    reference cell 3 %, pyranometer 5 %     required of the sensors by IEC 61829:2015
+//                 laboratory 1.2 %                        so that Pmax has the 1.5 .. 1.8 % that
+//                                                         laboratories state
+//                 the curve itself 3 %                    usual tolerance of the rated Isc, without
+//                                                         losses common to all cells
+//                 unknown 5 %                             as for a pyranometer
 //   temperature   1 K (IEC 61829:2015), laboratory 0.5 K, from Voc 2 K (rated Voc, 1 %)
 //   cells warmer than the sensor, at 1000 W/m2 and in proportion to the irradiance
 //                 corrected by 2.5 K, within 1.5 K,       2 to 3 K in an open rack, 1 K close to a
@@ -24,21 +24,22 @@ namespace lyrefit {
 //                                                         G / 1000 W/m2 dT (King, Boyson and
 //                                                         Kratochvil 2004, SAND2004-3535,
 //                                                         doi:10.2172/919131, Eq. 12);
-//                                                         a known bias is corrected and its doubt
-//                                                         kept (JCGM 100, 3.2.4)
-//                 not corrected, within 2.5 K,            it may be one on the back
+//                                                         a known bias is corrected and its
+//                                                         uncertainty kept (JCGM 100, 3.2.4)
+//                 not corrected, within 2.5 K,            the sensor may be on the back
 //                 for an unknown sensor
 //                 else none
 //   voltage, current   1 % (IEC 61829:2015), laboratory 0.2 %
-//   alpha 20 %, beta 5 %   as data sheets and measurements differ, by judgement; what was assumed of
-//                          a technology: twice what modules of that kind scatter by
+//   alpha 20 %, beta 5 %   difference of data sheets and measurements, by judgement; where assumed
+//                          by technology: twice the standard deviation among its modules
 //   epsilon 8 %            of 1.232 V, procedure 4: (Voc - T beta) / Ns of 12 measured modules of
 //                          crystalline silicon is 1.19 to 1.37 V, README of the module
-//   other coefficients     in parts of themselves, see UncertaintyOptions: type B, by judgement
+//   other coefficients     relative, see UncertaintyOptions: type B, by judgement
 //
-// Limits that a standard asks of a sensor count as expanded uncertainties, as on the certificate of
-// one that just meets them. An input of size 0 is left out: it is not used, or known exactly.
-// Irradiance and temperature are taken to be unrelated; so are the gains of voltage and current.
+// Limits that a standard sets for a sensor count as expanded uncertainties, as on the certificate
+// of a sensor that just meets them. An input of size 0 is left out: it is not used, or known
+// exactly. Irradiance and temperature are treated as independent, as are the gains of voltage and
+// current.
 std::vector<UncertainInput> FieldInputs(const SettledInputs& settled,
                                         const UncertaintyOptions& options);
 
@@ -46,17 +47,16 @@ std::vector<UncertainInput> FieldInputs(const SettledInputs& settled,
 using InputFields = std::vector<double TranslationInputs::*>;
 InputFields FieldsOf(const std::vector<UncertainInput>& inputs);
 
-// The values with what each input adds to its quantity: `drawn` in the order of `inputs`, whose
-// quantities `fields` has; what lies behind them is left out.
+// Adds to each quantity of `at` the deviations of its inputs from their values. `drawn` is in the
+// order of `inputs`; `fields` are their quantities. Inputs beyond the end of `fields` are ignored.
 TranslationInputs WithInputs(const TranslationInputs& at, const std::vector<UncertainInput>& inputs,
                              const InputFields& fields, const std::vector<double>& drawn);
 
-// Expanded uncertainty (k = 2) of the irradiance, %, and of the temperature as read, K: of the
-// options, else of their class.
+// Expanded uncertainty (k = 2) of the irradiance in percent and of the measured temperature in K,
+// from the options or by class.
 double IrradianceSize_percent(const UncertaintyOptions& options);
 double TemperatureSize_K(const UncertaintyOptions& options);
-// How much warmer the cells are than the sensor at this irradiance, K, and the expanded uncertainty
-// of that (k = 2).
+// Cell minus sensor temperature at this irradiance, K, and its expanded uncertainty (k = 2).
 double CellCorrection_K(const UncertaintyOptions& options, double irradiance_W_m2);
 double CellOffsetSize_K(const UncertaintyOptions& options, double irradiance_W_m2);
 

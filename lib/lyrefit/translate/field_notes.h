@@ -7,8 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What stands on a page that somebody signs and no curve says of itself. Nothing is computed from
-// it: a calibration counts by the options of UncertaintyOptions.
+// Notes of the operator for the printed page. They enter no computation: the uncertainty of a
+// calibration is set in UncertaintyOptions.
 struct FieldNotes {
   std::string tracer;
   std::string serial;

@@ -12,10 +12,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kExpanded = 2;  // of all sizes among the options
+constexpr double kExpanded = 2;  // coverage factor of all sizes in the options
 constexpr double kStandardIrradiance_W_m2 = 1000;
 constexpr double kStandardTemperature_C = 25;
-// A bifacial module on snow comes to 1.3 times its rating, a sensor that is wrong adds to it.
+// A bifacial module above snow reaches 1.3 times its rating, and a sensor error adds to it.
 constexpr double kMostOfRating = 1.5;
 
 Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOptions& options) {
@@ -34,20 +34,21 @@ double Modules(const FieldTestOptions& options) {
   return static_cast<double>(options.modules) * options.strings;
 }
 
-// What is left behind the cables: their loss is I^2 R of V I, and so in proportion to the current.
+// Fraction of the power behind the cables. Their loss I^2 R is a part of V I in proportion to the
+// current.
 double BehindCables(const FieldTestOptions& options, double irradiance_W_m2) {
   return 1 - options.cabling_percent / 100 * irradiance_W_m2 / kStandardIrradiance_W_m2;
 }
 
-// The rating with a tolerance, of the whole string.
+// The rating plus a tolerance, for the whole string.
 double WithTolerance(const FieldTestOptions& options, double tolerance) {
   const double module = options.tolerance.in_W ? *options.rated_W + tolerance
                                                : *options.rated_W * (1 + tolerance / 100);
   return Modules(options) * module * BehindCables(options, kStandardIrradiance_W_m2);
 }
 
-// The rating is uncertain itself: the limit has that uncertainty, and the test that of the
-// difference. Draws are spread by as much (a normal one more), in proportion.
+// Adds the uncertainty of the rating, and thus of the limit, to that of the power: the test is of
+// their difference. The draws are widened in proportion.
 UncertainOutput WithRating(UncertainOutput standard, double percent, double limit_W) {
   if (percent == 0) return standard;
   const double rating = percent / 100 / kExpanded * limit_W;
@@ -66,7 +67,7 @@ UncertainOutput WithRating(UncertainOutput standard, double percent, double limi
   return standard;
 }
 
-// Pmax as the instrument would read it without errors: gains, offsets, leads.
+// Pmax corrected for gains, offsets and leads.
 double TruePower(const KeyPoints& key, const TranslationInputs& in) {
   const double current = in.current_gain * key.max_power_current_A + in.current_offset_A;
   const double voltage = in.voltage_gain * key.max_power_voltage_V + in.voltage_offset_V +
@@ -74,7 +75,7 @@ double TruePower(const KeyPoints& key, const TranslationInputs& in) {
   return voltage * current;
 }
 
-// Rating brought to the conditions by its own temperature coefficient.
+// The rating at the measured conditions by its temperature coefficient.
 double Predicted(const FieldTestOptions& options, const TranslationInputs& in, double rated_W,
                  double coefficient_percent_K) {
   const double irradiance = EquivalentIrradiance(in);
@@ -96,7 +97,7 @@ UncertainInput Promise(const char* name, const char* title, const char* unit, do
   return input;
 }
 
-// A model's prediction moves with light and temperature as the rating does, about its own value.
+// A stated prediction varies with irradiance and temperature as the rating does, in proportion.
 UncertainModel PerformanceModel(const FieldMeasurement& measurement,
                                 const FieldTestOptions& options,
                                 const std::vector<UncertainInput>& inputs) {
@@ -116,7 +117,7 @@ UncertainModel PerformanceModel(const FieldMeasurement& measurement,
   return model;
 }
 
-// Of the inputs of a translation those that light, temperature and instrument have.
+// The uncertain inputs of irradiance, temperature and instrument only.
 std::vector<UncertainInput> SensorInputs(const FieldMeasurement& measurement,
                                          const FieldTestOptions& options,
                                          const UncertaintyOptions& uncertainty) {
@@ -162,7 +163,7 @@ Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTe
   return {};
 }
 
-// Why the power cannot be held against the rating; empty: it can.
+// Why the power cannot be compared with the rating; empty: it can.
 std::string WhyNotJudged(const FieldMeasurement& measurement, const FieldTest& test) {
   if (!measurement.doubt.empty()) return measurement.doubt;
   constexpr char kReasons[] =

@@ -14,20 +14,20 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Pmax at standard conditions against the least that the rating allows, L. The interval is the
-// expanded one, k = 2, or the drawn one where both disagree:
+// Zone of Pmax at standard conditions against the least power L that the rating allows. The
+// interval is the expanded one, k = 2, or the drawn one where both disagree:
 //
-//   pass                     all of it at or above L
-//   pass within uncertainty  the value at or above L, a part of the interval below
-//   fail within uncertainty  the value below L, a part of the interval at or above
-//   fail                     all of it below L
-//   doubtful                 not judged: no device has such readings (curve/plausibility.h), or the
-//                            power is far above the rating (more than 1.5 times: other units than
-//                            were read, the rating of another device, light that was not stated)
+//   pass                     the interval is at or above L
+//   pass within uncertainty  the value is at or above L, a part of the interval is not
+//   fail within uncertainty  the value is below L, a part of the interval is not
+//   fail                     the interval is below L
+//   doubtful                 not scored: implausible readings (curve/plausibility.h), or a power of
+//                            more than 1.5 times the rating (wrong units, the rating of another
+//                            device, wrong irradiance)
 //
-// as field instruments give them for Voc and Isc (HT I-V600 manual, 6.5.2.1), where the instrument's
-// error has the place of the uncertainty. More power than the upper tolerance is no failure; it is
-// a doubt about the light or the rating.
+// Field instruments use these zones for Voc and Isc, with the instrument's error in place of the
+// uncertainty (HT I-V600 manual, 6.5.2.1). A power above the upper tolerance does not fail; it
+// casts doubt on the irradiance or the rating.
 enum class Zone { kPass, kPassWithin, kFailWithin, kFail, kDoubtful };
 
 template <>
@@ -39,39 +39,39 @@ struct EnumTable<Zone> {
                                              {Zone::kDoubtful, "doubtful"}};
 };
 
-// For sure or within the uncertainty.
+// Passes, with or without the interval crossing the limit.
 inline bool IsPass(Zone zone) { return zone == Zone::kPass || zone == Zone::kPassWithin; }
 
-// What was measured, and where.
+// One measurement, with its conditions.
 struct FieldMeasurement {
   KeyPoints measured = {};            // as read
-  TranslationInputs inputs;           // light, temperature, gains, leads
-  std::optional<double> predicted_W;  // Pmax at these conditions by a model of the healthy string
-  std::string predicted_by;           // what gave it, in words
-  std::string doubt;                  // why no device has such readings; empty: nothing is doubted
+  TranslationInputs inputs;           // irradiance, temperature, gains, leads
+  std::optional<double> predicted_W;  // Pmax at these conditions by a model of the faultless string
+  std::string predicted_by;           // name of that model
+  std::string doubt;                  // why the readings are implausible; empty: they are not
 };
 
-// Whether a string does what its rating says, and how sure that is.
+// Power of a string against its rating, with the probability of a wrong verdict.
 struct FieldTest {
   double rated_W = kUnknown;     // of the string: modules times rating, less cabling
   double lowest_W = kUnknown;    // the rating less its tolerance
-  double highest_W = kUnknown;   // the rating with it
-  std::string tolerance;         // of the rating, as printed
+  double highest_W = kUnknown;   // the rating plus its tolerance
+  std::string tolerance;         // as printed
   double standard_W = kUnknown;  // Pmax at standard conditions, and its interval
   double standard_low_W = kUnknown;
   double standard_high_W = kUnknown;
   Zone zone = Zone::kPass;
-  std::string doubt;  // why it cannot be judged; empty: it is
-  // That the true value is on the other side of L than what the verdict says. The prior is flat:
-  // nothing is known of the string but this measurement. NaN where it is not judged.
+  std::string doubt;  // why it is not scored; empty: it is
+  // Probability that the true power is on the other side of L. The prior is flat: no information
+  // but this measurement. NaN where the test is not scored.
   double probability_wrong = kUnknown;
   double probability_step =
-      0;  // 1 / draws: what smaller probabilities cannot be told from; 0: none
+      0;  // resolution of the probability, 1 / draws; 0: no draws
   double measured_W = kUnknown;
   double predicted_W = kUnknown;  // at the conditions measured
-  std::string predicted_by;       // what gave the prediction, in words
-  // Measured over predicted Pmax, with a budget of its own: nothing but rating, coefficient,
-  // sensors and instrument is in it, no procedure.
+  std::string predicted_by;       // name of the prediction's model
+  // Measured over predicted Pmax. Its own budget has rating, coefficient, sensors and instrument,
+  // but no translation procedure.
   double performance_factor = kUnknown;
   double performance_low = kUnknown;
   double performance_high = kUnknown;
@@ -80,7 +80,7 @@ struct FieldTest {
   std::vector<std::string> notes;  // sentences
 };
 
-// `standard`: Pmax at 1000 W/m2 and 25 C. Errors: no rating, a rating or a power that is not
+// `standard`: Pmax in W at 1000 W/m2 and 25 C. Errors: no rating, a rating or a power that is not
 // positive, options outside their ranges.
 Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
                                    const FieldMeasurement& measurement,

@@ -38,7 +38,7 @@ Expected<PowerTolerance> ReadTolerance(const std::string& text) {
     return Fail("expected a tolerance like -0,+5 or -0W,+5W, found '" + text + "'");
   }
   TRY(const Bound first, ReadBound(parts[0]));
-  if (parts.size() == 1) {  // the same both ways
+  if (parts.size() == 1) {  // equal in both directions
     const double size = first.value < 0 ? -first.value : first.value;
     return PowerTolerance{-size, size, first.in_W};
   }
@@ -46,7 +46,7 @@ Expected<PowerTolerance> ReadTolerance(const std::string& text) {
   if (!(first.value <= 0 && second.value >= 0)) {
     return Fail("expected a tolerance that holds the rating, like -0,+5, found '" + text + "'");
   }
-  // The unit may stand behind the last alone.
+  // The unit may follow only the last number.
   const bool first_bare = parts[0].back() != 'W' && parts[0].back() != '%';
   if (first.in_W != second.in_W && !first_bare) {
     return Fail("expected both ends of the tolerance in one unit, found '" + text + "'");

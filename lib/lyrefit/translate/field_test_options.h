@@ -10,8 +10,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How far the power of a module may be from its rating, as data sheets print it: "-0,+5" in per
-// cent, "-0W,+5W" in watt.
+// Tolerance of a module's rated power in the notation of data sheets: "-0,+5" in percent, "-0W,+5W"
+// in watt.
 struct PowerTolerance {
   double low = -3;  // below the rating: 0 or negative
   double high = 3;
@@ -20,7 +20,7 @@ struct PowerTolerance {
 Expected<PowerTolerance> ReadTolerance(const std::string& text);
 std::string ToleranceText(const PowerTolerance& tolerance);
 
-// What was promised, and what is known of the string.
+// Rating of the modules, and the layout of the string.
 struct FieldTestOptions {
   std::optional<double> rated_W;
   PowerTolerance tolerance;

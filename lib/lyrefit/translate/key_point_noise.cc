@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-// Bootstrap draws have streams of their own beside those of a propagation with the same seed.
+// Bootstrap draws use streams apart from those of a propagation with the same seed.
 constexpr std::uint64_t kStreams = std::uint64_t{1} << 40;
 
 bool AllFinite(const std::vector<double>& deviations) {
@@ -21,7 +21,7 @@ bool AllFinite(const std::vector<double>& deviations) {
   return true;
 }
 
-// Of each key point in parts of the smooth curve's, 0 where that has none.
+// Relative deviation of each key point from the smooth curve's, 0 where the smooth curve has none.
 std::vector<double> Deviations(const std::vector<double>& drawn, const std::vector<double>& at) {
   std::vector<double> parts(at.size(), 0);
   for (std::size_t k = 0; k < at.size(); ++k) {

@@ -9,22 +9,22 @@
 
 namespace lyrefit {
 
-// Isc, Voc, Imp, Vmp, Pmax, FF: the results of every translation, in this order, and the key points
-// as a vector of them.
+// Isc, Voc, Imp, Vmp, Pmax, FF: the outputs of every translation, in this order, and a vector of
+// the key points in this order.
 std::vector<OutputQuantity> KeyPointQuantities();
 constexpr int kMaxPowerOutput = 4;
 std::vector<double> KeyPointVector(const KeyPoints& key);
 
-// What the noise of the readings does to the key points: a parametric bootstrap. `current_A` is a
-// smooth curve through the readings (the fitted model; the readings themselves double the noise
-// that decides which one is the highest), `sigma_A` the standard deviation of every reading, as
-// `sigma_V` of the voltages (empty: none). Key points by `method` have the noise of that method:
-// interpolated ones lean on a few readings each.
+// Noise of the key points due to the noise of the readings, by a parametric bootstrap. `current_A`
+// is a smooth curve through the readings, the fitted model: about the readings themselves, the
+// noise that selects the highest one would count twice. `sigma_A` and `sigma_V` are standard
+// deviations of each reading's current and voltage; an empty `sigma_V` is none. The noise depends
+// on `method`: interpolated key points use only a few readings each.
 struct KeyPointNoise {
-  std::vector<std::vector<double>> relative_covariance;  // in parts of the key points
-  std::vector<double> relative_bias;  // mean of the draws less the smooth curve's, in parts
+  std::vector<std::vector<double>> relative_covariance;  // relative to the key points
+  std::vector<double> relative_bias;  // mean of the draws minus the smooth curve's, relative
   int draws = 0;
-  int failed = 0;  // draws without one of the key points that the smooth curve has
+  int failed = 0;  // draws that lack a key point of the smooth curve
 };
 KeyPointNoise EstimateKeyPointNoise(const std::vector<double>& voltage_V,
                                     const std::vector<double>& current_A,
@@ -33,13 +33,12 @@ KeyPointNoise EstimateKeyPointNoise(const std::vector<double>& voltage_V,
                                     std::uint64_t seed,
                                     KeyPointMethod method = KeyPointMethod::kInterpolated);
 
-// The same of a curve made ready: about its single diode (about the readings where there is none),
-// with the noise that was found there.
+// Key-point noise of a prepared curve about its single diode, or about its readings without a fit,
+// with the noise `noise_A` of the fit.
 KeyPointNoise NoiseOfCurve(const PreparedCurve& curve, std::uint64_t seed);
 
-// The line of a budget: the noise at the conditions of the measurement, in parts, carried over to
-// `translated` as it is. A translation scales key points smoothly; what it adds to noise is of
-// second order.
+// The budget term of noise: the relative noise at the measured conditions, applied to `translated`.
+// A translation scales key points smoothly, so its effect on noise is of second order.
 OutputTerm NoiseTerm(const KeyPointNoise& noise, const std::vector<double>& translated);
 
 }  // namespace lyrefit

@@ -31,8 +31,8 @@ BudgetLine LineOnOutputs(const Source& source) {
   return line;
 }
 
-// Half the difference of a result over one standard uncertainty either way. Where the model has
-// nothing on one side, the other side's difference stands for both.
+// Half the difference of a result over one standard uncertainty either way. If the model has no
+// value on one side, the difference to the other side.
 double HalfDifference(double below, double at, double above) {
   if (std::isfinite(below) && std::isfinite(above)) return 0.5 * (above - below);
   return std::isfinite(above) ? above - at : at - below;
@@ -84,7 +84,7 @@ BudgetLine ChoiceLine(const OutputChoice& choice, const std::vector<double>& rep
   return line;
 }
 
-// The sum of squares, and the part of each line in it.
+// Sets each line's share of the variance and returns the variance.
 double SharesOf(std::size_t output, std::vector<BudgetLine>* lines) {
   double variance = 0;
   for (const BudgetLine& line : *lines) {

@@ -6,21 +6,21 @@
 
 namespace lyrefit {
 
-// What the model gives at the inputs' values, and an answer of all its results anywhere else; NaN
-// where it gives too few.
+// The values of the inputs, and the model's outputs at any inputs. All outputs are NaN where the
+// model returns too few.
 std::vector<double> ValuesOf(const std::vector<UncertainInput>& inputs);
 std::vector<double> EvaluateAt(const UncertainModel& model, const std::vector<double>& inputs);
 
-// Between which the answers of a choice lie, of each result, the reported ones among them.
+// Range of a choice's answers for each output, including the reported values.
 struct ChoiceRange {
   std::vector<double> low;
   std::vector<double> high;
-  std::vector<char> against;  // falls while the first result that varies rises
+  std::vector<char> against;  // falls where the first output that varies rises
 };
 ChoiceRange RangeOf(const OutputChoice& choice, const std::vector<double>& reported);
 
-// The law of propagation: a line for each source, and value and standard uncertainty of each
-// result.
+// The law of propagation of uncertainty (JCGM 100, clause 5): adds a line for each source, and the
+// value and standard uncertainty of each output.
 void AddLinearBudget(const UncertainModel& model, const UncertaintySources& sources,
                      UncertaintyBudget* budget);
 

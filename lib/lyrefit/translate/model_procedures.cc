@@ -14,14 +14,14 @@ namespace lyrefit {
 namespace {
 
 constexpr double kDarkShunt = 4;  // R_sh_0 / R_sh_ref, PVsyst's default for crystalline silicon
-constexpr double kShuntExponent = 5.5;  // R_sh_exp, the same
+constexpr double kShuntExponent = 5.5;  // R_sh_exp, PVsyst's default
 
-// A law with the parameters at its reference.
+// A law with the reference parameters of one device.
 struct Carried {
   std::shared_ptr<const Translation> law;
   std::vector<double> shared;
 
-  // Of the law's own device.
+  // Parameters of law->device at these conditions.
   std::vector<double> At(double g, double t_C) const {
     std::vector<double> p(law->device.size());
     Translate(*law, shared.data(), g, t_C + kZeroCelsius_K, p.data());
@@ -55,7 +55,7 @@ Expected<Carried> Carry(std::shared_ptr<const Translation> law, const SingleDiod
   } else {
     shared[at.bandgap_slope] = in.dEgdT_1_K;
   }
-  // Both laws are in proportion to Io_ref and to the shunts: what 1 comes to is a factor.
+  // Both laws are proportional to Io_ref and the shunts: evaluation at 1 gives the factors.
   shared[at.saturation_current] = shared[at.resistance_shunt] = 1;
   const std::vector<double> unit = carried.At(g, in.temperature_C);
   shared[at.saturation_current] = diode.saturation_current_A / unit[SaturationCurrentIndex(0)];
@@ -91,7 +91,8 @@ double Voc(const Carried& carried, double t_C) {
   return ModelOpenCircuit(carried.law->device, carried.At(kReferenceIrradiance_W_m2, t_C).data());
 }
 
-// The value of an input between `low` and `high` with which Voc moves by beta.
+// The value of an input between `low` and `high` with which Voc follows beta; NaN where there is
+// none.
 double InputForBeta(const std::shared_ptr<const Translation>& law, const SingleDiodeFit& diode,
                     const TranslationInputs& inputs, double TranslationInputs::*field, double low,
                     double high) {
@@ -107,7 +108,7 @@ double InputForBeta(const std::shared_ptr<const Translation>& law, const SingleD
   };
   const double at_low = beyond(low), at_high = beyond(high);
   if (!(at_low * at_high < 0)) return kUnknown;
-  bool lost = false;  // no device in between
+  bool lost = false;  // no device at some value in between
   const auto finite = [&](double value) {
     const double at = beyond(value);
     lost = lost || !std::isfinite(at);

@@ -47,8 +47,8 @@ std::optional<SingleDiodeFit> DiodeOf(const Expected<FitReport>& fit, std::strin
   return diode;
 }
 
-// Standard deviation of a reading's current, from second differences of what the fit leaves, which
-// smooth misfit hardly reaches: those of white noise scatter by the square root of 6.
+// Standard deviation of a reading's current from second differences of the residuals. Smooth misfit
+// hardly affects them; those of white noise have sqrt(6) times its standard deviation.
 double NoiseOf(const FitReport& fit) {
   std::vector<double> second;
   for (std::size_t i = 2; i < fit.residual_A.size(); ++i) {
@@ -75,7 +75,7 @@ Expected<void> RequireConditions(const IvCurve& curve) {
   return {};
 }
 
-// Readings that hold the point of maximum power, of a device that delivers some.
+// Requires readings that deliver power and include the point of maximum power.
 Expected<void> RequirePower(const IvCurve& curve) {
   const CurvePoints points = PointsOf(curve);
   const std::size_t n = points.voltage_V.size();
@@ -101,7 +101,7 @@ Expected<void> RequirePower(const IvCurve& curve) {
   return {};
 }
 
-// Coefficients and leads that no device has; mostly a unit gone wrong.
+// Rejects implausible coefficients and leads, which mostly result from a wrong unit.
 Expected<void> RequirePlausible(const TranslateOptions& options, const Preparation& made) {
   const CurvePoints& points = made.curve.points;
   const double isc = *std::max_element(points.current_A.begin(), points.current_A.end());
@@ -136,7 +136,7 @@ TranslationInputs MeasuredInputs(const IvCurve& curve, const TranslateOptions& o
   return inputs;
 }
 
-// The curve at the temperature of its cells.
+// The curve with its temperatures corrected from the sensor to the cells.
 IvCurve AtCellTemperature(IvCurve curve, const UncertaintyOptions& options) {
   const double warmer_K = CellCorrection_K(options, curve.conditions.irradiance_W_m2);
   curve.conditions.cell_temperature_K += warmer_K;
@@ -161,8 +161,8 @@ Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
   return {};
 }
 
-// One more model for each cause that explains the readings as well as the first one, fitted in its
-// place.
+// Adds one fitted model for each cause that explains the readings as well as the first diagnosed
+// cause, in place of that cause.
 void AddRivals(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
                Preparation* made) {
   constexpr std::size_t kMostFittedCandidates = 4;
@@ -187,7 +187,7 @@ void AddRivals(const IvCurve& curve, const TranslateOptions& options, const Exte
     if (fit.with.empty()) continue;
     const auto report = Fit(curve, fit);
     if (!report || !report->usable) continue;
-    // An alternative that misses the readings by more than what was diagnosed explains less.
+    // A candidate with a clearly larger residual than the diagnosis is no equivalent.
     constexpr double kAsGood = 1.5;
     const double best = made->diagnosis->extended.rmse.refined.solved_current_A;
     if (report->rmse.refined.solved_current_A > kAsGood * best) continue;

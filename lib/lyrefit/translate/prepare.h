@@ -13,25 +13,26 @@
 
 namespace lyrefit {
 
-// A curve with everything that its translation needs found once.
+// A curve with everything that its translation needs, computed once.
 struct Preparation {
   PreparedCurve curve;
   SettledInputs inputs;
-  std::optional<FitReport> fit;        // of a single diode
-  std::optional<Diagnosis> diagnosis;  // where the extended model is wanted
+  std::optional<FitReport> fit;        // of the single diode
+  std::optional<Diagnosis> diagnosis;  // where the extended procedure is requested
   std::string why_no_model;
   std::vector<std::string> doubts;  // of the readings; see CheckReadings
   std::vector<std::string> warnings;
 };
 
-// Corrects the temperature as read to that of the cells (CellCorrection_K), fits, settles the
-// coefficients, diagnoses (unless the procedures asked for do without).
-// Errors: an unusable curve, readings that are refused (JudgeReadings), no irradiance or temperature known, a dark curve, readings that end
-// before the point of maximum power, coefficients or leads that no device has.
+// Corrects the measured temperature to that of the cells (CellCorrection_K), fits a single diode,
+// completes the coefficients and diagnoses the curve if the extended procedure is requested.
+// Errors: an invalid curve, rejected readings (JudgeReadings), unknown irradiance or temperature, a
+// dark curve, readings that end before the point of maximum power, implausible coefficients or
+// leads.
 Expected<Preparation> Prepare(const IvCurve& read, const TranslateOptions& options,
                               const Observer& observer);
 
-// The single diode of a curve, as fast as a fit goes.
+// Fits one diode without intervals, which is the fastest fit.
 Expected<FitReport> FitOneDiode(const IvCurve& curve, int threads);
 
 }  // namespace lyrefit

@@ -16,16 +16,16 @@
 namespace lyrefit {
 namespace {
 
-// A curve under way: what all procedures that move points begin with.
+// Corrected and completed points with their key values: the input of procedures 1, 2 and 4.
 struct Moving {
-  CurvePoints points;  // true ones, completed
+  CurvePoints points;  // corrected and completed
   double isc_A = 0;    // of the readings
   double voc_V = 0;
   double g1 = 0;  // W/m2
   double t1_C = 0;
 };
 
-// What of the readings a procedure needs: down to which current, in parts of Isc.
+// Corrects the readings and completes them down to a current of -`lowest_part` Isc.
 Expected<Moving> Begin(const PreparedCurve& curve, const TranslationInputs& inputs,
                        double lowest_part) {
   Moving at;
@@ -48,7 +48,7 @@ Expected<Moving> Begin(const PreparedCurve& curve, const TranslationInputs& inpu
 // IEC 60891:2021, procedure 1:
 //   I2 = I1 + Isc1 (G2 / G1 - 1) + alpha (T2 - T1)
 //   V2 = V1 - Rs (I2 - I1) - kappa I2 (T2 - T1) + beta (T2 - T1)
-// alpha is that of 1000 W/m2 and goes with the light of the target.
+// alpha is stated for 1000 W/m2 and scaled in proportion to the target's irradiance.
 Expected<CurvePoints> ByProcedure1(const PreparedCurve& curve, const TranslationInputs& in) {
   const double g2 = curve.target.irradiance_W_m2;
   TRY(Moving at, Begin(curve, in, std::max(0.0, g2 / EquivalentIrradiance(in) - 1)));
@@ -70,7 +70,7 @@ Expected<CurvePoints> ByProcedure1(const PreparedCurve& curve, const Translation
 //        + Voc_stc (beta (f(G2) (T2 - 25) - f(G1) (T1 - 25)) + 1 / f(G2) - 1 / f(G1))
 //   R's1 = R's + kappa' (T1 - 25)
 //   f(G) = Voc_stc / Voc(G) = 1 + B1 ln(1000 / G) + B2 ln(1000 / G)^2
-// Voc_stc is what the same equation makes of the curve's own Voc.
+// Voc_stc is computed from the curve's own Voc by the equation of V2.
 Expected<CurvePoints> ByProcedure2(const PreparedCurve& curve, const TranslationInputs& in) {
   TRY(Moving at, Begin(curve, in, 0));
   const auto f = [&](double g) {
@@ -97,11 +97,12 @@ Expected<CurvePoints> ByProcedure2(const PreparedCurve& curve, const Translation
 }
 
 // IEC 60891:2021, procedure 4 (Hishikawa et al., doi:10.1109/JPHOTOV.2017.2762586), for crystalline
-// silicon: first the light, then the temperature by what the voltage itself says of its coefficient
+// silicon. The irradiance is corrected first, then the temperature, whose coefficient depends on
+// the voltage itself:
 //   I' = I1 + Isc1 (G2 / G1 - 1),        V' = V1 - Rs (I' - I1)
 //   I2 = I' + alpha (T2 - T1),           V2 = V' + (T2 - T1) / T1 (V' - Ns n Eg / q)
-// T1 in kelvin. That V' is the terminals' and not the junction's has Rs go in proportion to T, which
-// metal nearly does.
+// T1 in kelvin. V' is the voltage of the terminals, not of the junction. This implies an Rs in
+// proportion to T, which is nearly true of metals.
 Expected<CurvePoints> ByProcedure4(const PreparedCurve& curve, const TranslationInputs& in) {
   const double g2 = curve.target.irradiance_W_m2;
   TRY(Moving at, Begin(curve, in, std::max(0.0, g2 / EquivalentIrradiance(in) - 1)));

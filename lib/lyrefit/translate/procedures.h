@@ -13,16 +13,16 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How a curve measured at (G1, T1) is carried to (G2, T2). Equations in procedures.cc and
+// Procedures that translate a curve from (G1, T1) to (G2, T2). Equations are in procedures.cc and
 // model_procedures.cc, clauses in the module's README.
 enum class Procedure {
-  kIec1,      // IEC 60891:2021 procedure 1: alpha, beta, kappa and Rs, points moved
-  kIec2,      // procedure 2: relative coefficients, logarithm of the light in Voc
-  kIec3,      // procedure 3: between (or beyond) curves measured under other conditions
-  kIec4,      // procedure 4: crystalline silicon, no coefficients of the voltage
+  kIec1,      // IEC 60891:2021, procedure 1: points, by alpha, beta, kappa and Rs
+  kIec2,      // procedure 2: relative coefficients, Voc by the logarithm of G
+  kIec3,      // procedure 3: between (or beyond) curves at other conditions
+  kIec4,      // procedure 4: crystalline silicon, without coefficients of Voc
   kDeSoto,    // single diode, parameters by De Soto, Klein and Beckman 2006
   kPvsyst,    // single diode, parameters by PVsyst's law
-  kExtended,  // the diagnosed model: causes in the device stay, those of the sweep are taken out
+  kExtended,  // diagnosed model: keeps causes in the device, removes the sweep's
 };
 
 template <>
@@ -34,10 +34,10 @@ struct EnumTable<Procedure> {
       {Procedure::kExtended, "extended"}};
 };
 
-// Everything a translated curve depends on besides its readings and that somebody may be wrong
-// about. The same struct holds values and, in another instance, their standard uncertainties.
+// All uncertain inputs of a translated curve besides its readings. Instances hold either values or
+// standard uncertainties.
 struct TranslationInputs {
-  double irradiance_W_m2 = 0;       // on the front while the curve was taken, G1
+  double irradiance_W_m2 = 0;       // on the front during the sweep, G1
   double rear_irradiance_W_m2 = 0;  // on the back; IEC TS 60904-1-2: G = G_front + phi G_rear
   double bifaciality_isc = 0;       // phi, of Isc
   double temperature_C = 0;         // of the cells, T1
@@ -45,7 +45,7 @@ struct TranslationInputs {
   double voltage_offset_V = 0;      // true - read at 0 V
   double current_gain = 0;          // true / read (value 1)
   double current_offset_A = 0;
-  double lead_resistance_ohm = 0;    // V I adds to the voltage read before anything else
+  double lead_resistance_ohm = 0;    // I R_lead is added to the corrected voltage
   double alpha_sc_A_K = 0;           // of Isc at 1000 W/m2
   double beta_oc_V_K = 0;            // of Voc
   double kappa_ohm_K = 0;            // curve correction factor
@@ -53,20 +53,20 @@ struct TranslationInputs {
   double b1 = 0;                     // procedure 2: Voc(STC) / Voc(G) = 1 + B1 x + B2 x^2,
   double b2 = 0;                     // x = ln(1000 / G)
   double epsilon_V = 0;              // procedure 4: n Eg / q of one cell
-  double EgRef_eV = 0;               // band gap at 25 C; De Soto's where it is not anchored
-  double dEgdT_1_K = 0;              // its relative slope: De Soto
-  double mu_gamma_1_K = 0;           // slope of the ideality: PVsyst where it is not anchored
+  double EgRef_eV = 0;               // band gap at 25 C; De Soto without an anchor
+  double dEgdT_1_K = 0;              // relative slope of the band gap: De Soto
+  double mu_gamma_1_K = 0;           // slope of the ideality: PVsyst without an anchor
 };
 
-// One of them, for whoever walks them all: budgets, JSON.
+// One member of TranslationInputs, for loops over all of them (budgets, JSON).
 struct TranslationInput {
   const char* name;  // with its unit, as in JSON
   const char* unit;
   const char* title;                 // "irradiance", for tables
-  double TranslationInputs::*field;  // where it stands
+  double TranslationInputs::*field;  // the member itself
 };
 
-// All of them, in the order of the struct.
+// All members, in the order of the struct.
 inline constexpr TranslationInput kTranslationInputs[] = {
     {"irradiance_W_m2", "W/m2", "irradiance", &TranslationInputs::irradiance_W_m2},
     {"rear_irradiance_W_m2", "W/m2", "irradiance of the back",
@@ -92,7 +92,7 @@ inline constexpr TranslationInput kTranslationInputs[] = {
     {"mu_gamma_1_K", "1/K", "slope of the ideality", &TranslationInputs::mu_gamma_1_K},
 };
 
-// How Isc, Voc and the maximum power are read off a curve.
+// How Isc, Voc and the maximum power are determined from points.
 enum class KeyPointMethod {
   kInterpolated,  // curve/key_points.h
   kE1036,         // ASTM E1036, annex: straight lines and a polynomial in windows
@@ -104,20 +104,20 @@ struct EnumTable<KeyPointMethod> {
       {KeyPointMethod::kInterpolated, "interpolated"}, {KeyPointMethod::kE1036, "e1036"}};
 };
 
-// The conditions that a curve is carried to: standard ones unless said.
+// Conditions of the translated curve; standard test conditions by default.
 struct TranslationTarget {
   double irradiance_W_m2 = 1000;
   double temperature_C = 25;
 };
 
-// Readings as recorded, in order of voltage, and under what they were taken.
+// Points of a curve by rising voltage; both arrays have one length.
 struct CurvePoints {
   std::vector<double> voltage_V;
   std::vector<double> current_A;
 };
 
-// The single diode of the readings as recorded: its parameters bend exactly with every input, so
-// the fit is done once.
+// Single-diode parameters of the readings as recorded, at the measured conditions. TrueDiode
+// corrects them exactly for gains and leads, so that one fit suffices.
 struct SingleDiodeFit {
   double photocurrent_A = 0;
   double saturation_current_A = 0;
@@ -126,36 +126,36 @@ struct SingleDiodeFit {
   double resistance_shunt_ohm = 0;
 };
 
-// Another curve of the same device, its lead resistance and gains those of the first: procedure 3.
+// Another curve of the device for procedure 3, with the lead resistance and gains of the first.
 struct FurtherCurve {
   CurvePoints points;
-  double irradiance_W_m2 = 0;  // front and back together
+  double irradiance_W_m2 = 0;  // front plus bifaciality times rear
   double temperature_C = 25;
   std::optional<SingleDiodeFit> diode;
 };
 
-// The device as diagnosed (extended_model.h); an alternative for every cause that explains as much.
+// The diagnosed device (extended_model.h).
 struct ExtendedModel;
 
 struct Translation;  // law/translation.h
 
-// A parameter of a diode's law that is such that Voc moves by beta: what follows when beta does.
+// A parameter of a law, fitted so that Voc follows beta, as a linear function of beta.
 struct BetaAnchor {
   double beta_V_K = 0;
-  double value = 0;       // of the parameter, where Voc moves by beta_V_K
-  double slope = 0;       // of it along beta
-  double bandgap_eV = 0;  // beside which mu_gamma was found
-  // The parameter for another beta.
+  double value = 0;       // of the parameter at beta_V_K
+  double slope = 0;       // its derivative by beta
+  double bandgap_eV = 0;  // used while mu_gamma was fitted
+  // The parameter at another beta.
   double At(double beta) const { return value + slope * (beta - beta_V_K); }
 };
 
-// A curve made ready: what does not change from one set of inputs to the next.
+// A prepared curve: everything that is constant while the inputs vary.
 struct PreparedCurve {
   CurvePoints points;
   int cells_in_series = 1;
-  std::optional<SingleDiodeFit> diode;  // none: there is no fit at all
-  // The fit misses the readings: it may end them beyond the axes, but is no model of the device.
-  // Empty: it is one.
+  std::optional<SingleDiodeFit> diode;  // none: the fit failed
+  // Why the fit is no model of the device. It may still extend the readings beyond the axes. Empty:
+  // it is a model.
   std::string why_no_model;
   std::vector<FurtherCurve> further;
   KeyPointMethod key_points = KeyPointMethod::kInterpolated;
@@ -163,37 +163,38 @@ struct PreparedCurve {
   double noise_A = 0;                  // standard deviation of a reading's current
   std::optional<BetaAnchor> bandgap;   // De Soto's; none: as stated
   std::optional<BetaAnchor> mu_gamma;  // PVsyst's; none: as stated
-  // Both laws for so many cells (model_procedures.h); none: they are made anew for every answer.
+  // Both laws for `cells_in_series` (model_procedures.h); nullptr: rebuilt at every call.
   std::shared_ptr<const Translation> desoto;
   std::shared_ptr<const Translation> pvsyst;
-  // The first is the diagnosis, the others name another cause.
+  // The diagnosis first, then one model for each equivalent cause.
   std::vector<std::shared_ptr<const ExtendedModel>> models;
 };
 
-// The light that counts, IEC TS 60904-1-2: front + phi rear.
+// Equivalent irradiance, IEC TS 60904-1-2: front + phi rear.
 inline double EquivalentIrradiance(const TranslationInputs& inputs) {
   return inputs.irradiance_W_m2 + inputs.bifaciality_isc * inputs.rear_irradiance_W_m2;
 }
 
-// The readings with gains, offsets and leads allowed for: I = gain I + offset,
-// V = gain V + offset + I R_lead.
+// The readings corrected for gains, offsets and leads: I = gain I + offset, V = gain V + offset + I
+// R_lead.
 CurvePoints TruePoints(const CurvePoints& read, const TranslationInputs& inputs);
 
-// The same for the diode behind them, exactly: a gain of the voltage stretches nNsVth, one of the
-// current Iph and Is, the leads leave Rs. Offsets are left out, they are small against both axes.
+// The diode corrected as TruePoints corrects its readings: the voltage gain scales nNsVth, the
+// current gain Iph and Is, and Rs loses the leads. Offsets are ignored; they are small against Voc
+// and Isc.
 SingleDiodeFit TrueDiode(const SingleDiodeFit& read, const TranslationInputs& inputs);
 
-// Key points of points by the method asked for.
+// Key points by the given method.
 KeyPoints KeyPointsBy(KeyPointMethod method, const CurvePoints& points);
 
-// Isc, Voc, Imp, Vmp, Pmax, FF at the target. Pure, and cheap enough to be called thousands of
-// times: no fit is repeated (microseconds; some hundred for the extended model). `alternative`: which of
-// `models`. Errors: what the procedure needs is not there (no points beyond an axis, no fit, no
-// further curve, a device whose model has no value there).
+// Isc, Voc, Imp, Vmp, Pmax, FF at the target. Pure; no fit is repeated, so a call takes
+// microseconds (some hundred for the extended model). `alternative`: index into `models`. Errors:
+// an input of the procedure is missing (points beyond an axis, a fit, a further curve), or the
+// model has no value at the target.
 Expected<KeyPoints> TranslatedKeyPoints(Procedure procedure, const PreparedCurve& curve,
                                         const TranslationInputs& inputs, int alternative = 0);
 
-// The curve behind them; of a model 200 even points.
+// The translated curve; for the laws 200 points at even voltages, for the extended model up to 400.
 Expected<CurvePoints> TranslatedPoints(Procedure procedure, const PreparedCurve& curve,
                                        const TranslationInputs& inputs, int alternative = 0);
 

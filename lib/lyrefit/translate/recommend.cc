@@ -14,8 +14,8 @@ namespace {
 constexpr double kSmallLight = 0.10;  // |ln G2 / G1|
 constexpr double kSmall_K = 5;
 constexpr double kMiddleLight = 0.3;
-constexpr double kLowShunt = 10;  // Rsh Isc / Voc: below it a healthy curve's fill factor is out of
-                                  // reach
+constexpr double kLowShunt = 10;  // Rsh Isc / Voc: below it the fill factor of a normal module is
+                                  // impossible
 
 struct Step {
   double light;   // |ln|
@@ -28,7 +28,7 @@ Step StepOf(const Preparation& made) {
           std::fabs(made.curve.target.temperature_C - at.temperature_C)};
 }
 
-// Rsh Isc / Voc of the diagnosed device, or of the plain fit.
+// Rsh Isc / Voc of the diagnosed device, or of the single-diode fit.
 double ShuntOf(const Preparation& made) {
   const KeyPoints key =
       KeyPointsBy(KeyPointMethod::kInterpolated, TruePoints(made.curve.points, made.inputs.values));
@@ -39,7 +39,7 @@ double ShuntOf(const Preparation& made) {
     }
   }
   const CurvePoints& read = made.curve.points;
-  // Readings that end before an axis: where they end is near enough.
+  // For readings that end before an axis, the largest reading is a sufficient estimate.
   const double voc = std::isfinite(key.open_circuit_voltage_V)
                          ? key.open_circuit_voltage_V
                          : *std::max_element(read.voltage_V.begin(), read.voltage_V.end());

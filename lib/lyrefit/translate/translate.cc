@@ -35,8 +35,8 @@ bool MovesBeyondVoc(Procedure procedure) {
   return procedure == Procedure::kIec1 || procedure == Procedure::kIec4;
 }
 
-// Down to which current the readings have to go for the target's open circuit, as positive A, and
-// how far they do.
+// The current beyond open circuit, as positive A, that the readings need for the target's open
+// circuit, and the largest one that they have.
 struct Reach {
   double needed_A = 0;
   double there_A = 0;
@@ -47,7 +47,7 @@ Reach ReachOf(const PreparedCurve& curve, const TranslationInputs& inputs, doubl
   return {isc_A * (gain - 1), -*std::min_element(current_A.begin(), current_A.end())};
 }
 
-// Why the readings do not do although the equations can be worked out.
+// Why the result is unusable although the equations can be evaluated; empty: it is usable.
 std::string WhyNotBelieved(Procedure procedure, const Preparation& made, const KeyPoints& source,
                            TranslatedResult* result) {
   if (procedure == Procedure::kIec4 && !made.inputs.crystalline_silicon) {
@@ -86,8 +86,7 @@ TranslatedResult Compute(const Named& named, const Preparation& made, const KeyP
   return result;
 }
 
-// Budgets of all that was computed, or of the recommended one: draws are for that, the others have
-// the linear propagation alone.
+// Adds budgets: with draws for the recommended result, linear only for the others where requested.
 void AddBudgets(const Preparation& made, const TranslateOptions& options, const Observer& observer,
                 TranslationReport* report) {
   TranslationDoubts doubts;
@@ -108,7 +107,7 @@ void AddBudgets(const Preparation& made, const TranslateOptions& options, const 
   }
 }
 
-constexpr double kAssumedGamma_percent = 25;  // k = 2, modules of a technology
+constexpr double kAssumedGamma_percent = 25;  // expanded, k = 2, among modules of a technology
 
 bool IsStandard(const TranslationTarget& target) {
   const TranslationTarget standard;
@@ -153,7 +152,7 @@ void AddDiagnosis(const Preparation& made, TranslationReport* report) {
   report->removed = made.curve.models.front()->removed;
 }
 
-// The procedure whose Pmax is farthest from the recommended one's, where that is beyond its interval.
+// Warns of the procedure whose Pmax is farthest outside the interval of the recommended one.
 void AddSpread(const TranslatedResult& best, TranslationReport* report) {
   if (best.budget.outputs.size() <= kMaxPowerOutput) return;
   const double power = best.key_points.max_power_W;
@@ -174,7 +173,7 @@ void AddSpread(const TranslatedResult& best, TranslationReport* report) {
                   100 * (other->key_points.max_power_W / power - 1)));
 }
 
-// Sizes of the procedures' own errors were measured within these.
+// Warns outside the conditions at which the procedures' own errors were measured.
 void AddRange(TranslationReport* report) {
   constexpr double kDimmest_W_m2 = 150, kBrightest_W_m2 = 1250, kColdest_C = 5, kHottest_C = 70;
   const auto within = [&](double g, double t_C) {

@@ -9,12 +9,11 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A measured curve at other conditions by every procedure that the data allow, side by side, each
-// with the uncertainty of its key points; one of them is recommended (recommend.h). Procedures that
-// cannot be computed say why.
-// Errors: an unusable or dark curve, one that ends before its maximum power, irradiance or temperature
-// that nobody stated, options outside their ranges, coefficients that no device has, a rating that is
-// none.
+// Translates a measured curve by every procedure that the data allow, with the uncertainty of its
+// key points, and recommends one of them (recommend.h). A procedure that cannot be computed has its
+// reason in `why_not`. Errors: an invalid or dark curve, readings that end before maximum power,
+// unknown irradiance or temperature, options outside their ranges, implausible coefficients, an
+// invalid rating.
 Expected<TranslationReport> TranslateCurve(const IvCurve& curve,
                                            const TranslateOptions& options = {},
                                            const Observer& observer = {});

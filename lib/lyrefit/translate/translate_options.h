@@ -17,7 +17,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Where a curve is carried to, by which procedures, and what is known of it.
+// Target, procedures and known properties of the device and its measurement.
 struct TranslateOptions {
   TranslationTarget target;           // standard conditions
   std::vector<Procedure> procedures;  // empty: all that the data allow
@@ -25,19 +25,19 @@ struct TranslateOptions {
   double lead_resistance_ohm = 0;
   double rear_irradiance_W_m2 = 0;
   double bifaciality_isc = 0;
-  std::string technology;  // empty: as the curve's notes say
+  std::string technology;  // empty: from the curve's notes
   StatedCoefficients coefficients;
   std::vector<IvCurve> further;  // of the same device under other conditions, procedure 3
   UncertaintyOptions uncertainty;
-  FieldTestOptions field_test;  // judged where a rating is stated
+  FieldTestOptions field_test;  // scored where a rating is stated
   ChecklistOptions checklist;
   FieldNotes notes;
-  DiagnoseOptions diagnosis;  // of the extended model; nothing is held out
-  // Whether the procedures that are not recommended have their uncertainty too (the linear one).
+  DiagnoseOptions diagnosis;  // of the extended model; without hold-out
+  // Also computes the linear budgets of the procedures that are not recommended.
   bool all_budgets = true;
 };
 
-// The echo of options that lie within.
+// Echo of the options of a nested struct that differ from their defaults.
 template <auto Member, const auto& Table>
 constexpr OptionNest<TranslateOptions> NestedOptions() {
   return {[](const TranslateOptions& options, const TranslateOptions& defaults,
@@ -83,12 +83,12 @@ inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {
      NestedOptions<&TranslateOptions::diagnosis, kDiagnoseOptionTable>()},
 };
 
-// What the sheet of a module says, from JSON: rated_power_W, gamma_pmp_percent_K, technology,
-// modules_in_series, and the coefficients of ReadCoefficients. What is there already stays. Errors: no
-// JSON object, a value of another kind.
+// Reads a module's data sheet from JSON: rated_power_W, gamma_pmp_percent_K, technology,
+// modules_in_series, and the coefficients of ReadCoefficients. Options that are set already are
+// kept. Errors: no JSON object, a value of the wrong type.
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options);
 
-// Checks all of them.
+// Errors: an option outside its range, implausible, or without another one that it needs.
 Expected<void> ValidateTranslateOptions(const TranslateOptions& options);
 
 }  // namespace lyrefit

@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kErrorFactor = 2;  // of the errors of procedures
+constexpr double kErrorFactor = 2;  // coverage factor of the procedures' errors
 constexpr double kKelvinStep = 10;
 
 OutputTerm TranslationTerm(Procedure procedure, const PreparedCurve& curve,
@@ -29,7 +29,7 @@ OutputTerm TranslationTerm(Procedure procedure, const PreparedCurve& curve,
   OutputTerm term = {
       "translation", "translation by " + ToText(procedure), "translation", error.source, {}};
   if (options.translation_percent) {
-    // The others keep their proportion to Pmax.
+    // The errors of the other outputs keep their ratio to that of Pmax.
     const double usual = sizes[kMaxPowerOutput];
     const double stated = *options.translation_percent / 100;
     for (double& size : sizes) size = usual > 0 ? size / usual * stated : stated;
@@ -42,7 +42,7 @@ OutputTerm TranslationTerm(Procedure procedure, const PreparedCurve& curve,
   return term;
 }
 
-// What other procedures give; those that cannot be used here have no vote.
+// Choice among the results of other procedures; those without a result are left out.
 OutputChoice ProcedureChoice(const std::vector<Procedure>& alternatives, const PreparedCurve& curve,
                              const TranslationInputs& inputs) {
   OutputChoice choice = {"procedure",
@@ -71,8 +71,8 @@ OutputChoice CauseChoice(Procedure procedure, const PreparedCurve& curve,
   return choice;
 }
 
-// What was taken out as the sweep's own may be the device's after all: nothing but another sweep
-// tells. The readings as they are, carried as those of a healthy module, are the other answer.
+// A removed cause of the sweep may belong to the device after all, which only another sweep can
+// decide. The other answer is the uncorrected readings, translated as those of a faultless module.
 OutputChoice RemovalChoice(const PreparedCurve& curve, const TranslationInputs& inputs) {
   std::string titles;
   for (const std::string& title : curve.models.front()->removed) {

@@ -10,10 +10,9 @@
 
 namespace lyrefit {
 
-// What a procedure itself gets wrong of each result although all its inputs are exact: in parts,
-// expanded, k = 2, for a step of a factor e in the light and for one of 10 K. Variances grow in
-// proportion to the step (what was measured does not grow as fast as the step itself) and add: no
-// step, no error.
+// Errors of a procedure itself at exact inputs, for each output: relative, expanded, k = 2, for a
+// step of a factor e in irradiance and for a step of 10 K. Variances grow in proportion to the
+// step, since measured errors grow slower than the step itself. The two variances add.
 struct TranslationError {
   std::vector<double> light;  // Isc, Voc, Imp, Vmp, Pmax, FF
   std::vector<double> temperature;
@@ -21,18 +20,18 @@ struct TranslationError {
 };
 TranslationError TranslationErrorOf(Procedure procedure);
 
-// What of a translation is uncertain besides its inputs.
+// Uncertainties of a translation besides its inputs.
 struct TranslationDoubts {
   std::optional<KeyPointNoise> noise;  // of the readings; none: NoiseOfCurve
-  // Others that were as good a choice. Their spread makes a line of its own; the procedure's own
-  // error then is not counted a second time.
+  // Procedures that were an equally good choice. Their spread gives a budget line that replaces the
+  // procedure's own error.
   std::vector<Procedure> alternatives;
 };
 
-// The budget of the key points at the curve's target: a line for each of FieldInputs, noise,
-// translation, and the choice among the causes that explain as much (PreparedCurve::models, where
-// the procedure uses them).
-// Errors: those of TranslatedKeyPoints at the inputs as they are, and of Propagate.
+// Budget of the key points at the curve's target. Its lines are those of FieldInputs, noise,
+// translation or choice of the procedure, and for the extended procedure the choices among
+// equivalent causes (PreparedCurve::models) and about removed causes. Errors: those of
+// TranslatedKeyPoints at the inputs' values, and of Propagate.
 Expected<UncertaintyBudget> TranslationBudget(Procedure procedure, const PreparedCurve& curve,
                                               const SettledInputs& settled,
                                               const TranslationDoubts& doubts,

@@ -10,8 +10,8 @@ struct ErrorRow {
   const char* source;
 };
 
-// Isc, Voc, Imp, Vmp and FF by the first set alone, Pmax by all of them: what a procedure does to one
-// module says little of the next one. README of the module has the sizes of each set.
+// Pmax is from all data sets, the other outputs from the first set only: errors of a procedure
+// differ between modules. The README of the module lists the sizes of each set.
 constexpr char kMeasured[] =
     "Pmax: of pairs of outdoor sweeps of two crystalline silicon modules (Sandia, 200 to 1200 "
     "W/m2, "

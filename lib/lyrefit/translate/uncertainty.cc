@@ -82,7 +82,7 @@ std::vector<std::vector<double>> FactorsOf(std::vector<std::vector<double>> cova
   for (std::size_t k = 0; k < n; ++k) whole[k] = covariance[k][k];
   std::vector<std::vector<double>> factors;
   for (std::size_t k = 0; k < n; ++k) {
-    // Of a variable that follows from those before it nothing is left but rounding.
+    // A variable that is determined by the previous ones has only rounding left.
     if (!(covariance[k][k] > kRounding * whole[k])) continue;
     const double root = std::sqrt(covariance[k][k]);
     std::vector<double> factor(n, 0);

@@ -10,7 +10,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What the irradiance was taken from.
+// Source of the irradiance.
 enum class LightSource {
   kNotStated,
   kReferenceCell,  // in the plane of the modules
@@ -28,7 +28,7 @@ struct EnumTable<LightSource> {
                                                     {LightSource::kCurve, "curve"}};
 };
 
-// What the cell temperature was taken from.
+// Source of the cell temperature.
 enum class TemperatureSource {
   kNotStated,
   kBackOfModule,  // a sensor on the back, which is colder than the cells
@@ -45,7 +45,7 @@ struct EnumTable<TemperatureSource> {
       {TemperatureSource::kLaboratory, "laboratory"}};
 };
 
-// How well current and voltage are measured.
+// Accuracy class of the current and voltage measurement.
 enum class InstrumentClass { kField, kLaboratory };
 
 template <>
@@ -54,20 +54,20 @@ struct EnumTable<InstrumentClass> {
       {InstrumentClass::kField, "field"}, {InstrumentClass::kLaboratory, "laboratory"}};
 };
 
-// How sure everything is that a curve at other conditions depends on. EVERY size is an EXPANDED
-// uncertainty, k = 2, as certificates and data sheets print it; the library halves it. One that is
-// not given is that of its class: see field_inputs.h for the table.
+// Uncertainties of the inputs of a translated curve. EVERY size is an EXPANDED uncertainty, k = 2,
+// as on certificates and data sheets; the library halves it. A size that is not set is that of its
+// class, see the table in field_inputs.h.
 struct UncertaintyOptions {
   LightSource light_source = LightSource::kNotStated;
   TemperatureSource temperature_source = TemperatureSource::kNotStated;
   InstrumentClass instrument = InstrumentClass::kField;
-  // How much warmer the cells are than the sensor at 1000 W/m2, K: added to the temperature as read
-  // in proportion to the irradiance. The one member that is no size. Else 2.5 for a sensor on the
-  // back, 0 for any other.
+  // Cell minus sensor temperature at 1000 W/m2, K, in proportion to the irradiance; added to the
+  // measured temperature. This is a value, not an uncertainty. Default: 2.5 for a sensor on the
+  // back, else 0.
   std::optional<double> cell_correction_K;
   std::optional<double> irradiance_percent;
   std::optional<double> temperature_K;
-  std::optional<double> cell_offset_K;  // of how much warmer the cells are than the sensor
+  std::optional<double> cell_offset_K;  // of cell minus sensor temperature
   std::optional<double> voltage_percent;
   std::optional<double> current_percent;
   double lead_percent = 20;

@@ -1,5 +1,5 @@
-// What a page does once scripts run; without them all of it is there to read. Offers `lyrefit` to
-// the scripts after it: data(id), bytes(id) and plotly(), which promise; colour(hex); onTheme(function).
+// Interactive functions of a page, which is readable without scripts. Defines `lyrefit` for later
+// scripts: data(id), bytes(id) and plotly(), which return promises; colour(hex); onTheme(function).
 'use strict';
 const lyrefit = (() => {
   const root = document.documentElement;
@@ -22,7 +22,7 @@ const lyrefit = (() => {
     return JSON.parse(packed ? await unpacked(element.textContent).text() : element.textContent);
   }
 
-  // Plotly, unpacked when it is first asked for; nothing where the page has none.
+  // Plotly, unpacked at the first call; null if the page has none.
   let plotlyPromise = null;
   function plotly() {
     plotlyPromise ??= (async () => {
@@ -38,7 +38,7 @@ const lyrefit = (() => {
     return plotlyPromise;
   }
 
-  // What stands for a figure's colour in the light or the dark; `letters`: where it is read.
+  // A figure's colour in the current theme; `letters`: for text.
   function colour(hex, letters = false) {
     const name = `--${letters ? 't' : 'c'}-${hex.slice(1).toLowerCase()}`;
     return getComputedStyle(root).getPropertyValue(name).trim() || hex;
@@ -60,7 +60,7 @@ const lyrefit = (() => {
     link.click();
   }
 
-  // A file's name out of the page's title.
+  // A file name from the page's title.
   function fileName(extension) {
     const words = document.title.replace(/[^\p{L}\p{N}]+/gu, '_').replace(/^_|_$/g, '');
     return `${words.slice(0, 80) || 'lyrefit'}.${extension}`;
@@ -73,7 +73,7 @@ const lyrefit = (() => {
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
-  // Charts that no picture stands in for are dark on light on paper.
+  // Charts without a static picture are printed in the light theme.
   function dressForPaper() {
     if (!document.querySelector('.is-live') || document.querySelector('.still')) return;
     const {theme} = root.dataset;
@@ -146,13 +146,13 @@ const lyrefit = (() => {
   return {data, bytes, plotly, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
 })();
 
-// Charts take the place of the pictures that stand still: the same rows, colours, bands and notes.
+// Charts replace the static pictures, with equal rows, colours, bands and notes.
 (() => {
-  const kNarrow = 560;  // pixels: below this all panels stand below each other
-  const kLetter = 6.7;  // pixels, of a title
+  const kNarrow = 560;  // pixels; narrower pages have one column of panels
+  const kLetter = 6.7;  // pixels, for one letter of a title
   const wantsStillness = matchMedia('(prefers-reduced-motion: reduce)');
 
-  // A copy in the page's colours; of letters where it is a font's.
+  // A copy with the page's colours; those of `font` members are for text.
   function coloured(value, letters = false) {
     if (Array.isArray(value)) return value.map((each) => coloured(each, letters));
     if (value !== null && typeof value === 'object') {
@@ -184,7 +184,7 @@ const lyrefit = (() => {
 
   const kSvg = 'http://www.w3.org/2000/svg';
 
-  // What an entry of the legend looks like.
+  // The symbol of a legend entry.
   function swatch(trace) {
     const svg = document.createElementNS(kSvg, 'svg');
     svg.setAttribute('viewBox', '0 0 34 14');
@@ -211,7 +211,7 @@ const lyrefit = (() => {
     return svg;
   }
 
-  // The legend: a button an entry, which hides and shows what has its name.
+  // The legend: one button for each entry, which hides and shows the traces of its name.
   function fillLegend(list, entries, hidden, changed) {
     list.replaceChildren(...coloured(entries).map((entry) => {
       const button = document.createElement('button');
@@ -231,7 +231,7 @@ const lyrefit = (() => {
     }));
   }
 
-  // The layout for a box so wide, in the colours of now.
+  // The layout for a box of this width, in the current theme.
   function layoutFor(chart, width) {
     const narrow = width < kNarrow;
     const layout = coloured(structuredClone(chart.layout));

@@ -13,10 +13,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kEnough = 300;          // averages that show as much as more would
-constexpr int kFewestInStretch = 40;  // averages of a monotone stretch that shapes need
+constexpr int kEnough = 300;          // sufficient number of averages in all
+constexpr int kFewestInStretch = 40;  // smallest number of averages of a monotone stretch
 
-// Readings that the values themselves set apart.
+// Marks readings at an instrument limit, which are not averaged.
 std::vector<char> SetApart(const Measurement& measurement) {
   const ValueFindings& values = measurement.values;
   std::vector<char> alone(measurement.readings.points.size(), 0);
@@ -26,7 +26,7 @@ std::vector<char> SetApart(const Measurement& measurement) {
   return alone;
 }
 
-// Groups within the monotone stretches; readings that are `alone` stay so.
+// Groups readings within each monotone stretch. Readings marked in `alone` form their own groups.
 std::vector<int> GroupStretches(const Readings& readings, const std::vector<char>& alone) {
   const int count = static_cast<int>(readings.points.size());
   const auto parted = [&](int begin, int k) { return alone[begin] != 0 || alone[k] != 0; };
@@ -41,7 +41,7 @@ std::vector<int> GroupStretches(const Readings& readings, const std::vector<char
   return first;
 }
 
-// Positions of the averages that stand for the given readings.
+// Positions of the averages that contain the given readings.
 std::vector<int> PositionsOf(const std::vector<int>& first, const std::vector<int>& readings) {
   std::vector<int> positions;
   positions.reserve(readings.size());
@@ -52,7 +52,8 @@ std::vector<int> PositionsOf(const std::vector<int>& first, const std::vector<in
   return positions;
 }
 
-// Mean of the readings from `begin` to before `end`; its current is their distance `off` a model.
+// Mean of readings `begin` to `end` - 1. Its current is the mean of `off`, the distance from a
+// model.
 Reading Mean(const std::vector<Reading>& points, int begin, int end,
              const std::vector<double>& off) {
   Reading mean = points[begin];
@@ -79,7 +80,8 @@ Reading Mean(const std::vector<Reading>& points, int begin, int end,
   return mean;
 }
 
-// The measurement in groups; currents are mean distances `off` a model.
+// The measurement with one point per group. Its currents are means of `off`, the distance from a
+// model.
 Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
                    const std::vector<double>& off) {
   const ValueFindings& values = measurement.values;
@@ -102,7 +104,8 @@ Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
   return averaged;
 }
 
-// A step of the light lies between two readings, also where it lies between averages.
+// Possible irradiance steps lie between two readings, so the candidate times are set between the
+// last reading of one average and the first of the next.
 void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first,
                          DataTraits* traits) {
   traits->step_times.clear();
@@ -112,7 +115,8 @@ void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first
   }
 }
 
-// All readings of a measurement that outlives it, trusted alike but for those at a limit.
+// All readings with equal weights, without those at a limit. The result refers to `measurement`,
+// which must outlive it.
 WeightedData WeightedDataOf(const Measurement& measurement) {
   const std::size_t count = measurement.readings.points.size();
   WeightedData weighted;
@@ -124,14 +128,15 @@ WeightedData WeightedDataOf(const Measurement& measurement) {
   return weighted;
 }
 
-// The fit's current at every reading; false where it cannot be had.
+// Current of the fit at every reading; false if the law cannot be evaluated.
 bool CurrentsAt(const Readings& readings, const LawFit& fit, std::vector<double>* current) {
   current->assign(readings.points.size(), 0.0);
   LawWorkspace workspace;
   return EvaluateLaw(fit.law, readings, fit.p.data(), &workspace, current->data(), nullptr);
 }
 
-// The base model fitted to plain means of the currents: near enough to bend as the readings do.
+// The base model fitted to plain means of the currents. It is accurate enough to describe the
+// curvature within groups.
 LawFit FitPlainMeans(const Measurement& measurement, const Law& base, Watch* watch) {
   std::vector<double> currents;
   for (const Reading& r : measurement.readings.points) currents.push_back(r.current);

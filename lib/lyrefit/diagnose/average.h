@@ -6,38 +6,39 @@
 
 namespace lyrefit {
 
-// A long measurement in averages of neighbouring readings (fit/average_neighbours.h): causes are
-// sought and fitted in them alone. Averages are taken of the distances from a fitted base model, so
-// that bends of the curve are not averaged away.
+// A long measurement, replaced by averages of neighbouring readings (fit/average_neighbours.h).
+// Causes are searched and fitted on the averages only. What is averaged is the distance of each
+// reading from a fitted base model, so that the curvature of the curve is kept.
 struct Averaged {
-  // Positions and rounding of its values are the averages'. The weight of an average is the number
-  // of its readings, its scatter theirs about it.
+  // Readings and rounding are those of the averages. The weight of an average is the number of its
+  // readings; its scatter is their mean square deviation from it.
   Measurement measurement;
-  std::vector<int> first;  // reading of every average, and the end
+  std::vector<int> first;  // first reading of each average, then the number of readings
 };
 
-// Whether the measurement is long enough to be averaged.
+// Whether the measurement has enough readings to be averaged.
 bool IsLong(const Readings& readings);
 
-// Readings that clipping or a sudden value sets apart stay by themselves, and no average goes over
-// a jump of the current.
+// Averages a measurement. Readings at an instrument limit and sudden outliers keep a group of their
+// own, and no average spans a jump of the current. `base`: law of the model that is subtracted.
 Averaged Average(const Measurement& measurement, const Law& base, Watch* watch);
 
-// The fits of a selection at every reading.
+// The fits of a selection, evaluated at every reading.
 struct AtReadings {
-  WeightedData weighted;  // how far each reading is trusted beside the extended model
-  Noise noise;      // beside the same
-  std::vector<double> base, extended, without;  // currents in scales; `without` the causes
-  std::vector<int> first;  // reading of every position of the selection, and the end
+  WeightedData weighted;  // noise deviation of each reading, from the extended model
+  Noise noise;      // estimated from the residuals of the extended model
+  std::vector<double> base, extended, without;  // currents in scales; `without`: causes removed
+  std::vector<int> first;  // first reading of each position, then the number of readings
 
-  // Readings at positions of the selection.
+  // Readings that belong to positions of the selection.
   std::vector<int> Behind(const std::vector<int>& positions) const;
 };
 
-// Of a selection in all readings.
+// For a selection on all readings.
 AtReadings AtItsReadings(const Selection& selection);
 
-// Of a selection in averages of the measurement, which outlives it.
+// For a selection on averages of `measurement`. The result refers to `measurement`, which must
+// outlive it.
 AtReadings AtItsReadings(const Selection& selection, const Averaged& averaged,
                          const Measurement& measurement);
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kReach = 3;  // neighbours on either side
 
-// Distance of a reading from the middle of its neighbours in the same stretch, 0 where it has fewer
-// than two.
+// Distance of `off` at reading k from the median of its neighbours in the same stretch. 0 for fewer
+// than two neighbours.
 double OffNeighbours(const std::vector<Reading>& points, const std::vector<double>& off, int k) {
   std::array<double, 2 * kReach> around;
   auto end = around.begin();
@@ -27,12 +27,12 @@ double OffNeighbours(const std::vector<Reading>& points, const std::vector<doubl
   return std::fabs(off[k] - *middle);
 }
 
-// The surest jump within the readings from `begin` to before `end`.
+// The most significant jump within readings `begin` to `end` - 1.
 struct Jump {
   int begin = 0;
-  int at = 0;  // the first reading after it
+  int at = 0;  // first reading after the jump
   int end = 0;
-  double square = 0;  // of its size in standard errors, beside a straight line
+  double square = 0;  // squared size in standard errors, with a straight line fitted too
 
   bool operator<(const Jump& other) const { return square < other.square; }
 };
@@ -51,13 +51,13 @@ Jump FindJump(int begin, int end, const std::vector<double>& off,
   }
   const double moment = n * (n * n - 1) / 12;  // sum of (k - middle)^2
   const double slope = along / moment;
-  double above = 0;  // sum of what the line leaves from k on
+  double above = 0;  // sum of the residuals of the line from k on
   for (int k = end - 1; k - begin >= kFewestBeside; --k) {
     above += off[k] - mean - slope * (k - middle);
     const double after = end - k, before = n - after;
     if (after < kFewestBeside) continue;
-    // Of the step at k the part that no line has: after before / n of it is no constant, and its
-    // sum against k - middle is after before / 2.
+    // Squared norm of the step function at k after projection off constant and line. Off the
+    // constant it is after * before / n; its product with k - middle is after * before / 2.
     const double free = after * before / n - std::pow(0.5 * after * before, 2) / moment;
     const double square = above * above / (free * variance);
     if (!(square > jump.square)) continue;
@@ -71,11 +71,11 @@ Jump FindJump(int begin, int end, const std::vector<double>& off,
 
 void MarkSudden(const std::vector<Reading>& points, const std::vector<double>& off,
                 const std::vector<double>& sigma, std::vector<char>* alone) {
-  constexpr double kFar = 4.5, kUsual = 1000;  // standard deviations, among so many readings
-  constexpr double kOfMiddle = 1.25;           // variance of a reading less the middle of six
+  constexpr double kFar = 4.5, kUsual = 1000;  // limit in standard deviations for kUsual readings
+  constexpr double kOfMiddle = 1.25;           // variance of a reading minus the median of six
   constexpr std::size_t kMost = 100;
-  // What stands alone is judged as one of the averages, not as one of all readings: chance must set
-  // a reading apart the less often the more there are, so its own square grows by 4 ln(times).
+  // A reading alone competes with averages, not with all readings. To keep the rate of chance
+  // outliers independent of the number of readings, its squared limit grows by 4 ln(times).
   const double times = std::max(static_cast<double>(points.size()) / kUsual, 1.0);
   const double far = std::sqrt(kFar * kFar + 4 * kOfMiddle * kOfMiddle * std::log(times));
   std::vector<std::pair<double, int>> sudden;
@@ -93,7 +93,7 @@ void MarkSudden(const std::vector<Reading>& points, const std::vector<double>& o
 std::vector<int> CutAtJumps(std::vector<int> first, const std::vector<double>& off,
                             const std::vector<double>& sigma) {
   constexpr double kSure =
-      6;  // standard errors: of a million readings two in a thousand sweeps pass it by chance
+      6;  // standard errors; exceeded by chance in 0.2 % of sweeps of a million readings
   constexpr int kMost = 50;
   std::priority_queue<Jump> jumps;
   const auto look = [&](int begin, int end) {

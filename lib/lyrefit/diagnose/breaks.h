@@ -6,16 +6,17 @@
 
 namespace lyrefit {
 
-// Where averages of neighbouring readings must end: `off` are the distances of the readings from a
-// model, `sigma` their noise.
+// Finds where averages of neighbouring readings must end. `off`: current of each reading minus that
+// of a model; `sigma`: noise deviation of each reading, in the same unit.
 
-// Marks readings that are further from the middle of their neighbours than noise goes, at most a
-// hundred, the furthest.
+// Marks readings that are further from the median of their neighbours than noise explains. It marks
+// at most a hundred, the furthest first.
 void MarkSudden(const std::vector<Reading>& points, const std::vector<double>& off,
                 const std::vector<double>& sigma, std::vector<char>* alone);
 
-// Cuts groups, each stated by its first reading, where the distances jump within one: by more than
-// noise does beside a straight line. At most fifty cuts, the surest first.
+// Splits groups, each given by its first reading, where `off` jumps within a group. A jump must
+// exceed what noise about a straight line explains. At most fifty splits, the most significant
+// first.
 std::vector<int> CutAtJumps(std::vector<int> first, const std::vector<double>& off,
                             const std::vector<double>& sigma);
 

@@ -9,8 +9,8 @@ namespace lyrefit {
 
 double Calibration::Corrected(double p) const {
   if (null_statistics.empty()) return p;
-  // Beyond the upper fifth the tail of -ln p falls exponentially, at the pace the fifth shows; both
-  // are taken a standard error to the safe side, since so many null_statistics say no more.
+  // Beyond the upper fifth, the tail of -ln p is taken as exponential with the mean excess of that
+  // fifth. Fraction and mean excess are raised by one standard error, to be conservative.
   constexpr double kPart = 0.2;
   const double x = -std::log(std::max(p, 1e-300));
   const std::size_t count = null_statistics.size();

@@ -11,9 +11,10 @@
 namespace lyrefit {
 namespace {
 
-// An effect that would need more than its bound to come to this many noise units cannot be seen.
+// An effect whose signature stays below this many noise deviations, even at its bound, is not
+// testable.
 constexpr double kDetectable = 4.7;
-// Directions of one effect that are more alike than this count as one.
+// Directions of one effect with a larger cosine count as one.
 constexpr double kAlike = 0.97;
 
 bool IsTwoSided(const Effect& effect) {
@@ -23,7 +24,7 @@ bool IsTwoSided(const Effect& effect) {
          strength.neutral == 0;
 }
 
-// Smooth waves along every monotone stretch.
+// Cosine waves along every monotone stretch.
 std::vector<Eigen::VectorXd> Waves(const WeightedData& weighted) {
   const std::vector<Reading>& points = weighted.readings->points;
   const int last_segment = points.back().segment;
@@ -65,7 +66,8 @@ std::vector<Raw> Signatures(const WeightedData& weighted, const Effect& effect, 
   return raw;
 }
 
-// Each probe starts from the junction voltages of the one before.
+// Changes of the currents by each probe. Each evaluation starts from the junction voltages of the
+// previous one.
 Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& effect) {
   Law law = fit.law;
   law.effects.push_back(&effect);
@@ -100,7 +102,7 @@ bool Serves(const WeightedData& weighted, const LawFit& fit, const std::vector<c
   return Whiten(weighted, here - there).squaredNorm() < weighted.count();
 }
 
-// How far from its neutral value a probe's strength may still grow.
+// Largest factor by which a probe's strength may grow within its bounds.
 double Headroom(const Effect& effect, const Probe& probe) {
   const EffectParameter& strength = effect.parameters.front();
   const double used = std::fabs(probe[0] - strength.neutral);
@@ -139,7 +141,8 @@ Candidate Prepare(const WeightedData& weighted, const Linearized& linear, const 
         "the base model absorbs it: no strength within its bounds would show in these data";
     return candidate;
   }
-  // The best direction of each lot of like ones stands for the lot in the null.
+  // The null statistics use one direction of each set of nearly equal ones. The score uses them
+  // all, sorted.
   std::vector<int> order(kept.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
   const auto size = [&](int k) {

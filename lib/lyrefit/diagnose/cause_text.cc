@@ -13,7 +13,7 @@ namespace {
 
 double Percent(double part) { return 100 * part; }
 
-// "1 of 3 substrings", or "33 % of the cells" where they are no whole number.
+// "1 of 3 substrings", or "33 % of the cells" if the share is no whole number of substrings.
 std::string Part(const Readings& readings, double share) {
   const int known = readings.traits.substrings;
   const int substrings = known > 0 ? known : 3;
@@ -45,7 +45,8 @@ std::vector<std::string> OfSubstrings(const Readings& readings, const double* p)
   return words;
 }
 
-// Of the parameters of a weak cell: its own light where one of several chains has it.
+// Light of a weak cell, relative to the others, from its parameters. In a module of parallel chains
+// it is that of the cell in its own chain.
 double LightOfWeakCell(const double* p) { return 1 - p[0] * p[8]; }
 
 std::vector<std::string> OfWeakCell(const WeightedData& weighted, const LawFit& fit, int index,
@@ -63,7 +64,8 @@ std::vector<std::string> OfWeakCell(const WeightedData& weighted, const LawFit& 
   return words;
 }
 
-// Voltage of a healthy cell that carries `current`, by halving: it falls with the current.
+// Voltage of a cell without a fault as a function of current, from a table. The voltage falls with
+// the current.
 class HealthyCell {
  public:
   HealthyCell(const WeightedData& weighted, const LawFit& fit) : grid_(*weighted.readings) {
@@ -100,12 +102,12 @@ class HealthyCell {
   bool usable_ = false;
 };
 
-// Voltage of the weak cell that carries `current` beyond its light, below 0.
+// Reverse voltage (below 0) of the weak cell at a current above its photocurrent, by bisection.
 double ReverseVoltage(const double* p, double photocurrent, double conductance, double current) {
   const double beyond = current - LightOfWeakCell(p) * photocurrent;
   if (beyond <= 0) return 0;
   const double leak = conductance + p[2];
-  const auto carried = [&](double v) {  // at -v
+  const auto carried = [&](double v) {  // current at -v
     if (p[7] > 0) return leak * v + photocurrent * std::pow(v / p[7], p[6]);
     const double gap = std::max(1 - v / p[5], 1e-3);
     return leak * v + conductance * p[4] * v * std::pow(gap, -p[6]);
@@ -131,8 +133,8 @@ HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) 
   const double cells = readings.traits.cells;
   const double mates = cells / SubstringsOf(readings.traits) - 1;
   const bool bypassed = SubstringsOf(readings.traits) > 1;
-  // The current of the weak cell: that of the shorted module, or what the voltage of its substring
-  // over a conducting bypass diode lets through.
+  // Voltage balance at the current of the weak cell. Its root is the current of the shorted module,
+  // or of a substring whose bypass diode conducts.
   const auto excess = [&](double current) {
     const double own = ReverseVoltage(p, photocurrent, conductance, current);
     return bypassed ? own + mates * reference.Voltage(current) + p[3]

@@ -7,17 +7,17 @@
 
 namespace lyrefit {
 
-// What a fit's effect number `index` means to a technician: lights of substrings in %, the voltage
-// and the heat of a cell in reverse. Nothing where its sizes speak for themselves.
+// Plain-text meaning of effect number `index` of a fit for a technician: light of substrings in %,
+// voltage and heat of a cell in reverse. Empty for effects whose parameters need no explanation.
 std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index);
 
-// A cell that the others drive into reverse where the terminals are shorted.
+// A cell in reverse bias while the terminals are shorted.
 struct HotCell {
   double voltage_V = 0;  // below 0
   double heat_W = 0;
 };
 
-// Of the law's `weak_cell` at `index`, under the brightest light.
+// For the effect `weak_cell` at `index` of the law, under the brightest light.
 HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index);
 
 }  // namespace lyrefit

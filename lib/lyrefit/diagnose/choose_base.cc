@@ -13,7 +13,7 @@ LawFit Better(LawFit a, LawFit b) {
   return b.usable && (!a.usable || b.sum < a.sum) ? std::move(b) : std::move(a);
 }
 
-// The fit beside a constant shunt, as the catalogue's shunt that grows with light has it.
+// Refits with a constant shunt beside the catalogue's shunt that grows with light.
 LawFit WithConstantShunt(const WeightedData& weighted, const LawFit& inverse) {
   LawFit best;
   for (const double law : {0.0, 1.0}) {  // linear and exponential
@@ -31,7 +31,7 @@ LawFit WithConstantShunt(const WeightedData& weighted, const LawFit& inverse) {
 }
 
 Law ChooseShunt(const WeightedData& weighted, const Law& law) {
-  // Less than this, in units of the noise variance, says nothing for two more parameters.
+  // Gain, in units of the noise variance, below which two more parameters are not significant.
   constexpr double kNothing = 6;
   const LawFit constant = FitBase(weighted, law);
   Law proportional = law;

@@ -6,18 +6,19 @@
 
 namespace lyrefit {
 
-// The law of law/translation.h that is fitted before any cause is thought of: `fit --family`'s
-// De Soto, with alpha and EgRef free where nobody stated them. Where curves under several
-// irradiances or temperatures have a say, they choose: Rsh constant or in inverse proportion to
-// light, the band gap with De Soto's slope or, where the gap is stated, without. A slope that is
-// stated is believed: without it, errors of the temperatures and voltages have less to be told by.
+// The law of law/translation.h that is fitted before any cause: De Soto's, as in `fit --family`. If
+// the temperatures differ, alpha and EgRef are free parameters unless stated. A stated band gap
+// slope is used unchanged: without it, errors of temperature and voltage would be harder to detect.
 Law StartingLaw(const Readings& readings, Model model);
 
-// `law` as the readings have it. Rsh in inverse proportion only where a constant shunt beside it
-// would add nothing: one that merely grows with light is a finding.
+// Selects the variant of `law` that fits the readings better. Several irradiances select Rsh
+// constant or in inverse proportion to light. Several temperatures, with a stated band gap and no
+// stated slope, select De Soto's slope or none. Rsh in inverse proportion is selected only if a
+// constant shunt beside it gains nothing. A shunt that merely grows with light is left to be found
+// as a cause.
 Law ChooseLaw(const WeightedData& weighted, const Law& law);
 
-// What a base law assumes, in words.
+// Assumptions of a base law, as text.
 std::string DescribeLaw(const Readings& readings, const Law& law);
 
 }  // namespace lyrefit

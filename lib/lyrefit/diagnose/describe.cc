@@ -23,7 +23,7 @@ std::string Short(double value) {
   return text.str();
 }
 
-// Readings at which a cause takes most from the current, or adds to it: above half of the most.
+// Readings at which a cause changes the current by more than half of its largest change.
 std::vector<int> WhereItActs(const WeightedData& weighted, const LawFit& with, int index) {
   const LawFit rest = TakenOut(with, index);
   std::vector<double> current(with.current.size());
@@ -60,11 +60,12 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
   return text;
 }
 
-// Standard errors of a fit's parameters as they are told of one effect: what moves with the light
-// takes up what the module departs by, which then seems less than it is, and has a shape of its
-// own.
+// Standard errors of a fit's parameters for the report of one effect. The path of an effect of the
+// sweep is widened: such an effect absorbs part of the module's departure from the model, so that
+// the path is underestimated. Its shape parameters that are fixed by default are freed, since its
+// true shape is unknown.
 std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fit, const Effect& effect) {
-  constexpr double kUnlike = 3;  // modules are so much more unlike than one sweep of one tells
+  constexpr double kUnlike = 3;  // scatter between modules / estimate of one sweep
   if (weighted.path == 0 || effect.where != Where::kSweep) {
     return StandardErrors(Linearize(weighted, fit), fit.law.size());
   }
@@ -191,7 +192,7 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
   return trials;
 }
 
-// Sizes and what they mean; `without`: the fit without effect `index`.
+// Fills sizes and their meaning. `without`: the fit without effect `index`.
 void DescribeSize(const WeightedData& weighted, const LawFit& with, int index, const LawFit& without,
                   Cause* cause) {
   cause->strength = DescribeParameters(weighted, with, index);
@@ -222,7 +223,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     Cause cause = MakeCause(effect, "fit", fitted.corrected_p);
     DescribeSize(selection.weighted, fitted.fit, static_cast<int>(fitted.fit.law.effects.size()) - 1,
                  selection.extended, &cause);
-    cause.in_words.clear();  // nothing to act on
+    cause.in_words.clear();  // too small to act on
     cause.recoverable_power_W = kUnknown;
     cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));

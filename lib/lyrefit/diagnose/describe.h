@@ -9,33 +9,34 @@
 
 namespace lyrefit {
 
-// A fit's effect `index` in a person's units, with symmetric 95 % intervals cut at the bounds.
+// Parameters of effect `index` of a fit in reporting units, with symmetric 95 % intervals cut at
+// the bounds.
 std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,
                                                int index);
 
-// One trial for each of the `known` effects, fitted or not.
+// One trial for each of the `known` effects, whether fitted or not.
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
                                   const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
                                   const DiagnoseOptions& options);
 
-// A cause still without size and place. `evidence`: "fit" or "values".
+// A cause without size and place. `evidence`: "fit" or "values".
 Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);
 
-// The causes found, what cannot be told from them and at which readings they act.
+// The causes found, their equivalents and the readings at which they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
                                   const ValueFindings& values);
 
-// What is there but not worth a name: the likeliest, with those that are as good.
+// Significant effects that are too small to be named: the best one, with its equivalents.
 std::vector<Cause> DescribeBelow(const Selection& selection);
 
 // "k = 0.085 A/V^2 (0.08 to 0.09)"
 std::string StrengthText(const CauseParameter& parameter);
 
-// Base parameters with and without the causes, and the maximum power of the device.
+// Base parameters and maximum power of the device, with and without the causes.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
 
-// RMSE in ampere over the used readings, also those behind averages.
+// RMSE in ampere over the used readings, including those within averages.
 double RmseOf(const WeightedData& weighted, const std::vector<double>& current);
 
 }  // namespace lyrefit

@@ -29,11 +29,11 @@
 namespace lyrefit {
 namespace {
 
-// Noise that is correlated from reading to reading makes every test see effects: where the
-// residuals of the extended model show it, everything is done again with it taken out.
+// Selects causes, and repeats the selection with whitened noise if the residuals of the extended
+// model are correlated. Without whitening, correlated noise makes every test see effects.
 Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptions& options,
                                Selection* selection) {
-  // More than the largest is rather structure that no cause took away than noise.
+  // A larger correlation is rather structure that no cause explains than noise.
   constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
@@ -82,7 +82,7 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const A
     point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[r.index];
     diagnosis->points.push_back(point);
   }
-  // An instrument at its limit shows the base model no other way.
+  // The instrument limit applies to the base model's currents as well.
   for (const int k : measurement.values.at_lower) {
     DiagnosedPoint& point = diagnosis->points[k];
     point.before_A = std::max(point.before_A, measurement.values.lower_limit * scale);
@@ -180,7 +180,7 @@ void ForgetLimits(ValueFindings* values) {
   values->at_voltage_limit.clear();
 }
 
-// The selection on readings or, where these are many, on averages of them.
+// Result of the selection on readings or, in a long measurement, on averages of them.
 struct Outcome {
   Selection found;
   AtReadings at;
@@ -215,7 +215,7 @@ Expected<void> CheckOptions(const DiagnoseOptions& options) {
   return {};
 }
 
-// What is to be diagnosed, its curves in order.
+// Makes the measurement from curves in order. `disorder`: warnings about their order.
 Expected<Measurement> TakeIn(const CurveSet& set, const std::vector<std::string>& disorder,
                              const DiagnoseOptions& options) {
   TRY(Measurement measurement, MakeMeasurement(set));

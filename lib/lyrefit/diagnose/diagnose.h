@@ -14,25 +14,26 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What the base model gets wrong in these data, why, and what allowing for it gains. The set holds
-// one curve (one sweep, or up and down), a lit and a dark curve (irradiance 0), or a family over
-// irradiance and temperature; the points of each curve are in the order taken.
+// Finds systematic deviations of the data from the base model, their causes, and the gain of
+// modelling them. The set holds one curve (one sweep, or up and down), a lit and a dark curve
+// (irradiance 0), or a family over irradiance and temperature. The points of each curve are in the
+// order of measurement.
 //
 // Errors: an unusable curve, options outside their ranges, unknown effect ids, own effects that
-// cannot be fitted, fewer points than parameters.
+// cannot be fitted, fewer than 7 readings, readings that no diode model fits.
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options = {},
                              const Observer& observer = {});
 Expected<Diagnosis> Diagnose(const IvCurve& curve, const DiagnoseOptions& options = {},
                              const Observer& observer = {});
 
-// Reads what ReadCurve or ReadCurveSet understand, as one measurement: up and down sweeps stay
-// together, sweeps under other conditions (a dark one among them) become curves of the set. Errors:
-// those of the two; of a set a curve that cannot be read is in `rejected`.
+// Reads every format of ReadCurve and ReadCurveSet, as one measurement. Up and down sweeps stay
+// together; sweeps under other conditions, also a dark one, become curves of the set. Errors: those
+// of the two readers. Curves of a set that cannot be read are listed in `rejected`.
 Expected<CurveSet> ReadMeasurement(const std::string& path, const ReadOptions& options = {});
 
-// Several files as one measurement: a lit and a dark curve, a family; sweeps up and down under one
-// condition become one curve in the order given, without the times, light and temperature of its
-// readings. Errors: the first file that cannot be read.
+// Reads several files as one measurement: a lit and a dark curve, or a family. Sweeps up and down
+// under one condition are joined to one curve in the order given, without the times, irradiances
+// and temperatures of their readings. Errors: those of the first file that cannot be read.
 Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths,
                                    const ReadOptions& options = {});
 

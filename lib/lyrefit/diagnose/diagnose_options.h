@@ -15,34 +15,36 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 struct Effect;  // law/effect.h
 
-// Which causes are looked for, how sure they have to be, and what is done besides.
+// Which causes are tried, at which significance, and which additional results are computed.
 struct DiagnoseOptions {
-  double level = 0.05;               // rate of false alarms over the whole catalogue
+  double level = 0.05;               // family-wise error rate over the whole catalogue
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
-  std::vector<std::string> effects;  // ids to try; empty: every one the data allow
-  // Tried beside the catalogue's, their ids their own; the caller keeps them while the diagnosis
-  // runs. Each needs an id, parameters with finite bounds, a stage and probes.
+  std::vector<std::string> effects;  // ids to try; empty: all that the data can show
+  // Tried in addition to the catalogue. Ids must differ from the catalogue's. The pointers must
+  // stay valid during the diagnosis. Each effect needs an id, parameters with finite bounds, a
+  // stage and probes.
   std::vector<const Effect*> own_effects;
   std::uint64_t seed = 1;
-  // White: a laboratory's. Field: beside it a rough path along the sweeps, light that wanders or a
-  // module that departs from the model. Stated: believed.
+  // White: independent errors, as in a laboratory. Field: also a rough path along the sweeps, from
+  // varying light or a module that departs from the model. Stated: sizes that are used unchanged.
   ErrorSpec noise = {ErrorKind::kField, {}, "field"};
-  // A cause is named where its effect is certainly larger than one of these: in parts of Isc (root
-  // mean square over the curve), in parts of Pmax. What is there below them is said apart.
+  // A cause is named if the whole interval of its effect lies above one of these floors: fraction
+  // of Isc (root mean square over the curve) or of Pmax. Significant causes below both are listed
+  // apart.
   double floor_current = 0.0025;
   double floor_power = 0.005;
-  int draws = 2000;        // simulated null_statistics
-  int largest_causes = 4;  // at most so many are named
-  bool held_out = true;    // measure the gain on what was not fitted
+  int draws = 2000;        // number of simulated null statistics
+  int largest_causes = 4;  // largest number of named causes
+  bool held_out = true;    // measure the gain on readings that were not fitted
   int folds = 10;
-  bool plan = false;    // simulate what would tell the first cause from its equivalents
+  bool plan = false;    // simulate measurements that separate the first cause from its equivalents
   bool proofs = false;  // prove how much of the misfit single causes can explain at most
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;
 };
 
-// For laboratory readings of little noise, of a device that is known to follow its model: white
-// noise, and whatever is there is named.
+// For low-noise laboratory readings of a device that follows its model: white noise and no floors,
+// so that every significant cause is named.
 inline DiagnoseOptions LaboratoryOptions() {
   DiagnoseOptions options;
   options.noise = ErrorSpec();
@@ -50,7 +52,8 @@ inline DiagnoseOptions LaboratoryOptions() {
   return options;
 }
 
-// The diodes that a diagnosis may start from, and effects by their ids: see the table.
+// Parse and print option values for the table below: the base model, ids of effects, ids of own
+// effects. Errors: any other base than sd or dd; a malformed list.
 Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options);
 Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options);
 std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options);

@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-// The device's terms of a fit, and which parameters of the fit theirs are.
+// The device terms of a fit: base and device effects. `of`: position of each parameter in the fit.
 struct DeviceTerms {
   Law law;
   std::vector<double> p;
@@ -34,7 +34,7 @@ DeviceTerms DeviceTermsOf(const LawFit& fit) {
   return terms;
 }
 
-// No readings yet, and one as the sweep's under the brightest light.
+// Readings without points, and a reading at the conditions of the brightest light.
 struct Bare {
   Readings grid;
   Reading at;
@@ -51,7 +51,7 @@ Bare BareReadings(const Readings& measured) {
   return bare;
 }
 
-// In scales.
+// In current scales and V per cell.
 struct PowerPoint {
   double voltage = kUnknown;
   double power = kUnknown;
@@ -73,7 +73,7 @@ PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
   const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
   for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
   PowerPoint peak = {grid.points[best].voltage, power(best)};
-  if (best > 0 && best < kPoints) {  // the parabola's top
+  if (best > 0 && best < kPoints) {  // vertex of the parabola
     const double a = power(best - 1), b = power(best), c = power(best + 1);
     const double bend = a - 2 * b + c;
     if (bend < 0) {
@@ -89,11 +89,11 @@ double InWatts(const WeightedData& weighted, const PowerPoint& peak) {
   return peak.power * scale.cells * scale.current_A;
 }
 
-// Standard error of the power, in parts.
+// Relative standard error of the maximum power.
 double ErrorOf(const WeightedData& weighted, const LawFit& fit, Bare bare, const DeviceTerms& terms,
                const PowerPoint& peak) {
   if (!(peak.power > 0)) return kUnknown;
-  // At its peak the power changes as the current there does.
+  // To first order the power at its peak changes as the current at that voltage.
   bare.at.voltage = peak.voltage;
   bare.grid.points = {bare.at};
   LawWorkspace workspace;
@@ -156,13 +156,13 @@ EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index, c
 }
 
 bool ExceedsFloors(const EffectSize& size, const Floors& floors) {
-  // Less than this part of the floor is what healthy modules depart from the model: of one sweep
-  // a power would be said that no reading shows.
+  // Below this fraction of the current floor lies the usual departure of modules without a fault
+  // from the model. A power effect of one sweep would then rest on nothing visible in the readings.
   constexpr double kShown = 0.4;
   const double current = size.current * (1 - size.reach);
   if (current >= floors.current) return true;
   if (size.one_sweep && current < kShown * floors.current) return false;
-  // False where there is no power.
+  // False if the power is NaN.
   return std::fabs(size.power) - size.power_error >= floors.power;
 }
 

@@ -6,15 +6,15 @@
 
 namespace lyrefit {
 
-// Causes whose fit is at most this much worse cannot be told from the best (in chi-square, after
-// what each pays for its freedom).
+// Largest penalised difference in chi-square at which a candidate counts as equivalent to the best
+// one.
 constexpr double kEquivalenceWidth = 6;
 
-// The fitted candidates that these data cannot tell from a cause, the best first; none where it shows in the
-// values themselves.
+// Fitted candidates that these data cannot separate from a cause, best first. Empty for a cause
+// that shows in the values themselves.
 std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause);
 
-// The cause's own among the fitted candidates; nullptr if it is not there.
+// The cause's own entry among its fitted candidates; nullptr if absent.
 const FittedCandidate* OwnFittedCandidate(const ChosenCause& cause);
 
 }  // namespace lyrefit

@@ -18,7 +18,7 @@ namespace {
 
 double MedianSigma(const Noise& noise) { return UpperMedian(noise.sigma); }
 
-// Of what the base model leaves at the readings that `used` marks.
+// Statistics of the base model's residuals at the positions marked in `used`.
 ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& used) {
   const Readings& readings = *at.weighted.readings;
   std::vector<double> voltages, residuals;
@@ -31,9 +31,9 @@ ResidualStatistics StatisticsOf(const AtReadings& at, const std::vector<char>& u
   return FindResidualStatistics(voltages, residuals);
 }
 
-// By how much a fit misses the readings, also those behind averages, in units of their noise.
+// Misfit of a fit to all readings, also those within averages, divided by their noise.
 double MisfitRatio(const WeightedData& weighted, const LawFit& fit, const AtReadings& at) {
-  double within = 0, more = 0;  // squares about the averages, and their readings beyond one
+  double within = 0, more = 0;  // squares about the averages; readings minus averages
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
     if (weighted.used[k] == 0) continue;
     const Reading& reading = weighted.readings->points[k];
@@ -44,7 +44,8 @@ double MisfitRatio(const WeightedData& weighted, const LawFit& fit, const AtRead
   return std::sqrt((fit.sum + within) / (Degrees(weighted, fit.law) + more));
 }
 
-// A photocurrent that no string of cells gives at 1000 W/m2: the irradiance is not what was stated.
+// Reports a photocurrent at 1000 W/m2 larger than that of any string: the stated irradiance is
+// wrong.
 void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
   constexpr double kMost_A = 25;
   const double light = readings.points.front().irradiance;
@@ -61,7 +62,8 @@ void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
        {}});
 }
 
-// n below 1 is a hint at a wrong temperature or number of cells long before it is a proof.
+// Reports n below 1, an indication of a wrong temperature or number of cells even if not
+// significant.
 void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
   const Readings& readings = *selection.weighted.readings;
   const double n = std::min(selection.base.p[kBaseIdeality], selection.extended.p[kBaseIdeality]);
@@ -76,7 +78,7 @@ void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
        {}});
 }
 
-// Readings that stand at a limit of the instrument, and grids that they lie on.
+// Reports readings at a limit of the instrument and the current grid.
 void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidence* evidence) {
   const ReadingScale& scale = at.weighted.readings->scale;
   const auto clipping = [&](const std::vector<int>& points, const std::string& text) {
@@ -107,7 +109,7 @@ void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidenc
   }
 }
 
-// What the base model leaves.
+// Reports misfit, runs and correlation of the base model's residuals.
 void AddResidualFindings(const Selection& selection, Evidence* evidence) {
   std::vector<Finding>& findings = evidence->findings;
   if (evidence->misfit_ratio > 1.1) {
@@ -227,7 +229,7 @@ Cause Metadata(const char* evidence, double p) {
   return cause;
 }
 
-// The stated number of cells would need more voltage of each than a junction gives.
+// The stated number of cells requires a higher voltage per cell than a junction gives.
 Cause WrongCells(const Selection& selection) {
   const DataTraits& traits = selection.weighted.readings->traits;
   const double cells = traits.cells * selection.extended.p[kBaseIdeality];
@@ -241,7 +243,7 @@ Cause WrongCells(const Selection& selection) {
   return cause;
 }
 
-// Whether n is what it should be once a bypass group without voltage is not counted.
+// Whether n is plausible if one bypass group without voltage is not counted.
 bool LacksAGroup(const DataTraits& traits, double n) {
   constexpr double kLeast = 0.97, kMost = 1.5;
   if (!traits.bypass_known || !traits.cells_known || traits.substrings < 2) return false;
@@ -249,7 +251,7 @@ bool LacksAGroup(const DataTraits& traits, double n) {
   return without >= kLeast && without <= kMost;
 }
 
-// As likely as a wrong number of cells, by one curve.
+// For one curve a shorted group is as plausible as a wrong number of cells.
 Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   const Effect& effect = *FindEffect("bypass_short");
   const int groups = traits.substrings;
@@ -268,9 +270,9 @@ Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
 }  // namespace
 
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted) {
-  // No junction has n below 1; a little slack for a temperature that is a few kelvin off. Above 3
-  // the number of cells is rather wrong than the junction.
-  // A module that departs from its model along a path bends n by more than its error says.
+  // No junction has n below 1; the slack allows for a temperature error of a few kelvin. Above 3,
+  // the number of cells is rather wrong than the junction. With a rough path the lower limit is
+  // smaller: the module's departure from the model changes n by more than its error.
   constexpr double kBent = 0.9, kLargest = 3, kSure = 1e-4;
   const double smallest = selection.weighted.path > 0 ? kBent : 0.97;
   const LawFit& fit = selection.extended;
@@ -287,7 +289,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const double p = NormalTail(distance);
   if (!(p < kSure)) return {};
   Cause cause = Metadata("fit", p);
-  // n Ns T is what the data say; the plausible range of n turns it into the others'.
+  // The data determine n Ns T only. A plausible range of n gives ranges of T and of Ns.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;
   const double z = StudentT95(Degrees(weighted, fit.law)) * error;

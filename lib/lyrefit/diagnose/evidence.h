@@ -8,18 +8,19 @@
 
 namespace lyrefit {
 
-// "one sweep from -0.1 V to 0.6 V, beyond open circuit", in words.
+// Text such as "one sweep, beyond open circuit".
 std::string KindOfData(const Readings& readings);
 
-// p-value of Ljung and Box's test over 8 lags inside each stretch, of whitened residuals.
+// p-value of the Ljung-Box test over 8 lags within each monotone stretch, of whitened residuals.
 double Whiteness(const WeightedData& weighted, const LawFit& fit);
 
-// Everything that was seen before a cause was thought of.
+// Properties of readings and residuals before any cause is tried.
 Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
                           const ValueFindings& values, const Autocorrelation& autocorrelation);
 
-// n below 1 or beyond 3 in the extended model: what temperature or number of cells would be
-// plausible. Nothing where n is. With `shorted`, a bypass group without voltage is thought of.
+// If n of the extended model is below 1 or above 3: a cause with the temperature or number of cells
+// that would make n plausible. Empty if n is plausible. With `shorted`, a shorted bypass group is
+// offered as an explanation.
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted);
 
 }  // namespace lyrefit

@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-// Bin by bin, where at least half of the sweeps have readings.
+// Median per bin; NaN if fewer than half of the sweeps have readings in it.
 Eigen::VectorXd MedianShape(const std::vector<const SweepState*>& sweeps, int without = -1) {
   Eigen::VectorXd shape(kShapeBins);
   for (int bin = 0; bin < kShapeBins; ++bin) {
@@ -34,7 +34,7 @@ Eigen::VectorXd ShapeFrom(const Eigen::VectorXd& common, const SweepState& sweep
 }
 
 double ShapeOff(const Eigen::VectorXd& common, const SweepState& sweep) {
-  constexpr double kSmallest = 1e-6;  // computed sweeps have none
+  constexpr double kSmallest = 1e-6;  // lower limit, as simulated sweeps have no difference
   int bins = 0;
   for (int k = 0; k < kShapeBins; ++k) bins += std::isfinite(sweep.shape[k] - common[k]) ? 1 : 0;
   const double squares = ShapeFrom(common, sweep).squaredNorm();
@@ -54,7 +54,7 @@ Eigen::VectorXd Regressors(const Expectation& e, const SweepState& state) {
   return x.head(e.regressors);
 }
 
-// The references nearest to the sweep: a hundredth of Voc is worth four of Isc.
+// Positions of the references nearest to the sweep. 1 % in Voc counts as much as 4 % in Isc.
 std::vector<int> Nearest(const std::vector<const SweepState*>& references,
                          const SweepState& sweep) {
   constexpr std::size_t kMost = 40;
@@ -77,7 +77,7 @@ struct Rows {
   Eigen::MatrixXd x, y;
 };
 
-// Weight 0 takes a sweep out.
+// Regression slopes; rows with `keep` 0 are left out.
 Eigen::MatrixXd Slopes(const Rows& rows, const std::vector<char>& keep) {
   Eigen::MatrixXd x = rows.x, y = rows.y;
   for (int i = 0; i < x.rows(); ++i) {
@@ -88,8 +88,8 @@ Eigen::MatrixXd Slopes(const Rows& rows, const std::vector<char>& keep) {
   return LeastSquares(x, y);
 }
 
-// Those that lie within a few of their fellows' median distances in every quantity. A shape can
-// only lie too far off.
+// Marks sweeps that are no outliers: within a few median absolute deviations of the regression in
+// every quantity. Of the shape distance only large values are outliers.
 std::vector<char> KeepUsual(const Rows& rows) {
   constexpr double kFar = 4, kToDeviation = 1.4826;
   constexpr int kFewest = 8, kRounds = 4;
@@ -132,7 +132,8 @@ double Leverage(const Expectation& e, const Eigen::VectorXd& x) {
   return x.dot(SolveSymmetric(e.gram, x));
 }
 
-// Of one sweep's differences, each reference's from what the others make it expect.
+// Covariance of the quantities of one sweep. Each residual is scaled by its leverage, as if the
+// sweep were predicted from the others.
 void FindCovariance(const Rows& rows, Expectation* e) {
   e->gram = TransposedTimes(rows.x, rows.x);
   e->slopes = LeastSquares(rows.x, rows.y);
@@ -143,7 +144,7 @@ void FindCovariance(const Rows& rows, Expectation* e) {
   }
   e->degrees = static_cast<int>(rows.x.rows()) - e->regressors;
   e->covariance = TransposedTimes(off, off) / e->degrees;
-  // What cannot differ between computed sweeps has no variance at all.
+  // Quantities that do not vary between simulated sweeps would have zero variance.
   for (int j = 0; j < kQuantities; ++j) e->covariance(j, j) += 1e-14;
 }
 

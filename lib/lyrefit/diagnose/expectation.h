@@ -7,9 +7,10 @@
 
 namespace lyrefit {
 
-// What sweeps are compared by, as numbers that hardly depend on light and temperature: ln FF,
-// Rs Isc / Voc, n, Gsh Voc / Isc, and ln of how far the shape of what a single diode misses lies
-// from the common one (root mean square over the bins, in parts of Isc).
+// Quantities by which sweeps are compared, nearly independent of light and temperature: ln FF, Rs
+// Isc / Voc, n, Gsh Voc / Isc, and the shape distance. The latter is ln of the root mean square
+// difference, over the bins, between the single-diode residual and the common one, in fractions of
+// Isc.
 enum Quantity {
   kFill,
   kSeries,
@@ -20,37 +21,37 @@ enum Quantity {
   kQuantities
 };
 
-// Sweeps that may be expected to be alike; fewer are no measure of how much they differ.
+// Smallest number of reference sweeps: fewer do not give a usable variance.
 constexpr int kFewestReferences = 4;
 
-// What a reference sweep would show at the Isc and Voc of the sweep that it is made for.
+// Prediction for a reference sweep at the Isc and Voc of the given sweep.
 struct Expectation {
   std::vector<int> used;        // positions among the references
-  std::vector<int> outlier;         // left out: unlike the others
-  int regressors = 1;           // 1, ln Isc, Voc: as many as the references can bear
-  Eigen::VectorXd centre;       // ln Isc, Voc of the sweep
+  std::vector<int> outlier;         // left out: outliers among the references
+  int regressors = 1;           // 1, ln Isc, Voc: more with more references
+  Eigen::VectorXd centre;       // ln Isc and Voc of the sweep
   Eigen::MatrixXd slopes;       // regressors x kQuantities
-  Eigen::MatrixXd gram;         // of the references' regressors
-  Eigen::MatrixXd covariance;   // of one sweep's differences
-  Eigen::VectorXd shape;        // common, in bins (NaN where hardly any sweep has readings)
-  Eigen::VectorXd shape_scale;  // standard deviations of one sweep's
-  int degrees = 1;              // of the covariance
+  Eigen::MatrixXd gram;         // X'X of the references' regressors
+  Eigen::MatrixXd covariance;   // of the quantities of one sweep about the regression
+  Eigen::VectorXd shape;        // median residual, in bins (NaN: too few sweeps)
+  Eigen::VectorXd shape_scale;  // standard deviation of one sweep, per bin
+  int degrees = 1;              // degrees of freedom of the covariance
 };
 
-// The references nearest to `sweep` in Isc and Voc, outliers left out.
+// The regression on the references nearest to `sweep` in Isc and Voc, without outliers.
 Expectation Expect(const std::vector<const SweepState*>& references, const SweepState& sweep);
 
 struct Difference {
-  Eigen::VectorXd value;     // of the quantities
+  Eigen::VectorXd value;     // of each quantity, minus `expected`
   Eigen::VectorXd expected;  // of the quantities
-  double widening = 1;       // of the variance: the expectation has its own
-  Eigen::VectorXd shape;     // in bins; 0 where nothing is known
-  std::vector<double> p;     // of each quantity by itself
-  double p_value = 1;        // of all together (Hotelling) and each by itself, whichever says more
+  double widening = 1;       // factor of the variance: adds that of the prediction
+  Eigen::VectorXd shape;     // difference in bins; 0 if unknown
+  std::vector<double> p;     // p-value of each quantity by itself
+  double p_value = 1;        // smaller of joint (Hotelling) and single tests, corrected
 };
 Difference Differ(const Expectation& expected, const SweepState& sweep);
 
-// The first four quantities.
+// The first kParameterQuantities quantities.
 Eigen::VectorXd ParametersOf(const SweepState& state);
 
 }  // namespace lyrefit

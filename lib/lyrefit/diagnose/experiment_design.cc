@@ -14,10 +14,10 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kMostCandidates = 5;
-constexpr int kTruths = 8;     // drawn from what the readings leave open of a candidate
-constexpr int kNoises = 2000;  // of the further readings
+constexpr int kTruths = 8;     // draws from the uncertainty of a candidate's parameters
+constexpr int kNoises = 2000;  // draws of the noise of the further readings
 
-// A candidate as it would have been fitted, had the noise been another.
+// Draws a candidate from its sampling distribution: refits it to its own currents with new noise.
 LawFit DrawTruth(const WeightedData& weighted, const ErrorModel& errors, const PlanCandidate& candidate,
                  RandomStream* random) {
   Readings again = *weighted.readings;
@@ -38,10 +38,10 @@ LawFit DrawTruth(const WeightedData& weighted, const ErrorModel& errors, const P
   return truth;
 }
 
-// What the further readings, without noise, leave between the true candidate and the others.
+// Differences between the true candidate and the others on noise-free further readings.
 struct Contest {
-  std::vector<double> ahead;  // of each other: by how much the truth has the smaller charged sum
-  Eigen::MatrixXd between;    // a column for each: how noise of unit size moves half of that
+  std::vector<double> ahead;  // per other candidate: penalised sum minus that of the truth
+  Eigen::MatrixXd between;    // column per other: half of its change with unit noise
 };
 
 std::optional<Contest> Meet(const Joint& joint, const std::vector<PlanCandidate>& candidates,
@@ -54,7 +54,7 @@ std::optional<Contest> Meet(const Joint& joint, const std::vector<PlanCandidate>
     if (c == truth) continue;
     const FurtherEnd other = FitJoint(joint, candidates[c].fit.law, candidates[c].starts);
     const int at = static_cast<int>(contest.ahead.size());
-    // One that cannot follow at all is beaten for certain.
+    // A candidate that cannot be fitted at all loses for certain.
     const double ahead = other.usable ? other.sum - own.sum : 1e6;
     contest.ahead.push_back(ahead + candidates[c].charge - candidates[truth].charge);
     contest.between.col(at).setZero();
@@ -63,7 +63,7 @@ std::optional<Contest> Meet(const Joint& joint, const std::vector<PlanCandidate>
   return contest;
 }
 
-// How often noise leaves the truth ahead of all others.
+// Fraction of noise draws in which the truth has the smallest penalised sum.
 double ShareAhead(const Contest& contest, RandomStream* random) {
   const Eigen::MatrixXd basis = RankedBasis(contest.between);
   const Eigen::MatrixXd moves = 2 * TransposedTimes(contest.between, basis);

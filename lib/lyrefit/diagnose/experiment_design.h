@@ -8,24 +8,25 @@
 
 namespace lyrefit {
 
-// What a plan decides between.
+// One of the causes between which a plan decides.
 struct PlanCandidate {
-  const Effect* effect = nullptr;  // the last of its law
+  const Effect* effect = nullptr;  // last effect of its law
   LawFit fit;
-  double charge = 0;  // on the sum of squares, for its freedom
-  // From where it is fitted to more readings: where it stands and, where these are few, other
-  // settings of what is searched.
+  double charge = 0;  // penalty on the sum of squares, for its freedom
+  // Starts of fits to additional readings: the present parameters and, if there are at most eight,
+  // the other probe values of searched parameters.
   std::vector<std::vector<double>> starts;
 };
 PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double charge);
 
-// The first cause that has equivalents, and these; none where every cause stands alone.
+// The first cause that has equivalents, and these. Empty if no cause has any.
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection);
 
-// Factor on the deviations of the weighted data: its noise as the extended model has it.
+// Factor from the sigmas of the weighted data to the residual deviation of the extended model.
 double DeviationOf(const Selection& selection);
 
-// How surely a further measurement names each candidate, were it the true one.
+// Probability that a further measurement identifies each candidate, if that candidate is the true
+// one.
 std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
                                   const std::vector<PlanCandidate>& candidates, std::uint64_t seed);
 

@@ -28,7 +28,7 @@ constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
                              {"Rs", "resistance_series", "ohm", "series resistance"},
                              {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
 
-// Values in a person's units, in the order of the report.
+// Values in reporting units, in the order of the report.
 std::vector<double> Reported(const WeightedData& weighted, const Law& law, const std::vector<double>& p) {
   const Readings& readings = *weighted.readings;
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
@@ -55,7 +55,7 @@ std::vector<double> Reported(const WeightedData& weighted, const Law& law, const
   return values;
 }
 
-// Of the base parameters in the order of the report; NaN where there is none.
+// Standard errors of the base parameters in the order of the report; NaN if not available.
 std::vector<double> StandardErrorsOf(const Selection& selection, std::size_t count) {
   const Law& law = selection.extended.law;
   std::vector<double> errors(count, kUnknown);
@@ -63,14 +63,14 @@ std::vector<double> StandardErrorsOf(const Selection& selection, std::size_t cou
     for (int k = 0; k < 5; ++k) {
       if (shift.symbol == kBaseRows[k].symbol) errors[k] = shift.standard_error;
     }
-    const int second = law.model == Model::kDoubleDiode ? 1 : 0;  // and its ideality
+    const int second = law.model == Model::kDoubleDiode ? 1 : 0;  // offset by the row n2
     if (shift.symbol == "alpha") errors[law.TempcoAt() + second] = shift.standard_error;
     if (shift.symbol == "Eg") errors[law.BandgapAt() + second] = shift.standard_error;
   }
   return errors;
 }
 
-// Rows of the law without its effects.
+// Report rows of the base parameters.
 std::vector<Row> BaseRows(const Law& law) {
   std::vector<Row> rows(std::begin(kBaseRows), std::end(kBaseRows));
   if (law.model == Model::kDoubleDiode) {
@@ -94,7 +94,8 @@ void AddInterval(const Row& row, double error, double t, Estimate* estimate) {
   estimate->interval = IntervalMethod::kSymmetric;
 }
 
-// Intervals and bounds of the parameters of effect `e` of the law, which stand at `first`.
+// Fills intervals and bounds of effect `e` of the law. `first`: position of its first parameter
+// among the estimates.
 void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
                         std::vector<Estimate>* estimates) {
   const LawFit& fit = selection.extended;
@@ -164,7 +165,7 @@ IvCurve AllPoints(const CurveSet& set) {
   return all;
 }
 
-// What the law of many curves holds of alpha and the band gap stands in the report as well.
+// Inserts alpha and the band gap into the report if the law keeps them fixed.
 void AddHeld(const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
   const Readings& readings = *selection.weighted.readings;
@@ -189,7 +190,7 @@ void AddHeld(const Selection& selection, FitReport* report) {
   }
 }
 
-// The curves at the irradiances the law takes them at.
+// The curves with the irradiances that the law uses.
 CurveSet AsRead(const CurveSet& set, const Readings& readings) {
   CurveSet read = set;
   for (const Reading& r : readings.points) {
@@ -202,17 +203,18 @@ CurveSet AsRead(const CurveSet& set, const Readings& readings) {
   return read;
 }
 
-// Whether the diodes alone under one sky are the whole law.
+// Whether the law is one curve's base alone: no effects, no free alpha or band gap, constant
+// conditions.
 bool IsPlain(const CurveSet& set, const Law& law) {
   const IvCurve& curve = set.curves.front();
   return set.curves.size() == 1 && law.effects.empty() && !law.free_tempco && !law.free_bandgap &&
          curve.irradiance_W_m2.empty() && curve.temperature_C.empty();
 }
 
-// The law as a device with effects, so that whoever reads the report can simulate it: where cells
-// are counted as stated, and of one curve with nothing free but the diodes and the effects. Without
-// effects it is the device of the cells that were counted. The report's parameters are the device's
-// own from here on.
+// Attaches the law to the report as a device with effects, for simulation. Requirements: the number
+// of cells as stated and, for one curve, effects and no free alpha or band gap. A plain law gets
+// the device of its number of cells. From here on the report's parameters are in the device's
+// internal units.
 void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& readings,
                FitReport* report) {
   const Law& law = selection.extended.law;

@@ -10,9 +10,9 @@
 
 namespace lyrefit {
 
-// The extended law as a FitReport: base parameters in pvlib's units, then those of the causes.
-// With `search` the modified lyrebird optimizer searches the whole law's box first and its best
-// candidate is polished too, beside a random baseline of the same budget.
+// The extended law as a FitReport: base parameters in pvlib's units, then those of the causes. With
+// `search`, the modified lyrebird optimizer searches the box of the whole law, and its best
+// candidate is polished as well. A random search of the same budget is run for comparison.
 FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const AtReadings& at,
                          bool search, std::uint64_t seed, const Observer& observer);
 

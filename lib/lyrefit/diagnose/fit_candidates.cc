@@ -9,8 +9,8 @@
 namespace lyrefit {
 namespace {
 
-// The fit with one more effect of the selection that this one repeats. What is searched there is
-// searched here as well.
+// An earlier fit with this effect, of the selection that is repeated. Null if the law already has
+// effects or if a parameter is selected on a grid, which must be repeated.
 const LawFit* FindMet(const SelectionState& now, const Effect& effect) {
   const auto searched = [](const EffectParameter& parameter) { return parameter.searched; };
   const std::vector<FittedCandidate>* met = now.options.met;
@@ -21,7 +21,7 @@ const LawFit* FindMet(const SelectionState& now, const Effect& effect) {
   return at != met->end() && at->fit.usable ? &at->fit : nullptr;
 }
 
-// Once more from where the effect was found before.
+// Fits once more from the parameters of an earlier fit; keeps the better result.
 void FitFromHint(const SelectionState& now, const Effect& effect, LawFit* fit) {
   const LawFit& found = now.options.hint;
   const Law& hint = found.law;
@@ -52,8 +52,8 @@ LawFit FitCandidate(const SelectionState& now, const Score& score, bool briefly)
   return fit;
 }
 
-// What each takes off the sum of squares and what that is worth, in units of the smallest noise
-// variance that any of them leaves.
+// Sets statistic, penalty and p-value of each candidate, in units of the smallest noise variance of
+// all fits.
 void JudgeCandidates(const SelectionState& now, std::vector<FittedCandidate>* fitted_candidates) {
   double variance = NoiseVariance(now.weighted, now.fit);
   for (const FittedCandidate& fitted : *fitted_candidates) {
@@ -77,14 +77,15 @@ std::vector<FittedCandidate> FitCandidates(const SelectionState& now, const std:
   const double floor = now.options.floors.current;
   const double hopeless =
       std::max(HopelessStatistic(scores), LeastOfTheBest(scores, now.options.most_fitted_candidates));
-  // Nothing is worth a name that is smaller than what the present law misses.
+  // No candidate can exceed the floor if the present lack of fit does not.
   const bool may_matter = floor > 0 && MissedBy(now.weighted, now.fit) > floor;
   const bool astray = may_matter || LeadsAstray(now.weighted, now.fit);
   const bool single = now.measurement.readings.traits.single;
   Begin(ObserverOf(now), "selection", static_cast<std::int64_t>(scores.size()));
   for (const Score& score : scores) {
     Step(ObserverOf(now));
-    // What the shape of the curve suggests does not hang on scores that a fault ruins.
+    // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
+    // spoil the scores.
     const bool by_shape = astray && is_there && score.effect->starts != nullptr && single;
     const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
                                    score.effect->probes != nullptr);

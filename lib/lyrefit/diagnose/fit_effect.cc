@@ -8,8 +8,8 @@
 namespace lyrefit {
 namespace {
 
-// Places to start from: every setting of what is searched where these are few, the three best
-// where they are many; the two best probes of effects that only descend.
+// Starts of a fit. With searched parameters: the best probe of every setting, or of the three best
+// if there are more than eight. Otherwise: the two best probes.
 std::vector<Direction> ChooseStarts(const Effect& effect, const std::vector<Probe>& probes,
                                     const Score& score) {
   bool searched = false;
@@ -35,7 +35,7 @@ std::vector<Direction> ChooseStarts(const Effect& effect, const std::vector<Prob
   return starts;
 }
 
-// A probe at the strength its score asks for, inside the bounds.
+// The probe with its strength scaled by its score, inside the bounds.
 std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direction& direction) {
   std::vector<double> p = probe;
   const EffectParameter& strength = effect.parameters.front();
@@ -44,7 +44,7 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
   for (const EffectParameter& parameter : effect.parameters) {
     linear = linear && !(parameter.searched && effect.cell);
   }
-  if (!linear) return p;  // a shade moves its knee with its depth
+  if (!linear) return p;  // the knee of a shaded substring moves with its depth
   const double factor = direction.score / direction.norm;
   p[0] *= factor;
   const double smallest = 1e-3 * std::fabs(probe[0]);
@@ -53,19 +53,19 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
   return p;
 }
 
-// Every start comes this far; the best of them near enough to its end to be ranked. What is chosen
-// is fitted again with the noise it leaves.
+// Tolerances: kBriefly for every start, kForRanking for the best of them. The selected candidate is
+// fitted again with its own noise.
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
-// A hundredth of the noise variance more or less is nothing to an effect that is not there.
+// For effects that are not significant: a hundredth of the noise variance does not matter.
 const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
 
-// A fit's sum of squares and what it pays for the parameters that it lets go.
+// Sum of squares plus the penalty for freed parameters.
 double Paid(const WeightedData& weighted, const LawFit& fit) {
   return fit.sum + FreedomOf(weighted, fit.law) * NoiseVariance(weighted, fit);
 }
 
-// Whether the last effect of a fit ended as what it is meant to be.
+// Whether the last effect of a fit stays off the bounds at which it would imitate another effect.
 bool IsItself(const Effect& effect, const LawFit& fit) {
   const std::size_t first = fit.p.size() - effect.parameters.size();
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
@@ -78,7 +78,7 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
   return true;
 }
 
-// Whether a law misses the used readings by more than so many parts of Isc, root mean square.
+// Whether the root mean square misfit of the used readings exceeds `part` of Isc.
 bool Misses(const WeightedData& weighted, const LawFit& fit, double part) {
   double sum = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
@@ -89,13 +89,13 @@ bool Misses(const WeightedData& weighted, const LawFit& fit, double part) {
   return sum > part * part * std::max(weighted.count(), 1);
 }
 
-// A fit on its way and what it pays.
+// An unfinished fit and its penalised sum of squares.
 struct Way {
   double paid = 0;
   LawFit fit;
 };
 
-// All go on by so many steps; the `most` best of what is then usable, the best first.
+// Continues all fits by `steps` steps. Returns the `most` best usable ones, best first.
 std::vector<Way> GoOn(const WeightedData& weighted, const std::vector<Way>& ways, int steps,
                       std::size_t most) {
   std::vector<Way> on;
@@ -109,14 +109,15 @@ std::vector<Way> GoOn(const WeightedData& weighted, const std::vector<Way>& ways
   return on;
 }
 
-// The best end of those that the curve's shape suggests. All of them from a healthy module: a base
-// fit that had to bend to the fault leads to the wrong local optimum. All take some steps, the better ones
-// some more; those that are ahead then, each in a local optimum of its own, go on to their end.
+// Fits from starts suggested by the curve's shape; keeps the best result. All start from typical
+// base parameters: a base fit distorted by the fault leads to a wrong local optimum. All starts
+// take a few steps, the better ones more. The leading ones, each of a different local optimum, are
+// fitted to the end.
 void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect, const Law& law,
                LawFit* best) {
   constexpr std::size_t kBetter = 16, kAhead = 8;
   constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
-  constexpr double kSameLocalOptimum = 1e-3;  // relative, of what is paid
+  constexpr double kSameLocalOptimum = 1e-3;  // relative difference of the penalised sums
   const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
   const std::vector<double> reference = TypicalStart(readings, law, shape.At(0.02));
@@ -130,8 +131,8 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     start.p.insert(start.p.end(), own.p.begin(), own.p.end());
     ways.push_back({0, std::move(start)});
   }
-  // Steps of the current are cliffs for weights that foresee none: there all readings count alike
-  // at first.
+  // Weights from small noise make the sum very steep near steps of the current. With a large misfit
+  // the first steps therefore use equal weights.
   constexpr double kSteps = 0.02;
   if (Misses(weighted, fit, kSteps)) {
     WeightedData alike = weighted;
@@ -157,7 +158,8 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
   }
 }
 
-// Scores are lines where the effect is a jump: the place is what fits best among its neighbours.
+// Coordinate descent over the probe values of one searched parameter, for effects such as jumps:
+// their scores are linear approximations, so neighbouring values may fit better.
 void NewtonAscent(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
            LawFit* best) {
   constexpr int kMostSteps = 8;
@@ -165,7 +167,7 @@ void NewtonAscent(const WeightedData& weighted, const Effect& effect, const std:
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].searched) searched.push_back(k);
   }
-  constexpr std::size_t kFew = 8;  // of which every one is a start
+  constexpr std::size_t kFew = 8;  // up to here every value was a start
   if (searched.size() != 1) return;
   std::set<double> settings;
   for (const Probe& probe : probes) settings.insert(probe[searched.front()]);
@@ -213,7 +215,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     starts.push_back(Scaled(effect, probes[direction.probe], direction));
     if (effort != Effort::kFull) break;
   }
-  // A strength that does not act in proportion is better met as it was tried.
+  // A strength with a nonlinear effect is fitted from the unscaled probe as well.
   if (!starts.empty()) {
     const std::vector<double>& tried = probes[score.directions.front().probe];
     if (starts.front() != tried) starts.push_back(tried);
@@ -231,7 +233,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     TryShapes(weighted, fit, effect, law, &best);
   }
   if (!(best.usable && best.sum <= fit.sum) && !probes.empty() && effect.size() > 0) {
-    // From where it is not there it does not get worse.
+    // A start at the neutral value cannot give a larger sum than the fit without the effect.
     std::vector<double> start = fit.p, absent = probes.front();
     absent[0] = effect.parameters[0].neutral;
     start.insert(start.end(), absent.begin(), absent.end());

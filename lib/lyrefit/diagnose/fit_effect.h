@@ -5,25 +5,29 @@
 
 namespace lyrefit {
 
-// In passing, an effect is tried from its best probe alone; for the record, briefly as well.
+// Effort of a fit. kFull: several starts. kInPassing: the best probe only. kForTheRecord: the best
+// probe only, with a looser tolerance.
 enum class Effort { kFull, kInPassing, kForTheRecord };
 
-// `fit`'s law with one more effect, all parameters free, from the best of the effect's probes;
-// never worse than `fit` itself but for the effects that have no neutral value.
+// Fits the law of `fit` with one more effect, all parameters free, from the best of the effect's
+// probes. The sum of squares is never larger than that of `fit`, except for effects without a
+// neutral value.
 LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& score,
                  Effort effort = Effort::kFull);
 
-// The law of `met`, a fit with one more effect to readings of which most are in these data too,
-// from where that ended.
+// Fits the law of `met` from its parameters. `met`: a fit with one more effect, to readings most of
+// which are in these data too. Not usable if the effect ends at a bound that it must not reach.
 LawFit FitOnwards(const WeightedData& weighted, const LawFit& met);
 
-// Whether a law is so far off, by misfit or ideality, that what is seen or fitted from it misleads.
+// Whether the misfit or the ideality of a fit is so large that scores and starts taken from it
+// mislead.
 bool LeadsAstray(const WeightedData& weighted, const LawFit& fit);
 
-// What a law pays for the parameters that it lets go, in units of the noise variance.
+// Penalty for the parameters that a law frees beyond the default, in units of the noise variance:
+// ln(readings) each (BIC).
 double FreedomOf(const WeightedData& weighted, const Law& law);
 
-// `fit`'s law without effect number `index`, from where it stands.
+// Fits the law of `fit` without effect number `index`, from the present parameters.
 LawFit FitWithout(const WeightedData& weighted, const LawFit& fit, int index);
 
 }  // namespace lyrefit

@@ -9,7 +9,7 @@ namespace {
 constexpr double kLightUnknown = 0.03, kKelvinUnknown = 1, kDropUnknown_V = 0.1;
 constexpr double kSlower = 5, kDimmer = 0.5;
 
-// The brightest curve, as it was taken; all of a dark measurement.
+// The points of the brightest curve. A dark measurement gives its first curve.
 std::vector<Reading> Brightest(const Readings& measured) {
   double light = 0;
   int curve = 0;
@@ -100,7 +100,8 @@ FollowUp DarkCurve(const Readings& measured) {
   return follow_up;
 }
 
-// The cells that work keep their voltages.
+// Curves with each bypass group covered in turn. The covered cells are not counted; the voltages
+// per working cell are unchanged.
 FollowUp CoveredParts(const Readings& measured, int groups) {
   FollowUp follow_up = {"cover_part",
                      "a curve with each bypass group covered in turn (1/" + std::to_string(groups) +

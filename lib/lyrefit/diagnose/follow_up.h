@@ -7,16 +7,16 @@
 
 namespace lyrefit {
 
-// A curve that could be taken besides. Its currents are not known yet.
+// A curve that could be measured in addition. Its currents are not known yet.
 struct PlannedCurve {
   Readings readings;
-  // Follows the sweep that was taken at once, under its sky: what happens in time goes on. Else
-  // nothing that happened in time comes again.
+  // Measured immediately after the sweep, under the same conditions: effects of the sweep continue.
+  // Otherwise effects of the sweep do not act on it.
   bool at_once = false;
-  bool open_circuit = false;  // readings beyond 0 V are of Voc: the law says where
-  int covered = -1;           // of `groups` bypass groups; -1: none
+  bool open_circuit = false;  // readings above 0 V are at the law's Voc
+  int covered = -1;           // covered bypass group, 0 .. `groups` - 1; -1: none
   int groups = 1;
-  // Which of the measurement's unknowns its light, temperature and bypass drop have; -1: known.
+  // Positions in FollowUp::unknown of its light, temperature and bypass drop; -1: known.
   int light = -1;
   int temperature = -1;
   int drop = -1;
@@ -27,23 +27,23 @@ struct FollowUp {
   std::string title;
   std::string taken;
   std::vector<PlannedCurve> curves;
-  // Standard deviations of what is not known of it beforehand: of a light in parts, of a
-  // temperature in K, of a bypass drop in V per cell.
+  // Prior standard deviations of the unknowns: irradiance as a fraction, temperature in K, bypass
+  // drop in V per cell.
   std::vector<double> unknown;
 };
 
-// Every further measurement that the readings' kind admits.
+// All further measurements that are possible for readings of this type.
 std::vector<FollowUp> FollowUpMeasurements(const Readings& measured);
 
-// What a law becomes on a further curve.
+// A law restricted to a further curve.
 struct CurveLaw {
   Law law;
-  std::vector<int> from;  // the parameter of the whole law that each of its own is
-  std::vector<double> p;  // its own, at those of the whole law
+  std::vector<int> from;  // position in the whole law of each of its parameters
+  std::vector<double> p;  // its parameters
 };
 CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& p);
 
-// The readings under what turned out to be unknown, of this curve.
+// The readings of a curve under given values of the unknowns, in the units of FollowUp::unknown.
 Readings Under(const PlannedCurve& curve, const std::vector<double>& unknown);
 
 }  // namespace lyrefit

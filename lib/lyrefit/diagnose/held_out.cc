@@ -14,14 +14,14 @@ struct Squares {
   double Mean() const { return count > 0 ? sum / count : 0; }
 };
 
-// Squares of one fold, in current scales.
+// Sums of squares of one fold, in squared current scales.
 struct Fold {
   Squares before;
   Squares after;
   std::vector<Squares> trials;
 };
 
-// The readings of a fold that count.
+// Used readings of a fold.
 std::vector<int> HeldReadings(const std::vector<int>& folds, int fold,
                               const std::vector<char>& counted) {
   std::vector<int> held;
@@ -43,10 +43,10 @@ Squares SquaresAt(const Readings& readings, const std::vector<int>& held,
   return squares;
 }
 
-// A repeated selection need not look at those that stand behind so many others.
+// Number of effects that a repeated selection fits in a step.
 constexpr int kFittedCandidates = 4;
 
-// From the fit to all readings it is not far.
+// Fits start at the parameters of the fit to all readings, so a few steps suffice.
 const LeastSquaresOptions kNearby = UpTo(8, 1e-5);
 
 void AddSquares(const Squares& from, Squares* to) {
@@ -54,10 +54,11 @@ void AddSquares(const Squares& from, Squares* to) {
   to->count += from.count;
 }
 
-// The curve of every reading where there are three or more; else its sweep, counted through the
-// set: a stretch of a few readings, where a voltage hesitates, belongs to a sweep beside it.
+// Sweep number of each reading. With three or more curves a sweep is a curve, else a monotone
+// stretch, numbered over the set. A stretch of less than kFewest readings, as from a hesitating
+// voltage, belongs to the sweep beside it.
 std::vector<int> SweepOfEach(const Readings& readings) {
-  constexpr int kFewest = 7;  // readings that make a sweep
+  constexpr int kFewest = 7;  // fewest readings of a sweep
   const std::vector<Reading>& points = readings.points;
   const std::size_t count = points.size();
   const bool by_curve = readings.traits.curves > 2;
@@ -77,7 +78,7 @@ std::vector<int> SweepOfEach(const Readings& readings) {
   return of;
 }
 
-// How the selection is repeated on a part of the readings.
+// Options for repeating the selection on a subset of the readings.
 SelectOptions Repeated(const SelectOptions& options, const Selection& selection) {
   SelectOptions inner = options;
   inner.trials = false;
@@ -92,8 +93,8 @@ SelectOptions Repeated(const SelectOptions& options, const Selection& selection)
   return inner;
 }
 
-// What the base model, each trial and the whole selection, fitted without the `held` readings of a
-// fold, miss of them. Empty where they cannot be fitted.
+// Squares at the `held` readings of a fold. The base model, each trial and the whole selection are
+// fitted without these readings. Empty if a fit fails.
 Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
             const Measurement& measurement, const SelectOptions& options,
             const Selection& selection) {
@@ -118,7 +119,7 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
   return fold;
 }
 
-// Over the folds that could be fitted.
+// Combines the folds whose fits succeeded.
 void Summarise(const std::vector<Fold>& folds, const Readings& readings,
                const std::vector<FittedCandidate>& tried, Gain* gain, std::vector<Trial>* trials) {
   Squares before, after;

@@ -7,16 +7,16 @@
 
 namespace lyrefit {
 
-// Which readings are left out together: whole sweeps (curves, and the ups and downs within them)
-// where there are three or more, else short contiguous blocks spread over the sweep. One number a
-// reading, 0 .. folds - 1.
+// Assigns readings to folds that are left out together. With three or more sweeps (curves, or up
+// and down sweeps within them) a fold holds whole sweeps, else short contiguous blocks spread over
+// the sweep. Returns one fold per reading, 0 .. folds - 1.
 std::vector<int> MakeFolds(const Readings& readings, int folds);
 
-// Whether those are whole sweeps.
+// Whether MakeFolds leaves out whole sweeps.
 bool LeavesSweepsOut(const Readings& readings);
 
-// Fills the held-out part of `gain` and of `trials`: in every fold the base model, each effect and
-// the whole selection are fitted without it and tried on it.
+// Fills the held-out fields of `gain` and `trials`. For every fold, the base model, each effect and
+// the whole selection are fitted without the fold and evaluated on it.
 void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
                     const Selection& selection, int folds, int threads, Gain* gain,
                     std::vector<Trial>* trials);

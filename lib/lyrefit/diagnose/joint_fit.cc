@@ -10,8 +10,8 @@ namespace lyrefit {
 namespace {
 
 constexpr double kStep = 1e-3;      // of an unknown, in standard deviations
-constexpr double kFarthest = 6;     // the same
-constexpr double kOpenCircuit = 1;  // Voc is looked for so far from where it was, V per cell
+constexpr double kFarthest = 6;     // limit of an unknown, in standard deviations
+constexpr double kOpenCircuit = 1;  // search range above the initial Voc, V per cell
 
 bool Currents(const CurveLaw& own, const Readings& readings, double* current,
               double* jacobian = nullptr) {
@@ -19,8 +19,8 @@ bool Currents(const CurveLaw& own, const Readings& readings, double* current,
   return EvaluateLaw(own.law, readings, own.p.data(), &workspace, current, jacobian);
 }
 
-// Moves the readings beyond 0 V to where the law delivers nothing. The other unknowns move light
-// and temperature only.
+// Sets the voltage of readings above 0 V to the law's Voc, by bisection. These curves have no
+// unknown bypass drop, so `unknown` changes light and temperature only.
 bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, PlannedCurve* curve) {
   constexpr int kHalvings = 40;
   std::vector<Reading>& points = curve->readings.points;
@@ -45,7 +45,7 @@ bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, Pl
   return true;
 }
 
-// Noise of the used reading whose current comes nearest.
+// Noise of the used reading with the nearest current.
 double SigmaAt(const WeightedData& measured, double current) {
   double nearest = 1e300, sigma = 0;
   for (std::size_t k = 0; k < measured.sigma.size(); ++k) {
@@ -64,7 +64,7 @@ std::vector<double> InUnits(const std::vector<double>& unknown, const std::vecto
   return values;
 }
 
-// Residuals of one further curve from row `first` on, with derivatives by all parameters.
+// Residuals of one further curve from row `first` on, and derivatives by all parameters.
 bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, const Law& law,
                    const std::vector<double>& p, double* residuals, RowMatrix* rows) {
   const int count = static_cast<int>(curve.readings.points.size());
@@ -95,7 +95,7 @@ bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, con
   return true;
 }
 
-// All rows: old readings, further ones, unknowns.
+// All rows: readings already measured, further readings, then the unknowns.
 bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, const double* values,
                    LawWorkspace* workspace, double* residuals, double* jacobian) {
   const int size = law.size(), unknown = static_cast<int>(joint.unknown.size());

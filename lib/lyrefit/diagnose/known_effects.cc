@@ -20,7 +20,7 @@ bool HasBounds(const EffectParameter& p) {
          p.lower <= p.neutral && p.neutral <= p.upper;
 }
 
-// Why a caller's effect cannot be fitted; nothing where it can.
+// Reason why a caller's effect cannot be fitted; empty if it can.
 std::string WhyUnfit(const Effect& effect, const std::vector<const Effect*>& known) {
   if (*effect.id == '\0') return "it has no id";
   if (HasId(known, effect.id)) return "another effect has its id";

@@ -8,14 +8,14 @@
 
 namespace lyrefit {
 
-// The catalogue and the caller's own effects, in the order of reports. Errors: an own effect that
-// cannot be fitted or whose id is taken, an id asked for that nobody has.
+// The catalogue, then the caller's own effects, in the order of reports. Errors: an own effect that
+// cannot be fitted or whose id is already used; a requested id that does not exist.
 Expected<std::vector<const Effect*>> KnownEffects(const DiagnoseOptions& options);
 
-// Whether an effect is among those asked for.
+// Whether an effect is among the requested ones (none requested: all).
 bool IsWanted(const Effect& effect, const DiagnoseOptions& options);
 
-// Those of the `known` that are looked for by scores and fits in data of this kind.
+// The effects of `known` that are found by scores and fits, in data with these traits.
 std::vector<const Effect*> Candidates(const std::vector<const Effect*>& known,
                                       const DataTraits& traits, const DiagnoseOptions& options);
 

@@ -11,18 +11,18 @@
 
 namespace lyrefit {
 
-// What is diagnosed.
+// The input of a diagnosis.
 struct Measurement {
   Readings readings;
-  DeviceNotes notes;  // of the first curve: noise stated beforehand
+  DeviceNotes notes;  // of the first curve: noise stated in the file
   ValueFindings values;
   std::vector<double>
-      stated_sigma;  // of every reading, in current scales; empty unless all have it
-  ErrorSpec errors;  // what is allowed for
+      stated_sigma;  // for each reading, in current scales; empty unless stated for all
+  ErrorSpec errors;  // error model that is used
 
-  // A rough path along the sweeps beside the noise.
+  // Whether the error model has a rough path along the sweeps beside the noise.
   bool has_path() const { return errors.kind != ErrorKind::kWhite; }
-  // The readings' own errors are believed as stated, by the file or by sizes.
+  // Whether the noise of the readings is used as stated, by the file or by sizes in the options.
   bool noise_is_stated() const {
     return errors.kind == ErrorKind::kStated || (has_path() && !stated_sigma.empty());
   }

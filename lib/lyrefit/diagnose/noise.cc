@@ -11,36 +11,38 @@
 
 namespace lyrefit {
 
-// Ratios of constant and relative noise that are weighed against each other.
+// Ratios of constant to relative noise that are averaged over.
 constexpr double kRatios[] = {1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 100};
 constexpr int kRatioCount = static_cast<int>(std::size(kRatios));
 
-// Second differences along the stretches of one class of curves, lit or dark: what of them stays
-// the same whatever the residuals.
+// Second differences along the stretches of the lit or the dark curves: everything that does not
+// depend on the residuals.
 struct NoiseDifferences {
   struct Place {
-    int at[3];       // readings of one stretch
-    double part[2];  // of the outer two in the line that passes the middle one
+    int at[3];       // consecutive readings of one stretch
+    double part[2];  // weights of the outer two for a line through them at the middle one
   };
   std::vector<Place> places;
-  Eigen::ArrayXd constant;        // by how much constant noise enters the square
-  Eigen::ArrayXd relative;        // by how much noise in proportion to the current does
-  Eigen::ArrayXd steep;           // by how much noise of the voltage does
-  Eigen::ArrayXXd inverse;        // 1 / variance of unit noise, a column a ratio
-  double logs[kRatioCount] = {};  // sums of ln variance of unit noise
+  Eigen::ArrayXd constant;        // factor of constant^2 in the variance of a difference
+  Eigen::ArrayXd relative;        // factor of relative^2
+  Eigen::ArrayXd steep;           // factor of voltage^2
+  Eigen::ArrayXXd inverse;        // 1 / variance at unit noise, one column per ratio
+  double logs[kRatioCount] = {};  // sums of ln variance at unit noise
 
   int size() const { return static_cast<int>(places.size()); }
 };
 
 namespace {
 
-// Squares beyond this many variances count as this many: steps and outliers are not noise.
+// Limit for squared differences, in variances. Steps and outliers, which are not noise, are cut to
+// it.
 constexpr double kLargestSquare = 6.63;
-constexpr double kCutMean = 0.967;  // mean of a squared normal number cut there
-// Second differences overlap: three of them say about as much as this many independent squares.
+constexpr double kCutMean = 0.967;  // mean of a squared standard normal number cut at that limit
+// Weight of a squared difference in the log-likelihood. It is below 1, since second differences
+// overlap and are not independent.
 constexpr double kEvidence = 0.5;
 
-// Noise of unit size: its three parts, squared.
+// Noise model up to its size: squares of its three terms.
 struct Shape {
   double constant = 0;
   double relative = 1;
@@ -63,7 +65,7 @@ std::vector<NoiseDifferences::Place> FindPlaces(const Readings& readings, bool d
     at[0] = at[1], at[1] = at[2], at[2] = static_cast<int>(k);
     if (length < 3) continue;
     const auto voltage = [&](int i) { return readings.points[at[i]].voltage; };
-    // A line through the outer two, so that uneven steps do not count.
+    // Weights of a line through the outer two, so that uneven voltage steps have no effect.
     const double span = voltage(2) - voltage(0);
     double part = span != 0 ? (voltage(1) - voltage(0)) / span : 0.5;
     if (!(part > 0.05 && part < 0.95)) part = 0.5;
@@ -111,9 +113,9 @@ Eigen::ArrayXd Squares(const NoiseDifferences& d, const std::vector<double>& res
   return squares;
 }
 
-// Scale (squared) of noise whose squares, in units of its shape, are these; large ones cut. From a
-// `guess`, which may be 0, where that leads to an end at once as pure noise does; else from the
-// middle square, which steps and outliers hardly move.
+// Squared scale of noise, from squared differences divided by their variance at unit noise; large
+// ones are cut. The iteration starts from `guess` (0: none). If it does not converge at once, as it
+// does for pure noise, it starts from the median, which is robust against steps and outliers.
 double CutScale(const Eigen::ArrayXd& squares, double guess) {
   constexpr int kRounds = 6;
   constexpr double kSettled = 1e-6;
@@ -132,19 +134,19 @@ double CutScale(const Eigen::ArrayXd& squares, double guess) {
   return std::max(scale, 1e-30);
 }
 
-// `logs`: sum of ln variance of unit noise.
+// `logs`: sum of ln variance at unit noise.
 double LogLikelihood(const Eigen::ArrayXd& squares, double logs, double scale) {
   const double count = static_cast<double>(squares.size());
   const double cut = squares.min(kLargestSquare * scale).sum() / scale;
   return -0.5 * kEvidence * (logs + count * std::log(scale) + cut);
 }
 
-// Average over the shapes by their likelihood: with few readings nothing is decided.
+// Average over the ratios, weighted by their likelihood: few readings do not determine the ratio.
 NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& squares) {
   double scale[kRatioCount], likelihood[kRatioCount], best = -1e300;
   for (int k = 0; k < kRatioCount; ++k) {
     const Eigen::ArrayXd in_units = squares * differences.inverse.col(k);
-    // From one shape to the next the size of the whole stays about the same.
+    // The total noise is nearly the same for neighbouring ratios.
     const double count = static_cast<double>(squares.size());
     const double guess =
         k == 0 ? 0
@@ -163,11 +165,11 @@ NoiseLaw Weigh(const NoiseDifferences& differences, const Eigen::ArrayXd& square
   return {std::sqrt(constant2 / sum), std::sqrt(relative2 / sum), 0};
 }
 
-// Adds noise of the voltage where that explains the differences far better.
+// Adds noise of the voltage if that raises the likelihood of the differences sufficiently.
 NoiseLaw AddVoltage(const NoiseDifferences& differences, const Eigen::ArrayXd& squares,
                     const NoiseLaw& law, VoltageNoise voltage) {
   if (voltage == VoltageNoise::kNever) return law;
-  // Gain in ln likelihood that is believed.
+  // Required gain in log-likelihood.
   const double insist = voltage == VoltageNoise::kAlways ? -1e300 : 5;
   const double steepest =
       std::sqrt((differences.steep / differences.constant.max(1e-12)).maxCoeff());
@@ -194,7 +196,7 @@ NoiseLaw AddVoltage(const NoiseDifferences& differences, const Eigen::ArrayXd& s
   return found;
 }
 
-// dI/dV at a reading, from its neighbours of the same stretch.
+// dI/dV at a reading, from its neighbours in the same stretch.
 double SlopeAt(const std::vector<Reading>& points, std::size_t k) {
   const std::size_t last = points.size() - 1;
   const std::size_t a = k > 0 && points[k - 1].segment == points[k].segment ? k - 1 : k;
@@ -211,7 +213,7 @@ struct NoiseEstimator::Parts {
   std::optional<NoiseLaw> stated;
   NoiseDifferences lit, dark;
   std::vector<double> slope;       // dI/dV at each reading
-  std::vector<double> grid_noise;  // a grid leaves no two readings closer than its own rounding
+  std::vector<double> grid_noise;  // lower limit from rounding to a grid
 
   NoiseLaw Estimate(const NoiseDifferences& differences,
                     const std::vector<double>& residual) const {
@@ -294,7 +296,7 @@ bool HasCoarseBins(const Measurement& measurement, const Noise& noise) {
   const std::vector<double>& rounding = measurement.values.bin_rounding;
   std::vector<std::size_t> steepest(rounding.size());
   std::iota(steepest.begin(), steepest.end(), 0);
-  const std::size_t steep = rounding.size() / 8;  // the middle of the steepest quarter
+  const std::size_t steep = rounding.size() / 8;  // median of the steepest quarter
   std::nth_element(steepest.begin(), steepest.begin() + steep, steepest.end(),
                    [&](std::size_t a, std::size_t b) { return rounding[a] > rounding[b]; });
   const std::size_t k = steepest[steep];
@@ -323,7 +325,7 @@ Autocorrelation EstimateAutocorrelation(const Readings& readings,
       TakeOut(smooth, &e);
       for (int i = 0; i + 1 < n; ++i) product += e[i] * e[i + 1];
       square += e.squaredNorm();
-      // What removing `waves` smooth shapes takes from the neighbours' product.
+      // Expected change of the lag-1 product by the removal of `waves` smooth functions.
       bias -= smooth.topRows(n - 1).cwiseProduct(smooth.bottomRows(n - 1)).sum();
       count += n;
     }

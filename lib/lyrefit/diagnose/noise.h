@@ -7,19 +7,19 @@
 
 namespace lyrefit {
 
-// Noise of the readings, in current scales: sd^2 = constant^2 + (relative I)^2 + (voltage dI/dV)^2,
-// of lit and of dark curves apart. Noise of the voltage (per cell) is believed only where the data
-// insist.
+// Noise of a reading, in current scales: sd^2 = constant^2 + (relative I)^2 + (voltage dI/dV)^2.
+// Lit and dark curves have separate parameters. The voltage term (V per cell) is used only if it
+// raises the likelihood clearly.
 struct NoiseLaw {
   double constant = 0;
   double relative = 0;
   double voltage = 0;
 };
 
-// No reading is believed to be better than this.
+// Smallest noise of a reading, in current scales.
 constexpr double kSmallestNoise = 1e-7;
 
-// Whether noise of the voltage is one of the parts: for null_statistics it is what the data had.
+// Whether the voltage term is part of the model. Null statistics use the choice made for the data.
 enum class VoltageNoise { kIfInsisted, kAlways, kNever };
 
 struct Noise {
@@ -28,10 +28,10 @@ struct Noise {
   std::vector<double> sigma;  // of each reading
 };
 
-// From second differences of the residuals inside each monotone stretch, which smooth misfit does
-// not reach. Noise that the notes state decides the shape, never the size. The readings stay
-// what they are: for many residuals of one measurement, as null_statistics have them. The measurement
-// outlives it.
+// Estimates noise from second differences of residuals within each monotone stretch, which are
+// insensitive to smooth misfit. Noise stated in the notes fixes the ratio of the terms, never the
+// size. The object is built once per measurement and reused for many residuals, as by null
+// statistics. The measurement must outlive it.
 class NoiseEstimator {
  public:
   NoiseEstimator(const Measurement& measurement, const std::vector<char>& used,
@@ -47,18 +47,19 @@ class NoiseEstimator {
   std::unique_ptr<Parts> parts_;
 };
 
-// The same, once.
+// One estimate, without reuse of the estimator.
 Noise EstimateNoise(const Measurement& measurement, const std::vector<double>& residual,
                     const std::vector<char>& used,
                     VoltageNoise voltage = VoltageNoise::kIfInsisted);
 
-// A grid coarser than this many noise deviations is a finding.
+// A current grid with steps above this number of noise deviations is coarse and becomes a finding.
 constexpr double kCoarseGrid = 2.1;
 bool IsCoarse(const Measurement& measurement, const Noise& noise);
-// The same of voltages in bins, where the curve is steep.
+// Whether voltage bins, times dI/dV in the steep part of the curve, exceed the limit kCoarseGrid.
 bool HasCoarseBins(const Measurement& measurement, const Noise& noise);
 
-// Lag-1 correlation of whitened residuals with their smooth part removed, and its standard error.
+// Lag-1 correlation of whitened residuals after removal of their smooth part, and its standard
+// error.
 struct Autocorrelation {
   double value = 0;
   double standard_error = 1;

@@ -22,8 +22,9 @@ NullDistribution::NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null
                  Eigen::VectorXd* smallest)
     : degrees_(degrees) {
   const int count = static_cast<int>(null_statistics.size());
-  // Falling statistics, which are not negative, are falling bits: sorted as numbers with the
-  // position behind them.
+  // Sort in descending order, keeping positions. Statistics are never negative, so their inverted
+  // bits, read as integers, ascend as the values descend. Integer keys with the position in the low
+  // half are sorted.
   std::vector<std::uint64_t> order(count);
   for (int d = 0; d < count; ++d) {
     const float statistic = null_statistics[d];

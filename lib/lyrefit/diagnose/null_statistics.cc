@@ -11,19 +11,20 @@ namespace {
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-// Draws of the null distribution that are computed together: what they need stays near the processor.
+// Number of null samples that are computed together, so that the matrices stay in the cache.
 constexpr int kLot = 100;
 
-// What all candidates share, side by side: products with it serve them all at once. Noise is random
-// anyway, so that single precision is plenty.
+// Matrices of all candidates side by side, so that one product serves all of them. Single precision
+// suffices for random noise.
 struct Stack {
   std::vector<const Candidate*> candidates;  // the testable ones
-  std::vector<int> first;                    // column of each; one more: their number
+  std::vector<int> first;                    // first column of each; last entry: number of columns
   MatrixXf basis;
   MatrixXf directions;
   VectorXf used;  // 1 or 0
 
-  // The largest score of a candidate, given those of all directions, and whose it is.
+  // Largest score of a candidate, from the scores `along` of all directions. `at` receives its
+  // column.
   template <class Column>
   float Largest(std::size_t candidate, const Column& along, int* at) const {
     const auto own = along.segment(first[candidate], first[candidate + 1] - first[candidate]);
@@ -55,13 +56,13 @@ Stack MakeStack(const WeightedData& weighted, const Prepared& prepared) {
   return stack;
 }
 
-// A lot of noise as an estimate of its size changes it: readings weighted with what was found.
+// A batch of null samples after the noise is re-estimated and the readings are reweighted.
 struct Reweighted {
-  MatrixXf weights;             // squared, a column a null
-  MatrixXf rest;                // what the law leaves of the noise, times the weights
-  std::vector<MatrixXf> basis;  // of the law, times the weights
-  VectorXf sums;                // of squares
-  VectorXf outliers;            // the largest rest of a reading in parts of what the law leaves it
+  MatrixXf weights;             // squared, one column per null sample
+  MatrixXf rest;                // noise projected off the law's parameters, times the weights
+  std::vector<MatrixXf> basis;  // of the law's parameters, times the weights
+  VectorXf sums;                // weighted sums of squares of the projected noise
+  VectorXf outliers;            // largest studentized residual of a single reading
 };
 
 void Reweight(const WeightedData& weighted, const Stack& stack, const NoiseEstimator& estimator,
@@ -85,9 +86,9 @@ void Reweight(const WeightedData& weighted, const Stack& stack, const NoiseEstim
   lot->outliers[d] = std::sqrt((weight.array() * rest.array().square() / room.array()).maxCoeff());
 }
 
-// The largest score of a candidate in null `d`. `along` are the scores of all directions but for
-// what the law absorbs of their lengths, which is found for the largest alone: the weights hardly
-// differ, and neither does it from one direction to the next.
+// Largest score of a candidate in null sample `d`. `along`: scores of all directions, without a
+// correction of their lengths by the part that the law absorbs. The correction is computed for the
+// largest only: the weights vary little, so it is nearly equal for all directions.
 float LargestReweighted(const Stack& stack, std::size_t candidate, const Reweighted& lot, int d,
                         const VectorXf& along, const VectorXf& lengths) {
   if (stack.IsOutliers(candidate)) return lot.outliers[d];
@@ -109,7 +110,7 @@ MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& 
     const int lot = std::min(kLot, static_cast<int>(draws.cols()) - first);
     const MatrixXf noise = stack.used.asDiagonal() * draws.middleCols(first, lot);
     const MatrixXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
-    const MatrixXf along = TransposedTimes(stack.directions, noise);  // free of the basis already
+    const MatrixXf along = TransposedTimes(stack.directions, noise);  // orthogonal to the basis
     for (int d = 0; d < lot; ++d) {
       const float sum = left.col(d).squaredNorm();
       for (std::size_t c = 0; c < stack.candidates.size(); ++c) {

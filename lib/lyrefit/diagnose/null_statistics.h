@@ -9,13 +9,14 @@
 
 namespace lyrefit {
 
-// The largest statistics of the testable candidates in each column of `draws`: null_statistics x candidates.
-// A null is that noise less what the law absorbs. Zeros where a stop was asked for.
+// Largest statistic of each testable candidate for each column of `draws`; result: draws x
+// candidates. A null sample is the noise of that column after projection off the law's parameters.
+// Rows not computed before a stop are 0.
 Eigen::MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& prepared,
                               const Eigen::Ref<const Eigen::MatrixXf>& draws);
 
-// The same where each null estimates its noise anew and is weighted with what it found. Fewer rows
-// where a stop was asked for.
+// Largest statistics as in SimulateNullDistribution, but with the noise re-estimated and the
+// readings reweighted for each null sample. Fewer rows after a stop.
 Eigen::MatrixXf SimulateRefits(const WeightedData& weighted, const Prepared& prepared,
                                const NoiseEstimator& estimator,
                                const Eigen::Ref<const Eigen::MatrixXf>& draws);

@@ -8,32 +8,32 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One of the causes between which a further measurement is to decide.
+// One of the causes between which a further measurement decides.
 struct PlannedCause {
   std::string id;
-  double probability = kUnknown;  // of the right name where it is the true one
-  double separation = kUnknown;   // from the nearest other, in deviations of the noise
-  std::string nearest;            // that other
+  double probability = kUnknown;  // of identifying it, if it is the true one
+  double separation = kUnknown;   // from the nearest other cause, in noise deviations
+  std::string nearest;            // id of that cause
 };
 
-// A further measurement, and what it would tell.
+// A further measurement and its expected result.
 struct PlannedMeasurement {
   std::string id;                 // "reverse_sweep"
-  std::string title;              // what to do
-  std::string taken;              // what is assumed of its readings
-  double probability = kUnknown;  // of the right name, each cause as likely to be the true one
+  std::string title;              // instruction
+  std::string taken;              // assumptions about its readings
+  double probability = kUnknown;  // of identifying the true cause, all causes equally probable
   std::vector<PlannedCause> causes;
 };
 
-// Which further measurement would tell the first cause from what these data cannot separate from
-// it: simulated with the fitted causes, both fitted to old and new readings together.
+// Further measurements that separate the first cause from its equivalents. Each fitted cause in
+// turn is simulated as the true one, and all are fitted to old and new readings together.
 struct Plan {
-  std::vector<std::string> causes;               // the first cause and its equivalents; or none
-  std::vector<PlannedMeasurement> measurements;  // the most telling first
+  std::vector<std::string> causes;               // first cause and equivalents; or empty
+  std::vector<PlannedMeasurement> measurements;  // largest probability first
   std::string sentence;
 };
 
-// A measurement that names the right cause less often tells nothing.
+// Smallest probability of identifying the true cause for which a measurement is recommended.
 constexpr double kTelling = 0.8;
 
 }  // namespace lyrefit

@@ -13,9 +13,9 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kMostReadings = 2000;
-constexpr double kBendOfADiode_V = 1;  // over which a bypass diode takes over
+constexpr double kBendOfADiode_V = 1;  // voltage range in which a bypass diode starts to conduct
 
-// Why nothing is proved; empty where it is.
+// Reason why no proof is attempted; empty if there is none.
 std::string WhyNothing(const CurveSet& set, const Readings& readings) {
   if (set.curves.size() != 1) return "nothing is proved of several curves together";
   const IvCurve& curve = set.curves.front();
@@ -29,7 +29,7 @@ std::string WhyNothing(const CurveSet& set, const Readings& readings) {
   return "";
 }
 
-// The readings that count, of as many cells as the diagnosis reckons with.
+// The used readings, with the number of cells of the diagnosis.
 IvCurve UsedPart(const IvCurve& curve, const WeightedData& weighted) {
   IvCurve used = curve;
   used.conditions.cells_in_series = weighted.readings->scale.cells;

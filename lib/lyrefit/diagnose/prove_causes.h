@@ -7,12 +7,12 @@
 
 namespace lyrefit {
 
-// How much of the base model's misfit single causes can explain at most, on the readings that the
-// selection fitted. Measured-current of causes whose current is linear in their strength, by
-// certify/cause_floor.h; solved-current of unequal cells and of a shaded part, by the shape that
-// their curves have (certify/concave_floor.h). The verdict, its trials and the gain stand in
-// `diagnosis` already. None of a dark curve, of several conditions, of readings that have a light or
-// a temperature each, and of thousands of them.
+// Proves how much of the base model's misfit single causes can explain at most, on the readings of
+// the selection. Causes whose current is linear in their strength: measured-current objective, by
+// certify/cause_floor.h. Unequal cells and a shaded part: solved-current objective, by the concave
+// shape of their curves (certify/concave_floor.h). `diagnosis` must hold verdict, trials and gain.
+// No proofs for dark curves, several conditions, readings with their own light or temperature, or
+// more than 2000 readings.
 Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
                   const Diagnosis& diagnosis, Watch* watch);
 

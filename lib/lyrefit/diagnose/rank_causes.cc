@@ -29,7 +29,7 @@ bool StrengthIsAtBound(const FittedCandidate& fitted) {
   constexpr double kSlack = 1e-3;
   const Effect& effect = *fitted.score.effect;
   if (effect.parameters.empty()) return false;
-  // Of several groups any may be as bright as the brightest.
+  // Any of the groups may be as bright as the brightest one.
   if (IsCalled(fitted, "substrings")) return IsWithoutShade(fitted);
   const EffectParameter& strength = effect.parameters.front();
   const double slack = kSlack * (strength.upper - strength.lower);
@@ -37,13 +37,14 @@ bool StrengthIsAtBound(const FittedCandidate& fitted) {
          Value(fitted, 0) < strength.lower + 1e-3 * slack;
 }
 
-// Cells of one shaded substring that the shade covers.
+// Number of cells that a shade covers in one substring.
 double CoveredCells(const Readings& readings, double part) {
   return part * readings.traits.cells / std::max(SubstringsOf(readings.traits), 2);
 }
 
-// Causes among unlike cells, by how much they suppose. A shade that covers part of its substrings
-// supposes more than one that covers them, and where it covers about one cell it is a weak cell.
+// Rank of an effect that divides cells into groups, by the number of its assumptions. A shade on
+// part of its substrings ranks above one that covers them. If it covers about one cell, it ranks
+// last, since it is then a weak cell.
 int Complexity(const WeightedData& weighted, const FittedCandidate& fitted) {
   constexpr double kOneCell = 1.6, kFewCells = 4, kFewMates = 2.5;
   constexpr std::array<std::string_view, 8> kInOrder = {"shading",    "leaky_cell", "mismatch",
@@ -53,7 +54,7 @@ int Complexity(const WeightedData& weighted, const FittedCandidate& fitted) {
   const auto place = [&](std::string_view one) {
     return static_cast<int>(std::find(kInOrder.begin(), kInOrder.end(), one) - kInOrder.begin());
   };
-  // Several leaky cells suppose as much as a weak one.
+  // Several leaky cells need as many assumptions as one weak cell.
   if (id == "leaky_cell" && Value(fitted, 1) > kOneCell) return place("weak_cell");
   if (id == "mismatch" && Value(fitted, 1) * weighted.readings->traits.cells < kFewMates) {
     return static_cast<int>(kInOrder.size());
@@ -76,7 +77,8 @@ bool HasPossibleIdeality(const LawFit& fit, double least) {
   return n > least && n < kMost;
 }
 
-// Healthy modules depart from any model by more than such a part of the floor.
+// Whether a candidate leaves as small a lack of fit as another one, to within a fraction of the
+// floor. Modules without a fault depart from any model by more than that fraction.
 bool LeavesAsLittle(const FittedCandidate& fitted, const FittedCandidate& other, double floor, double least_reached) {
   constexpr double kPart = 0.1;
   return fitted.Charged() >= least_reached * other.Charged() &&
@@ -94,7 +96,7 @@ bool IsGeneric(const Readings& readings, const Effect& effect) {
 bool LightMoved(const Readings& readings) {
   constexpr double kLeast = 0.01;
   if (!readings.traits.single || readings.traits.only_dark) return false;
-  if (readings.traits.up_down) return false;  // charge does the same to two sweeps
+  if (readings.traits.up_down) return false;  // stored charge has the same effect
   double lowest = 1e300, rise = 0;
   for (const double current : ShapeOf(readings).current) {
     lowest = std::min(lowest, current);
@@ -110,7 +112,7 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Fitte
   const std::string_view id = effect.id;
   if (StrengthIsAtBound(fitted)) return false;
   if (id == "temp_drift" && std::fabs(Value(fitted, 0)) > kMostKelvin) return false;
-  // An exponent at its end is a diode's exponential.
+  // At the largest exponent the shunt imitates the exponential of a diode.
   if (id == "nonohmic_shunt" && Value(fitted, 1) > kMostExponent) return false;
   if (id == "weak_cell" && Value(fitted, 0) * Value(fitted, effect.size() - 1) > kWholeLight) {
     return false;
@@ -137,7 +139,8 @@ std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCan
     return swept < fitted_candidates.size() ? swept : 0;
   }
   std::size_t best = 0;
-  // Clouds are commoner than ranges that disagree by so much; two sweeps tell them apart.
+  // Clouds are more frequent than range errors of this size. Two sweeps would separate the two
+  // causes.
   if (IsCalled(fitted_candidates.front(), "range_switch") && !readings.traits.up_down) {
     const std::size_t step = first([&](const FittedCandidate& fitted) {
       return IsCalled(fitted, "irr_step") &&
@@ -159,7 +162,7 @@ std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCan
     if (specific < fitted_candidates.size()) best = specific;
   }
   if (!fitted_candidates[best].score.effect->groups) return best;
-  // What supposes more must explain more.
+  // A more complex cause is selected only if it explains more.
   const FittedCandidate& likeliest = fitted_candidates[best];
   const int most = Complexity(weighted, likeliest);
   for (std::size_t k = 0; k < fitted_candidates.size(); ++k) {

@@ -6,28 +6,31 @@
 
 namespace lyrefit {
 
-// Whether a fitted effect has a size that it can have: no strength at its bound, no drift of the
-// temperature that a sweep has no time for, no part of a cell, no ideality that only the effect
+// Whether a fitted effect has a physically possible size. Rejected: a strength at its bound, a
+// temperature drift too fast for a sweep, less than one cell, an ideality that only this effect
 // made impossible. `before`: the fit without it.
 bool HasPossibleSize(const Readings& readings, const LawFit& before, const FittedCandidate& fitted);
 
-// Whether the current rises with the voltage, which no module does by itself: the light moved. Of
-// sweeps up and down nothing is said: charge does that to one of them.
+// Whether the current rises with the voltage. No module does so by itself, so the irradiance
+// changed. Always false for sweeps up and down, where stored charge has the same effect.
 bool LightMoved(const Readings& readings);
 
-// Whether an effect bends to whatever shape there is: anything that happens during a sweep in one
-// direction, a jump of the instrument's range or a limit that no reading stands at, of one in both
-// a moment.
+// Whether an effect is flexible enough to imitate any shape. For a sweep in one direction: effects
+// of the sweep, a range switch of the instrument, a clip at which no reading stands. For sweeps up
+// and down: momentary effects.
 bool IsGeneric(const Readings& readings, const Effect& effect);
 
-// Which of the fitted candidates is the cause, where more than noise and known causes bend the curve (candidates:
-// the best first, none of an impossible size). A cause in the device is preferred to what bends to
-// anything (a moment of the sweep, or a fit that leaves no junction's ideality) and explains about
-// as much, a simple one to a complex one. About as much: nearly the same statistic, with no more
-// than `floor` left beyond it of the `misfit` there was (root mean squares, parts of Isc); or as
-// little left to within a part of the floor. Where the current rises with the voltage, which no
-// module does by itself, the light moved. A cloud is likelier than a range that is wrong by so
-// much, where no second sweep tells them apart.
+// Position of the preferred cause among fitted candidates (best first, none of an impossible size).
+//
+// Specific causes in the device are preferred to generic ones that explain about as much. Generic
+// are flexible effects (IsGeneric) and fits whose ideality no junction has. Among effects that
+// divide the cells into groups, simple ones are preferred to complex ones.
+//
+// "About as much" means nearly the same statistic, with at most `floor` of `misfit` left beyond it
+// (root mean squares, fractions of Isc). It also holds if the lack of fit is equal to within a
+// fraction of the floor. If the current rises with the voltage, an effect of the sweep is selected
+// (LightMoved). For one sweep, an irradiance step is preferred to a large range error, which is
+// less likely.
 std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCandidate>& fitted_candidates, double misfit,
                    double floor);
 

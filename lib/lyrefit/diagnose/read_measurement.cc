@@ -16,12 +16,12 @@ bool UnderOneSky(const IvCurve& a, const IvCurve& b) {
          std::fabs(a.conditions.cell_temperature_K - b.conditions.cell_temperature_K) <= 1;
 }
 
-// Rising voltage counts +1, falling -1.
+// +1 for rising voltage, -1 for falling.
 int SweepDirection(const IvCurve& curve) {
   return curve.voltage_V.back() > curve.voltage_V.front() ? 1 : -1;
 }
 
-// Whether the curves are sweeps of one state of one device in both directions.
+// Whether the curves are sweeps in both directions under the same conditions.
 bool AreSweeps(const std::vector<IvCurve>& curves) {
   bool up = false, down = false;
   for (const IvCurve& curve : curves) {
@@ -31,7 +31,7 @@ bool AreSweeps(const std::vector<IvCurve>& curves) {
   return up && down;
 }
 
-// Sweeps one after the other, as one curve.
+// Joins sweeps, one after the other, to one curve.
 IvCurve JoinSweeps(const std::vector<IvCurve>& curves) {
   IvCurve joined = curves.front();
   joined.sweep.assign(joined.size(), 0);

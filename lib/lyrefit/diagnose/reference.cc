@@ -22,7 +22,8 @@ std::vector<Expected<FittedSweep>> FitAll(const std::vector<IvCurve>& curves, in
   return fits;
 }
 
-// What the references miss at u alike: the median, where at least half of them have readings.
+// Median residual of the references at u = V / Voc, in fractions of Isc. 0 if fewer than half of
+// them have readings there.
 double CommonAt(const std::vector<const SweepState*>& references, double u) {
   std::vector<double> values;
   for (const SweepState* r : references) {
@@ -61,7 +62,7 @@ std::string LightSentence(const ReferenceRow& row) {
                                  : "the light's sensor, or reference sweeps that were soiled");
 }
 
-// `whom`: what it is compared with.
+// `whom`: name of the reference set in the sentence.
 std::string SentenceOf(const ReferenceComparison& c, bool light, const std::string& whom) {
   if (!c.differs) {
     return fmt::format("Like {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is expected.",
@@ -96,7 +97,7 @@ void NameSweeps(const std::vector<const SweepState*>& references, const Expectat
   }
 }
 
-// `looks`: how many sweeps are compared alike. `used` receives the references that count.
+// `looks`: number of sweeps compared in this way. `used` receives the references in the regression.
 ReferenceComparison Compare(const FittedSweep& sweep,
                           const std::vector<const SweepState*>& references, double level, int looks,
                           std::vector<const SweepState*>* used) {
@@ -122,7 +123,7 @@ ReferenceComparison Compare(const FittedSweep& sweep,
   return result;
 }
 
-// Whether the references reach the sweep's Isc and Voc.
+// Whether Isc and Voc of the sweep lie within the range of the references, or at most 20 % beyond.
 Expected<void> CheckReach(const SweepState& sweep,
                           const std::vector<const SweepState*>& references) {
   constexpr double kReach = 1.2;
@@ -211,7 +212,7 @@ Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
     return Fail(fmt::format("{} sweeps can be compared with each other, that takes {} or more",
                             count, kFewestReferences + 1));
   }
-  // Outliers among the references themselves are nobody's reference the second time.
+  // Two rounds: outliers of the first round are no references in the second.
   std::vector<char> outlier(count, 0);
   std::vector<ReferenceComparison> found(count);
   std::vector<char> compared(count, 0);

@@ -10,19 +10,20 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Compares by a single diode's FF, Rs Isc / Voc, n and Gsh Voc / Isc and by the shape of what it
-// misses, each reference sweep's regressed on ln Isc and Voc, so that no curve is translated; the
-// 40 sweeps nearest in Isc and Voc count. Reference sweeps that are outliers among the others are left
-// out.
+// Compares a sweep with reference sweeps of its module. Compared are FF, Rs Isc / Voc, n and Gsh
+// Voc / Isc of a single-diode fit, and the shape of its residuals. The values of the references are
+// regressed on ln Isc and Voc, so that no curve is translated. The 40 sweeps nearest in Isc and Voc
+// are used; outliers among them are left out.
 //
-// Errors: fewer than four reference sweeps that can be used, other cell counts, a sweep more than 20
-// % beyond the reference sweeps' Isc or Voc, readings that cannot be fitted, options outside their
+// Errors: fewer than four usable reference sweeps, or other cell counts; a sweep more than 20 %
+// beyond the reference sweeps' Isc or Voc; readings that cannot be fitted; options outside their
 // ranges.
 Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
                                                const std::vector<IvCurve>& reference,
                                                const ReferenceOptions& options = {});
 
-// Errors: fewer than five sweeps that can be compared, options outside their ranges.
+// Compares each sweep of a module with the others. Errors: fewer than five usable sweeps, other
+// cell counts, options outside their ranges.
 Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
                                   const ReferenceOptions& options = {});
 

@@ -16,16 +16,16 @@
 namespace lyrefit {
 namespace {
 
-// A dose of something that may have happened to a module: a base parameter raised, or an effect.
+// A dose of a possible change of a module: a base parameter raised, or an effect.
 struct Dose {
   std::string id;
-  std::string words;        // with the size in per cent in place of {}
-  double percent = 1;       // of the dose, in the measure of `words`
-  bool either_way = false;  // less of it is possible as well
-  int parameter = -1;       // of the base that is raised,
-  double raise = 0;         // by so much
-  const char* effect = "";  // or an effect from the catalogue
-  std::vector<double> p;    // with these parameters
+  std::string words;        // sentence with {} for the size in per cent
+  double percent = 1;       // size of the dose, in the unit of `words`
+  bool either_way = false;  // negative doses are possible too
+  int parameter = -1;       // raised base parameter, -1: an effect
+  double raise = 0;         // increase of the parameter
+  const char* effect = "";  // id of an effect in the catalogue
+  std::vector<double> p;    // parameters of the effect
 };
 
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
@@ -88,8 +88,10 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
   return doses;
 }
 
-// What so many doses do to the currents, in scales; empty where the law cannot have them. What is
-// always there, and has become more, is taken off the law; what may not have been is added to it.
+// Change of the currents by `doses` doses, in scales; empty if the law cannot be evaluated. The
+// currents of the sweep include the change. A property that every module has (series resistance,
+// ideality) is therefore reduced in the law. Any other change is added to the law, since the module
+// may lack it.
 std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double doses) {
   const Readings& readings = *sweep.weighted.readings;
   Law law = sweep.fit.law;
@@ -113,8 +115,8 @@ std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double 
   return change;
 }
 
-// What taking a change off the readings takes off the quantities and the shape, less what its own
-// change of Isc and Voc lets expect.
+// Change of the quantities and the shape when `change` is removed from the readings. The part
+// expected from the resulting change of Isc and Voc is subtracted.
 Eigen::VectorXd TakenOff(const FittedSweep& sweep, const Expectation& expected,
                          std::vector<double> change) {
   for (double& value : change) value = -value;
@@ -132,8 +134,9 @@ Eigen::VectorXd TakenOff(const FittedSweep& sweep, const Expectation& expected,
   return taken;
 }
 
-// The inverse covariance of what Direction gives. Neighbouring bins of a shape go together: they
-// count as a third of their number. Few references say nothing of how quantities go together.
+// Inverse covariance of the vector that TakenOff returns. Neighbouring bins of a shape are
+// correlated and count as a third of their number. Few references do not determine the correlation
+// of the quantities, which is then set to 0.
 Eigen::MatrixXd Precision(const Expectation& expected) {
   constexpr double kTogether = 3, kSmallest = 1e-5;
   const int size = kParameterQuantities + kShapeBins;
@@ -154,7 +157,7 @@ Eigen::MatrixXd Precision(const Expectation& expected) {
   return precision;
 }
 
-// What a change gives of Pmax.
+// Relative change of Pmax by a change of the currents.
 double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
   const Readings& readings = *sweep.weighted.readings;
   std::vector<double> voltage, without;
@@ -167,7 +170,7 @@ double PowerOf(const FittedSweep& sweep, const std::vector<double>& change) {
          1;
 }
 
-// The difference, and how sure each part of it is.
+// The difference to be explained and its precision matrix.
 struct Puzzle {
   const FittedSweep& sweep;
   const Expectation& expected;
@@ -178,18 +181,18 @@ struct Puzzle {
 
 struct Attempt {
   ReferenceCause cause;
-  bool generic = false;  // no fault of the device
-  double left = 0;       // of the squared difference
+  bool generic = false;  // drift of the light, no fault of the device
+  double left = 0;       // unexplained part of the squared difference
 };
 
-// A parameter's doses are parts of what it is now; a person reads parts of what it was.
+// Converts a relative change from the present value of a parameter to its former value.
 double InPercent(const Dose& dose, double percent) {
   if (dose.parameter < 0 || !dose.either_way) return percent;
   return percent / std::max(1 - percent / 100, 0.01);
 }
 
-// By secants from `doses`: a shunt that comes out as none, a shade less than the slope of the
-// plateau, do not grow in proportion.
+// Secant iteration for the number of doses, from `doses`. It is needed because some changes are not
+// proportional to the dose: a shunt that reaches 0, a shade smaller than the plateau's slope.
 std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double doses) {
   constexpr int kRounds = 5;
   constexpr double kMost = 60, kNear = 0.02;
@@ -241,9 +244,9 @@ void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts)
 
 std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                             const Difference& difference) {
-  // As good: within two deviations of the best, and within three where light alone is to blame; the
-  // deviations are the larger, the more the best leaves (of some nine independent numbers). An
-  // explanation: of half of the difference.
+  // A cause is as good as the best within two deviations, or three for a drift of the light. A
+  // deviation is widened if the best one leaves more than its nine or so independent values
+  // explain. Each cause must explain half of the difference.
   constexpr double kAsGood = 4, kClearly = 9, kHalf = 0.5, kNumbers = 9;
   Puzzle puzzle{sweep, expected, difference.widening,
                 Eigen::VectorXd(kParameterQuantities + kShapeBins), Precision(expected)};

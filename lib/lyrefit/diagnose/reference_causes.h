@@ -7,9 +7,10 @@
 
 namespace lyrefit {
 
-// What, done to a reference sweep, makes this difference: each candidate is done to the sweep in a
-// small dose, which is fitted anew, and its size is what comes nearest to the difference. The best
-// first, then those that explain it about as well; empty where none explains half of it.
+// Finds changes that would turn a reference sweep into this sweep. Each candidate change is removed
+// from the readings in a small dose and the single diode is fitted again; the size is the one that
+// best matches the difference. Best first, then those about as good; empty if none explains half of
+// the difference.
 std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                             const Difference& difference);
 

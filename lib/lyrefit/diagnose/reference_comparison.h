@@ -8,58 +8,57 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One row of now against expected.
+// One quantity of a sweep and its expected value.
 struct ReferenceRow {
   std::string symbol;  // "FF", "Rs", "n", "Gsh", "shape", "Isc/G"
-  std::string name;    // as code and JSON spell it
+  std::string name;    // name in code and JSON
   std::string unit;
-  double now = 0;       // of the sweep
-  double expected = 0;  // at the sweep's own Isc and Voc, from the reference sweeps
-  double low_95 = 0;    // of what a reference sweep would show
+  double now = 0;       // value of the sweep
+  double expected = 0;  // predicted from the reference sweeps at its Isc and Voc
+  double low_95 = 0;    // prediction interval of a reference sweep
   double high_95 = 0;
-  double z = 0;            // difference in standard deviations of its prediction
-  double corrected_p = 1;  // all rows counted
-  double power = 0;        // part of Pmax that the difference gives (+) or costs (-); NaN: none
-  bool differs = false;    // at the level of the options
+  double z = 0;            // difference / standard deviation of its prediction
+  double corrected_p = 1;  // corrected for all rows
+  double power = 0;        // gain (+) or loss (-) of Pmax by the difference, relative; NaN: none
+  bool differs = false;    // at the significance level of the options
 };
 
-// Something done to a reference sweep that would make the difference.
+// A change of a reference sweep that would explain the difference.
 struct ReferenceCause {
   std::string id;  // "series_resistance", "shunt", "ideality", or an effect's: "shading", "drift"
   std::string sentence;  // "series resistance +8.1 %: -0.62 % of Pmax"
-  double size = 0;       // in its own measure: see `unit`
+  double size = 0;       // in `unit`
   double low_95 = 0;
   double high_95 = 0;
   std::string unit;
-  double power = 0;      // part of Pmax
-  double explained = 0;  // part of the squared difference (in standard deviations)
+  double power = 0;      // relative change of Pmax
+  double explained = 0;  // fraction of the squared difference (in standard deviations)
 };
 
-// A sweep against reference sweeps of the same module.
+// A sweep compared with reference sweeps of the same module.
 struct ReferenceComparison {
-  std::string name;      // the sweep's
-  bool differs = false;  // at the level of the options
-  double p_value = 1;    // of the difference, all looks at it counted
+  std::string name;      // of the sweep
+  bool differs = false;  // at the significance level of the options
+  double p_value = 1;    // of the difference, corrected for all tests
   std::string sentence;
   std::vector<ReferenceRow> rows;
-  // The best first; then those these rows cannot tell from it. Empty where nothing differs.
+  // Best first, then those that these rows cannot separate from it. Empty if nothing differs.
   std::vector<ReferenceCause> causes;
   std::vector<std::string> references;    // names of the sweeps that were used
-  std::vector<std::string> left_out;      // sentences: reference sweeps that were not, and why
+  std::vector<std::string> left_out;      // sentences: references not used, with the reason
   std::vector<std::string> regressed_on;  // "Isc", "Voc"
   std::vector<std::string> warnings;
-  // The sweep less what all reference sweeps' single diodes miss alike, for Diagnose, and the size of
-  // that (root mean square, in parts of Isc).
+  // The sweep minus the common single-diode residual of the reference sweeps, as input of Diagnose.
   IvCurve without_common;
-  double common = 0;  // the size of that
+  double common = 0;  // root mean square of that residual, fraction of Isc
 };
 
-// The sweeps of one module against each other: each is compared with all others that are no outliers
-// themselves. The oddest first; p-values count the sweeps.
+// Each sweep of a module compared with all others that are not outliers. Smallest p-value first;
+// p-values are corrected for the number of sweeps.
 struct OutlierSweeps {
   std::vector<ReferenceComparison> sweeps;
-  std::vector<std::string> rejected;  // sentences: sweeps that could not be compared, and why
-  int outlier = 0;                        // how many differ
+  std::vector<std::string> rejected;  // sentences: sweeps not compared, with the reason
+  int outlier = 0;                        // number of sweeps that differ
 };
 
 }  // namespace lyrefit

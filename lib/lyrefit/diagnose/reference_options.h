@@ -6,9 +6,9 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How sure a difference from the reference sweeps has to be, and what is reckoned with.
+// Significance level and resources of a comparison with reference sweeps.
 struct ReferenceOptions {
-  double level = 0.01;  // rate of false alarms over all that is compared
+  double level = 0.01;  // family-wise error rate over all quantities compared
   int threads = 0;      // 0: all cores; never changes a result
 };
 

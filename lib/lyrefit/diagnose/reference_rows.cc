@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// Pmax of the sweep's own device with one parameter as expected, against now. The diode keeps the
-// open-circuit voltage when n changes.
+// Relative change of Pmax of the sweep's single diode against one parameter at its expected value.
+// When n changes, the saturation current changes too, so that Voc is kept.
 double PowerWith(const FittedSweep& sweep, int quantity, double expected) {
   const SweepState& s = sweep.state;
   Conditions conditions;
@@ -33,13 +33,13 @@ double PowerWith(const FittedSweep& sweep, int quantity, double expected) {
   return power(s.ideality, s.series_ohm, s.shunt_S) / power(n, series, shunt) - 1;
 }
 
-// A quantity in the unit a person reads.
+// Conversion of a quantity to its reporting unit.
 struct Reader {
   const char* symbol;
   const char* name;
   const char* unit;
-  double factor;     // of the quantity,
-  bool exponential;  // or of its exponential
+  double factor;     // of the quantity
+  bool exponential;  // the factor applies to exp(quantity)
 };
 
 Reader ReaderOf(int quantity, const SweepState& s) {

@@ -7,12 +7,13 @@
 
 namespace lyrefit {
 
-// Now against expected, quantity by quantity.
+// One row for each quantity: value of the sweep and expected value.
 std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
                                            const Difference& difference);
 
-// Isc per light, where the light of all is known: by the sensor, whose own scatter is in the
-// references too. With the temperatures of enough sweeps it follows them. One row or none.
+// Row for Isc per irradiance, by the sensor, whose own scatter is part of the references' scatter.
+// It is corrected for temperature if all temperatures are known and there are eight references or
+// more. Empty if an irradiance is unknown.
 std::vector<ReferenceRow> DescribeLight(const SweepState& now,
                                       const std::vector<const SweepState*>& references);
 

@@ -15,8 +15,8 @@ namespace {
 
 using Draws = Eigen::Map<const Eigen::MatrixXf>;
 
-// Numbers of one stream, of which every measurement needs the first so many: those drawn last are
-// kept, for the next of a batch.
+// Normal numbers of one random stream. Every measurement uses its first numbers, so the last ones
+// drawn are kept for the next measurement of a batch.
 class NormalNumbers {
  public:
   explicit NormalNumbers(std::uint64_t run) : run_(run) {}
@@ -39,7 +39,7 @@ class NormalNumbers {
   std::shared_ptr<const std::vector<float>> drawn_;
 };
 
-// Of the null_statistics, and of those that estimate their noise anew.
+// Streams for linear null statistics and for those with re-estimated noise.
 NormalNumbers& NumbersOfNulls() {
   static NormalNumbers numbers(0);
   return numbers;
@@ -49,15 +49,15 @@ NormalNumbers& NumbersOfRefits() {
   return numbers;
 }
 
-// By the tail of one direction, counted as often as it has any.
+// p-value by the F tail of one direction, times the number of directions.
 void CountDirections(const Candidate& candidate, int degrees, Score* score) {
   const double directions = std::max<double>(candidate.directions.cols(), 1);
   score->p_value = std::min(1.0, directions * TailOf(score->statistic, degrees));
   score->charge = 2 * std::log(directions);
 }
 
-// `list`: a smaller one than what is to be calibrated, so that it scatters more and errs to the
-// safe side.
+// `list` has fewer draws than the list that is calibrated. Its larger scatter makes the calibration
+// conservative.
 Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared, const ListDistribution& list,
                       const NoiseEstimator& noise, const Draws& draws) {
   Calibration calibration;
@@ -84,7 +84,7 @@ ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& p
     if (candidate.score.testable) calibration.effects.push_back(candidate.score.effect);
   }
   if (calibration.effects.empty()) return calibration;
-  // A row a reading and a column a null.
+  // One row per reading, one column per draw.
   const int readings = static_cast<int>(weighted.sigma.size());
   const std::size_t numbers = static_cast<std::size_t>(readings) * draws;
   const auto normal = NumbersOfNulls().First(numbers, seed);

@@ -10,44 +10,46 @@
 
 namespace lyrefit {
 
-// What the list's corrected p-value really is worth. Linear null_statistics know the weights; in truth these
-// come from the same few readings, which makes extremes more frequent than they say. Found from
-// null_statistics that estimate their noise anew.
+// Correction of the list's corrected p-values. Linear null statistics treat the weights as known.
+// In fact the weights are estimated from the same readings, which makes extreme values more
+// frequent. The correction comes from null statistics that re-estimate the noise.
 struct Calibration {
-  std::vector<double> null_statistics;  // -ln of the corrected p-value of each such null, rising; empty: none
+  std::vector<double> null_statistics;  // -ln of corrected p per draw, ascending; or empty
   double Corrected(double p) const;
 };
 
-// What statistics are worth, by null_statistics (noise through the projections of one law) that count for the
-// whole list, boundaries and grids of probes included. One cause more or less in the law, or some
-// readings less, hardly change it: it serves all steps and their repetitions.
+// Calibration of scores by simulated null statistics: noise projected off the parameters of one
+// law. It covers the whole list, with bounds and grids of probes. A changed number of causes or
+// readings hardly changes it, so that one calibration serves all steps and their repetitions.
 struct ScoreCalibration {
-  std::vector<const Effect*> effects;  // that were testable
-  ListDistribution list;                        // in that order
+  std::vector<const Effect*> effects;  // the testable ones
+  ListDistribution list;                        // in the order of `effects`
   Calibration calibration;
 };
 
-// From `draws` linear null_statistics; where there is a `noise` to estimate, calibrated by a fifth as many
-// that do so.
+// Simulates `draws` linear null statistics. With `noise`, a fifth as many re-estimate the noise and
+// give `calibration`. `noise` may be null.
 ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& prepared,
                          const NoiseEstimator* noise, int draws, std::uint64_t seed);
 
-// With their p-values. An effect that was not testable when worth was found counts for all its
-// directions.
+// Scores of all candidates with p-values. An effect that was not testable when the calibration was
+// computed is corrected by its number of directions.
 std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreCalibration& calibration);
 
-// The score of what is found in that way (one effect a way beside probes); null: there is none.
+// The first score whose effect has this FoundBy value; at most one effect has a value other than a
+// fit's. Null if there is none.
 const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by);
 
-// p-value of a statistic that an effect reached in a fit, its directions and the list counted.
+// p-value of a statistic of a fitted effect, corrected for its directions and the list.
 double CorrectedP(const Score& score, double statistic, int degrees,
                   const Calibration& calibration);
 
-// An effect whose linear score is below this will not come near the best when fitted.
+// A tenth of the best statistic: effects with a smaller linear score cannot become the best by a
+// fit.
 double HopelessStatistic(const std::vector<Score>& scores);
 
-// Statistic of the last of so many effects that can be fitted, the best first; 0 where `most` is 0
-// or there are no more.
+// Statistic of effect number `most` among those that can be fitted, best first. 0 if `most` is 0 or
+// there are no more than that.
 double LeastOfTheBest(const std::vector<Score>& scores, int most);
 
 }  // namespace lyrefit

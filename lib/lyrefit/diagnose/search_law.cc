@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-// Where candidates look for the base parameters, around what is known of every curve.
+// Box of the search for the parameters, with ranges that hold for all curves.
 Box SearchBox(const Selection& selection) {
   const Law& law = selection.extended.law;
   const std::vector<double>& p = selection.extended.p;
@@ -38,7 +38,7 @@ LawSearch SearchLaw(const Selection& selection, std::uint64_t seed, const Observ
   const Readings& readings = *weighted.readings;
   const Law& law = selection.extended.law;
   std::vector<double> current(readings.points.size());
-  // From a fresh start each time: the value must not hang on the candidate before.
+  // The workspace starts afresh each time: the value must not depend on the previous candidate.
   const std::vector<ReadingBlock> blocks = BlocksOf(readings);
   LawWorkspace workspace(blocks);
   const auto rmse = [&](const double* p) {

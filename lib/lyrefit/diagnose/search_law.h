@@ -10,8 +10,8 @@
 
 namespace lyrefit {
 
-// What candidates make of the extended law, as a fit would have tried them. What is searched there on a
-// grid stays where the selection found it.
+// Global search for the parameters of the extended law, with the fit's default optimizer.
+// Parameters that are selected on a grid stay at the values of the selection.
 struct LawSearch {
   RmseTable rmse;
   SearchOptions options;

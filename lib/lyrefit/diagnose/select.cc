@@ -33,7 +33,7 @@ void FitBaseLaw(const Law& law, SelectionState* now) {
   now->fit = start.empty() ? FitBase(now->weighted, law) : FitLaw(now->weighted, law, start);
 }
 
-// The base model and its noise. False where it cannot be had.
+// Fits the base model and its noise. False if there is no usable fit.
 bool SettleBase(SelectionState* now, Selection* selection) {
   Begin(ObserverOf(*now), "base fit", 3);
   Law law = now->options.base;
@@ -54,8 +54,8 @@ bool SettleBase(SelectionState* now, Selection* selection) {
   return true;
 }
 
-// Clipped readings say no more than that they were clipped: they are left out, and the limit
-// stays what the values show.
+// Adds the effect `clip` with the limits found in the values. Clipped readings are left out, since
+// they only show that the instrument was at its limit.
 void AddClip(SelectionState* now) {
   const ValueFindings& values = now->measurement.values;
   for (const int k : values.clipped) now->weighted.used[k] = 0;
@@ -79,22 +79,22 @@ void FindCalibration(const Prepared& prepared, SelectionState* now) {
       CalibrateScores(now->weighted, prepared, &noise, now->options.draws, now->options.seed));
 }
 
-// Without floors a later cause explains its part in units of the noise: what remains of a first
-// cause whose own model is a little wrong is no second cause.
+// Whether a later cause explains a sufficient part of the first cause's statistic. Otherwise it may
+// only correct an error of the first cause's model. Used without floors.
 bool ExplainsEnough(const SelectionState& now, const FittedCandidate& fitted) {
   constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
   const bool generic = IsGeneric(*now.weighted.readings, *fitted.score.effect);
   return fitted.statistic >= (generic ? kGenericPart : kLaterPart) * now.first_gain;
 }
 
-// Whether the base model is so far off that scores beside it say nothing.
+// Whether the misfit of the base model is so large that scores on its residuals are meaningless.
 bool IsRuined(const SelectionState& now) {
   constexpr double kMisfit = 0.01;
   if (!now.measurement.has_path()) return false;
   return MissedBy(now.weighted, now.fit) > kMisfit;
 }
 
-// Whether any score passes the level of this step.
+// Sets the level of this step. Returns whether any score passes it.
 bool IsAnythingThere(const std::vector<Score>& scores, int step, SelectionState* now) {
   double smallest = 1;
   for (const Score& score : scores) {
@@ -110,7 +110,7 @@ double UnknownP(const std::vector<Score>& scores) {
   return unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
 }
 
-// Effects that were scored but have nothing to fit are trials as well.
+// Adds effects that were scored but not fitted.
 void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* trials) {
   for (const Score& score : scores) {
     const bool there = std::any_of(trials->begin(), trials->end(),
@@ -126,7 +126,7 @@ bool LeaveOut(const std::vector<Score>& scores, const std::vector<FittedCandidat
   return left_out;
 }
 
-// Keeps the fitted candidates whose effect is large enough to be named. False where there are some and none is.
+// Keeps the fitted candidates that are large enough to be named. False if none of them is.
 bool KeepWorthy(SelectionState* now, Selection* selection, std::vector<FittedCandidate>* fitted_candidates) {
   const bool first = now->causes.empty();
   if (now->options.floors.Any()) {
@@ -144,7 +144,7 @@ bool KeepWorthy(SelectionState* now, Selection* selection, std::vector<FittedCan
   return ExplainsEnough(*now, fitted_candidates->front());
 }
 
-// A moment of the light that is there has the shape that it has, where that is worth its freedom.
+// Frees the shape parameters of a momentary effect if the improvement exceeds their penalty.
 void FreeShape(const Effect& effect, SelectionState* now) {
   const LawFit& fit = now->fit;
   Law law = fit.law;
@@ -179,7 +179,7 @@ void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
   const SelectOptions& options = now->options;
   const int most = options.largest_causes + static_cast<int>(now->causes.size());
   std::set<std::set<const Effect*>> seen;
-  std::vector<FittedCandidate> fitted_candidates;  // of the step before where that took a single reading
+  std::vector<FittedCandidate> fitted_candidates;  // of a previous step that left out a reading
   for (int step = 0;; ++step) {
     if (step > 0) prepared = PrepareOpen(now);
     const std::vector<Score> scores = JudgeScores(prepared, *now->calibration);
@@ -192,7 +192,8 @@ void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
     }
     if (!is_there) return;
     if (static_cast<int>(now->causes.size()) >= most) return;
-    // Causes gain little from a reading less: no new fits where the next stands out by far.
+    // Candidates fitted in the previous step are reused if another reading stands out by far:
+    // causes gain little when one reading is left out.
     const bool left = step > 0 && !fitted_candidates.empty();
     if (left && StandsOut(scores) && LeaveOut(scores, fitted_candidates, now)) continue;
     if (step > 0 || !options.trials) fitted_candidates = FitCandidates(*now, scores);
@@ -204,13 +205,13 @@ void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
           now->causes.empty() && now->wrong.readings.empty() && selection->unknown_p < now->level;
       return;
     }
-    selection->below.clear();  // beside a model that is the past
+    selection->below.clear();  // they refer to the previous model
     SwapCauses(now);
     Prune(now);
     if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);
     const std::vector<const Effect*>& effects = now->fit.law.effects;
     const std::set<const Effect*> present(effects.begin(), effects.end());
-    if (!seen.insert(present).second) return;  // what was dropped came back
+    if (!seen.insert(present).second) return;  // a set of causes recurred: stop
     fitted_candidates.clear();
   }
 }

@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// A selection on its way, as its steps hand it to each other.
+// State of a selection, shared by its steps.
 struct SelectionState {
   const Measurement& measurement;
   const SelectOptions& options;
@@ -16,40 +16,42 @@ struct SelectionState {
   Signatures signatures;
   WeightedData weighted;
   Noise noise;
-  LawFit fit;  // of the causes that were found so far
+  LawFit fit;  // with the causes found so far
   std::vector<ChosenCause> causes;
   WrongReadings wrong;
-  double level = 0;         // of the present step
-  double first_gain = 0;    // statistic of the first cause that was fitted
-  double first_misfit = 0;  // mean square of what the first cause took away, in scales
+  double level = 0;         // significance level of the present step
+  double first_gain = 0;    // statistic of the first fitted cause
+  double first_misfit = 0;  // mean square removed by the first cause, in squared scales
 };
 
-// The watch hears of the selection itself, not of its repetitions.
+// Watch for progress reports. Null in repetitions of the selection, which do not report.
 inline Watch* ObserverOf(const SelectionState& now) {
   return now.options.trials ? now.options.watch : nullptr;
 }
 
-// Noise from the residuals of the present law, which is then fitted anew.
+// Estimates the noise from the residuals of the present fit and repeats the fit with it.
 inline void SettleNoise(SelectionState* now) {
   now->noise = SettleNoise(now->measurement, &now->weighted, &now->fit);
 }
 
-// What the effects beside the present law are scored on.
+// Prepares scores of all effects that can be added to the present law.
 Prepared PrepareOpen(SelectionState* now);
 
-// Fits the effects that stand a chance, the best first; with `all` the others as well, for the
-// record. Where nothing `is_there` all are.
+// Fits the effects whose score makes a success possible; result: best first. With `all`, the others
+// are fitted as well, briefly, for the record. Without `is_there` (no score is significant), all
+// fits are brief.
 std::vector<FittedCandidate> FitCandidates(const SelectionState& now, const std::vector<Score>& scores,
                              bool all = false, bool is_there = true);
 
-// WeighRivals at the present step.
+// WeighCandidates with the floors and the level of the present step.
 std::vector<FittedCandidate> Weigh(const SelectionState& now, const std::vector<FittedCandidate>& all,
                          std::vector<FittedCandidate>* below);
 
-// Every cause but the last gives its place to any effect that does better beside the others.
+// Replaces every cause but the last one by another effect if that fits better together with the
+// other causes.
 void SwapCauses(SelectionState* now);
 
-// Drops causes that the later ones made idle.
+// Removes causes that are no longer significant beside later ones.
 void Prune(SelectionState* now);
 
 }  // namespace lyrefit

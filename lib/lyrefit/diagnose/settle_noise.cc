@@ -7,8 +7,8 @@
 namespace lyrefit {
 namespace {
 
-// A grid much coarser than the noise leaves errors that neighbours share. Their standard deviation,
-// of each reading; empty: there is none.
+// Standard deviation of the rounding errors of each reading, for grids much coarser than the noise:
+// neighbours share such errors. Empty if there is no coarse grid.
 std::vector<double> CoarseRounding(const Measurement& measurement, const Noise& noise) {
   const ValueFindings& values = measurement.values;
   std::vector<double> rounding;
@@ -23,7 +23,7 @@ std::vector<double> CoarseRounding(const Measurement& measurement, const Noise& 
   return rounding;
 }
 
-// Root mean square of a fit's residuals beyond what rounding does to them.
+// Root mean square of a fit's residuals, without the part that rounding explains.
 double Misfit(const WeightedData& weighted, const std::vector<double>& residual,
               const std::vector<double>& rounding) {
   constexpr double kReach = 2;
@@ -36,7 +36,8 @@ double Misfit(const WeightedData& weighted, const std::vector<double>& residual,
   return std::sqrt(sum / std::max(weighted.count(), 1));
 }
 
-// Steps that a fit does not follow would pass for noise wherever there are few readings.
+// With a large misfit, steps that a fit does not follow would count as noise where readings are
+// few. All sigmas are then set to one value.
 void LevelNoise(WeightedData* weighted, double misfit) {
   constexpr double kRuined = 0.01, kByFar = 3, kUsual = 1.5e-3;
   const double middle = UpperMedian(weighted->sigma);
@@ -52,14 +53,14 @@ void Widen(const std::vector<double>& rounding, WeightedData* weighted) {
   }
 }
 
-// What the file says of each current is believed.
+// Uses the sigma that the file states for each current.
 void TakeStatedSigma(const Measurement& measurement, WeightedData* weighted) {
   for (std::size_t k = 0; k < weighted->sigma.size(); ++k) {
     weighted->sigma[k] = std::max(measurement.stated_sigma[k], kSmallestNoise);
   }
 }
 
-// And so are sizes that somebody knows. The voltage's errors show by the slope of the fitted curve.
+// Uses error sizes from the options. Errors of the voltage enter by the slope of the fitted curve.
 void TakeStated(const Measurement& measurement, const LawFit& fit, WeightedData* weighted) {
   const ErrorSizes& sizes = measurement.errors.sizes;
   const std::vector<Reading>& points = measurement.readings.points;
@@ -89,7 +90,7 @@ Noise TakeNoise(const Measurement& measurement, const LawFit& fit, WeightedData*
   weighted->sigma = noise.sigma;
   const std::vector<double> rounding = CoarseRounding(measurement, noise);
   const bool exact = *std::max_element(noise.sigma.begin(), noise.sigma.end()) <
-                     10 * kSmallestNoise;  // computed readings: what is left is arithmetic
+                     10 * kSmallestNoise;  // simulated readings: arithmetic rounding only
   if (exact) weighted->least_variance = 1;
   const bool stated = measurement.errors.kind == ErrorKind::kStated;
   if (measurement.has_path()) {

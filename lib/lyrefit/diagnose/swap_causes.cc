@@ -7,8 +7,8 @@
 namespace lyrefit {
 namespace {
 
-// Puts the best effect into the place of cause `c`, which the fit is already without, where it does
-// better there than the cause did.
+// Adds the best effect to the fit, from which `cause` was already removed, if it fits better than
+// `cause` did. `present`: the fit with `cause`.
 bool PutBetter(const ChosenCause& cause, const LawFit& present, SelectionState* now) {
   std::vector<FittedCandidate> fitted_candidates = FitCandidates(*now, JudgeScores(PrepareOpen(now), *now->calibration));
   const auto own = std::find_if(fitted_candidates.begin(), fitted_candidates.end(),

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// The fit in a device's own units.
+// Converts parameters to A, ohm and S of the device, and computes its key points.
 void TakeParameters(const Readings& readings, const LawFit& fit, SweepState* state) {
   const ReadingScale& scale = readings.scale;
   const double ampere = scale.current_A, ohm = scale.cells / scale.current_A;

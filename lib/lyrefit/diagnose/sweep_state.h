@@ -9,17 +9,17 @@
 
 namespace lyrefit {
 
-// Where along a curve its shape is looked at: parts of V / Voc from 0 to 1.
+// Number of equal bins of V / Voc, from 0 to 1, in which shapes are compared.
 constexpr int kShapeBins = 16;
 
-// What of a sweep is compared from sweep to sweep: a single diode, every reading trusted alike. So
-// fitted it repeats best; weights that follow the noise follow the day.
+// Quantities of a sweep for comparison with other sweeps, from a single-diode fit with equal
+// weights. Equal weights give the best repeatability; weights by noise would vary from day to day.
 struct SweepState {
   std::string name;
   int cells = 1;
-  double irradiance_W_m2 = 0;  // NaN where nobody stated it
-  double temperature_C = 0;    // the same
-  double isc_A = 0;            // of the model, as the next three
+  double irradiance_W_m2 = 0;  // NaN if not stated
+  double temperature_C = 0;    // NaN if not stated
+  double isc_A = 0;            // isc, voc, fill factor and maximum power are of the model
   double voc_V = 0;
   double fill_factor = 0;
   double max_power_W = 0;
@@ -27,24 +27,25 @@ struct SweepState {
   double ideality = 0;
   double series_ohm = 0;
   double shunt_S = 0;
-  // Measured less model in parts of Isc over V / Voc, which rises, and its means in the bins (NaN
-  // where there are no readings).
+  // V / Voc of each reading (ascending), and measured minus model current in fractions of Isc.
+  // `shape`: means of the latter in kShapeBins bins (NaN in empty bins).
   std::vector<double> place, off;
   Eigen::VectorXd shape;
 };
 
-// The sweep laid out and fitted, to be fitted again with something done to it.
+// A fitted sweep, with all that a fit of changed readings needs.
 struct FittedSweep {
   WeightedData weighted;
   LawFit fit;
   SweepState state;
 };
 
-// Errors: readings that no diagnosis takes, a dark curve, several sweeps under different
-// conditions, no fit.
+// Fits a single diode to one sweep. Errors: readings that a diagnosis rejects, a dark curve, no
+// usable fit, no Voc or maximum power.
 Expected<FittedSweep> FitSweep(const IvCurve& curve);
 
-// The state after `change` (in current scales, of every reading) is added to the readings.
+// State of the sweep after `change` (one value per reading, in current scales) is added to the
+// currents. If the new fit fails, the old state.
 SweepState StateWith(const FittedSweep& sweep, const std::vector<double>& change);
 
 }  // namespace lyrefit

@@ -8,7 +8,8 @@
 namespace lyrefit {
 namespace {
 
-// Whether all values are whole multiples of `step` from the first, to a fortieth of it.
+// Whether all values are whole multiples of `step` from the first, to within 3 % of a step (plus
+// 2e-6 per step of the distance).
 bool LieOn(const std::vector<double>& sorted, double step) {
   for (const double value : sorted) {
     const double steps = (value - sorted.front()) / step;
@@ -17,7 +18,7 @@ bool LieOn(const std::vector<double>& sorted, double step) {
   return true;
 }
 
-// The same step, from the whole range.
+// The step by least squares over the whole range.
 double Sharpen(const std::vector<double>& sorted, double step) {
   double xy = 0, xx = 0;
   for (const double value : sorted) {
@@ -28,7 +29,8 @@ double Sharpen(const std::vector<double>& sorted, double step) {
   return xx > 0 ? xy / xx : step;
 }
 
-// Neighbours that show the same value share their rounding error: together they count as one.
+// Sets the rounding error of each reading. Neighbours with the same value share their error, so
+// that together they count as one reading.
 void AddRounding(const Readings& readings, bool dark, double step, std::vector<double>* rounding) {
   const std::vector<Reading>& points = readings.points;
   for (std::size_t first = 0; step > 0 && first < points.size();) {
@@ -45,8 +47,8 @@ void AddRounding(const Readings& readings, bool dark, double step, std::vector<d
   }
 }
 
-// Readings of one monotone stretch at the smallest current, at its high end; the curve must have
-// been falling when it met the limit.
+// Appends the readings at the smallest current at the high-voltage end of a monotone stretch.
+// Before it reaches the limit, the curve must have been falling.
 void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t last,
             double smallest, double step, std::vector<int>* at) {
   const bool rising = points[last].voltage > points[first].voltage;
@@ -63,7 +65,8 @@ void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t l
   for (int i = end; i != k; i += inwards) at->push_back(i);
 }
 
-// Readings at the smallest current that stand together at the high end of a stretch.
+// Finds readings at the smallest current that follow each other at the high-voltage end of a
+// stretch.
 void FindLowerLimit(const Readings& readings, double step, ValueFindings* findings) {
   constexpr std::size_t kFewest = 4;
   const std::vector<Reading>& points = readings.points;
@@ -82,8 +85,8 @@ void FindLowerLimit(const Readings& readings, double step, ValueFindings* findin
   findings->at_lower = at;
 }
 
-// Readings at the largest voltage that stand together at the high end of a stretch while the
-// current goes on falling: the meter was at its end.
+// Finds readings at the largest voltage at the high-voltage end of a stretch while the current
+// still falls: the voltmeter was at its limit.
 void FindVoltageLimit(const Readings& readings, double step, ValueFindings* findings) {
   constexpr std::size_t kFewest = 4;
   const std::vector<Reading>& points = readings.points;
@@ -92,7 +95,8 @@ void FindVoltageLimit(const Readings& readings, double step, ValueFindings* find
   const auto at_limit = [&](std::size_t k) {
     return k < points.size() && !points[k].dark && !(points[k].voltage < largest * (1 - 1e-9));
   };
-  // Sweeps of one length each end at the largest voltage: one reading of a stretch is no limit.
+  // Sweeps of equal length all end at the largest voltage, so a single reading of a stretch is no
+  // limit.
   const auto stands_alone = [&](std::size_t k) {
     const auto beside = [&](std::size_t i) {
       return at_limit(i) && points[i].segment == points[k].segment;
@@ -100,7 +104,7 @@ void FindVoltageLimit(const Readings& readings, double step, ValueFindings* find
     return !beside(k + 1) && !(k > 0 && beside(k - 1));
   };
   std::vector<int> at;
-  std::size_t ties = 0;  // in coarse bins repeats say nothing
+  std::size_t ties = 0;  // in coarse bins, repeats are no evidence
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!at_limit(k)) {
       ties += k > 0 && points[k].voltage == points[k - 1].voltage;
@@ -118,7 +122,8 @@ void FindVoltageLimit(const Readings& readings, double step, ValueFindings* find
   findings->voltage_limit = largest;
 }
 
-// |dI/dV| at a reading, from its next neighbours that are two steps of the voltage away.
+// Absolute slope |dI/dV| at a reading, from its nearest neighbours that are about two voltage steps
+// away.
 double SlopeOver(const std::vector<Reading>& points, int k, double step) {
   const int count = static_cast<int>(points.size());
   const auto next = [&](int inwards) {
@@ -142,7 +147,7 @@ double FindGrid(const std::vector<double>& values) {
   std::sort(sorted.begin(), sorted.end());
   if (sorted.size() < 8) return 0;
   const double range = sorted.back() - sorted.front();
-  // Differences below a millionth of the range are digits, not steps.
+  // Differences below a millionth of the range are rounding of digits, not steps.
   double smallest = range;
   std::vector<double> distinct = {sorted.front()};
   for (const double value : sorted) {
@@ -155,7 +160,7 @@ double FindGrid(const std::vector<double>& values) {
   for (int part = 1; part <= 3; ++part) {
     const double step = smallest / part;
     if (step < 1e-4 * range) break;
-    // From the near values outwards: the step must be sharp before many are counted.
+    // Start with few values: the step must be accurate before large multiples of it are tested.
     double sharp = step;
     bool on = true;
     for (std::size_t count = 3; on; count = 2 * count) {
@@ -172,7 +177,7 @@ double FindGrid(const std::vector<double>& values) {
 
 namespace {
 
-// Whether places come at equal distances, as near as whole numbers can, and are not side by side.
+// Whether positions are equally spaced up to rounding, and more than two apart.
 bool ComeRegularly(const std::vector<int>& places) {
   if (places.size() < 4) return false;
   int least = places[1] - places[0], most = least;
@@ -186,7 +191,7 @@ bool ComeRegularly(const std::vector<int>& places) {
 }  // namespace
 
 VoltageBins FindBins(const Readings& readings) {
-  constexpr double kUneven = 0.25, kRepeated = 0.1;  // parts of the steps
+  constexpr double kUneven = 0.25, kRepeated = 0.1;  // fractions of the steps
   std::vector<double> voltages;
   for (const Reading& r : readings.points) voltages.push_back(r.voltage);
   const double step = FindGrid(voltages);
@@ -196,7 +201,7 @@ VoltageBins FindBins(const Readings& readings) {
     return std::lround(std::fabs(points[k].voltage - points[k - 1].voltage) / step);
   };
   int uneven = 0, all = 0;
-  std::vector<int> repeated, twice;  // readings that lie 0 and 2 steps from the one before
+  std::vector<int> repeated, twice;  // readings 0 and 2 steps from the previous one
   std::map<long, int> steps;
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k - 1].segment != points[k].segment) continue;
@@ -230,7 +235,7 @@ ValueFindings LookAtValues(const Readings& readings) {
   findings.rounding.assign(currents.size(), 0.0);
   AddRounding(readings, false, findings.grids.lit, &findings.rounding);
   AddRounding(readings, true, findings.grids.dark, &findings.rounding);
-  // Exact repeats of the largest current; on a coarse grid they say nothing.
+  // Exact repeats of the largest current are clipped, except on a coarse grid.
   std::vector<int> repeats;
   std::vector<double> below;
   for (std::size_t k = 0; k < currents.size(); ++k) {

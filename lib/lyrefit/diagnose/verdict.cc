@@ -24,7 +24,7 @@ Cause QuantisationCause(const Effect& effect, const Measurement& measurement) {
   return cause;
 }
 
-// Bins that are coarse beside the noise count where they blur the curve by more than the floor.
+// Whether coarse voltage bins blur the curve by more than the floor, in root mean square current.
 bool HasMaterialBins(const Measurement& measurement, const Noise& noise, double floor) {
   if (!HasCoarseBins(measurement, noise)) return false;
   double sum = 0;
@@ -47,11 +47,11 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
   return cause;
 }
 
-// Of one diode fitted to sweeps of modules without a fault, parts of Isc.
+// Range of the lack of fit of a single diode on sweeps of modules without a fault, in fractions of
+// Isc.
 constexpr double kLeastReferences = 5e-4, kMostHealthy = 2e-3;
 
-// Whether the base model misses the data by more than it misses modules without a fault, and by
-// more than the floor.
+// Whether the lack of fit exceeds both that of modules without a fault and the floor.
 bool MissesTooMuch(const Verdict& verdict, const Floors& floors) {
   return floors.Any() && verdict.lack_of_fit.value > std::max(kMostHealthy, floors.current);
 }
@@ -67,7 +67,7 @@ std::string DepartureText(double lack_of_fit, const Floors& floors) {
                             usual, 100 * floors.current);
 }
 
-// Where no cause is named: how far the data are from the model, and what is there all the same.
+// Sentence if no cause is named: the lack of fit, and effects below the floors.
 std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves) {
   if (!floors.Any()) return "Nothing to find: what the base model leaves is noise.";
   const double lack_of_fit = verdict.lack_of_fit.value;
@@ -90,7 +90,7 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors, int cu
       FindEffect("unknown_structure")->separate_by);
 }
 
-// `nameless`: structure alone, without a cause that fits it.
+// `nameless`: there is structure but no cause that fits it.
 std::string VerdictSentence(const Verdict& verdict, const Floors& floors, int curves,
                             bool nameless) {
   if (nameless) {
@@ -111,7 +111,7 @@ std::string VerdictSentence(const Verdict& verdict, const Floors& floors, int cu
   return text + ".";
 }
 
-// Root mean square, in parts of Isc, of what a fit leaves beyond the noise.
+// Lack of fit of a fit beyond the noise: root mean square in fractions of Isc.
 Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
   double noise = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
@@ -120,13 +120,14 @@ Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
   noise /= std::max(weighted.count(), 1);
   const double lack_of_fit = MissedBy(weighted, fit);
   const double left = std::sqrt(std::max(lack_of_fit * lack_of_fit - noise, 0.0));
-  // A rough path has some six independent pieces in a sweep: its size is known to a third.
+  // A rough path has about six independent pieces in a sweep, so its size is known to about a
+  // third.
   constexpr double kPieces = 6;
   const double half = left * kNormal95 / std::sqrt(2 * kPieces);
   return {left, left - half, left + half};
 }
 
-// Whether what the causes leave is certainly not noise.
+// Whether the residuals of the extended model are certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
   constexpr double kCertain = 1e-3;
   return selection.unknown_p < kCertain || whiteness_after < kCertain ||
@@ -153,7 +154,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   verdict.lack_of_fit = LeftBy(selection.base_weighted, selection.base);
   const Sized left = LeftBy(selection.weighted, selection.extended);
   const bool exceeds = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
-  // A shape that is not understood bends n, which then says nothing.
+  // n is meaningful only if the shape of the curve is explained: unexplained structure changes n.
   const bool understood =
       options.floor_current > 0 ? left.value <= options.floor_current : verdict.causes.empty();
   if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {

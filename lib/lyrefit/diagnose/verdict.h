@@ -9,8 +9,8 @@
 
 namespace lyrefit {
 
-// What is found, from the fits, the values and the metadata, in words. `whiteness_after`: p-value
-// of what the extended model leaves.
+// Combines fits, values and metadata into a verdict. `whiteness_after`: p-value of the whiteness
+// test of the extended model's residuals.
 Verdict Decide(const Measurement& measurement, const Selection& selection, const AtReadings& at,
                const DiagnoseOptions& options, double whiteness_after);
 

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kPeriod(20);
 
 struct Watch::State {
   Observer observer;
-  std::mutex mutex;  // of all below but `stopped`
+  std::mutex mutex;  // guards everything below except `stopped`
   Progress progress;
   Instant begun = Now();
   Instant asked = {};
@@ -50,8 +50,8 @@ void Watch::Step() {
 bool Watch::Stopped() {
   if (state_->stopped || !state_->observer) return state_->stopped;
   const std::unique_lock<std::mutex> lock(state_->mutex, std::try_to_lock);
-  if (!lock.owns_lock()) return state_->stopped;     // another thread is asking
-  if (state_->progress.stage.empty()) return false;  // nothing has begun
+  if (!lock.owns_lock()) return state_->stopped;     // another thread calls the observer
+  if (state_->progress.stage.empty()) return false;  // before the first stage
   const Instant now = Now();
   if (now - state_->asked >= kPeriod) state_->Ask(now);
   return state_->stopped;

@@ -7,8 +7,8 @@
 
 namespace lyrefit {
 
-// Tells an observer where a diagnosis stands and remembers whether it wants to stop. Asked from
-// every loop, by several threads: it reports the latest step at most every few milliseconds.
+// Reports the progress of a diagnosis to an observer and stores its stop request. Thread-safe.
+// Stopped() is cheap enough for every loop: it calls the observer at most every 20 ms.
 class Watch {
  public:
   explicit Watch(Observer observer);
@@ -16,9 +16,9 @@ class Watch {
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  // A stage of `steps` steps begins; `name` outlives the watch.
+  // Starts a stage of `steps` steps. `name` must outlive the watch.
   void Begin(const char* name, std::int64_t steps);
-  void Step();  // one more of the stage's steps is done
+  void Step();  // completes one step of the stage
   bool Stopped();
 
  private:
@@ -26,7 +26,7 @@ class Watch {
   std::unique_ptr<State> state_;
 };
 
-// Where nobody watches there is no watch.
+// Versions for a watch that may be null (nobody observes).
 inline void Begin(Watch* watch, const char* name, std::int64_t steps) {
   if (watch != nullptr) watch->Begin(name, steps);
 }

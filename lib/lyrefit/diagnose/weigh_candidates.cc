@@ -10,7 +10,7 @@ namespace {
 
 bool IsWorthAName(const WeightedData& weighted, const FittedCandidate& fitted, const Without& without,
                   const Weights& weights) {
-  // What bends to everything bends to what a cause's own model gets wrong.
+  // Flexible effects need a larger part: they also fit the errors of the first cause's model.
   constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
   const int last = static_cast<int>(fitted.fit.law.effects.size()) - 1;
   const EffectSize size = SizeOf(weighted, fitted.fit, last, without);
@@ -20,8 +20,8 @@ bool IsWorthAName(const WeightedData& weighted, const FittedCandidate& fitted, c
   return weights.first_misfit == 0 || size.current * size.current > part * weights.first_misfit;
 }
 
-// A size is not certain where unlike cells that explain as much are smaller: then nothing is worth
-// a name.
+// If a preferred effect among those with cell groups is below the floors, the size of the cause is
+// uncertain, and none is named.
 void RankBelow(const WeightedData& weighted, double misfit, double floor, std::vector<FittedCandidate>* worthy,
                  std::vector<FittedCandidate>* below) {
   if (worthy->empty() || below->empty()) return;
@@ -59,7 +59,7 @@ std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const
       below->push_back(std::move(fitted));
     }
   }
-  // What bends to everything is not larger for fitting worse than something small that is there.
+  // A flexible effect above the floors is rejected if an effect below them fits clearly better.
   const auto is_beaten = [&](const FittedCandidate& fitted) {
     if (!IsGeneric(*weighted.readings, *fitted.score.effect)) return false;
     return std::any_of(below->begin(), below->end(), [&](const FittedCandidate& other) {

@@ -7,18 +7,19 @@
 
 namespace lyrefit {
 
-// What a fit leaves beyond what its law could still take up, root mean square in parts of Isc.
+// Lack of fit of a fit to its readings: root mean square in fractions of Isc, after projection off
+// the law's parameters.
 double MissedBy(const WeightedData& weighted, const LawFit& fit);
 
 struct Weights {
   Floors floors;
-  double level = 0.05;      // to which corrected p-values are compared
-  double first_misfit = 0;  // mean square of what the first cause took away, in scales; 0: none yet
+  double level = 0.05;      // significance level for corrected p-values
+  double first_misfit = 0;  // mean square of the first cause, squared scales; 0: no cause
 };
 
-// Those of `all`, fits with one effect more than `fit`, that are certainly larger than the floors,
-// explain their part of what there was to explain and are of a possible size; the likeliest first.
-// `below` receives what is there all the same.
+// Selects among `all`, fits with one effect more than `fit`. Returned, preferred cause first: those
+// with a possible size, certainly above a floor, that explain a sufficient fraction of the first
+// cause's misfit. `below` receives the other significant ones.
 std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const LawFit& fit,
                                const std::vector<FittedCandidate>& all, const Weights& weights,
                                std::vector<FittedCandidate>* below);

@@ -37,7 +37,7 @@ ErrorModel ErrorsOf(const WeightedData& weighted) {
 
 namespace {
 
-// Row by row, in place: rows of left-out readings become 0.
+// Whitens in place, row by row. Rows of left-out readings become 0.
 void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
   if (weighted.correlation != 0 || weighted.path != 0) {
     Whiten(ErrorsOf(weighted), weighted.used, rows);
@@ -52,8 +52,8 @@ void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
   }
 }
 
-// The solver takes a step that cannot be evaluated in its stride; derivatives must always be there,
-// so those that are not become 0.
+// Evaluates whitened residuals and derivatives. The solver accepts failed residuals of a step, but
+// not missing derivatives, so these become 0 if they cannot be evaluated.
 bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::vector<char>& held,
                       const double* p, LawWorkspace* workspace, std::vector<double>* current,
                       double* residuals, double* jacobian) {
@@ -156,7 +156,7 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   const int count = static_cast<int>(weighted.readings->points.size()), size = fit.law.size();
   LawWorkspace workspace;
   std::vector<double> current;
-  WeightedData unwatched = weighted;  // what was found before a stop is described after it
+  WeightedData unwatched = weighted;  // a fit found before a stop request is still described
   unwatched.watch = nullptr;
   const LeastSquaresProblem problem = MakeProblem(unwatched, fit.law, &workspace, &current);
   Linearized linear;
@@ -191,7 +191,8 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
 
 namespace {
 
-// Of a value with this derivative by the free parameters, whose columns are of this length.
+// Standard error of a value with this derivative by the free parameters, with columns scaled to
+// unit length.
 double ErrorAlong(const RightSingular& svd, const Eigen::VectorXd& derivative) {
   double variance = 0;
   for (int j = 0; j < svd.values.size(); ++j) {
@@ -244,7 +245,7 @@ bool CanAdd(const Law& law, const Effect& effect) {
 
 namespace {
 
-// Readings that are all trusted alike, each for itself.
+// The data with unit sigma and no correlation.
 WeightedData Plain(const WeightedData& weighted) {
   WeightedData plain = weighted;
   plain.path = plain.correlation = 0;
@@ -274,7 +275,7 @@ double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::M
 }
 
 double FindPath(const WeightedData& weighted, const LawFit& fit) {
-  constexpr double kLargest = 4e-3;  // of Isc: more is no departure but a cause
+  constexpr double kLargest = 4e-3;  // of Isc; a larger departure is a cause
   constexpr int kSteps = 12;
   const ErrorPrior prior = UsualErrors(1, 1);
   WeightedData own = Plain(weighted);

@@ -12,32 +12,32 @@
 
 namespace lyrefit {
 
-// What laws are fitted to: readings, how far each is trusted, and which of them count.
+// Data to which laws are fitted: readings, their noise, and which of them are used.
 struct WeightedData {
   std::shared_ptr<const Readings> readings;
   std::vector<double> sigma;
-  std::vector<char> used;  // 0: left out, as an outlier or for a held-out gain
-  double correlation = 0;  // lag 1, of the noise
-  // Of a rough path along each curve, in current scales at the brightest light: see
-  // refine/error_model.h, with a length of one open-circuit voltage.
+  std::vector<char> used;  // 0: left out, as an outlier or held out
+  double correlation = 0;  // of the noise at lag 1
+  // Standard deviation of a rough path along each curve, in current scales at the brightest light.
+  // refine/error_model.h defines the path.
   double path = 0;
-  double path_length = 1;  // in pivot voltages
-  // The noise's size follows the residuals, but its variance is not taken below this part of
-  // sigma^2: 1 where sigma holds more than noise.
+  double path_length = 1;  // correlation length of the path, in pivot voltages
+  // The noise variance is scaled to the residuals, but not below this fraction of sigma^2. 1: sigma
+  // contains more than noise.
   double least_variance = 0;
-  Watch* watch = nullptr;  // once it says stop, fits end where they are
+  Watch* watch = nullptr;  // after a stop request, fits end at their present parameters
 
-  int count() const;  // of used readings
+  int count() const;  // number of used readings
 };
 
-// Whether fits leave a parameter where it is.
+// Whether fits keep a parameter fixed.
 bool Held(const Readings& readings, const Law& law, int parameter);
 
-// Errors of the readings.
+// Error model of the readings.
 ErrorModel ErrorsOf(const WeightedData& weighted);
 
-// Divides by the noise and takes the neighbours' correlation out, so that white noise of unit size
-// remains. Left-out readings become 0.
+// Transforms values so that noise becomes white with unit variance: divides by sigma and removes
+// the correlation of neighbours. Left-out readings become 0. One row per reading.
 Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values);
 Eigen::MatrixXd WhitenColumns(const WeightedData& weighted, const Eigen::MatrixXd& columns);
 
@@ -46,74 +46,73 @@ struct LawFit {
   std::vector<double> p;
   double sum = 0;  // of squared whitened residuals
   bool usable = false;
-  std::vector<double> current;  // of every reading, left out or not
+  std::vector<double> current;  // of every reading, also of those left out, in scales
 };
 
-// Least squares in all parameters of `law` that are not `searched`, from `start`.
+// Least squares in all parameters of `law` that Held() leaves free, from `start`.
 LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 
-// The base model of this many readings is fitted even where a stop was asked for already: it takes
-// a fraction of a second, and without it there is nothing to report.
+// Up to this number of readings the base model is fitted even after a stop request. The fit takes a
+// fraction of a second, and without it there is nothing to report.
 constexpr std::size_t kQuickToFit = 2500;
 
-// Base parameters of a healthy module whose cells under full light carry `light` (in scales), for
-// fits that stand on no other.
+// Typical base parameters of a module without a fault, as a start that does not depend on another
+// fit. `light`: current under the brightest light, in scales.
 std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light);
 
-// Size of the rough path in a fit's residuals, by restricted maximum likelihood given the noise and
-// what healthy modules have.
+// Standard deviation of the rough path by restricted maximum likelihood, given the noise and a
+// prior from modules without a fault. In current scales.
 double FindPath(const WeightedData& weighted, const LawFit& fit);
 
-// The base model from several starts.
+// Fits the base model from several starts and returns the best fit.
 LawFit FitBase(const WeightedData& weighted, const Law& law);
 
-// The fit's linear picture: whitened residual (model - measured) and its derivatives by the
-// parameters that are free to move, i.e. neither held nor pressed against a bound.
+// Linearization of a fit: whitened residuals (model - measured) and their derivatives by the free
+// parameters, i.e. those neither fixed nor active at a bound.
 struct Linearized {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;
   std::vector<int> free;
-  Eigen::MatrixXd basis;  // orthonormal, of the jacobian's columns
+  Eigen::MatrixXd basis;  // orthonormal basis of the jacobian's columns
 };
 Linearized Linearize(const WeightedData& weighted, const LawFit& fit);
 
-// Standard errors of all parameters (0 where not free), for unit noise.
+// Standard errors of all parameters (0 if not free), for unit noise.
 std::vector<double> StandardErrors(const Linearized& linear, int parameters);
 
-// Of a value with this derivative by all parameters, for unit noise.
+// Standard error of a value with this derivative by all parameters, for unit noise.
 double StandardError(const Linearized& linear, const std::vector<double>& derivative);
 
-// Root mean square over the readings used, in scales, of what a fit's law at its best would still
-// miss of `currents`: noise, weights and what lies along its parameters do not count.
+// Lack of fit of a fit to `currents`: root mean square over the used readings, in scales, of their
+// distance from the fit, projected off the law's parameters. All readings have equal weight.
 double LackOfFit(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& currents);
-// The same with what lies along the fit's parameters given, which is the same for all currents.
+// Version with the basis of PlainBasis given, which does not depend on the currents.
 Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
 double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
                  const std::vector<double>& currents);
 
-// Free parameters of a law on these data.
+// Number of free parameters of a law on these data.
 int FreeCount(const WeightedData& weighted, const Law& law);
 
-// What the readings have beyond them, at least 1.
+// Degrees of freedom: used readings minus free parameters, at least 1.
 int Degrees(const WeightedData& weighted, const Law& law);
 
-// Mean square of whitened residuals: 1 where sigma is the noise and the law is right.
+// Mean square of the whitened residuals: 1 if sigma is the noise and the law is correct.
 double SquarePerDegree(const WeightedData& weighted, const LawFit& fit);
 
-// The same as the variance of the noise in units of sigma, which is not taken below what it
-// allows.
+// Variance of the noise in units of sigma^2: SquarePerDegree, but at least `least_variance`.
 double NoiseVariance(const WeightedData& weighted, const LawFit& fit);
 
-// Half of a normal's 95 % interval in standard deviations: for sizes and for what scatters from
-// module to module, where the degrees of freedom of one fit say nothing.
+// Half-width of a normal 95 % interval in standard deviations. Used for sizes and for scatter
+// between modules, where the degrees of freedom of one fit do not apply.
 constexpr double kNormal95 = 1.96;
 
-// Beside the largest base an effect may have the rest.
+// Largest number of parameters of an effect, so that it fits into a law with the largest base.
 constexpr int kMostEffectParameters = 11;
 
-// Whether a law has room for an effect, which is not there already nor anything it cannot stand
-// beside.
+// Whether an effect can be added to a law: it is not yet part of it, compatible with its effects,
+// and the number of parameters stays within the limit.
 bool CanAdd(const Law& law, const Effect& effect);
 
 }  // namespace lyrefit

@@ -9,12 +9,12 @@
 namespace lyrefit {
 namespace {
 
-// How far the fit is from a reading, in its noise.
+// Distance of the fit from a reading, in noise deviations.
 double Off(const WeightedData& weighted, const LawFit& fit, int reading) {
   return (fit.current[reading] - weighted.readings->points[reading].current) / weighted.sigma[reading];
 }
 
-// Whether a reading is far off while its neighbours are not.
+// Whether a reading is far off while its two neighbours are not.
 bool IsAlone(const WeightedData& weighted, const LawFit& fit, int reading) {
   constexpr double kShared = 0.35;
   const std::vector<Reading>& points = weighted.readings->points;
@@ -29,9 +29,9 @@ bool IsAlone(const WeightedData& weighted, const LawFit& fit, int reading) {
   return neighbours == 2;
 }
 
-// Whether a reading at an end of its stretch is what the law says of a voltage that stands still.
-// Where a sweep begins, turns or ends its rate is not what neighbours say: beside a charge or a
-// skew such a reading is off, but not wrong.
+// Whether a reading at an end of its stretch agrees with the law at zero sweep rate. At the start,
+// turn or end of a sweep, the rate computed from neighbours is wrong. An effect that depends on the
+// rate then misses such a reading, although the reading is correct.
 bool StandsStill(const WeightedData& weighted, const LawFit& fit, int reading) {
   constexpr double kPlausible = 3.5;
   const std::vector<Reading>& points = weighted.readings->points;
@@ -52,7 +52,7 @@ bool StandsStill(const WeightedData& weighted, const LawFit& fit, int reading) {
 }  // namespace
 
 bool StandsOut(const std::vector<Score>& scores) {
-  constexpr double kByFar = 2;  // times what any cause promises
+  constexpr double kByFar = 2;  // times the best statistic of any effect
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
   if (furthest == nullptr) return false;
   return std::all_of(scores.begin(), scores.end(), [&](const Score& score) {

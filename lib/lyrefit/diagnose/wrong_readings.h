@@ -6,23 +6,26 @@
 
 namespace lyrefit {
 
-// Single readings that were left out.
+// Single readings that were left out of the fit.
 struct WrongReadings {
   std::vector<int> readings;
-  std::vector<int> at_rest;  // not wrong: at an end of a stretch, where the voltage stood still
-  double p = 1;              // corrected, the smallest of them
+  std::vector<int> at_rest;  // not wrong, but the voltage stood still: ends of monotone stretches
+  double p = 1;              // smallest corrected p-value of `readings`
 };
 
-// Whether a single reading is off by far more than any cause promises to explain.
+// Whether the statistic of the furthest single reading exceeds those of all fittable effects by
+// far.
 bool StandsOut(const std::vector<Score>& scores);
 
-// Leaves out the reading that is furthest off where that is certain at `level` and explains more
-// than the best of `fitted_candidates`, or is alone where that acts at a moment; at most a twentieth of all.
-// Says whether it did; the fit is then one without it.
+// Leaves out the reading that is furthest off and repeats the fit, if it is significant at `level`.
+// It must also explain more than the best of `fitted_candidates`, or be isolated where that effect
+// is momentary. At most a twentieth of all readings is left out. Returns whether a reading was left
+// out.
 bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates,
                       double level, WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
 
-// Takes back what causes that were found since explain, and says whether there was any.
+// Uses left-out readings again that the present fit explains, and repeats the fit. Returns whether
+// there were any.
 bool Readmit(WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
 
 }  // namespace lyrefit

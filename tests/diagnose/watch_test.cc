@@ -48,12 +48,12 @@ TEST(WatchTest, HearsOfEveryStageOfADiagnosis) {
   options.threads = 1;
   options.folds = 3;
   ASSERT_TRUE(Diagnose(CurveWithAStep(100), options, observer));
-  EXPECT_THAT(stages, ElementsAre("base fit", "null_statistics", "selection", "fitted_candidates", "held out"));
+  EXPECT_THAT(stages, ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
 }
 
 // Wherever the stop comes, nothing further is fitted and the diagnosis says that it is unfinished.
 TEST(WatchTest, AStopEndsEveryStageAtOnce) {
-  for (const char* stage : {"base fit", "null_statistics", "selection", "fitted_candidates", "held out"}) {
+  for (const char* stage : {"base fit", "null statistics", "selection", "candidates", "held out"}) {
     const Observer observer = [&](const Progress& progress) {
       return progress.stage == stage ? ObserverAction::kStop : ObserverAction::kContinue;
     };

@@ -103,7 +103,7 @@ void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
   const LawFit& extended = selection->extended;
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     ChosenCause& cause = selection->causes[c];
-    Begin(options.watch, "fitted_candidates", static_cast<std::int64_t>(options.candidates.size()));
+    Begin(options.watch, "candidates", static_cast<std::int64_t>(options.candidates.size()));
     selection->without.push_back(FitWithout(weighted, extended, static_cast<int>(c)));
     const LawFit& without = selection->without.back();
     if (!without.usable || Stopped(options.watch) || cause.in_values) continue;

@@ -160,7 +160,7 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
 
 // Coordinate descent over the probe values of one searched parameter, for effects such as jumps:
 // their scores are linear approximations, so neighbouring values may fit better.
-void NewtonAscent(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
+void DescendInProbes(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
            LawFit* best) {
   constexpr int kMostSteps = 8;
   std::vector<int> searched;
@@ -241,7 +241,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull) NewtonAscent(weighted, effect, probes, &best);
+  if (effort == Effort::kFull) DescendInProbes(weighted, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(weighted, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end)) return {};

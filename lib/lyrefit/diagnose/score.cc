@@ -61,7 +61,7 @@ void CountDirections(const Candidate& candidate, int degrees, Score* score) {
 Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared, const ListDistribution& list,
                       const NoiseEstimator& noise, const Draws& draws) {
   Calibration calibration;
-  Begin(weighted.watch, "null_statistics", draws.cols());
+  Begin(weighted.watch, "null statistics", draws.cols());
   const Eigen::MatrixXf null_statistics = SimulateRefits(weighted, prepared, noise, draws);
   for (int d = 0; d < null_statistics.rows(); ++d) {
     double smallest = 1;

@@ -6,14 +6,15 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSlack = 1e-12;        // relative, of Is and of u
-constexpr double kSmallestIs = 1e-305;  // ampere; smaller numbers lose digits
+constexpr double kSlack = 1e-12;        // relative tolerance of Is and of u
+constexpr double kSmallestIs = 1e-305;  // ampere; smaller doubles lose digits
 
 bool Inside(double u, const Window& window) {
   return u >= window.lower * (1 - kSlack) && u <= window.upper * (1 + kSlack);
 }
 
-// The diodes that stand for one atom, each as small as may be and then filled up in turn.
+// Divides the Is of one atom among its diodes: first the lower end of each range, then the rest in
+// order up to the upper ends. False if that is impossible.
 bool Share(const std::vector<int>& atom_of, int atom, double u, double saturation_A,
            const std::vector<Window>& windows, std::vector<DiodeValues>* diodes) {
   double rest = saturation_A;
@@ -48,7 +49,7 @@ std::optional<std::vector<DiodeValues>> AsDiodes(const Mixture& mixture,
     if (!(saturation_A.back() >= kSmallestIs)) return std::nullopt;
   }
   if (atoms > static_cast<int>(windows.size())) return std::nullopt;
-  std::vector<int> atom_of(windows.size(), -1);  // -1: the diode vanishes
+  std::vector<int> atom_of(windows.size(), -1);  // -1: the diode carries no current
   while (true) {
     std::vector<DiodeValues> diodes(windows.size());
     bool fits = true;

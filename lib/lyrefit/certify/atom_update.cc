@@ -4,12 +4,12 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/certify/mixture_solver.h"
 
-// How the solver of mixtures moves its atoms, and how its value changes with Rs.
+// Updates of the atoms (diodes) of MixtureSolver, and the derivative of its value by Rs.
 namespace lyrefit {
 namespace {
 
-constexpr int kMostSlides = 30;      // Newton steps between two atoms
-constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs may be one in truth
+constexpr int kMostSlides = 30;      // Newton steps between two additions of atoms
+constexpr double kNeighbours = 0.5;  // atoms closer than this in u Vs are tried as one
 
 }  // namespace
 
@@ -20,8 +20,9 @@ void MixtureSolver::UpdateAtoms() {
   }
 }
 
-// Two atoms in the place of one come about when an atom is added next to another. Puts one between
-// them where that costs nothing.
+// Adding an atom next to another one can leave two atoms where the optimum has one. Replaces two
+// neighbours by one at their mean u, weighted by current, wherever the sum of squares does not
+// rise.
 void MixtureSolver::MergeNeighbours() {
   for (int j = 0; j + 1 < size(); ++j) {
     const double u0 = state_.atoms[j].u, u1 = state_.atoms[j + 1].u;
@@ -44,9 +45,9 @@ void MixtureSolver::MergeNeighbours() {
 MixtureSlope MixtureSolver::SlopeHere() const {
   const Eigen::MatrixXd a = Columns(state_.atoms);
   MixtureSlope slope;
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows(), size());  // Is alone moves a mass
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows(), size());  // at fixed Is: rows get 0
   Eigen::VectorXd gradient(size()), bends(size());
-  std::vector<int> linear = FreeTerms();  // columns within their ranges
+  std::vector<int> linear = FreeTerms();  // columns inside their ranges
   for (int j = 0; j < size(); ++j) {
     linear.push_back(static_cast<int>(terms_) + j);
     const double u = state_.atoms[j].u;
@@ -64,7 +65,7 @@ MixtureSlope MixtureSolver::SlopeHere() const {
   const auto count = static_cast<Eigen::Index>(slope.moving.size());
   const Eigen::MatrixXd columns = a(Eigen::all, linear);
   const Eigen::MatrixXd b = slopes(Eigen::all, slope.moving);
-  // Mixed block A'B - diag(slope . y), each slope for a current of 1.
+  // Mixed second derivatives A'B - diag(slope . y), each slope per ampere of its atom.
   Eigen::MatrixXd mixed = TransposedTimes(columns, b);
   for (Eigen::Index i = 0; i < count; ++i) {
     const int j = slope.moving[i];
@@ -78,8 +79,8 @@ MixtureSlope MixtureSolver::SlopeHere() const {
   return slope;
 }
 
-// Moves the atoms by -step within their windows and solves for the rest; returns the largest move
-// in u Vs.
+// Moves the u of the atoms by -step, clipped to their windows, and solves for the linear unknowns.
+// Returns the largest move in u Vs.
 double MixtureSolver::Move(const std::vector<int>& moving, const Eigen::VectorXd& step) {
   std::vector<Atom>& atoms = state_.atoms;
   double largest = 0;
@@ -99,8 +100,9 @@ double MixtureSolver::Move(const std::vector<int>& moving, const Eigen::VectorXd
   return largest;
 }
 
-// An atom that may not stand beside another one although the residual asks for it: the other one
-// sits on a saddle and has to go both ways at once. False if that gains nothing.
+// Replaces the atom nearest to u by two atoms, at u and at its mirror image. This is needed when
+// the residual requires an atom at u, but SolveLinear() drops it. The nearest atom is then at a
+// saddle point. False if the sum of squares does not fall; the state is then unchanged.
 bool MixtureSolver::SplitNearest(double u) {
   const MixtureState before = state_;
   const std::size_t window = WindowIndex(u);
@@ -122,8 +124,8 @@ bool MixtureSolver::SplitNearest(double u) {
   return false;
 }
 
-// One Newton step of the atoms' u, the linear unknowns following. False when nothing moves any
-// more.
+// One damped Newton step of the atoms' u, with the linear unknowns eliminated. False when no step
+// moves an atom or lowers the sum of squares.
 bool MixtureSolver::UpdateAtomsOnce(double* damping) {
   constexpr int kAttempts = 12;
   const MixtureSlope slope = SlopeHere();

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-// Least squares over the columns in `active`; the others stay at x.
+// Least squares over the columns in `active`, the unknowns that are free; the others stay at x.
 Eigen::VectorXd SolveActive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                             const std::vector<int>& active, Eigen::VectorXd x) {
   for (const int i : active) x[i] = 0;
@@ -21,7 +21,7 @@ Eigen::VectorXd SolveActive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
   return x;
 }
 
-// How far x may go towards target, and which unknown stops it at which end; -1: none.
+// Step length from x to target, the unknown that limits it (-1: none), and the end of its range.
 struct Way {
   double reach = 1;
   int blocking = -1;
@@ -42,8 +42,8 @@ Way WayTo(const Eigen::VectorXd& target, const Eigen::VectorXd& x, const Eigen::
   return way;
 }
 
-// The column outside `active` that the residual leans on most, away from its end; -1: none beyond
-// rounding.
+// The column outside `active` along which the sum of squares falls most steeply, per column norm,
+// when its unknown leaves its end. -1 if none exceeds rounding.
 int MostWanted(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& lower,
                const Eigen::VectorXd& upper, const Eigen::VectorXd& x,
                const std::vector<int>& active) {

@@ -4,11 +4,11 @@
 
 namespace lyrefit {
 
-// Minimises |a x - b| over lower <= x <= upper (infinite: open) from a feasible start, by active
-// sets (Lawson and Hanson 1974, chapter 23);
-// unknowns at an end of their range may leave it at once, without being priced, since rounding
-// hides what a column next to another one has to give. For a handful of columns, which should be of
-// similar length.
+// Minimises |a x - b| over lower <= x <= upper by active sets (Lawson and Hanson 1974, chapter 23).
+// `a` is m x n, `b` has m elements, the others n. Infinite bounds are open, and `x` is a feasible
+// start. Unknowns that start at a bound are free in the first step, whatever their gradient:
+// rounding hides the gradient of a column that is nearly parallel to another. Meant for a handful
+// of columns of similar length.
 Eigen::VectorXd SolveBounded(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                              const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                              Eigen::VectorXd x);

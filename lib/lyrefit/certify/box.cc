@@ -94,7 +94,7 @@ void SetRanges(const CertifyOptions& options, MixtureData* data) {
   LinearTerm& shunt = data->terms[kShuntTerm];
   light.lower = options.iph_lower_A;
   light.upper = options.iph_upper_A;
-  // Conductances, not rounded inwards.
+  // Conductance ranges are rounded outwards.
   if (options.rsh_upper_ohm < kInfinity) {
     shunt.lower = Lower(Interval(1) / Interval(options.rsh_upper_ohm));
   }

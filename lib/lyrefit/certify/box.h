@@ -8,26 +8,30 @@
 
 namespace lyrefit {
 
-// From the ranges that are asked for to those of the proof.
+// These functions convert the requested ranges of parameters to those of a proof.
 
-// Ranges that are empty, reversed or of too few diodes are errors.
+// Errors: a range that is empty or reversed, and ranges for fewer diodes than the largest model
+// has.
 Expected<void> CheckRanges(const CertifyOptions& options);
 
-// The same options with `diodes` filled, one for each of the largest model, and n from the least to the
-// largest of any.
+// The options with `diodes` filled: an empty list becomes three diodes with the common ranges.
+// Otherwise the common range of n is widened to include the n of every diode.
 CertifyOptions WithEveryDiode(CertifyOptions options);
 
-// The window of any diode, whatever its Is, and those of a model's diodes with theirs. Windows of
-// rigorous proofs hold all n in spite of rounding.
+// AnyDiode() is the window of u for every n of the options and any Is. BoxOf() has the windows of u
+// and Is of the first `diodes` diodes. `thermal_voltage_V` is Ns k T / q, and `safe_V` an interval
+// that contains it. If options.rigorous is set, the windows are rounded outwards, so that they
+// contain all n in spite of rounding.
 Window AnyDiode(const CertifyOptions& options, double thermal_voltage_V,
                 const WideInterval& safe_V);
 std::vector<Window> BoxOf(const CertifyOptions& options, int diodes, double thermal_voltage_V,
                           const WideInterval& safe_V);
 
-// Gives photocurrent and shunt conductance of CurveData() their ranges.
+// Sets the ranges of photocurrent (A) and shunt conductance (S) in data made by CurveData().
 void SetRanges(const CertifyOptions& options, MixtureData* data);
 
-// The ranges of a model; Rs up to what the proof goes through.
+// The ranges for fits of a model of `diodes` diodes. `rs_upper_ohm` is the largest Rs that the
+// proof searches.
 ModelRanges RangesOfModel(const CertifyOptions& options, int diodes, double rs_upper_ohm,
                           double reference_voltage_V);
 

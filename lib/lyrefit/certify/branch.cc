@@ -11,15 +11,16 @@
 namespace lyrefit {
 namespace {
 
-// An RMSE below this part of the largest current is rounding.
+// An RMSE below this fraction of the largest current is rounding.
 constexpr double kRounding = 1e-14;
-// Generations of parts that are tried although better solutions at their ends are all they lack.
+// Generations of parts that are divided although only the duality gap of their end solutions keeps
+// them open.
 constexpr int kMostStuck = 3;
 
 struct LowerFirst {
   bool operator()(const BranchPart& a, const BranchPart& b) const {
     if (a.lower != b.lower) return a.lower > b.lower;
-    return a.rs1 - a.rs0 < b.rs1 - b.rs0;  // the widest of equals
+    return a.rs1 - a.rs0 < b.rs1 - b.rs0;  // among equals the widest first
   }
 };
 
@@ -32,7 +33,8 @@ bool Alike(const Window& a, const Window& b) {
          a.saturation_upper_A == b.saturation_upper_A;
 }
 
-// How far apart the atoms of a mixture in a window are that `diodes` diodes have to stand for.
+// Distance between the outermost atoms of a mixture in a window; 0 if `diodes` diodes can represent
+// all of them.
 double Spread(const Mixture& mixture, const Window& window, std::ptrdiff_t diodes) {
   double least = kInfinity, most = -kInfinity;
   std::ptrdiff_t count = 0;
@@ -45,8 +47,9 @@ double Spread(const Mixture& mixture, const Window& window, std::ptrdiff_t diode
   return count > diodes ? most - least : 0;
 }
 
-// The widest; among those that hold Is to a range the one in which a mixture differs most from so
-// many diodes, for there one atom may carry the current and another the Is.
+// Selects the widest window by default. A window with a range of Is takes precedence if an end
+// solution has more atoms there than diodes: one atom may carry the current and another the Is. Of
+// these, selects the one with the largest distance between atoms.
 Window WindowToSplit(const BranchPart& part) {
   Window widest = part.windows.front(), loosest = widest;
   double spread = 0;
@@ -98,7 +101,8 @@ class Branch {
     }
     BranchEnd end;
     end.lower = std::min(settled_, open_.empty() ? settled_ : open_.top().lower);
-    // What is as good as the best known has been bounded, nothing else.
+    // Only mixtures as good as the best one known have been bounded, so `lower` cannot exceed its
+    // value.
     end.lower = std::min(end.lower, incumbent_.primal);
     end.complete = end.lower >= Enough();
     end.solved = incumbent_.solved;
@@ -108,7 +112,7 @@ class Branch {
   }
 
  private:
-  // The lower bound that settles a part.
+  // The lower bound that closes a part; 0 if the best value known is an exact fit.
   double Enough() const {
     const double points = static_cast<double>(relaxation_.Points());
     const double rmse = std::sqrt(2 * incumbent_.primal / points);
@@ -116,7 +120,8 @@ class Branch {
                                                    : incumbent_.primal * (1 - limits_.tolerance);
   }
 
-  // Everything of a part beyond this Rs, by the order of the points alone: no ends are solved.
+  // Adds a part with Rs of `rs` or more, bounded by the order of the points alone. Its ends are not
+  // solved.
   void PushFar(const BranchPart& part, double rs) {
     BranchPart far = part;
     far.rs0 = rs;
@@ -132,7 +137,7 @@ class Branch {
 
   void Push(const BranchPart* parent, BranchPart part) {
     rs_reached_ = std::max(rs_reached_, part.rs1);
-    const double known = part.lower;  // of what it was cut from
+    const double known = part.lower;  // bound of the parent part
     relaxation_.Bound(parent, &part, &incumbent_);
     part.stuck = part.lower + part.lacking >= Enough() ? part.stuck + 1 : 0;
     if (!(part.lower > 0)) part.lower = 0;
@@ -154,7 +159,8 @@ class Branch {
     }
   }
 
-  // Takes the smaller Rs of a part that has no ends as a part like any other.
+  // Turns the smaller Rs of a part without end solutions into an ordinary part, up to twice its
+  // lower end.
   void SplitFar(const BranchPart& part) {
     BranchPart near = part;
     near.rs1 = std::min(2 * part.rs0, part.rs1);
@@ -168,7 +174,7 @@ class Branch {
     double t = 0.5;
     const bool near = std::max(a.primal, b.primal) < 4 * incumbent_.primal;
     if (near && a.slope < 0 && b.slope > 0) {
-      // Towards the minimum, but never so close to an end that nothing is gained.
+      // Splits near the minimum, but at least 1 % of the range away from each end.
       t = std::min(std::max(a.slope / (a.slope - b.slope), 0.01), 0.99);
     }
     const double rs = part.rs0 + t * (part.rs1 - part.rs0);
@@ -191,7 +197,7 @@ class Branch {
       settled_ = std::min(settled_, part.lower);
       return;
     }
-    // Diodes are interchangeable: of windows that are alike, the lower halves go first.
+    // Diodes are interchangeable. Of equal windows the first ones take the lower half.
     const auto alike = [&](const Window& w) { return Alike(w, window); };
     const int copies =
         static_cast<int>(std::count_if(part.windows.begin(), part.windows.end(), alike));
@@ -239,7 +245,7 @@ std::vector<Window> Union(std::vector<Window> windows) {
     const bool meets = !merged.empty() && window.lower <= merged.back().upper;
     const bool touches = meets && window.lower == merged.back().upper &&
                          merged.back().lower < merged.back().upper && window.lower < window.upper;
-    // Ranges of Is say more of windows that are left apart.
+    // Ranges of Is give tighter bounds if the windows stay separate.
     if (meets && !(touches && (HoldsIs(window) || HoldsIs(merged.back())))) {
       merged.back().upper = std::max(merged.back().upper, window.upper);
       merged.back().saturation_lower_A += window.saturation_lower_A;

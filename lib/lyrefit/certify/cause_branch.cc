@@ -12,10 +12,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSolveTolerance = 1e-5;  // relative duality gap of one mixture
-// An RMSE below this part of the largest current is not told from an exact fit.
+constexpr double kSolveTolerance = 1e-5;  // relative duality gap of one convex problem
+// An RMSE below this fraction of the largest current counts as an exact fit.
 constexpr double kExact = 1e-9;
-// How many parts of its size a span of theta counts beside a factor e of u.
+// Weight of the width of a theta span against ln(upper / lower) of the window of u, to select a
+// split.
 constexpr double kThetaWeight = 0.5;
 
 using MixturePtr = std::shared_ptr<const Mixture>;
@@ -25,8 +26,8 @@ struct CausePart {
   Window u;
   Span theta;
   double lower = 0;
-  double raw_ends = 0;  // dual values of the ends alone
-  double ends = 0;      // less all that is priced
+  double raw_ends = 0;  // lower of the dual values at both ends
+  double ends = 0;      // lower of the bounds at both ends, penalties subtracted
 };
 
 struct LowestFirst {
@@ -85,8 +86,9 @@ class CauseBranch {
     return mixture;
   }
 
-  // A model that is met on the way, made of the strongest of each: descends from where that is
-  // lower than what is known.
+  // Builds a model from a mixture that is below the best value known: its strongest diode, and
+  // theta weighted by strength. Descends from the model if it is close to the best one. Keeps the
+  // lower of both.
   void Note(const Mixture& mixture, const CausePart& part) {
     if (mixture.atoms.empty() || mixture.primal >= end_.best.primal) return;
     const auto by_current = [](const Atom& a, const Atom& b) { return a.current_A < b.current_A; };
@@ -114,7 +116,7 @@ class CauseBranch {
         rs1 > rs0 ? Solve(*part, rs1, (part->right ? part->right : part->left)->atoms) : part->left;
   }
 
-  // What one end proves by itself, everything priced.
+  // Lower bound at the Rs of one end, all penalties subtracted.
   double EndBound(const MixtureData& data, const Window& u, const Mixture& end) const {
     const double known = end_.best.primal;
     return BoundPart(data, {u}, end, end, ComputeDualGain(data, end.rs, end.rs, known), known).lower;
@@ -135,7 +137,8 @@ class CauseBranch {
     open_.push(std::move(part));
   }
 
-  // Halves a window where even the ends of the part lie too low, else the range of Rs.
+  // Halves the window of u or the span of theta if even the bounds at the ends are too low,
+  // otherwise divides the range of Rs.
   void Split(const CausePart& part) {
     if (part.ends >= Enough() && part.right->rs > part.left->rs) return SplitResistance(part);
     const double of_theta = kThetaWeight * (part.theta.upper - part.theta.lower);

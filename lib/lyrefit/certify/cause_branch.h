@@ -7,21 +7,23 @@
 
 namespace lyrefit {
 
-// One diode, the terms of the data and one more cause: where its branch and bound ends.
+// Region of a branch and bound for a model of one diode, the linear terms of the data and one more
+// cause. A cause is a current that is linear in its strength (cause_shape.h). Resistances are in
+// ohm.
 struct CauseRegion {
-  Window u;  // of the diode
+  Window u;  // of the diode: u = 1 / (n Ns Vt) in 1/V
   double rs_lower = 0;
   double rs_upper = 0;
 };
 
 struct CauseLimits {
-  double relative_gap = 0.02;  // of half the sum of squares that is attained: settles a part
-  double absolute_gap = 0;     // the same, as it is; the larger of both counts
-  int most_solved = 2000;      // convex problems before giving up
-  std::function<bool()> stop;  // true ends the work; may be empty
+  double relative_gap = 0.02;  // closes a part: fraction of the half sum of squares reached
+  double absolute_gap = 0;     // closes a part: absolute; the larger of both gaps applies
+  int most_solved = 2000;      // convex problems solved before giving up
+  std::function<bool()> stop;  // called before each split; true ends the search; may be empty
 };
 
-// A model within the region.
+// A model within the region: Rs in ohm, u in 1/V, and the parameter theta of the cause.
 struct CausePoint {
   double rs = 0;
   double u = 0;  // of the diode
@@ -30,16 +32,16 @@ struct CausePoint {
 };
 
 struct CauseEnd {
-  CausePoint best;   // the lowest model met
+  CausePoint best;   // the lowest model found
   double lower = 0;  // proved for all models of the region, with any mixture over theta
   int solved = 0;
-  bool complete = false;  // every part is settled
+  bool complete = false;  // every part meets the gap
 };
 
-// The lowest half sum of squares of one diode beside the data's terms and `shape` (none: nothing
-// more), of any strength. `start`: where a search for models begins, and what is known to be
-// attained. Each part of the region is a range of Rs, a window of u and a span of theta, over which
-// the cause may be a mixture.
+// Bounds the lowest half sum of squares of one diode with the data's terms and `shape` at any
+// strength; a null shape adds nothing. The search for models begins at `start`, whose value is
+// known to be reached. Each part of the region is a range of Rs, a window of u and a span of theta.
+// Within a span the cause may be a mixture over theta.
 CauseEnd BranchOverCause(const MixtureData& data, const std::shared_ptr<const CauseShape>& shape,
                          const CauseRegion& region, const CausePoint& start,
                          const CauseLimits& limits);

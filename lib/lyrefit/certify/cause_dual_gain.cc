@@ -5,15 +5,16 @@
 namespace lyrefit {
 namespace {
 
-// The largest strength in a model that the dual gain allows, whatever its theta: the cause's current at
-// the price's voltage is a leak as well.
+// Largest strength in a model that the dual gain allows, for every theta of the span. At the
+// voltage of the dual gain the current of the cause counts as a shunt current.
 double LargestStrength(const CauseShape& shape, Span theta, const DualGain& dual_gain) {
   const double least = std::min(shape.value(dual_gain.voltage_V, theta.lower),
                                 shape.value(dual_gain.voltage_V, theta.upper));
   return least > 0 ? std::min(dual_gain.current_A / least, shape.strongest_A) : shape.strongest_A;
 }
 
-// Of one shape over its span. Strengths of a mixture over theta add up to one.
+// Adds the gain of one shape over its span. All theta of a mixture together have at most the
+// largest strength.
 void AddShape(const MixtureData& data, const CauseShape& shape, Span theta, const Mixture& a,
               const Mixture& b, const DualGain& dual_gain, CauseGain* gain) {
   const double largest = LargestStrength(shape, theta, dual_gain);

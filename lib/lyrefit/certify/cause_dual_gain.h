@@ -5,12 +5,14 @@
 
 namespace lyrefit {
 
-// What all causes among the terms of the data may gain along the dual vectors of two solutions, as
-// much as their strengths can be at the dual gain.
+// Upper bounds of the gain of all causes (cause_shape.h) among the data's terms along the dual
+// vectors of two solutions `a` and `b`. The gain is the largest strength that the dual gain allows
+// times the pull of the column.
 struct CauseGain {
   double at_a = 0;
   double at_b = 0;
-  // Between the two, t (1 - t) / 2 times this beyond what is interpolated.
+  // Between the two solutions the gain exceeds its interpolation by at most t (1 - t) / 2 times
+  // this.
   double bend = 0;
 };
 CauseGain CauseDualGains(const MixtureData& data, const Mixture& a, const Mixture& b,

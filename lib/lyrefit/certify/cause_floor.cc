@@ -16,10 +16,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kMostScales = 3;  // strengths end at so many times the largest current
+constexpr double kMostScales = 3;  // largest strength, in multiples of the largest current
 constexpr double kRecombination = 2;
 
-// What the proofs of one curve share.
+// Data shared by the proofs of one curve.
 struct Ground {
   MixtureData data;
   CauseRegion region;
@@ -61,7 +61,9 @@ Expected<void> Check(const IvCurve& curve, const CauseFloorOptions& options) {
   return {};
 }
 
-// As BoundTail, of many pairs of points that have no point in common, large differences first.
+// Tail bound from disjoint pairs of points, largest currents first. In each pair the current rises
+// although the junction voltage does not fall, which no model allows. Returns the larger of this
+// and BoundTail().
 double BoundTailPairs(const MixtureData& data, double rs) {
   const Eigen::VectorXd vd = data.JunctionVoltage(rs);
   const Eigen::VectorXd& current = data.current_A;
@@ -84,7 +86,9 @@ double BoundTailPairs(const MixtureData& data, double rs) {
   return std::max(half, BoundTail(data, rs));
 }
 
-// No model with a larger series resistance than the end of the region comes near `known`.
+// Sets the end of the range of Rs to the smallest Rs found whose tail bound reaches `known`. Models
+// with a larger Rs cannot have a half sum of squares below `known`. If no Rs up to 16 times the
+// given end reaches `known`, the end is 16 times as large, and its tail bound limits the floor.
 void EndRegion(double known, Ground* ground) {
   constexpr int kDoublings = 4, kHalvings = 24;
   double low = 0, high = ground->region.rs_upper;
@@ -128,7 +132,7 @@ Expected<Ground> MakeGround(const IvCurve& curve, const CauseFloorOptions& optio
   return ground;
 }
 
-// The best of descents from a few places.
+// The lowest result of descents from a few starts, or from `known` if it is finite.
 CausePoint FindUpperBound(const Ground& ground, const std::shared_ptr<const CauseShape>& shape,
                   const CausePoint& known) {
   CausePoint best = known;
@@ -182,7 +186,7 @@ Expected<CauseFloors> ProveCauses(const IvCurve& curve, const CauseFloorOptions&
   for (const std::string& cause : options.causes) {
     const auto shape = ShapeOf(cause, ground, options);
     if (shape == nullptr) return Fail("no floor is known for '" + cause + "'");
-    // With no strength at all it is the diode alone.
+    // At strength 0 the model is the single diode, so its optimum is a valid start.
     const CausePoint start = FindUpperBound(ground, shape, base.best);
     const CauseEnd end = BranchOverCause(ground.data, shape, ground.region, start, limits);
     floors.causes.push_back(Fill(ground, tail, end));

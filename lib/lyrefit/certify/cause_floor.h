@@ -13,46 +13,51 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Which floors of one diode with a cause beside it are asked for, and within which bounds.
+// Options of ProveCauses(): the causes that are added to one diode, and the ranges of the
+// parameters.
 struct CauseFloorOptions {
-  // Of "second_diode" (a diode with n = 2), "collection" and "nonohmic_shunt".
+  // Names: "second_diode" (a diode with n = 2), "collection" and "nonohmic_shunt".
   std::vector<std::string> causes = {"second_diode", "nonohmic_shunt", "collection"};
   double n_lower = 0.5;         // of the diode, per cell
-  double n_upper = 4;           // the same
-  double exponent_lower = 1.3;  // of a non-ohmic shunt
-  double exponent_upper = 5;    // the same
-  bool recombination = false;   // a diode with n = 2 stands beside the first from the start
+  double n_upper = 4;           // upper end of that range
+  double exponent_lower = 1.3;  // exponent of a non-ohmic shunt
+  double exponent_upper = 5;    // upper end of that range
+  bool recombination = false;   // true: every model also has a diode with n = 2
   ConstantSet constants = ConstantSet::kCodata;
-  // A proof ends where the sum of squares that is attained lies within the larger of these above
-  // the proved one: parts of itself, parts of that without a cause.
+  // A proof ends when the sum of squares reached exceeds the proved one by at most the larger of
+  // two gaps. `relative_gap` is a fraction of the sum reached, `absolute_gap` a fraction of the sum
+  // reached without a cause.
   double relative_gap = 0.02;
   double absolute_gap = 0.005;
   std::int64_t effort = 4000;       // convex problems solved for one cause before giving up
-  std::function<bool()> stop = {};  // asked now and then, true ends the work; may be empty
+  std::function<bool()> stop = {};  // polled during the search; true ends it; may be empty
 };
 
-// No model of one diode, a shunt, a series resistance and the cause, all strengths and parameters
-// free, leaves a measured-current RMSE below `lower_bound_A`. Of causes with a parameter of their own
-// this holds for mixtures over its whole range as well.
+// Result for one cause. No model of one diode, a shunt, a series resistance and the cause has an
+// unweighted measured-current RMSE below `lower_bound_A`, with all strengths and parameters free.
+// For a cause with a parameter of its own, the bound also holds for mixtures over the whole range
+// of that parameter.
 struct ProvedCause {
-  std::string cause;            // as it was asked for; empty: none
-  double rmse_A = 0;            // attained, by one value of the cause's own parameter
-  double lower_bound_A = 0;     // proved
-  double parameter = kUnknown;  // that value; of the exponent
-  std::int64_t solved = 0;      // convex problems
-  bool complete = false;        // false: given up early, the bound holds all the same
+  std::string cause;            // the requested name; empty: no cause
+  double rmse_A = 0;            // reached, with one value of the cause's own parameter
+  double lower_bound_A = 0;     // proved lower bound of the RMSE
+  double parameter = kUnknown;  // that value: the exponent of a non-ohmic shunt
+  std::int64_t solved = 0;      // convex problems solved
+  bool complete = false;        // false: search ended early; the bound is still valid
 };
 
-// What causes can explain of a curve's misfit, all of the measured-current objective, unweighted.
+// Floors of the unweighted measured-current RMSE of one curve, without a cause and with each cause.
 struct CauseFloors {
-  ProvedCause without;              // the diode alone
-  std::vector<ProvedCause> causes;  // as they were asked for
-  double rs_upper_ohm = 0;  // larger series resistances are shut out by the order of the points
+  ProvedCause without;              // one diode without a cause
+  std::vector<ProvedCause> causes;  // in the order requested
+  double rs_upper_ohm = 0;          // end of the search; the order of the points bounds larger Rs
 };
 
-// Proves how low the measured-current RMSE of a curve can go with a single diode and one more cause
-// whose current is linear in its strength. Errors: an unusable curve, no point that delivers current
-// at a forward voltage, an unknown cause, bounds in the wrong order.
+// Proves lower bounds of the measured-current RMSE of a curve for a single diode with one more
+// cause whose current is linear in its strength. Errors: an unusable curve, no point that delivers
+// current at a forward voltage, an unknown cause, bounds in the wrong order. Further errors are
+// exponents of a non-ohmic shunt that do not start above 1, and so few cells in series that every
+// diode's exponent exceeds kLargestExponent of law/term.h.
 Expected<CauseFloors> ProveCauses(const IvCurve& curve, const CauseFloorOptions& options = {});
 
 }  // namespace lyrefit

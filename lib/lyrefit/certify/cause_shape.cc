@@ -6,19 +6,19 @@
 namespace lyrefit {
 namespace {
 
-// Of collection, V of a cell.
+// Constants of the collection loss; voltages are those of a cell.
 constexpr double kBuiltIn = 0.9;
-constexpr double kClosest = 0.03;  // to it; beyond, the tangent goes on
+constexpr double kClosest = 0.03;  // distance from kBuiltIn where the tangent begins
 constexpr double kLargestLoss = 0.3;
 
-// Of a product with a factor that is known to lie within a span: the largest.
+// The largest product of `factor` with a value of the span.
 double Largest(Span span, double factor) {
   if (factor == 0) return 0;
   return std::max(span.lower * factor, span.upper * factor);
 }
 
-// x^e over x of a span and e = exponent + shift of another: its logarithm is linear in each, so the
-// corners hold the ends of its range.
+// Range of x^e for x in a span and e in exponent + shift. ln(x^e) is linear in e and in ln x, so
+// the corners have the extreme values.
 Span Powers(Span x, Span exponent, double shift) {
   Span range = {kInfinity, 0};
   for (const double base : {x.lower, x.upper}) {
@@ -30,22 +30,23 @@ Span Powers(Span x, Span exponent, double shift) {
   return range;
 }
 
-// |v| / reach over a span of v.
+// Range of |v| / reach over a span of v.
 Span SizesOf(Span v, double reach) {
   const double a = std::fabs(v.lower) / reach, b = std::fabs(v.upper) / reach;
   const bool crosses = v.lower <= 0 && v.upper >= 0;
   return {crosses ? 0 : std::min(a, b), std::max(a, b)};
 }
 
-// How far the value at v0 + t (v1 - v0) lies from what is interpolated between v0 and v1, over
-// t (1 - t): by the second derivative, and by the range of the slope, which is finite everywhere.
+// Range of the difference between the value at v0 + t (v1 - v0) and the linear interpolation
+// between v0 and v1, divided by t (1 - t). It combines a bound from the second derivative and one
+// from the range of the slope, which is finite everywhere.
 Span Departure(const CauseShape& shape, Span theta, double v0, double v1) {
   const double step = v1 - v0;
   if (step == 0) return {0, 0};
   const Span v = {std::min(v0, v1), std::max(v0, v1)};
   const Span slopes = shape.slopes(v, theta), bends = shape.bends(v, theta);
-  // A slope between s and S: from one end the value rises by no more than S a volt, to the other
-  // one by no less than s.
+  // With slopes in [s, S], the value rises from one end by at most S per volt. Towards the other
+  // end it rises by at least s per volt.
   const double most = std::fabs(step) * (slopes.upper - slopes.lower);
   const double half = 0.5 * step * step;
   return {std::max(-most, -half * bends.upper), std::min(most, -half * bends.lower)};

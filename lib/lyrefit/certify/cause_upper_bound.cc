@@ -11,10 +11,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kDifference = 1e-5;  // of a coordinate, for derivatives
+constexpr double kDifference = 1e-5;  // finite-difference step, in sizes of the coordinate
 constexpr int kMostSteps = 40;
 
-// What the best strengths leave.
+// Weighted residuals at this Rs and u with the best strengths within their ranges.
 Eigen::VectorXd Leave(const MixtureData& data, double rs, double u) {
   const Eigen::VectorXd vd = data.JunctionVoltage(rs);
   const auto terms = static_cast<Eigen::Index>(data.terms.size());

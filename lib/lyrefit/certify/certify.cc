@@ -22,11 +22,11 @@
 namespace lyrefit {
 namespace {
 
-// A range of Rs without an end is divided up to so many times the largest forward voltage over the
-// largest current: the parts it takes grow with Rs.
+// A range of Rs without an end is divided up to this multiple of the largest forward voltage over
+// the largest current. The number of parts needed grows with Rs.
 constexpr double kMostDivided = 4;
 
-// What every step of one proof needs.
+// State shared by all steps of one proof.
 struct Proof {
   const IvCurve& curve;
   const CertifyOptions& options;
@@ -35,16 +35,16 @@ struct Proof {
   Window window;
   BranchLimits limits;
   double thermal_voltage_V = 0;
-  double rs_reached = 0;                 // largest Rs that a search came to
-  std::vector<Mixture> upper_bound = {};    // of the floor and of every model so far
-  double rounding_A = 0;                 // RMSEs no further apart than this are equal
-  std::vector<std::string> doubts = {};  // of the readings
+  double rs_reached = 0;                  // largest Rs that a search reached
+  std::vector<Mixture> upper_bound = {};  // lowest mixtures of the floor and of every model so far
+  double rounding_A = 0;                  // RMSEs no further apart than this are equal
+  std::vector<std::string> doubts = {};   // about the readings
   bool stopped = false;
 
   double Rmse(double half_sum_of_squares) const {
     return std::sqrt(2 * half_sum_of_squares / static_cast<double>(curve.size()));
   }
-  // Of a lower bound.
+  // RMSE of a lower bound, rounded down if the proof is rigorous.
   double RmseBelow(double half_sum_of_squares) const {
     return options.rigorous ? SafeRmse(half_sum_of_squares, curve.size())
                             : Rmse(half_sum_of_squares);
@@ -64,7 +64,8 @@ struct Proof {
 
 bool Solved(const Proof& proof) { return proof.options.objective == Objective::kSolvedCurrent; }
 
-// A model of `diodes` diodes, or any number of them (0), of which `primal` is known to be reached.
+// Bounds models of `diodes` diodes, or of any number of them (0). `primal` is a half sum of squares
+// known to be reached.
 BranchEnd RunBranch(const BranchLimits& limits, int diodes, double primal, Proof* proof) {
   const std::vector<Window> box = proof->BoxOfModel(diodes);
   const SolvedRelaxation solved(proof->data);
@@ -85,7 +86,7 @@ Expected<void> CheckOptions(const CertifyOptions& options) {
   return {};
 }
 
-// The device takes the flattest diode there may be at face value.
+// Error if even the exponent of the flattest diode is so large that the device would clip it.
 Expected<void> CheckExponents(const Proof& proof) {
   const MixtureData& data = proof.data;
   const double voltage = data.JunctionVoltage(proof.limits.rs_lower).maxCoeff();
@@ -132,7 +133,7 @@ Expected<void> Prepare(Proof* proof) {
   return CheckExponents(*proof);
 }
 
-// Relative gap; an exact fit has none, to rounding.
+// Relative gap; 0 for an exact fit, up to rounding.
 double Gap(const Proof& proof, double rmse, double lower) {
   if (proof.options.rigorous) return SafeGap(rmse, lower);
   return rmse > proof.rounding_A ? std::max(0.0, 1 - lower / rmse) : 0;
@@ -142,7 +143,7 @@ bool Certified(const Proof& proof, double rmse, double lower) {
   return rmse - lower <= std::max(kCertifiedGap * rmse, proof.rounding_A);
 }
 
-// The floor's RMSE, not rounded below what the numbers there give.
+// Upper bound of the floor's RMSE from its stated parameters, in intervals.
 double SafeFloorRmse(const Proof& proof, const Floor& floor) {
   std::vector<SafeDiode> diodes;
   for (const FloorDiode& diode : floor.diodes) {
@@ -163,8 +164,9 @@ double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<doub
                           WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
-// The dual vector at the floor's Rs and the junction voltages of its columns: those of the measured
-// currents, or of the solved ones around which the problem is linear.
+// The dual vector at the floor's Rs and the junction voltages of its columns. For the
+// solved-current objective they belong to the problem linearised around the solved currents,
+// otherwise to the measured currents.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const Mixture& best) {
   if (!Solved(proof)) return {best.y, proof.data.JunctionVoltage(best.rs)};
   const Eigen::VectorXd solved = SolvedCurrents(proof.data, best);
@@ -175,7 +177,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const 
   return {dual, vd};
 }
 
-// A model may have come lower than the search of an unfinished floor: the best mixture at its Rs.
+// A model may be lower than the search of an unfinished floor. Replaces the floor's mixture by the
+// best mixture at the Rs of such a model.
 void TakeBest(const Proof& proof, BranchEnd* floor) {
   for (const Mixture& model : proof.upper_bound) {
     if (!(model.primal < floor->best.primal * (1 - kCertifiedGap))) continue;
@@ -207,7 +210,7 @@ Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   floor.conductance_shunt_S = best.linear[kShuntTerm];
   for (const Atom& atom : best.atoms) {  // rising u is falling n
     double n = proof.Ideality(atom.u);
-    if (proof.options.rigorous) {  // the windows of u are a little wide
+    if (proof.options.rigorous) {  // the windows of u are slightly wider
       n = std::min(std::max(n, proof.options.n_lower), proof.options.n_upper);
     }
     floor.diodes.push_back({n, proof.SaturationCurrent(atom), atom.current_A});
@@ -225,13 +228,13 @@ Floor FillFloor(const Proof& proof, const BranchEnd& end) {
   return floor;
 }
 
-// The best that is known of one model.
+// Search for the lowest RMSE of one model.
 class ModelSearch {
  public:
   ModelSearch(Proof* proof, Model model)
       : proof_(*proof), diodes_(static_cast<int>(model)), device_(DeviceOf(*proof, model)) {}
 
-  // Improves it from a mixture, whatever its number of diodes.
+  // Improves the result from a mixture with any number of diodes.
   void From(const Mixture& mixture) {
     const CertifyOptions& options = proof_.options;
     const double rs = std::max({proof_.limits.rs_cut, proof_.rs_reached, mixture.rs});

@@ -13,93 +13,102 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One diode of the mixture that attains the floor.
+// One diode of the mixture that reaches the floor.
 struct FloorDiode {
-  double n = 0;  // ideality, per cell
+  double n = 0;  // ideality factor, per cell
   double saturation_current_A = 0;
   double current_A = 0;  // at the reference voltage
 };
 
-// No RMSE of the objective below `lower_bound_A` is possible for any number of diodes in parallel
-// with n, Rs, Iph and Rsh in the ranges asked for and Is >= 0, and `rmse_A` is attained.
+// Floor of the RMSE over any number of diodes in parallel. No RMSE of the objective below
+// `lower_bound_A` is possible with n, Rs, Iph and Rsh in the requested ranges and Is >= 0. The
+// mixture given here reaches `rmse_A`.
 struct Floor {
   double rmse_A = 0;
   double lower_bound_A = 0;
   double gap = 0;          // (rmse - lower bound) / rmse, over the whole range of Rs
-  bool certified = false;  // the gap is at most kCertifiedGap, or rounding
+  bool certified = false;  // the gap is at most kCertifiedGap, or within rounding
   double photocurrent_A = 0;
   double resistance_series_ohm = 0;
   double conductance_shunt_S = 0;
-  std::vector<FloorDiode> diodes;  // by falling n
-  // The certificate at that Rs: a vector over the points, orthogonal to or pointing away from the
-  // columns of light, leak and every diode at these junction voltages, save that of a light or leak
-  // which an end of its range holds. Of the measured current both
-  // are those of the measured points, and y proves b . y - |y|^2 / 2 <= half the sum of squares; of
-  // the solved current those of the problem that is linear around the solved points.
+  std::vector<FloorDiode> diodes;  // in order of falling n
+  // The certificate at that Rs: a dual vector with one element per point, in ampere. Its inner
+  // product with the column of the photocurrent, of the shunt and of every diode at these junction
+  // voltages is zero or negative. A photocurrent or shunt that is active at a bound is the
+  // exception. For the measured-current objective both vectors are those of the measured points.
+  // With the measured currents b, the dual vector y then proves b . y - |y|^2 / 2 <= half the sum
+  // of squares. For the solved-current objective both belong to the problem that is linearised
+  // around the solved points.
   std::vector<double> dual_A;
   std::vector<double> junction_voltage_V;
-  double duality_gap = 0;  // relative, of the sum of squares, what is left of `excess` priced
-  double largest_correlation = 0;  // proved: of y with any diode column, over |y|; 0: none
-  std::int64_t solved = 0;         // convex problems
+  double duality_gap = 0;  // relative, of the sum of squares; includes the penalty of any excess
+  double largest_correlation = 0;  // proved bound of (y . diode column) / |y|; 0: none positive
+  std::int64_t solved = 0;         // convex problems solved
 };
 
-// The same for a model with a fixed number of diodes, each with its n and Is in its ranges. Where a
-// diode is so steep that the device would cut its exponent (law/term.h), the RMSE is that of Shockley's
-// equation.
+// Certificate of a model with a fixed number of diodes, each with n and Is in its own ranges. Where
+// the device law would clip the exponent of a steep diode (law/term.h), the RMSE is that of
+// Shockley's equation without the clip.
 struct ModelCertificate {
   Model model = Model::kSingleDiode;
-  std::vector<double> parameters;  // the best there is, in the device's order
+  std::vector<double> parameters;  // lowest found, in the device's order
   double rmse_A = 0;
   double lower_bound_A = 0;
   double gap = 0;           // (rmse - lower bound) / rmse
-  double above_floor = 0;   // rmse / floor - 1; 0 where only rounding lies between them
-  bool certified = false;   // the gap is at most kCertifiedGap, or rounding
-  std::int64_t solved = 0;  // convex problems beyond those of the floor; 0: the floor proves it
+  double above_floor = 0;   // rmse / floor - 1; 0 where the difference is rounding
+  bool certified = false;   // the gap is at most kCertifiedGap, or within rounding
+  std::int64_t solved = 0;  // convex problems in addition to the floor's; 0: the floor proves it
 };
 // Largest (rmse - lower bound) / rmse that counts as a proof.
 constexpr double kCertifiedGap = 1e-9;
-constexpr double kCertifiedRounding = 1e-14;  // of the largest current: no difference of RMSEs
+constexpr double kCertifiedRounding = 1e-14;  // x largest current: RMSEs closer than this are equal
 
-// How low the RMSE of a curve can go, proved.
+// Result of Certify(): proved lower bounds of the RMSE of one curve.
 struct Certificate {
   std::string version;
   IvCurve curve;
-  CertifyOptions options;  // what was asked for
-  // End of the range of Rs that is gone through: the largest forward voltage over the largest current,
-  // or more where that does not do (four times as much where no end was asked for). Beyond it the points come in the wrong order of junction voltage,
-  // which bounds every model at once; the lower bounds hold for the whole range asked for.
+  CertifyOptions options;  // as requested, with `diodes` filled in
+  // Upper end of the range of Rs that is searched. It is the largest forward voltage over the
+  // largest current, or more where the tail bound does not suffice, up to the requested end.
+  // Without a requested end it is at most four times as much. Above it the points are in the wrong
+  // order of junction voltage, which bounds every model at once. The lower bounds hold for the
+  // whole requested range.
   double rs_upper_ohm = 0;
-  double reference_voltage_V = 0;       // largest one at which the device delivers current
+  double reference_voltage_V = 0;       // largest voltage at which the device delivers current
   double module_thermal_voltage_V = 0;  // Ns k T / q
   Floor floor;
   std::vector<ModelCertificate> models;
-  std::vector<std::string> doubts;  // of the readings, before any fit; see CheckReadings
+  std::vector<std::string> doubts;  // about the readings, before any fit; see CheckReadings
   std::vector<OptionEcho> non_default_options;
   double seconds = 0;
   bool interrupted = false;
 };
 
-// Proves how low the RMSE (unweighted) of a curve can go. At each Rs the measured-current problem
-// over mixtures of diodes is convex: non-negative least squares over the continuum of n, whose dual
-// vector proves its value (weak duality). The solved-current problem is bounded by such problems,
-// linear around reference currents, less what the slopes of mixtures as good as the best one known
-// can differ from the reference's. Between the Rs visited the interpolated dual vectors
-// prove a lower bound, and a branch and bound over Rs closes the gap. A fixed number of diodes is
-// bounded by mixtures over ever smaller windows of n, one for each diode. All bounds hold up to
-// rounding of double arithmetic, some 1e-15 of the largest current; with `rigorous` without that
-// reservation: the search is the same, but what it proves is evaluated in intervals. Then every
-// `lower_bound_A` is at most the RMSE of any admissible model, every `rmse_A` at least that of the
-// parameters beside it, and every `gap` at least what lies between them, for readings, temperature
-// in kelvin and ranges as the doubles they are and for the exact quotient k / q. `certified` allows
-// for rounding as without it. Errors: an unusable curve, no
-// point that delivers current at a forward voltage, so few cells that every diode's exponent is
-// absurd, options outside their ranges.
+// Proves how low the unweighted RMSE of a curve can go.
+//
+// At each Rs the measured-current problem over mixtures of diodes is convex: non-negative least
+// squares over the continuum of n. Its dual vector proves its value (weak duality). The
+// solved-current problem is bounded by such problems, linearised around reference currents. The
+// bound is reduced by the largest effect of slope differences between the reference and any mixture
+// as good as the best one known. Between the Rs visited, the interpolated dual vectors prove a
+// lower bound. A branch and bound over Rs closes the gap. A fixed number of diodes is bounded by
+// mixtures over ever smaller windows of n, one for each diode.
+//
+// All bounds hold up to rounding of double arithmetic, about 1e-15 of the largest current. With
+// `rigorous` they hold without that reservation: the search is unchanged, but its proofs are
+// evaluated in intervals. Every `lower_bound_A` is then at most the RMSE of any admissible model.
+// Every `rmse_A` is at least that of the parameters beside it, and every `gap` at least the gap
+// between the two. Readings, temperature in kelvin and ranges count as exact doubles, and k / q is
+// the exact quotient. `certified` allows for rounding with and without `rigorous`.
+//
+// Errors: an unusable curve; no point that delivers current at a forward voltage; so few cells that
+// every diode's exponent exceeds kLargestExponent of law/term.h; options outside their ranges.
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked = {},
                               const Observer& observer = {});
 
-// Cosine between the floor's dual vector and the column of a diode with each of these n at the
-// floor's Rs: nowhere above zero within the range (rounding aside), zero at the diodes of the
-// floor.
+// Cosine between the floor's dual vector and the column of a diode at the floor's Rs, one value for
+// each n. It is nowhere positive within the range of n (rounding aside), and zero at the diodes of
+// the floor.
 std::vector<double> DualCosines(const Certificate& certificate, const std::vector<double>& n);
 
 }  // namespace lyrefit

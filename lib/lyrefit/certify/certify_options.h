@@ -12,16 +12,16 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Where one diode may lie.
+// Ranges of the parameters of one diode.
 struct DiodeRanges {
   double n_lower = 1;  // per cell
-  double n_upper = 2;  // end of that range
+  double n_upper = 2;  // upper end of that range
   double is_lower_A = 0;
   double is_upper_A = kInfinity;
 };
 
-// Which models are certified, and within which bounds. A floor is that of any number of diodes, whose
-// Is add up to anything: the ranges of Is hold for the models.
+// Options of Certify(): the models to certify and the ranges of their parameters. The floor is that
+// of any number of diodes with any sum of Is, so the ranges of Is apply to the models only.
 struct CertifyOptions {
   double n_lower = 1;  // per cell
   double n_upper = 2;
@@ -33,9 +33,10 @@ struct CertifyOptions {
   double is_upper_A = kInfinity;
   double rsh_lower_ohm = 0;  // 0: any conductance
   double rsh_upper_ohm = kInfinity;
-  std::string bounds;  // what these ranges are called, for reports; empty: nothing
-  // Of each diode, where they differ; empty: n and Is as above for every diode. There are as many as
-  // the largest model has, and the floor takes n from all of them together.
+  std::string bounds;  // name of these ranges in reports; empty: no name
+  // Ranges of n and Is of each diode, at least as many as the largest model has; empty: the ranges
+  // above for every diode. The floor uses one range of n that includes those of all diodes and the
+  // one above.
   std::vector<DiodeRanges> diodes;
   Objective objective = Objective::kMeasuredCurrent;
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};

@@ -10,15 +10,17 @@
 namespace lyrefit {
 namespace {
 
-// Least squares of a concave curve that never rises, to readings by rising voltage: a constant less
-// non-negative parts of hinges max(x - knot, 0) over the piece's rest, the first of which has its
-// knot at the first voltage. Active sets (Lawson and Hanson 1974, chapter 23).
+// Least squares fit of a concave curve that never rises to readings in order of rising voltage. The
+// curve is a constant less non-negative multiples of hinges max(x - knot, 0) over the length of the
+// piece beyond the knot. The first possible knot is at the first voltage. Solved by active sets
+// (Lawson and Hanson 1974, chapter 23).
 class ConcaveFit {
  public:
   ConcaveFit(const Eigen::VectorXd& x, const Eigen::VectorXd& b) : x_(x), b_(b) {}
 
-  // A lower bound of half the sum of squares; begins with the knots that the last call left, where
-  // they fit.
+  // A lower bound of half the sum of squares of the `count` readings from `first` on. `knots` has
+  // the knots of the previous call, which are the start where they lie inside, and returns the new
+  // ones.
   double Bound(Eigen::Index first, Eigen::Index count, std::vector<double>* knots) {
     first_ = first;
     count_ = count;
@@ -61,7 +63,7 @@ class ConcaveFit {
     return a;
   }
 
-  // Drops knots until all parts are positive; the residual.
+  // Drops knots until all multiples are positive. Returns the residual.
   Eigen::VectorXd Settle(std::vector<double>* knots) const {
     for (;;) {
       const Eigen::MatrixXd a = Columns(*knots);
@@ -73,8 +75,8 @@ class ConcaveFit {
     }
   }
 
-  // The largest pull of a hinge along y, and its knot. A hinge between two voltages lies between
-  // those at them, so that the voltages are all there is.
+  // The largest gradient of a hinge along y, and its knot. A hinge with a knot between two voltages
+  // lies between the hinges with knots at them, so only the voltages are candidates.
   double MostWanted(const Eigen::VectorXd& y, double* knot) const {
     double best = 0, sum = 0, moment = 0;
     for (Eigen::Index k = count_ - 1; k >= 0; --k) {
@@ -90,8 +92,8 @@ class ConcaveFit {
     return best;
   }
 
-  // Weak duality: b . y - |y|^2 / 2 less what hinges can gain, whose parts add up to the drop of a
-  // curve that is no worse than a straight line at rest.
+  // Weak duality: b . y - |y|^2 / 2 less the largest gain of the hinges. Their multiples add up to
+  // the drop of the curve. The drop is bounded for every curve that fits no worse than a constant.
   double Finish(const Eigen::VectorXd& y, double excess) const {
     const Eigen::VectorXd b = Piece();
     const double drop = b.maxCoeff() - b.minCoeff() + 2 * WithMean().norm();
@@ -119,7 +121,7 @@ ConcaveFloor FindConcaveFloor(const std::vector<double>& voltage_V,
     b[k] = current_A[order[static_cast<std::size_t>(k)]];
   }
   ConcaveFit fit(x, b);
-  // Half sums of squares of the first and of the last k readings.
+  // Half sums of squares of the first k readings and of the last k readings.
   std::vector<double> first(voltage_V.size() + 1, 0), last(voltage_V.size() + 1, 0);
   std::vector<double> knots;
   for (Eigen::Index k = 1; k <= points; ++k)

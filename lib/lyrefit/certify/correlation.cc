@@ -10,13 +10,14 @@
 namespace lyrefit {
 namespace {
 
-// Pieces no wider than this in u x voltage, so that an exponential changes little within one.
+// Largest width of a piece in u x voltage, so that an exponential changes little within one.
 constexpr double kWidestPiece = 0.4;
 constexpr int kDeepest = 48;
-constexpr double kHighestExponent = 600;  // beyond it nothing is bounded
+constexpr double kHighestExponent = 600;  // larger exponents make BoundBend() infinite
 
-// Value and slope of the correlation at u, times a positive factor that is the same for the whole
-// piece: (exp(u0 Vref) - 1) is divided by for the piece's lower end u0, which only enlarges it.
+// A piece of a window of u, halved `depth` times. Within a piece the columns are divided by
+// exp(u0 Vs) - 1 for its lower end u0, where Vs is the scale voltage. This divisor is positive and
+// at most the exact one at u, so positive correlations are only overestimated.
 struct Piece {
   double lower, upper;
   int depth;
@@ -26,11 +27,12 @@ using std::exp;
 using std::max;
 using std::min;
 
-// u1 vd - u0 scale.
+// The exponents u1 vd - u0 scale.
 ArrayOf<double> ExponentAtEnd(const ArrayOf<double>& vd, double scale, double u0, double u1) {
   return vd * u1 - scale * u0;
 }
-// The same with less rounding where vd is close to the scale, which is where it matters.
+// The exponents in intervals, with less rounding where vd is close to the scale and the terms are
+// largest.
 ArrayOf<Interval> ExponentAtEnd(const ArrayOf<Interval>& vd, const Interval& scale, double u0,
                                 double u1) {
   return (vd - scale) * Interval(u0) + vd * (Interval(u1) - Interval(u0));
@@ -42,7 +44,7 @@ class Search {
   Search(const ArrayOf<Real>& vd, double scale, const ArrayOf<Real>& y, double allowed)
       : vd_(vd), y_(y), scale_(scale), allowed_(allowed) {}
 
-  // `pull` prices the Is of the window.
+  // Bisects a piece until it is bounded. `pull` is the multiplier of Is of its window.
   void Look(const Piece& first, double pull) {
     pull_ = Real(pull);
     std::vector<Piece> open = {first};
@@ -59,7 +61,7 @@ class Search {
   const Correlation1D& result() const { return result_; }
 
  private:
-  // Bounds the piece; true if that ends the matter.
+  // Bounds the piece; true if it needs no bisection.
   bool Settled(const Piece& piece) {
     const Real lower(piece.lower);
     const Real h = Real(piece.upper) - lower;
@@ -71,9 +73,9 @@ class Search {
     const Real c1 = factor * ((y_ * (high - floor)).sum() + pull_ * floor);
     const Real slope0 = factor * (y_ * vd_ * low).sum();
     const Real slope1 = factor * (y_ * vd_ * high).sum();
-    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vs). It lies between the least and the
-    // largest of the four control points of the cubic through its values and slopes at both ends,
-    // as far as its own fourth derivative lets it.
+    // Second derivative: factor x sum y vd^2 exp(u vd - u0 Vs). Its cubic interpolant through the
+    // values and slopes at both ends lies within the range of its four control points. The
+    // interpolation error is bounded by the fourth derivative of the second derivative.
     const ArrayOf<Real> weight = factor * y_ * vd_.square();
     const Real bend0 = (weight * low).sum();
     const Real bend1 = (weight * high).sum();
@@ -94,7 +96,8 @@ class Search {
     return true;
   }
 
-  // The larger slope at the lower end and the smaller one at the upper end bound it.
+  // Bounds a concave piece by its tangents: the larger slope at the lower end and the smaller one
+  // at the upper end.
   static double ConcaveBound(const Real& c0, const Real& c1, const Real& slope0, const Real& slope1,
                              const Real& h) {
     if (Upper(slope0) <= 0) return Upper(c0);
@@ -119,8 +122,8 @@ class Search {
   Correlation1D result_;
 };
 
-// An upper bound of the correlation a(u) . y over u in [u0, u1], good enough to tell pieces where
-// it is far below zero.
+// A rough upper bound of the correlation a(u) . y over u in [u0, u1], tight enough to identify
+// pieces far below zero.
 template <class Real>
 double RoughBound(const ArrayOf<Real>& vd, const Real& scale, const ArrayOf<Real>& y, double pull,
                   double u0, double u1) {
@@ -150,7 +153,7 @@ double PullOf(const std::vector<double>& pulls, std::size_t window) {
   return pulls.empty() ? 0 : pulls[window];
 }
 
-// Neighbouring ends of `count` equal pieces of a window.
+// The ends of `count` equal pieces of a window, in rising order.
 std::vector<double> PieceEnds(const Window& window, int count) {
   std::vector<double> ends;
   for (int i = 0; i <= count; ++i) {
@@ -199,7 +202,7 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
   const ArrayOf<Real> square = (dr * current).square() * z_high;
   const ArrayOf<Real> cross = Real(2) * dr * current * step;
   double bend = 0;
-  // Keeps the largest of those columns whose correlation can rise above zero between the ends.
+  // Keeps the largest of the columns whose correlation can rise above zero between the ends.
   const auto keep = [&bend](double column_bend, double ends) {
     if (Upper(Real(ends) + Real(0.125) * column_bend) > 0) bend = std::max(bend, column_bend);
   };
@@ -211,7 +214,7 @@ double BoundBend(const MixtureData& data, const std::vector<Window>& windows, do
     const double width = (window.upper - window.lower) / count;
     for (int i = 0; i < count; ++i) {
       const double u0 = window.lower + i * width;
-      // No gap is left to the next piece.
+      // Rounding leaves no gap before the next piece.
       const double next = i + 1 < count ? window.lower + (i + 1) * width : window.upper;
       const double u1 = std::max(u0 + width, next);
       // Each point adds exp(u v) ((u dr I)^2 y + 2 u dr I dy), bounded term by term.

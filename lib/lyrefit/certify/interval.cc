@@ -11,20 +11,23 @@ constexpr double kSmallest = -650;        // exp below it is between 0 and exp(-
 constexpr double kLargest = 700;          // exp above it is between exp(700) and infinity
 constexpr double kExpRounding = 0x1p-51;  // relative error of NearlyExp
 
-// exp(x) for x in [-650, 700], x = k ln 2 + r with |r| <= 0.3467: 2^k (1 + (r + r^2 q(r))), q the
-// Taylor series to r^13 / 13!. In units of 2^-53, the relative error of a rounding:
+// exp(x) for x in [-650, 700]. With x = k ln 2 + r and |r| <= 0.3467 it is
+// 2^k (1 + (r + r^2 q(r))), where q is the Taylor series up to r^13 / 13!. Relative errors, in
+// units of 2^-53 (the error of one rounding):
+//
 //   r: x - k ln2_high is exact (ln2_high has 37 bits, k 11; the difference is a multiple of the
-//      last place of x and below 1/2), the product with ln2_low and what that lacks of ln 2 are
-//      below 2e-9 and 1e-23, the difference rounds by 0.35; in all 0.36, and so is the relative
-//      error of exp that comes of it.
-//   q: Horner's scheme with coefficients rounded to 1, each step of a value within [0.16, 0.57];
-//      the last two steps add 1.6 and what came before is scaled by |r| <= 0.35: below 3 of q.
+//      last place of x and below 1/2). The product with ln2_low is below 2e-9, the error of
+//      ln2_high + ln2_low as ln 2 below 1e-23. The difference rounds by 0.35. The total is 0.36,
+//      which is also the relative error of exp that results.
+//   q: Horner's scheme with coefficients rounded to 1, each step of a value within [0.16, 0.57].
+//      The last two steps add 1.6, and earlier errors are scaled by |r| <= 0.35: below 3 of q.
 //   r^2 q: 1 for the square, 1 for the product, 3 for q: 5 of 0.069, absolutely 0.35.
-//   r + r^2 q: 0.42; 1 + that: 1.42 where r > 0, 1 where r < 0 (1 at most).
+//   r + r^2 q: 0.42; 1 + (r + r^2 q): 1.42 where r > 0, 1 where r < 0 (1 at most).
 //   Truncation: r^14 / 14! < 5e-18, 0.05.
-// Altogether below 0.36 + (0.35 + 0.42 + 1.42 + 0.05) / 1.41 < 2 for r > 0, and below
-// 0.36 + (0.3 + 0.3 + 1 + 0.05) / 0.70 < 2.8 for r < 0. Taken as 4, which is 2^-51 and leaves room
-// for the rounding of ExpDown() and ExpUp(). With fused multiply-add some roundings are left out.
+//
+// The total is below 0.36 + (0.35 + 0.42 + 1.42 + 0.05) / 1.41 < 2 for r > 0, and below
+// 0.36 + (0.3 + 0.3 + 1 + 0.05) / 0.70 < 2.8 for r < 0. It is taken as 4, which is 2^-51 and covers
+// the rounding of ExpDown() and ExpUp(). Fused multiply-add omits some roundings.
 double NearlyExp(double x) {
   constexpr double kLn2High = 0x1.62e42fefa0000p-1;
   constexpr double kLn2Low = 0x1.cf79abc9e3b3ap-40;
@@ -42,7 +45,7 @@ double NearlyExp(double x) {
   return near_one * power;  // exact
 }
 
-// exp(x), |x| <= 11000: Taylor's series of x / 2^m with its remainder, squared m times, all in
+// exp(x) for |x| <= 11000: Taylor series of x / 2^m with its remainder, squared m times, all in
 // intervals.
 WideInterval SlowExp(const WideReal& x) {
   constexpr int kTerms = 24;

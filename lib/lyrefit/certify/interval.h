@@ -10,10 +10,10 @@
 
 namespace lyrefit {
 
-// A double that was rounded to nearest, moved down and up by at least half a unit in its last
-// place (Rump, Zimmermann, Boldo and Melquiond 2009), so that the exact result lies between the
-// two whatever it was; the constant covers underflow. No rounding mode is touched, so this holds
-// with fused multiply-add, on any compiler, and in WebAssembly.
+// Half a unit in the last place of x, or more (Rump, Zimmermann, Boldo and Melquiond 2009). A
+// double that was rounded to nearest, moved down and up by this amount, encloses the exact result.
+// The constant covers underflow. The rounding mode is not changed, so this holds with fused
+// multiply-add, on any compiler, and in WebAssembly.
 inline double Outwards(double x) {
   constexpr double kHalfUlp = 0x1.00000000001p-53;
   constexpr double kUnderflow = 1e-290;
@@ -26,11 +26,11 @@ inline double RoundedUp(double x) {
   return std::fabs(x) < kInfinity ? x + Outwards(x) : std::nextafter(x, kInfinity);
 }
 
-// Bounds of exp(x); see the .cc for why they are.
+// Lower and upper bounds of exp(x); interval.cc has the error analysis.
 double ExpDown(double x);
 double ExpUp(double x);
 
-// 113 bits, for the few sums in which nearly everything cancels.
+// A real number of 113 bits, for the few sums in which nearly everything cancels.
 using WideReal = boost::multiprecision::cpp_bin_float_quad;
 inline WideReal Outwards(const WideReal& x) {
   static const WideReal kUlp = ldexp(WideReal(1), -111);
@@ -42,14 +42,13 @@ inline WideReal RoundedUp(const WideReal& x) { return x + Outwards(x); }
 WideReal ExpDown(const WideReal& x);
 WideReal ExpUp(const WideReal& x);
 
-// A range that holds the exact value of what is computed from numbers taken at face value. (Not
-// Boost.Interval: its intervals convert from any type, which makes every operator of Eigen
-// ambiguous.)
+// An interval that contains the exact result of a computation on exact numbers. (Boost.Interval is
+// not used: its intervals convert from any type, which makes every operator of Eigen ambiguous.)
 template <class T>
 struct IntervalOf {
   T lower, upper;
 
-  // A number is an interval.
+  // A number converts to an interval implicitly.
   // NOLINTNEXTLINE(google-explicit-constructor)
   IntervalOf(const T& value = T(0)) : lower(value), upper(value) {}
   IntervalOf(const T& least, const T& most) : lower(least), upper(most) {}
@@ -57,7 +56,7 @@ struct IntervalOf {
   static IntervalOf Anything() {
     return {-std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity()};
   }
-  // From ends rounded to nearest; what is not a number may be anything.
+  // From ends that were rounded to nearest; NaN gives Anything().
   static IntervalOf Rounded(const T& least, const T& most) {
     if (!(least <= most)) return Anything();
     return {RoundedDown(least), RoundedUp(most)};
@@ -78,7 +77,7 @@ struct IntervalOf {
     if (b.upper <= 0) return -(a * -b);
     const T across0 = a.lower * b.upper, across1 = a.upper * b.lower;
     const T along0 = a.lower * b.lower, along1 = a.upper * b.upper;
-    // One that is no number makes this sum none as well, and then it is not equal to anything.
+    // If a product is infinite or NaN, this sum is NaN, which does not equal anything.
     const T zero = across0 * 0 + across1 * 0 + along0 * 0 + along1 * 0;
     if (!(zero == 0)) return Anything();
     return Rounded(std::min(std::min(across0, across1), std::min(along0, along1)),
@@ -93,7 +92,7 @@ struct IntervalOf {
   IntervalOf& operator+=(const IntervalOf& b) { return *this = *this + b; }
   IntervalOf& operator-=(const IntervalOf& b) { return *this = *this - b; }
   IntervalOf& operator*=(const IntervalOf& b) { return *this = *this * b; }
-  // For Eigen, which asks whether a factor is exactly 0 or 1.
+  // Needed by Eigen, which tests whether a factor is exactly 0 or 1.
   friend bool operator==(const IntervalOf& a, const IntervalOf& b) {
     return a.lower == b.lower && a.upper == b.upper;
   }
@@ -114,7 +113,7 @@ struct IntervalOf {
     const IntervalOf size = abs(a);
     return size * size;
   }
-  // The square root is correctly rounded to nearest, as IEEE 754 asks for.
+  // IEEE 754 requires the square root to be correctly rounded to nearest.
   friend IntervalOf sqrt(const IntervalOf& a) {
     using std::sqrt;
     if (!(a.lower >= 0)) return Anything();
@@ -129,8 +128,8 @@ using WideInterval = IntervalOf<WideReal>;
 
 Interval Hull(const WideInterval& x);
 
-// What a number is for certain at most and at least, for code that is written once for doubles
-// (rounding ignored) and for intervals.
+// Certain upper and lower bounds of a number, for templates over double (rounding ignored) and
+// Interval.
 inline double Upper(double x) { return x; }
 inline double Lower(double x) { return x; }
 inline double Upper(const Interval& x) { return x.upper; }

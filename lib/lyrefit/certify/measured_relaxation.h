@@ -4,12 +4,13 @@
 
 namespace lyrefit {
 
-// The problem of mixture.h. Between two neighbouring Rs the dual vectors of both ends, interpolated,
-// prove a lower bound for every Rs between them: feasible up to second order in the distance, and
-// what is lacking is priced.
+// Relaxation of the measured-current problem of mixture.h. Between two neighbouring Rs the
+// interpolated dual vectors of both ends prove a lower bound for every Rs between them. They are
+// feasible up to second order in the distance, and the infeasibility is subtracted as a penalty.
 class MeasuredRelaxation : public Relaxation {
  public:
-  // The data outlive this. `rigorous`: no bound is too high by rounding.
+  // `data` must outlive this object. With `rigorous`, rounding cannot raise a bound above the
+  // truth.
   explicit MeasuredRelaxation(const MixtureData& data, bool rigorous = false)
       : data_(data), rigorous_(rigorous) {}
   MixturePtr At(const std::vector<Window>& windows, double rs, const std::vector<Atom>& start,

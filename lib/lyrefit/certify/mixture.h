@@ -9,24 +9,26 @@
 
 namespace lyrefit {
 
-// The problem at a given Rs for any mixture of diodes with n in given ranges: find coefficients of
-// the linear terms within their ranges (photocurrent, shunt) and a non-negative measure over n that
-// minimise
+// The convex problem at a given Rs, for any mixture of diodes with n in given ranges. The unknowns
+// are coefficients of the linear terms within their ranges (photocurrent, shunt conductance) and a
+// non-negative measure over n. They minimise
 //
 //   1/2 sum over points of (weight (light - leaks(Vd) - sum of diode currents(Vd) - target))^2
 //
-// with Vd = V + I Rs. For the measured-current residual of a curve I and target are the measured
-// currents. It is convex (least squares over a continuum of columns), its solution has few atoms,
-// and any vector y proves a lower bound (weak duality): b . y - |y|^2 / 2 less what the admissible
-// columns can gain along y. Diodes are written with u = 1 / (n Ns Vt) and the current they take
-// at a voltage Vs, the largest junction voltage there is at this Rs, so that columns are of order
-// 1:
+// with Vd = V + I Rs. "Light" is the photocurrent, a "leak" is a shunt current. For the
+// measured-current residual of a curve, I and target are the measured currents. The problem is
+// least squares over a continuum of columns, and its solution has few atoms (diodes). Any vector y
+// proves a lower bound (weak duality). With b the weighted target, it is b . y - |y|^2 / 2 less the
+// largest gain of the admissible columns along y. A diode is given by u = 1 / (n Ns Vt) and by its
+// current at a voltage Vs. Vs is the largest junction voltage at this Rs, so that columns are of
+// order 1:
+//
 //   a(u) = -(exp(u Vd) - 1) / (exp(u Vs) - 1).
 
-// A linear unknown in [lower, upper]; its column is constant + per_volt Vd, the same sign
-// everywhere it matters: light has no part per volt and is positive, a leak is negative at forward
-// voltages. With a shape the column is that of a cause instead, less shape->value(Vd, theta); terms
-// of one shape stand side by side by rising theta, and span all theta between.
+// A linear unknown in [lower, upper] with the column constant + per_volt Vd. The column has one
+// sign at forward voltages: positive for light, which has no part per volt, and negative for a
+// leak. With a shape the column is -shape->value(Vd, theta), that of a cause (cause_shape.h). Terms
+// of one shape are adjacent, in order of rising theta, and cover all theta between.
 struct LinearTerm {
   Eigen::VectorXd constant;
   Eigen::VectorXd per_volt;
@@ -40,7 +42,7 @@ struct LinearTerm {
     if (shape != nullptr) return -shape->Values(vd, theta);
     return constant + per_volt.cwiseProduct(vd);
   }
-  Eigen::VectorXd Slope(const Eigen::VectorXd& vd) const {  // of the column, by Vd
+  Eigen::VectorXd Slope(const Eigen::VectorXd& vd) const {  // derivative of the column by Vd
     return shape != nullptr ? Eigen::VectorXd(-shape->Slopes(vd, theta)) : per_volt;
   }
 };
@@ -48,7 +50,7 @@ struct LinearTerm {
 struct MixtureData {
   Eigen::VectorXd voltage_V;
   Eigen::VectorXd current_A;  // Vd = voltage_V + Rs current_A
-  Eigen::VectorXd target_A;   // what is to be met
+  Eigen::VectorXd target_A;   // currents to be fitted
   Eigen::VectorXd weight;     // of the residuals, not of their squares
   std::vector<LinearTerm> terms;
   double reference_voltage_V = 0;  // largest voltage at which the device delivers current
@@ -57,8 +59,8 @@ struct MixtureData {
   Eigen::VectorXd WeightedTarget() const { return weight.cwiseProduct(target_A); }
 };
 
-// The measured-current problem of a curve, unweighted: photocurrent and shunt conductance (in that
-// order) of zero or more.
+// The unweighted measured-current problem of a curve. It has two terms, both zero or more:
+// photocurrent (A) and shunt conductance (S), in this order.
 enum CurveTerm { kPhotocurrentTerm, kShuntTerm };
 MixtureData CurveData(const std::vector<double>& voltage_V, const std::vector<double>& current_A);
 
@@ -70,11 +72,13 @@ struct Window {
   double saturation_upper_A = kInfinity;
 };
 
+// One diode of a mixture.
 struct Atom {
   double u = 0;
   double current_A = 0;  // Is (exp(u Vref) - 1)
 };
 
+// Solution of the convex problem at one Rs (ohm).
 struct Mixture {
   double rs = 0;
   double scale_voltage_V = 0;  // Vs
@@ -83,26 +87,27 @@ struct Mixture {
   std::vector<Atom> atoms;  // by rising u
   double primal = 0;        // half the sum of squares of this mixture, an upper bound
   double slope = 0;         // d primal / d Rs
-  Eigen::VectorXd y;        // the dual vector: weighted measured - modelled, cleaned of rounding
-  // b . y - |y|^2 / 2, less what the linear terms and the saturation currents can gain within finite
-  // ranges.
+  Eigen::VectorXd y;        // dual vector: weighted (target - model), cleaned of rounding errors
+  // Dual value: b . y - |y|^2 / 2 less the largest gain of the linear terms and saturation currents
+  // with finite ranges.
   double dual = 0;
-  Eigen::VectorXd pulls;  // of the terms: their weighted columns . y
-  // Of the windows: what a diode gains along y is priced at this per ampere of Is; 0 where no end of
-  // the range of Is holds.
+  Eigen::VectorXd pulls;  // of the terms: weighted column . y
+  // Multipliers of the ranges of Is, one per window. Multiplier times Is is subtracted from the
+  // gain of a diode along y. The multiplier is 0 where no end of the range is active.
   std::vector<double> saturation_pulls;
-  double excess = 0;  // proved: no diode column, scaled at Vs, exceeds a . y = excess beyond that
-  double relative_gap = 0;  // |primal - what y proves|, the excess priced, over primal
+  double excess = 0;  // proved bound of a . y less those multiples of Is, columns scaled at Vs
+  double relative_gap = 0;  // (|primal - dual| + penalty of the excess) / primal
 };
 
-// Solves the problem at `rs` with u in the windows (sorted, at most an end shared), from the atoms of a
-// neighbouring solution if there is one. The mixture respects the ranges of Is. `tolerance` is the relative duality gap aimed at; what was
-// reached is in the result. `dual_gain_A` prices what is left of the excess: no competitive mixture has
-// a larger sum of shunt and diode currents at Vs.
+// Solves the problem at `rs` (ohm) with u in the windows, which are sorted and share at most an
+// end. `start` has the atoms of a neighbouring solution, or is empty. The mixture respects the
+// ranges of Is. `tolerance` is the relative duality gap to reach; the result states the gap that
+// was reached. `dual_gain_A` is the penalty factor of the remaining excess. It bounds the sum of
+// shunt and diode currents at Vs of every competitive mixture.
 Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows, double rs,
                      const std::vector<Atom>& start, double tolerance, double dual_gain_A);
 
-// a(u) at junction voltages vd, for any Vs > 0.
+// The diode column a(u) at junction voltages vd, for any Vs > 0.
 Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, double u);
 
 }  // namespace lyrefit

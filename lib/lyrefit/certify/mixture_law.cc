@@ -33,8 +33,8 @@ double MixtureLaw::Slope(double vd) const {
   return slope;
 }
 
-// Newton on h(x) = x - V - rs Current(x), which rises and is convex: from the right it never
-// overshoots.
+// Newton's method on h(x) = x - V - rs Current(x), which rises and is convex. From the right it
+// never overshoots.
 double MixtureLaw::Solve(double voltage_V, double rs) const {
   constexpr int kMostLawSteps = 3000;
   double x = voltage_V + rs * std::max(Current(voltage_V), 0.0);  // h(x) >= 0 there

@@ -4,8 +4,8 @@
 
 namespace lyrefit {
 
-// The current of a mixture as a function of the junction voltage: concave, and falling wherever its
-// leaks do not rise. Its terms must be the same at all points (one curve).
+// The current of a mixture as a function of the junction voltage. It is concave, and falls wherever
+// its leak terms do not rise. The linear terms must be the same at all points (one curve).
 class MixtureLaw {
  public:
   MixtureLaw(const MixtureData& data, const Mixture& mixture);

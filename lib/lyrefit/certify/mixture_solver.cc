@@ -10,12 +10,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMostRounds = 40;             // of adding an atom and sliding
+constexpr int kMostRounds = 40;             // rounds of adding an atom and moving all
 constexpr double kMixtureRounding = 1e-16;  // relative
-constexpr int kMostCorrections = 12;        // of the pulls of the rows of Is
-constexpr double kRowWeight = 100;          // of such a row, in parts of a diode's column
-constexpr double kMassRounding = 1e-14;     // relative: Is so close to the end of a range is there
-constexpr double kFaintest = 1e-150;        // Is per ampere: its square is still a number
+constexpr int kMostCorrections = 12;        // corrections of the multipliers of Is
+constexpr double kRowWeight = 100;          // weight of a row of Is against a diode column
+constexpr double kMassRounding = 1e-14;     // relative distance at which Is counts as at its bound
+constexpr double kFaintest = 1e-150;        // Is per ampere: its square does not underflow
 
 std::vector<Window> Apart(std::vector<Window> windows) {
   for (std::size_t w = 1; w < windows.size(); ++w) {
@@ -50,8 +50,8 @@ MixtureSolver::MixtureSolver(const MixtureData& data, const std::vector<Window>&
   state_.linear = Eigen::VectorXd::Zero(terms_).cwiseMax(lower_).cwiseMin(upper_);
 }
 
-// First as if there were no ranges of Is; then every range that this breaks is held by a row, and
-// the rows are corrected until the dual value has caught up.
+// Solves first without the ranges of Is. Each violated range is then enforced by a row, and the
+// rows are corrected until the dual value has converged.
 Mixture MixtureSolver::Run(const std::vector<Atom>& start, double tolerance, double dual_gain_A) {
   for (const Atom& atom : start) Add(atom.u);
   SolveLinear();
@@ -137,8 +137,8 @@ std::vector<double> MixtureSolver::Masses(const std::vector<Atom>& atoms) const 
   return masses;
 }
 
-// A row weighs so much more than the points that its correction converges in a few rounds, and so
-// little that rounding does not show.
+// Weight of the row of Is of a window, relative to the points. It is large enough for its
+// correction to converge in a few rounds, and small enough to keep rounding errors invisible.
 double MixtureSolver::RowWeight(std::size_t window) const {
   double mass = 0;
   for (const Atom& atom : state_.atoms) {
@@ -242,9 +242,10 @@ void MixtureSolver::SolveLinear() {
   state_.y = Residual(target, a, x);
 }
 
-// The residual with what rounding left of it along the active columns taken out, and along the
-// derivatives of the columns that touch zero inside a window, so that the correlation has its
-// maximum there. The rows come down to the size of the points for it.
+// The residual, projected to remove rounding errors along the active columns. If the change is
+// small, the derivatives of diode columns inside their windows are removed too, so that the
+// correlation has its maximum at the atom. The rows of Is are scaled to the size of the points for
+// this.
 Eigen::VectorXd MixtureSolver::CleanResidual() const {
   const Eigen::Index extra = rows() - points();
   Eigen::MatrixXd a = Columns(state_.atoms);
@@ -276,7 +277,7 @@ Eigen::VectorXd MixtureSolver::CleanResidual() const {
   return y;
 }
 
-// The state with the Is of every window brought to where its range ends, where it lies outside.
+// The state with the Is of every window moved to the nearest end of its range if it lies outside.
 MixtureState MixtureSolver::WithinRanges() const {
   const std::vector<double> masses = Masses(state_.atoms);
   MixtureState state = state_;

@@ -7,36 +7,36 @@
 
 namespace lyrefit {
 
-constexpr double kSameAtom = 1e-9;  // atoms closer than this in u Vs are one
+constexpr double kSameAtom = 1e-9;  // atoms closer than this in u Vs count as one
 
-// Holds the sum of the Is of a window at one end of its range: one more row beside the points, by
-// weighting with correction (Van Loan 1985, doi:10.1137/0722051). The mass is what a diode's current
-// is at a voltage of minus infinity, so a row is the diode column there.
+// A row that fixes the mass of a window, the sum of its Is, at one end of its range. It is appended
+// to the points and enforced by weighting with correction (Van Loan 1985, doi:10.1137/0722051). The
+// current of a diode at a voltage of minus infinity is Is, so the row is the diode column there.
 struct MassRow {
   std::size_t window = 0;
   double end_A = 0;
   double weight = 0;  // of the row
-  double pull = 0;    // the multiplier so far
+  double pull = 0;    // multiplier after the corrections made
 };
 
-// A mixture on the way: the scaled unknowns and the residual measured - modelled, that of the rows
-// behind that of the points.
+// State of the solver: the atoms, the scaled linear unknowns, and the residual target - model. In
+// `y` the rows of Is follow the points.
 struct MixtureState {
   std::vector<Atom> atoms;
   Eigen::VectorXd linear;
   Eigen::VectorXd y;
 };
 
-// The sum of squares around a state as a quadratic in the u of the atoms that may move, the linear
-// unknowns following.
+// Quadratic model of the sum of squares around a state, in the u of the atoms that may move. The
+// linear unknowns are eliminated.
 struct MixtureSlope {
   std::vector<int> moving;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
-  Eigen::VectorXd squares;  // of the derivative columns, the natural sizes of the hessian
+  Eigen::VectorXd squares;  // squared norms of the derivative columns, the scale of the hessian
 };
 
-// What SolveMixture() does, at one Rs.
+// Implementation of SolveMixture() at one Rs.
 class MixtureSolver {
  public:
   MixtureSolver(const MixtureData& data, const std::vector<Window>& windows, double rs);
@@ -48,20 +48,20 @@ class MixtureSolver {
   Eigen::Index points() const { return vd_.size(); }
   Eigen::Index rows() const { return vd_.size() + static_cast<Eigen::Index>(rows_.size()); }
 
-  // Adds atoms and slides them until no diode column gains anything, the rows as they are.
+  // Adds and moves atoms until no diode column has a positive gain; the rows of Is are constant.
   Mixture Settle(double tolerance, double dual_gain_A);
-  // What a correlation may be without opening the duality gap, or without rising above rounding.
+  // The largest correlation that neither opens the duality gap nor exceeds rounding.
   double AllowedExcess(double y_norm, double tolerance, double dual_gain_A) const;
   std::size_t WindowIndex(double u) const;
   const Window& WindowOf(double u) const { return windows_[WindowIndex(u)]; }
   double Within(double u) const;  // the nearest u of its window
   bool Has(double u) const;
-  bool AreOne(double u0, double u1) const;  // too close to be told apart
-  bool Add(double u);                       // false if there is an atom already
+  bool AreOne(double u0, double u1) const;  // too close to be distinguished
+  bool Add(double u);                       // false if an atom is already there
 
   double MassPerAmpere(double u) const;  // Is of a diode that takes 1 A at Vs
   std::vector<double> Masses(const std::vector<Atom>& atoms) const;
-  bool UpdateRows();  // false: no end of a range of Is holds
+  bool UpdateRows();  // false: no range of Is is active
   double RowWeight(std::size_t window) const;
   Eigen::VectorXd Target() const;
   std::vector<double> Pulls(const Eigen::VectorXd& y) const;
@@ -70,7 +70,7 @@ class MixtureSolver {
   Eigen::VectorXd Column(double u) const;
   Eigen::MatrixXd Columns(const std::vector<Atom>& atoms) const;
   std::vector<int> FreeTerms() const;  // strictly within their ranges
-  // Least squares over the atoms there are. Those left without current are dropped.
+  // Least squares over the present atoms and the linear terms. Atoms without current are dropped.
   void SolveLinear();
   void UpdateAtoms();
   bool UpdateAtomsOnce(double* damping);
@@ -83,15 +83,15 @@ class MixtureSolver {
   double SlopeInRs(const MixtureState& state) const;
 
   const MixtureData& data_;
-  const std::vector<Window> windows_;  // no end shared, so that every atom belongs to one
+  const std::vector<Window> windows_;  // made disjoint, so that every atom belongs to one
   const double rs_;
   const Eigen::VectorXd vd_;
   const Eigen::VectorXd target_;
-  const double scale_;  // Vs; diodes are scaled by it
+  const double scale_;  // Vs, at which diode columns are scaled
   const Eigen::Index terms_;
-  Eigen::MatrixXd columns_;        // of the linear terms, weighted, over their sizes
-  Eigen::VectorXd sizes_;          // largest of each column
-  Eigen::VectorXd lower_, upper_;  // of the scaled coefficients
+  Eigen::MatrixXd columns_;        // weighted columns of the linear terms, divided by sizes_
+  Eigen::VectorXd sizes_;          // largest absolute value of each column
+  Eigen::VectorXd lower_, upper_;  // bounds of the scaled coefficients
   std::vector<MassRow> rows_;
   MixtureState state_;
 };

@@ -15,7 +15,7 @@ using std::exp;
 using std::max;
 using std::sqrt;
 
-// The diodes' excess of a mixture with columns scaled at `voltage`.
+// Excess of a mixture's diode columns, converted to columns scaled at `voltage`.
 template <class Real>
 Real Excess(const Mixture& mixture, const std::vector<Window>& windows, double voltage) {
   const Real above = Real(mixture.scale_voltage_V) - Real(voltage);
@@ -55,8 +55,8 @@ double LeastBetween(double left, double right, double curvature) {
   const double t = std::min(std::max(0.5 * (1 + difference / curvature), 0.0), 1.0);
   return left + t * difference + t * (1 - t) * curvature;
 }
-// From below: where the least is inside, it is left + (right - left + curvature)^2 / (4 curvature),
-// and that is never above it.
+// Lower bound in intervals. If the minimum is inside, it is
+// left + (right - left + curvature)^2 / (4 curvature). That expression never exceeds the minimum.
 double LeastBetween(const Interval& left, const Interval& right, const Interval& curvature) {
   const Interval l(Lower(left)), r(Lower(right)), c(Lower(curvature));
   if (Lower(abs(r - l) + c) >= 0) return std::min(Lower(l), Lower(r));
@@ -69,7 +69,7 @@ template <class Real>
 DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double known) {
   const ArrayOf<Real> v0 = JunctionVoltage<Real>(data, rs0);
   const ArrayOf<Real> v1 = JunctionVoltage<Real>(data, rs1);
-  // Known to be at least and at most this at any Rs of the range.
+  // Bounds of each junction voltage over all Rs of the range.
   Eigen::ArrayXd least(v0.size()), most(v0.size());
   for (Eigen::Index k = 0; k < v0.size(); ++k) {
     least[k] = std::min(Lower(v0[k]), Lower(v1[k]));
@@ -100,7 +100,7 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
   const Real current(dual_gain.current_A);
   Real left = Real(a.dual) - current * Excess<Real>(a, windows, dual_gain.voltage_V);
   Real right = Real(b.dual) - current * Excess<Real>(b, windows, dual_gain.voltage_V);
-  Real bend(0);  // along t: (1 - t) left + t right + t (1 - t) / 2 (|step|^2 - bend)
+  Real bend(0);  // at t: (1 - t) left + t right + t (1 - t) / 2 (|step|^2 - bend)
   const ArrayOf<Real> per_ohm = WeightedArray<Real>(data, data.current_A);
   for (std::size_t j = 0; j < data.terms.size(); ++j) {
     const LinearTerm& term = data.terms[j];
@@ -112,7 +112,7 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
       if (b.pulls[index] > 0) right -= Real(b.pulls[index]) * largest;
     }
     if (term.light()) continue;
-    // What the pull rises above the interpolated one is t (1 - t) / 2 times this.
+    // The pull exceeds its interpolation by t (1 - t) / 2 times this.
     const Real rise = Real(-2) * dr * (per_ohm * RealArray<Real>(term.per_volt) * step).sum();
     const Real highest(std::max(a.pulls[index], b.pulls[index]));
     const Real least = rise * Real(term.lower);
@@ -161,8 +161,8 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
       if (term.per_volt[k] != 0) column += WideInterval(term.per_volt[k]) * wide_vd[k];
       pull += weighted[k] * column;
     }
-    // The most that a coefficient in its range gains; with no upper end only what a negative pull
-    // does, the rest is for the dual gain.
+    // The largest gain of a coefficient within its range. Without an upper end only a negative pull
+    // counts here; a positive one is penalised with the dual gain.
     const WideReal zero(0);
     const WideInterval falling(std::min(pull.lower, zero), std::min(pull.upper, zero));
     const WideInterval rising(std::max(pull.lower, zero), std::max(pull.upper, zero));
@@ -174,7 +174,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
       lack += Interval(mixture->pulls[index]) * (mixture->linear[index] + Interval(dual_gain_A));
     }
   }
-  // Any price of Is proves a bound, the one found as it stands.
+  // Any multiplier of Is proves a bound, so the one found is used unchanged.
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const double pull = mixture->saturation_pulls[w];
     if (pull == 0) continue;
@@ -183,7 +183,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
             WideInterval(pull < 0 ? window.saturation_lower_A : window.saturation_upper_A);
   }
   mixture->dual = Lower(Hull(dual));
-  // Rounding hides smaller correlations.
+  // Smaller correlations are below rounding.
   const double hidden = 1e-15 * data.weight.cwiseProduct(y).norm();
   mixture->excess =
       BoundCorrelation<Interval>(vd, mixture->scale_voltage_V, WeightedArray<Interval>(data, y),

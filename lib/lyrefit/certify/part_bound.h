@@ -6,36 +6,37 @@
 
 namespace lyrefit {
 
-// No model as good as the best known has a larger sum of leak and diode currents than `current_A` at
-// the junction voltage `voltage_V`, for any Rs of a range.
+// Upper bound of the sum of shunt and diode currents at one junction voltage, for any Rs of a
+// range. It holds for every model as good as the best known.
 struct DualGain {
   double current_A = kInfinity;
   double voltage_V = 0;  // positive
 };
 
-// For Rs in [rs0, rs1] and models whose half sum of squares is at most `known`: the difference of
-// their currents at the points of the largest and the smallest junction voltage is known to within
-// the residuals allowed. Infinite where these cannot be told apart.
+// The bound for Rs in [rs0, rs1] (ohm) and models whose half sum of squares is at most `known`. The
+// currents of such models at the points of largest and smallest junction voltage are known to
+// within the allowed residuals. Their difference gives the bound. It is infinite if the two
+// junction voltages cannot be distinguished.
 template <class Real = double>
 DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double known);
 
-// A lower bound of half the sum of squares of every mixture over the windows with Rs between those
-// of two solutions `a` and `b` (the lower one first, or twice the same) that is as good as the dual gain
-// asks for. With `Real` Interval no rounding can raise it above the truth, if the solutions were
-// made safe and no cause is among the terms. Between the two the interpolated dual vectors prove it:
-// feasible up to second order in
-// the distance, and what is lacking is priced.
+// Lower bound of half the sum of squares of every mixture over the windows with Rs between those of
+// two solutions `a` and `b`, within the dual gain. `a` has the lower Rs, or both are the same
+// solution. The interpolated dual vectors prove the bound. They are feasible up to second order in
+// the distance, and the infeasibility is subtracted as a penalty. With `Real` Interval rounding
+// cannot raise the bound above the truth, if MakeSafe() was applied to both solutions and no term
+// is a cause.
 struct PartBound {
   double lower = 0;  // may be negative, or -infinity
-  double ends = 0;   // what the two ends alone prove, nothing priced
+  double ends = 0;   // lower of the dual values at both ends, no penalty subtracted
 };
 template <class Real = double>
 PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows, const Mixture& a,
                     const Mixture& b, const DualGain& dual_gain, double known);
 
-// What the dual vector of a mixture proves, evaluated anew in intervals: `dual` is rounded down,
-// `pulls` and `excess` are rounded up, so that they hold without exception for the data as they
-// are, and `relative_gap` says what is lost by it. `dual_gain_A` as for SolveMixture.
+// Evaluates the proof of a mixture's dual vector again in intervals. `dual` is rounded down,
+// `pulls` and `excess` are rounded up, so that they hold without exception for the given data.
+// `relative_gap` includes what is lost by this rounding. `dual_gain_A` is that of SolveMixture().
 void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, double dual_gain_A,
               Mixture* mixture);
 

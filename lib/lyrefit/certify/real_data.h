@@ -5,20 +5,20 @@
 
 namespace lyrefit {
 
-// The data of a mixture for code that is written once for doubles and for intervals.
+// Data of a mixture as arrays of `Real`, for templates over double and Interval.
 
 template <class Real>
 ArrayOf<Real> RealArray(const Eigen::VectorXd& values) {
   return values.array().template cast<Real>();
 }
 
-// V + Rs I.
+// Junction voltages V + Rs I, in volt.
 template <class Real>
 ArrayOf<Real> JunctionVoltage(const MixtureData& data, double rs) {
   return RealArray<Real>(data.voltage_V) + Real(rs) * RealArray<Real>(data.current_A);
 }
 
-// The residuals' weights times `y`; weights of 1 round nothing.
+// The weights of the residuals times `y`. Weights of 1 leave `y` exact.
 template <class Real>
 ArrayOf<Real> WeightedArray(const MixtureData& data, const Eigen::VectorXd& y) {
   ArrayOf<Real> weighted = RealArray<Real>(data.weight) * RealArray<Real>(y);

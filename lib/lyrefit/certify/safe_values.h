@@ -8,20 +8,20 @@
 
 namespace lyrefit {
 
-// What leads into a proof and out of it, in intervals. The readings, the temperature in kelvin, the
-// ranges and the parameters are the doubles they are; k / q is the exact quotient of the decimal
-// numbers that constants.h names.
+// Inputs and results of a rigorous proof, in intervals. The readings, the temperature in kelvin,
+// the ranges and the parameters are taken as exact doubles. k / q is the exact quotient of the
+// decimal numbers that constants.h names.
 
 // Ns k T / q, in volt.
 WideInterval SafeThermalVoltage(const Conditions& conditions, ConstantSet constants);
 
-// The window of u = 1 / (n Ns k T / q) that holds every n of a range.
+// The window of u = 1 / (n Ns k T / q), in 1/V, that contains every n of a range.
 Window SafeWindow(double n_lower, double n_upper, const WideInterval& thermal_voltage_V);
 
-// A lower bound of the RMSE of `points` points from one of half the sum of squares.
+// Lower bound of the RMSE of `points` points, from a lower bound of half the sum of squares.
 double SafeRmse(double half_sum_of_squares, std::size_t points);
 
-// (rmse - lower) / rmse, from above; 0 where rmse is.
+// Upper bound of (rmse - lower) / rmse; 0 where rmse is 0.
 double SafeGap(double rmse, double lower);
 
 struct SafeDiode {

@@ -10,13 +10,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kStep = 0.05;        // of the differences, in u x voltage for the steepest diode
-constexpr double kSampleWidth = 0.8;  // of the windows, in u x voltage, between two samples
-constexpr Eigen::Index kMostPoints = 64;  // that are bounded on their own
-constexpr double kLeftOverWeight = 4;     // of what is left over against the values' uncertainty
+constexpr double kStep = 0.05;        // of the differences, in u x voltage of the steepest diode
+constexpr double kSampleWidth = 0.8;  // between two samples of u, in u x voltage
+constexpr Eigen::Index kMostPoints = 64;  // points that are bounded individually
+constexpr double kLeftOverWeight = 4;     // weight of the remainder against the values' uncertainty
 
-// The slope of a falling law from its values: of all exponentials with positive weight the backward
-// difference falls short of it and the forward difference exceeds it.
+// Four-point difference for the slope -dI/dVd of a falling law. For every exponential with positive
+// weight the backward difference is a lower bound and the forward difference an upper bound.
 struct Difference {
   double voltage_V[4];
   double weight[4];
@@ -30,11 +30,11 @@ Difference Above(double x, double h) {
   return {{x, x + h, x + 2 * h, x + 3 * h}, {11 / (6 * h), -3 / h, 1.5 / h, -1 / (3 * h)}};
 }
 
-// One column of the cone at a junction voltage: light, leak, then diodes.
+// Columns of the cone of laws at a junction voltage: light, leak, then diodes at samples of u.
 struct Columns {
   std::vector<double> u;
   double scale_V = 0;
-  std::vector<double> dual_gains;  // of each column
+  std::vector<double> dual_gains;  // largest coefficient of each column
 
   std::size_t size() const { return 2 + u.size(); }
   double Value(std::size_t column, double vd) const {
@@ -72,7 +72,7 @@ double Uncertainty(const KnownValues& known, const Eigen::VectorXd& c) {
          std::fabs(known.common_A.dot(c));
 }
 
-// An upper bound of `sign` x (difference - c . values) for every law of the cone.
+// An upper bound of `sign` x (difference - c . values) over all laws of the cone.
 double LeftOver(const KnownValues& known, const std::vector<Window>& windows,
                 const Columns& columns, const Difference& difference, const Eigen::VectorXd& c,
                 double sign, double allowed) {
@@ -132,7 +132,7 @@ std::vector<SlopeRange> BoundAll(const KnownValues& known, const std::vector<Win
   return ranges;
 }
 
-// So many of all points, the first and the last among them, by rising junction voltage.
+// Selects kMostPoints points evenly by rank of junction voltage, including the first and the last.
 std::vector<Eigen::Index> Anchors(const Eigen::VectorXd& voltage_V) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(voltage_V.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -156,9 +156,9 @@ KnownValues Thinned(const KnownValues& known, const std::vector<Eigen::Index>& a
   return thin;
 }
 
-// Bounds at one voltage that follow from those at others: the slope is a sum of exponentials, which
-// rises, and whose logarithm is convex, so that chords bound it from above and what goes on beyond
-// their ends from below.
+// Bounds of the slope at one voltage from bounds at others. The slope is a sum of exponentials: it
+// rises, and its logarithm is convex. Chords of the logarithm bound it from above between their
+// ends. Their extensions bound it from below outside them.
 double UpperBetween(const std::vector<double>& at_V, const std::vector<double>& upper, double v) {
   double least = kInfinity;
   for (std::size_t i = 0; i < at_V.size(); ++i) {

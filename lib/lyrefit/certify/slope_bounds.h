@@ -7,12 +7,13 @@
 
 namespace lyrefit {
 
-// What is known of the current-over-voltage laws of all mixtures that compete in a part: their values
-// at given junction voltages, to within
+// Enclosure of the current of all competing mixtures of a part at given junction voltages. (A
+// mixture competes if it is as good as the best one known.) A combination of the values with the
+// coefficients c is known to within
 //
 //   each . |c| + radius |shared o c| + |common . c|
 //
-// for a combination of these values with the coefficients c.
+// where o is the product by element. Vectors have one element per voltage.
 struct KnownValues {
   Eigen::VectorXd voltage_V;
   Eigen::VectorXd value_A;
@@ -20,20 +21,21 @@ struct KnownValues {
   Eigen::VectorXd shared;
   double radius_A = 0;
   Eigen::VectorXd common_A;
-  double largest_light_A = 0;  // the sum of the light terms is at most this
-  DualGain dual_gain;              // on leaks and diodes
+  double largest_light_A = 0;  // upper bound of the sum of the light terms
+  DualGain dual_gain;          // upper bound of shunt and diode currents
 };
 
-// Bounds of the slope -dI/dVd at one junction voltage from below and at another from above.
+// Bounds of the slope -dI/dVd, in S: `lower` at one junction voltage, `upper` at another.
 struct SlopeRange {
   double lower = 0;
   double upper = kInfinity;
 };
 
-// The slopes of every competing mixture over the windows, at below_V[k] from below and at above_V[k]
-// from above. A law is a constant less a line and exponentials, of which differences of third order
-// bound the slope from one side; these differences are replaced by combinations of the known values,
-// and what is left over by that is bounded for every exponential there is.
+// Bounds the slopes of every competing mixture over the windows: from below at below_V[k] and from
+// above at above_V[k]. A law is a constant less a line and exponentials, so differences of third
+// order bound its slope from one side. These differences are replaced by combinations of the known
+// values. The remainder is bounded over all exponentials of the windows. Remainders below
+// `precision_S` are not bounded more closely.
 std::vector<SlopeRange> BoundSlopes(const KnownValues& known, const std::vector<Window>& windows,
                                     const std::vector<double>& below_V,
                                     const std::vector<double>& above_V, double precision_S);

@@ -6,7 +6,7 @@
 namespace lyrefit {
 namespace {
 
-// Infinite and unknown uncertainties, in a form that linear algebra stands.
+// Replaces infinite and undefined uncertainties by 1e100, which linear algebra can process.
 double Finite(double uncertainty) { return uncertainty < 1e100 ? uncertainty : 1e100; }
 
 }  // namespace
@@ -15,8 +15,9 @@ double Allowed(const SolvedPart& part, Eigen::Index k) {
   return std::sqrt(2 * part.known) / part.data.weight[k];
 }
 
-// The currents at the points of the largest and the smallest junction voltage are known to within what
-// is allowed; the sum is convex in the voltage, and zero at zero.
+// The currents at the points of the largest and the smallest junction voltage are known to within
+// the allowed residuals. The sum of leak and diode currents is convex in the voltage, and zero at
+// 0 V.
 DualGain CompetitorDualGain(const SolvedPart& part) {
   const Eigen::Index points = part.data.target_A.size();
   Eigen::Index high = 0, low = 0;
@@ -76,8 +77,8 @@ Eigen::ArrayXd RoughSlopes(const SolvedPart& part, double light_A, bool one_rs) 
                                   std::exp(std::min(u * spread, 500.0))
                             : kInfinity;
   }
-  // The slope rises with the junction voltage: it is no larger than that of a point beyond, nor than
-  // the chord to it.
+  // The slope rises with the junction voltage. It is at most that of a point at a larger voltage,
+  // and at most that of the chord to it.
   const Eigen::ArrayXd own = slopes;
   const auto distance = [&](Eigen::Index m, Eigen::Index k) {
     const auto at = [&](double rs_m, double rs_k) {
@@ -158,7 +159,7 @@ double Loss(const SolvedPart& part) {
   return loss;
 }
 
-// r = (1 - e) p + e r' is no longer than the best known.
+// Uses that r = (1 - e) p + e r' is no longer than the residuals of the best mixture known.
 double Radius(const SolvedPart& part, double linear_known) {
   const double from_linear = std::sqrt(std::max(2 * (linear_known - part.bound.lower), 0.0));
   const double largest = part.error.maxCoeff();

@@ -8,61 +8,63 @@
 
 namespace lyrefit {
 
-// One part of the region of solved_relaxation.h on the way to its bound: the linear problem around its
-// references, and what is known of the mixtures that compete there, whose half sum of squares is at
-// most `known`.
+// Working data of one part of the region of solved_relaxation.h, which defines J, J', s', r', p, y
+// and e. It has the problem linearised around the references J' and s', and bounds on the competing
+// mixtures. A mixture competes if its half sum of squares is at most `known`.
 struct SolvedPart {
   const MixtureData& data;
   const BranchPart& region;
   std::vector<Window> windows = {};
-  double known = 0;     // the best half sum of squares
-  double steepest = 0;  // largest u
+  double known = 0;     // half sum of squares of the best mixture known
+  double steepest = 0;  // largest u of the windows
   double middle = 0;    // Rs of the references
   MixtureData linear = {};
   Eigen::VectorXd reference_A = {}, slope_S = {};  // J', s'
   Eigen::ArrayXd residual = {};                    // measured - J', weighted
   Mixture left = {}, right = {};
   PartBound bound = {};
-  Eigen::ArrayXd deviation_A = {};      // |J - J'| is at most this
-  Eigen::ArrayXd highest_slope_S = {};  // near the point, for every Rs of the part
-  Eigen::ArrayXd error = {};            // |e| is at most this
+  Eigen::ArrayXd deviation_A = {};      // upper bound of |J - J'|
+  Eigen::ArrayXd highest_slope_S = {};  // slope bound near the point for every Rs of the part
+  Eigen::ArrayXd error = {};            // upper bound of |e|
   double loss = kInfinity;
 };
 
-// The residual that a competing mixture may have at one point, in ampere.
+// The largest residual of a competing mixture at point k, in ampere.
 double Allowed(const SolvedPart& part, Eigen::Index k);
 
-// No competing mixture has a larger sum of leak and diode currents at this voltage.
+// Upper bound of the sum of leak and diode currents of every competing mixture at one voltage.
 DualGain CompetitorDualGain(const SolvedPart& part);
 
-// True if no mixture with an Rs of this or more competes: of two points the one of larger junction
-// voltage would have the larger current.
+// True if no mixture with an Rs of `rs_lower` (ohm) or more competes. The proof is a pair of points
+// of which the one of larger junction voltage would have the larger current.
 bool NoneCompetes(const MixtureData& data, double rs_lower, double known);
 
-// The sum of the light terms of a competing mixture at most.
+// Upper bound of the sum of the light terms of a competing mixture, in ampere.
 double LargestLight(const SolvedPart& part, const DualGain& dual_gain);
 
-// Upper bounds of the slopes of competing mixtures from the largest light alone. They hold for every
-// junction voltage between V + J' Rs and V + J Rs of the point, at one Rs of the part after the other
-// (`one_rs`) or for all of them at once.
+// Upper bounds of the slopes of competing mixtures at each point (S), from the largest light alone.
+// They hold at every junction voltage between V + J' Rs and V + J Rs. With `one_rs` they hold at
+// each Rs of the part separately, otherwise for all Rs of the part together.
 Eigen::ArrayXd RoughSlopes(const SolvedPart& part, double light_A, bool one_rs);
 
-// The values at the junction voltages V + J' Rs for the middle Rs that all competing mixtures share:
-// from their deviations alone, or from the dual vectors, which they miss by `radius` at most.
+// The values at the junction voltages V + J' Rs, with the middle Rs, that all competing mixtures
+// share. ValuesFromDeviations() uses deviation_A alone. ValuesFromDuals() uses the dual vectors,
+// from which competing mixtures differ by at most `radius`.
 KnownValues ValuesFromDeviations(const SolvedPart& part);
 KnownValues ValuesFromDuals(const SolvedPart& part, const std::vector<SlopeRange>& slopes,
                             double radius);
 
-// Takes over what is known of the slopes between V + J' Rs and V + J Rs.
+// Sets `error` and `highest_slope_S` from bounds of the slopes between V + J' Rs and V + J Rs.
 void SetErrors(const std::vector<SlopeRange>& slopes, SolvedPart* part);
 
-// |r' - y| at most, weighted, for any Rs of the part.
+// Upper bound of |r' - y| at each point, weighted, for any Rs of the part.
 Eigen::ArrayXd Departure(const SolvedPart& part);
 
-// What of the linear problem's bound does not hold for the true residuals.
+// Upper bound of the loss when the linear problem's bound is transferred to the true residuals.
 double Loss(const SolvedPart& part);
 
-// Half the sum of squares of the linear problem that a competing mixture has at most, and |p - y|.
+// LinearKnown() bounds half the sum of squares of the linear problem for a competing mixture.
+// Radius() bounds |p - y|.
 double LinearKnown(const SolvedPart& part);
 double Radius(const SolvedPart& part, double linear_known);
 

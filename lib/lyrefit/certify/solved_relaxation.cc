@@ -10,10 +10,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMostNewtonSteps = 12;  // of Gauss and Newton
-constexpr int kMostSharpenings = 12;  // of what is known of a part
-constexpr double kCoarse = 0.3;  // an error of the slopes that says that Rs is known too coarsely
-constexpr double kNearby = 4;    // half sums of squares this many times the best are near it
+constexpr int kMostNewtonSteps = 12;  // Gauss-Newton steps
+constexpr int kMostSharpenings = 12;  // rounds that tighten the bounds of one part
+constexpr double kCoarse = 0.3;  // largest slope error e at which BoundNear() alone suffices
+constexpr double kNearby = 4;    // BoundNear() is used below this multiple of the best value
 
 double ComputeDualGain(const MixtureData& data, double rs, double known) {
   return std::min(ComputeDualGain(data, rs, rs, known).current_A, 1e3 * data.target_A.cwiseAbs().maxCoeff());
@@ -23,7 +23,7 @@ double Spread(const KnownValues& known) {
   return (known.each_A + known.common_A.cwiseAbs()).sum() + known.radius_A * known.shared.norm();
 }
 
-// The junction voltages between V + J' Rs and V + J Rs, for every Rs of the part.
+// Enclosures of the junction voltages between V + J' Rs and V + J Rs, for every Rs of the part.
 void SlopeEnds(const SolvedPart& work, std::vector<double>* below, std::vector<double>* above) {
   for (Eigen::Index k = 0; k < work.reference_A.size(); ++k) {
     const double a = work.region.rs0 * work.reference_A[k],
@@ -34,7 +34,7 @@ void SlopeEnds(const SolvedPart& work, std::vector<double>* below, std::vector<d
   }
 }
 
-// Sharpens what is known of the slopes as long as that helps to prove `enough`.
+// Tightens the bounds of the slopes in rounds, as long as that helps to prove `enough`.
 void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPart* work) {
   std::vector<SlopeRange> slopes(static_cast<std::size_t>(work->error.size()));
   double radius = kInfinity, unsure = kInfinity;
@@ -69,7 +69,7 @@ void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPar
   }
 }
 
-// The bound around references that fit, with their own ends.
+// Bounds a part by the problem linearised around a mixture fitted to it, solved at both ends.
 void BoundNear(const SolvedMixture& fit, double tolerance, double enough, SolvedPart* work) {
   const BranchPart& part = work->region;
   work->reference_A = fit.current_A;
@@ -102,7 +102,8 @@ void BoundNear(const SolvedMixture& fit, double tolerance, double enough, Solved
   if (part.rs1 > 0) Sharpen(dual_gain, light, enough, work);
 }
 
-// The bound by the measured-current problem with each residual reduced as far as any slope can.
+// Bounds a part by the measured-current problem. Each residual is divided by 1 + Rs times the
+// largest slope there.
 void BoundFar(double tolerance, SolvedPart* work) {
   const BranchPart& part = work->region;
   work->reference_A = work->data.target_A;
@@ -202,7 +203,7 @@ void SolvedRelaxation::Bound(const BranchPart* parent, BranchPart* part,
   incumbent->solved += fit.steps;
   incumbent->Note(fit.mixture, fit.value);
   const double enough = incumbent->primal * (1 - incumbent->tolerance);
-  part->left = part->right = nullptr;  // those of the part it was cut from
+  part->left = part->right = nullptr;  // drops the end solutions of the parent
   SolvedPart near = Begin(data_, *part, incumbent->primal);
   bool coarse = true;
   if (fit.value < kNearby * incumbent->primal) {
@@ -226,8 +227,8 @@ void SolvedRelaxation::Bound(const BranchPart* parent, BranchPart* part,
 
 double SolvedRelaxation::Beyond(double rs) const { return BoundTailSolved(data_, rs); }
 
-// It is the ends that lie too low, or the slopes that are known too badly, where the windows are
-// relatively wider than the range of Rs.
+// Windows are halved if the dual values at the ends are too low. They are also halved if the slopes
+// are known too inaccurately and the windows are relatively wider than the range of Rs.
 bool SolvedRelaxation::SplitsWindows(const BranchPart& part, double enough) const {
   constexpr double kNarrow = 0.05, kNarrowest = 1e-7;
   if (part.coarse && part.rs1 - part.rs0 > kNarrow * part.rs1) return false;

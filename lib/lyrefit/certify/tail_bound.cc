@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// Points of rising current whose junction voltage does not fall: a model's current does not rise along
-// them, so that the best it can do is their mean.
+// Points of rising current whose junction voltage does not fall. A model's current does not rise
+// along them, so it fits them no better than their mean does.
 struct Chain {
   std::vector<Eigen::Index> points;
 };
@@ -42,7 +42,7 @@ double BoundTail(const MixtureData& data, double rs) {
     return current[a] < current[b] ||
            (current[a] == current[b] && data.voltage_V[a] < data.voltage_V[b]);
   });
-  // Every point goes on with the chain that ends closest below it.
+  // Appends every point to the chain whose last junction voltage is the closest below.
   std::vector<Chain> chains;
   std::multimap<double, std::size_t> ends;
   for (const Eigen::Index k : rising) {

@@ -4,16 +4,17 @@
 
 namespace lyrefit {
 
-// A lower bound of half the sum of squares of every mixture with a series resistance of `rs` or
-// more. A model's current never rises with the junction voltage V + I Rs. Where points of rising
-// current have rising junction voltages, which stays so for all larger Rs, the model can do no better
-// than their mean; the points are sorted into such chains. With `Real` Interval rounding cannot raise
-// the bound above the truth.
+// Lower bound of half the sum of squares of every mixture with a series resistance of `rs` (ohm) or
+// more. A model's current never rises with the junction voltage V + I Rs. Points of rising current
+// that have rising junction voltages at `rs` have them at all larger Rs. A model then fits such a
+// chain of points no better than their mean does. The bound is the sum over chains. With `Real`
+// Interval rounding cannot raise it above the truth.
 template <class Real = double>
 double BoundTail(const MixtureData& data, double rs);
 
-// The same of the solved-current problem: there the current never rises with the terminal voltage,
-// and falls by no more than the voltage rises over Rs.
+// Tail bound of the solved-current problem, from the single worst pair of points. The solved
+// current never rises with the terminal voltage, and falls by no more than the voltage rises over
+// Rs.
 double BoundTailSolved(const MixtureData& data, double rs);
 
 }  // namespace lyrefit

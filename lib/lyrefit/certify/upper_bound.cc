@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kGridStarts = 4;
 
-// The steepest diode's exponent at the largest junction voltage.
+// The exponent of the steepest diode at the largest junction voltage.
 double LargestExponent(const Device& device, const MixtureData& data,
                        const std::vector<double>& p) {
   const double voltage = data.JunctionVoltage(p[kRs]).maxCoeff();
@@ -25,7 +25,7 @@ double LargestExponent(const Device& device, const MixtureData& data,
   return largest;
 }
 
-// The mean square of Shockley's equation, no exponent cut.
+// The mean square of Shockley's equation without a clipped exponent.
 double UncutMeanSquare(const RefineProblem& problem, const MixtureData& data,
                        const std::vector<double>& p) {
   const Mixture mixture = AsMixture(problem.device, data, p);
@@ -47,7 +47,7 @@ DiodeRanges RangesOf(const ModelRanges& ranges, int diode) {
   return ranges.diodes[static_cast<std::size_t>(diode)];
 }
 
-// A mixture that is a model within the ranges, as its parameters; otherwise empty.
+// Parameters of a mixture that is a model within the ranges; otherwise empty.
 std::vector<double> AsModel(const RefineProblem& problem, const ModelRanges& ranges,
                             const Mixture& mixture) {
   const double vt = problem.device.module_thermal_voltage_V;
@@ -75,8 +75,8 @@ std::vector<double> AsModel(const RefineProblem& problem, const ModelRanges& ran
   return p;
 }
 
-// A mixture as parameters of a model: its `most` strongest diodes, the model's others as weak and as
-// flat as they may be.
+// Parameters of a model from the `most` strongest diodes of a mixture. The model's other diodes get
+// the smallest Is and the largest n allowed.
 std::vector<double> FromMixture(const RefineProblem& problem, const MixtureData& data,
                                 const Mixture& mixture, int most) {
   std::vector<Atom> atoms = mixture.atoms;
@@ -97,7 +97,7 @@ std::vector<double> FromMixture(const RefineProblem& problem, const MixtureData&
   return WithinBox(problem, p);
 }
 
-// No diode and no shunt.
+// A start without diodes and shunt.
 std::vector<double> ConstantCurrent(const RefineProblem& problem, const MixtureData& data) {
   std::vector<double> p(problem.device.size(), 0);
   p[kIph] = std::max(data.current_A.mean(), 0.0);
@@ -181,7 +181,7 @@ void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, con
   std::vector<std::vector<double>> starts;
   for (int most = DiodeCount(problem.device); most > 0; --most) {
     starts.push_back(FromMixture(problem, data, mixture, most));
-    // Fewer of them only count where the others cannot vanish.
+    // Starts with fewer diodes differ only if the remaining Is may not be 0.
     if (problem.lower[SaturationCurrentIndex(most - 1)] == 0) break;
   }
   for (SeparableStart& start : SeparableStarts(linear, mixture.rs, kGridStarts)) {

@@ -10,14 +10,15 @@
 
 namespace lyrefit {
 
-// Parameters of a model with the mean of their squared residuals: an upper bound
-// of the lowest there is.
+// Parameters of a model with the mean of their squared residuals, an upper bound of the lowest
+// possible mean square.
 struct UpperBound {
   std::vector<double> p;  // in the device's order
   double mean_square = kInfinity;
 };
 
-// Ranges of a proof. Where Iph, Is and Rsh have none, they are only kept from being negative.
+// Ranges of a proof for one model. Iph, Is and Rsh without a range are only kept from being
+// negative.
 struct ModelRanges {
   double n_lower = 1;
   double n_upper = 2;
@@ -28,20 +29,21 @@ struct ModelRanges {
   double iph_upper_A = kInfinity;
   double rsh_lower_ohm = 0;
   double rsh_upper_ohm = kInfinity;
-  std::vector<DiodeRanges> diodes = {};  // of each; empty: n as above
+  std::vector<DiodeRanges> diodes = {};  // of each diode; empty: n as above, any Is
 };
 
-// Parameters of a model as a mixture; diodes that carry nothing are left out. Its dual vector is that of
-// the residuals, and proves nothing.
+// Parameters of a model as a mixture; diodes without current are omitted. The `y` of the mixture
+// has its residuals and proves no bound.
 Mixture AsMixture(const Device& device, const MixtureData& data, const std::vector<double>& p);
 
-// The model's own unweighted least-squares problem within the ranges.
+// The unweighted least-squares problem of one model within the ranges.
 RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRanges& ranges,
                            Objective objective = Objective::kMeasuredCurrent);
 
-// Polishes the strongest diodes of a mixture, and a few starts that owe nothing to it, and takes the
-// mixture as it is where it is a model; keeps the better of `best` and what comes out. Where the
-// device would cut the exponent of a diode, Shockley's equation is taken at its word.
+// Refines the strongest diodes of a mixture, and a few starts that do not depend on it, to
+// parameters of the model. A mixture that is itself a model within the ranges is also evaluated
+// unchanged. Stores the lowest result in `best` if it is lower than `best`. Where the device would
+// clip the exponent of a diode, Shockley's equation is evaluated without the clip.
 void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
             const Mixture& mixture, UpperBound* best);
 

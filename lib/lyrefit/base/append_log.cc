@@ -39,12 +39,12 @@ Expected<std::unique_ptr<AppendLog>> AppendLog::Open(const std::string& path, co
 }
 
 Expected<void> AppendLog::Lock() {
-  if (population(file_.number(), LOCK_EX | LOCK_NB) != 0) {
+  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
     return Fail(fmt::format("another process is writing {}", kind_.these), path_);
   }
   struct stat held = {};
   if (fstat(file_.number(), &held) != 0) return CannotWrite();
-  // It may have finished, and removed the file, between our opening and our lock.
+  // The other process may have finished and removed the file between open and lock.
   if (held.st_nlink == 0) {
     return Fail(fmt::format("another process has just finished {}", kind_.these), path_);
   }
@@ -64,7 +64,7 @@ Expected<void> AppendLog::TakeUp(
   std::int64_t whole = 0;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
-    torn_ = in.eof();  // the line has no end
+    torn_ = in.eof();  // the line has no line end
     if (++number == 1) {
       const std::size_t length = torn_ ? std::min(begin.size(), line.size()) : begin.size();
       if (line.compare(0, length, begin, 0, length) != 0) return Fail(kind_.other, path_, 1);
@@ -88,7 +88,7 @@ Expected<void> AppendLog::Clear() { return Cut(0); }
 Expected<void> AppendLog::Append(std::string_view lines) {
   if (!file_.Write(lines)) {
     const auto failed = CannotWrite();
-    (void)Cut(end_);  // where this fails too, the next process to take it up does it
+    (void)Cut(end_);  // if this fails too, TakeUp of the next process cuts the text off
     return failed;
   }
   end_ += static_cast<std::int64_t>(lines.size());

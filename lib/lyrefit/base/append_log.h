@@ -12,17 +12,17 @@
 
 namespace lyrefit {
 
-// A file of lines that grows while a run goes on, so that a run that was stopped or killed can be
-// taken up again. One process writes it at a time.
+// A line-based file that a run extends while it works, so that a stopped or killed run can be
+// resumed from it. Only one process writes the file at a time.
 class AppendLog {
  public:
-  // How sentences name a log, and how its first line begins.
+  // Words that error messages use for a log, and the text that its first line begins with.
   struct Kind {
     const char* name;   // "journal", in "cannot write the journal"
     const char* these;  // "this journal", in "another process is writing this journal"
     const char* one;    // "a journal", in "expected a journal"
-    const char* begin;  // of the first line
-    const char* other;  // the sentence where a file of another kind stands there
+    const char* begin;  // the first line starts with this text
+    const char* other;  // the error message if the first line starts with another text
   };
 
   // Opens `path` or creates it, and locks it. Errors: a file that cannot be written, that is no
@@ -30,22 +30,23 @@ class AppendLog {
   static Expected<std::unique_ptr<AppendLog>> Open(const std::string& path, const Kind& kind);
 
   const std::string& path() const { return path_; }
-  bool empty() const { return end_ == 0; }  // nothing stands in it
+  bool empty() const { return end_ == 0; }  // the file has no content
 
-  // Hands every whole line, without its end, and its number from 1 to `take`. A last line without an
-  // end was never finished: it is cut off. Errors, and nothing is cut: a first line of another kind
-  // of file; those of `take`.
+  // Passes every complete line, without its line end, and its line number (from 1) to `take`. A
+  // last line without a line end was never finished and is cut off. Errors, which cut nothing off:
+  // the first line does not start with `Kind::begin`; any error of `take`.
   Expected<void> TakeUp(const std::function<Expected<void>(const std::string&, int)>& take);
-  bool torn() const { return torn_; }  // TakeUp cut off a last line
+  bool torn() const { return torn_; }  // TakeUp cut off an unfinished last line
 
-  // Removes all that stands in it.
+  // Empties the file.
   Expected<void> Clear();
-  // Writes whole lines, each with its end. They are with the operating system when it returns, so a
-  // killed process loses none. What could not be written whole is taken back.
+  // Writes `lines`, which must be complete lines with their line ends. On return the operating
+  // system has the text, so a killed process loses none of it. A partly written text is removed
+  // again.
   Expected<void> Append(std::string_view lines);
-  // Waits until all is on the disk.
+  // Returns once all content is on the disk.
   Expected<void> Sync();
-  // Removes the file.
+  // Deletes the file.
   Expected<void> Remove();
 
  private:
@@ -58,7 +59,7 @@ class AppendLog {
   const std::string path_;
   const Kind kind_;
   const Descriptor file_;
-  std::int64_t end_ = 0;  // of the last whole line
+  std::int64_t end_ = 0;  // bytes up to the end of the last complete line
   bool torn_ = false;
 };
 

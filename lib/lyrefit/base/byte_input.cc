@@ -15,7 +15,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kLook_ms = 100;  // between two looks at whether to stop
+constexpr int kLook_ms = 100;  // period of calls to StoppableReads::Stopped
 
 thread_local StoppableReads* innermost = nullptr;
 
@@ -48,7 +48,7 @@ ByteInput::~ByteInput() {
   if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
 }
 
-// A pipe is opened without waiting for whoever writes into it, which AwaitBytes does.
+// Opens a pipe without waiting for its writer; AwaitBytes waits.
 Expected<void> ByteInput::Open() {
   stream_ = path_ == "-" || IsStream(path_);
   const int without_waiting = stream_ ? O_NONBLOCK | O_NOCTTY : 0;
@@ -58,7 +58,8 @@ Expected<void> ByteInput::Open() {
   return {};
 }
 
-// Until there is something to read, or the end. What cannot be waited for is read as it is.
+// Waits for data or the end of the stream. Regular files, and streams that poll cannot wait for,
+// are read without waiting.
 Expected<void> ByteInput::AwaitBytes() const {
   for (;;) {
     if (StoppableReads::Stopped()) return FailAsStopped(path_);

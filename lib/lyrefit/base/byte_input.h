@@ -8,15 +8,15 @@
 
 namespace lyrefit {
 
-// Whether `path` names what can be read once, from its beginning to its end: a pipe, a terminal, a
-// device.
+// Whether `path` names a source that can be read only once and in order: a pipe, a terminal or
+// another device.
 bool IsStream(const std::string& path);
 
-// The error of reading that was asked to stop (StoppableReads).
+// The error for a read that StoppableReads interrupted.
 tl::unexpected<Error> FailAsStopped(const std::string& path);
 
-// A file that is read once from its beginning, "-" for standard input. Closed at the end of its
-// life.
+// A file that is read once from its beginning; "-" stands for standard input. The destructor closes
+// it.
 class ByteInput {
  public:
   explicit ByteInput(std::string path) : path_(std::move(path)) {}
@@ -24,7 +24,8 @@ class ByteInput {
   ByteInput(const ByteInput&) = delete;
   ByteInput& operator=(const ByteInput&) = delete;
 
-  // Up to `size` bytes into `to`; 0 at the end. Opens the file when first called.
+  // Reads up to `size` bytes into `to` and returns their number, 0 at the end. The first call opens
+  // the file. Errors: the file cannot be opened or read; StoppableReads interrupted the read.
   Expected<std::size_t> Read(char* to, std::size_t size);
   const std::string& path() const { return path_; }
 

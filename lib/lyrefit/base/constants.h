@@ -5,8 +5,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Which values of the Boltzmann constant and the elementary charge enter the thermal voltage. The
-// sets differ in the sixth digit of n, and in the RMSE only where n sits at a bound.
+// Selects the values of the Boltzmann constant k and the elementary charge q in the thermal
+// voltage. The choice changes the sixth digit of n, and the RMSE only where n is at a bound.
 enum class ConstantSet {
   kCodata,      // k = 1.380649e-23 J/K, q = 1.602176634e-19 C, exact since 2019 (CODATA 2018)
   kLiterature,  // k = 1.3806503e-23, q = 1.60217646e-19: most of the benchmark literature
@@ -22,10 +22,10 @@ struct EnumTable<ConstantSet> {
   };
 };
 
-// 0 C in kelvin.
+// 0 degrees Celsius in K.
 constexpr double kZeroCelsius_K = 273.15;
 
-// Vt = k T / q in volt, of one cell at `temperature_K`.
+// Thermal voltage Vt = k T / q of one cell, in V. `temperature_K` must be positive (CHECKed).
 double ThermalVoltage(double temperature_K, ConstantSet constants = ConstantSet::kCodata);
 
 }  // namespace lyrefit

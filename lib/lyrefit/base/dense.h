@@ -2,18 +2,18 @@
 
 #include <Eigen/Core>
 
-// Linear algebra on matrices of any size, compiled once. Eigen's decompositions and products are
-// templates that every file using them compiles anew, at several seconds each; what takes
-// microseconds to call stands here. Sums and scalings are best written with Eigen where they are
-// needed.
+// Linear algebra on matrices of any size, compiled once. Eigen's products and decompositions are
+// templates: every file that uses them compiles them again, at several seconds each. A call to one
+// of the functions below costs microseconds. Sums and scalings compile fast, so callers write them
+// with Eigen directly.
 //
-// Shapes: `a` has m rows and n columns, vectors and matrices fit it as the formula says. Nothing is
-// checked.
+// Shapes: `a` has m rows and n columns; the other operands have the shapes that the formula needs.
+// Nothing is checked.
 namespace lyrefit {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// a b
+// Product a b.
 Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const RowMatrix& b);
 Eigen::MatrixXd Times(const RowMatrix& a, const Eigen::MatrixXd& b);
@@ -21,65 +21,70 @@ Eigen::VectorXd Times(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
 Eigen::MatrixXf Times(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
 Eigen::VectorXf Times(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
-// a' b
+// Product a' b.
 Eigen::MatrixXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::VectorXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
 Eigen::VectorXd TransposedTimes(const RowMatrix& a, const Eigen::VectorXd& x);
 Eigen::MatrixXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
 Eigen::VectorXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
-// scale a a', m x m.
+// Product scale a a', m x m.
 Eigen::MatrixXd TimesTransposed(const Eigen::MatrixXd& a, double scale = 1);
 
-// b - a x
+// Residual b - a x.
 Eigen::VectorXd Residual(const Eigen::VectorXd& b, const Eigen::MatrixXd& a,
                          const Eigen::VectorXd& x);
 
-// The x that minimises |a x - b|, by Householder reflections with column pivoting; the matrix has
-// one for every column of b. Columns that depend on others get 0.
+// The x that minimises |a x - b|, by Householder QR with column pivoting. A matrix b gives one
+// column of x for each column of b. Linearly dependent columns of `a` get the coefficient 0.
 Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd LeastSquares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// What is left of y once the columns of `a` are fitted to it, and fitted once more to take the
-// first fit's rounding out.
+// Residual of the least-squares fit of the columns of `a` to y. The fit is repeated once on the
+// residual, which removes the rounding error of the first fit.
 Eigen::VectorXd WithoutColumns(const Eigen::MatrixXd& a, Eigen::VectorXd y);
 
-// The n x m matrix whose product with b is LeastSquares(a, b); false if the columns of `a` depend
-// on each other.
+// The n x m matrix whose product with b is LeastSquares(a, b). Returns false if the columns of `a`
+// are linearly dependent.
 bool PseudoInverse(const Eigen::MatrixXd& a, Eigen::MatrixXd* inverse);
 
-// Orthonormal columns that span those of `a`, as many as the rank, by column pivoting.
+// An orthonormal basis of the column space of `a`, m x rank, by QR with column pivoting.
 Eigen::MatrixXd RankedBasis(const Eigen::MatrixXd& a);
 
-// The columns of `a`, which are independent by far, combined so that b' diag(weight) b = 1.
+// Columns b that span those of `a` and are orthonormal under the weights: b' diag(weight) b = 1.
+// The columns of `a` must be clearly linearly independent.
 Eigen::MatrixXf OrthonormalUnder(const Eigen::MatrixXf& a, const Eigen::VectorXf& weight);
 
-// Takes the part along orthonormal columns out: y - basis basis' y, of each column of y.
+// Projects each column of y onto the complement of orthonormal columns: y - basis basis' y.
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::VectorXd* y);
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::MatrixXd* y);
 
-// b' b - mixed' (a' a)^-1 mixed, the columns of `a` independent and `mixed` n x columns of b.
+// Schur complement b' b - mixed' (a' a)^-1 mixed. The columns of `a` must be linearly independent;
+// `mixed` has n rows and as many columns as b.
 Eigen::MatrixXd SchurComplement(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                 const Eigen::MatrixXd& mixed);
 
-// x with a x = b for a square symmetric `a`, of which the lower triangle is read. By Cholesky's
-// decomposition: false unless `a` is positive definite; by that with a diagonal: for any.
+// Both solve a x = b for a square symmetric `a` and read its lower triangle only. SolvePositive
+// uses Cholesky's decomposition and returns false unless `a` is positive definite. SolveSymmetric
+// uses L D L' and takes any symmetric `a`.
 bool SolvePositive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd* x);
 Eigen::VectorXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-// The lower triangle l of a positive definite `a` = l l'.
+// Cholesky factor: the lower triangular l with a = l l', for a positive definite `a`.
 Eigen::MatrixXd LowerRoot(const Eigen::MatrixXd& a);
 
-// Singular values, falling, and the right singular vectors that belong to them, n x their number.
+// Singular values in falling order, and their right singular vectors as columns (n x number of
+// values).
 struct RightSingular {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 
-// There are min(m, n) of them.
+// The min(m, n) singular values of `a`.
 RightSingular FindRightSingular(const Eigen::MatrixXd& a);
 
-// There are n of them, 0 where m < n: those of the triangle that column-pivoted reflections leave.
+// All n singular values of `a`; they are 0 beyond the first m if m < n. Computed from the
+// triangular factor of a QR decomposition with column pivoting.
 RightSingular FindAllRightSingular(const Eigen::MatrixXd& a);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-// The functions of dense.h on single precision, which simulated noise is drawn and judged in.
+// The single-precision functions of dense.h, which generate and score simulated noise.
 
 #include <cmath>
 

@@ -9,11 +9,12 @@
 #include <ctime>
 #include <string_view>
 
-// Files as the operating system has them, for the .cc that write them.
+// File descriptors of the operating system, for the .cc files that write to them.
 namespace lyrefit {
 
-// A file size limit sends a signal that ends the program. While this lives, the thread gets the
-// error of the write instead.
+// Turns the file size limit into an error. Reaching the limit raises SIGXFSZ, which ends the
+// program by default. While an object lives, its thread blocks the signal and the write fails
+// instead.
 class LimitIsAnError {
  public:
   LimitIsAnError() {
@@ -36,7 +37,7 @@ class LimitIsAnError {
   sigset_t before_;
 };
 
-// An open file; closed at the end of its life at the latest.
+// An open file, which the destructor closes unless Close did.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -44,7 +45,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  // Closes what it held.
+  // Closes the current file and takes over the file descriptor `number`.
   void Reset(int number) {
     Close();
     number_ = number;
@@ -53,7 +54,8 @@ class Descriptor {
   bool open() const { return number_ >= 0; }
   int number() const { return number_; }
 
-  // Whether all of `text` was taken; else errno says why not, also at a limit of the file size.
+  // Writes `text`. Returns false unless all of it was written, with the reason in errno, also at a
+  // limit of the file size.
   bool Write(std::string_view text) const {
     const LimitIsAnError guard;
     while (!text.empty()) {

@@ -11,8 +11,9 @@ using boost::math::complement;
 
 namespace {
 
-// In double precision throughout: long double takes several times as long and is no more exact than
-// needed, and where it has fewer digits than it should (under valgrind) the algorithms do not end.
+// Double precision throughout. Boost's default, long double, takes several times as long for no
+// needed accuracy. Under valgrind, long double has fewer digits than its type promises, and the
+// algorithms do not terminate.
 using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 using Normal = boost::math::normal_distribution<double, Policy>;
 using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/public.h"
 
-// Calls cost more than what these functions do.
+// Forced inlining: a function call costs more time than the few operations of these functions.
 #define LYREFIT_INLINE [[gnu::always_inline]]
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -13,8 +13,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 template <int N, class T>
 struct Dual;
 
-// Element by element: `yes` where the condition holds. Both are worked out, so neither may leave
-// the numbers.
+// Selects element by element: `yes` where the condition holds, `no` elsewhere. Both are always
+// computed, so neither may be NaN or infinite.
 LYREFIT_INLINE inline double Choose(bool condition, double yes, double no) {
   return condition ? yes : no;
 }
@@ -27,29 +27,30 @@ LYREFIT_INLINE inline Dual<N, T> Choose(const Condition& condition, const Dual<N
   return result;
 }
 
-// A value and its derivatives with respect to N unknowns: forward automatic differentiation. T is
-// double or several doubles at once (law/pack.h, a kernel's own), whose `exp`, `log`, `sqrt` and
-// comparisons stand beside T. A value with its slope along one unknown is a Dual<1, T>.
+// Forward automatic differentiation: a value and its derivatives with respect to N unknowns. T is
+// double or a vector of doubles (law/pack.h and the vectors inside the kernels). The header that
+// declares T also supplies its `exp`, `log`, `sqrt` and comparisons. Dual<1, T> carries the
+// derivative along one direction.
 template <int N, class T = double>
 struct Dual {
   T a;     // the value
   T v[N];  // its derivatives
 
-  Dual() = default;  // as T itself: without a value
-  // Numbers are duals without derivative.
+  Dual() = default;  // uninitialised, as for T
+  // A constant: all derivatives are 0.
   // NOLINTNEXTLINE(google-explicit-constructor)
   LYREFIT_INLINE Dual(const T& constant) : a(constant) {
     for (T& derivative : v) derivative = T(0.0);
   }
-  // The same of any other type of numbers.
+  // A constant of an arithmetic type other than T.
   template <class Number,
             class = std::enable_if_t<std::is_arithmetic_v<Number> && !std::is_same_v<Number, T>>>
   // NOLINTNEXTLINE(google-explicit-constructor)
   LYREFIT_INLINE Dual(Number constant) : Dual(T(static_cast<double>(constant))) {}
-  // The unknown at position `index`.
+  // The unknown number `index`: its derivative with respect to itself is 1, the others are 0.
   LYREFIT_INLINE Dual(const T& value, int index) : Dual(value) { v[index] = T(1.0); }
 
-  // f(this) with f' = slope.
+  // Chain rule for a function f of this dual, with `value` = f(a) and `slope` = f'(a).
   LYREFIT_INLINE Dual Chain(const T& value, const T& slope) const {
     Dual result;
     result.a = value;
@@ -57,7 +58,7 @@ struct Dual {
     return result;
   }
 
-  // Sums, differences, products, quotients: value and derivatives.
+  // Arithmetic on two duals.
   LYREFIT_INLINE friend Dual operator+(const Dual& x, const Dual& y) {
     Dual result;
     result.a = x.a + y.a;
@@ -94,7 +95,7 @@ struct Dual {
     for (int k = 0; k < N; ++k) result.v[k] = -x.v[k];
     return result;
   }
-  // With plain numbers, which have no derivative to carry.
+  // Arithmetic with a plain number, whose derivatives are 0.
   LYREFIT_INLINE friend Dual operator+(Dual x, double y) {
     x.a = x.a + T(y);
     return x;
@@ -123,7 +124,7 @@ struct Dual {
     for (int k = 0; k < N; ++k) x.v[k] = x.v[k] * (1 / y);
     return x;
   }
-  // With several plain numbers at once.
+  // Arithmetic with a vector of plain numbers, where T is a vector.
   template <class U, class = std::enable_if_t<std::is_same_v<U, T> && !std::is_same_v<T, double>>>
   LYREFIT_INLINE friend Dual operator*(Dual x, const U& y) {
     x.a = x.a * y;
@@ -156,7 +157,7 @@ struct Dual {
   }
   LYREFIT_INLINE friend auto operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
 
-  // Elementary functions; the derivative of abs at 0 is that of x.
+  // Elementary functions. At 0 the derivative of abs(x) is the derivative of x.
   LYREFIT_INLINE friend Dual exp(const Dual& x) {
     using std::exp;
     const T e = exp(x.a);
@@ -180,7 +181,7 @@ struct Dual {
   }
 };
 
-// A number without its derivatives.
+// The value of a number or dual, without derivatives.
 inline double ValueOf(double x) { return x; }
 template <int N, class T>
 T ValueOf(const Dual<N, T>& x) {

@@ -8,19 +8,19 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One spelling of every enumeration, shared by flags, JSON, tables and messages. An enumeration
-// joins by specialising EnumTable with a `kRows` array of {value, text}.
+// One spelling for each value of an enumeration, shared by flags, JSON, tables and messages. To add
+// an enumeration, specialise EnumTable with an array `kRows` of {value, text}.
 template <class E>
 struct EnumText {
   E value;                // of the enumeration
-  std::string_view text;  // its one spelling
+  std::string_view text;  // its only spelling
 };
 
-// Texts of an enumeration: each specialisation has `kRows`.
+// Texts of an enumeration: each specialisation defines `kRows`.
 template <class E>
 struct EnumTable;
 
-// The text of a value; "?" for one that the table has not.
+// The text of `value`; "?" if the table has no row for it.
 template <class E>
 std::string ToText(E value) {
   for (const auto& row : EnumTable<E>::kRows) {
@@ -29,7 +29,7 @@ std::string ToText(E value) {
   return "?";
 }
 
-// The value of a text, nothing for one that the table has not.
+// The value whose text is `text`; nullopt if the table has no such row.
 template <class E>
 std::optional<E> FromText(std::string_view text) {
   for (const auto& row : EnumTable<E>::kRows) {
@@ -38,7 +38,7 @@ std::optional<E> FromText(std::string_view text) {
   return std::nullopt;
 }
 
-// "mlo, lo, de": for messages that list what would have been understood.
+// All texts as a list such as "mlo, lo, de", for messages that name the allowed values.
 template <class E>
 std::string AllTexts() {
   std::string list;

@@ -38,13 +38,14 @@ Expected<std::string> ReadFileBytes(const std::string& path, std::uintmax_t larg
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) return Fail("the file does not exist", path);
   if (fs::is_directory(status)) return Fail("expected a file, found a folder", path);
-  // In blocks, since pipes and devices do not tell their size.
+  // Reads in blocks, since pipes and devices do not report their size.
   std::string text;
   if (fs::is_regular_file(status)) {
     const std::uintmax_t size = fs::file_size(path, error);
     if (!error && size <= largest_bytes) text.reserve(size);
   }
-  ByteInput file(path == "-" ? "./-" : path);  // not standard input
+  ByteInput file(path == "-" ? "./-" : path);  // "./-" is the file of that name, "-" would be
+                                               // standard input
   std::array<char, 1 << 16> block;
   for (;;) {
     TRY(const std::size_t got, file.Read(block.data(), block.size()));

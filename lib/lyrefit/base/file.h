@@ -8,18 +8,19 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The whole file as it is. Refuses what is missing, a folder, unreadable or larger than
-// `largest_bytes`.
+// Returns the bytes of a whole file, unchanged. Errors: the path does not exist or is a folder, the
+// file is unreadable or larger than `largest_bytes`.
 Expected<std::string> ReadFileBytes(const std::string& path, std::uintmax_t largest_bytes);
 
-// The whole file as text. Refuses what is missing, a folder, unreadable, larger than
-// `largest_bytes`, empty, or binary (holds a NUL byte); strips a UTF-8 byte order mark.
+// Returns a whole file as text, without a UTF-8 byte order mark. Errors: those of ReadFileBytes; a
+// file that is empty, UTF-16, or binary (contains a NUL byte).
 Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t largest_bytes);
 
-// Writes all of `text` or nothing: into a file that has no name until it is complete, so that
-// nothing is left of it if the process is killed. Where the file system knows no such files, into
-// NAME.PID-COUNT.tmp beside `path`; the next one to write `path` removes what dead processes left.
-// A full disk or a limit of the file size is an error that leaves the old file as it was.
+// Writes all of `text` or nothing. The text goes into an unnamed file that gets its name when
+// complete, so a killed process leaves nothing behind. If the file system has no unnamed files, the
+// text goes into NAME.PID-COUNT.tmp beside `path`. The next writer of `path` removes such files of
+// dead processes. Errors, which leave an existing file unchanged, include a full disk and a file
+// size limit.
 Expected<void> WriteTextFile(const std::string& path, const std::string& text);
 
 }  // namespace lyrefit

@@ -6,7 +6,7 @@
 
 namespace lyrefit {
 
-// The largest |value|; 0 of none. Passes over what is not a number.
+// The largest absolute value; 0 for an empty vector. NaN is ignored.
 inline double LargestMagnitude(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::fabs(value));

@@ -8,7 +8,8 @@
 
 namespace lyrefit {
 
-// The middle value, or the mean of the two in the middle; NaN of none.
+// The middle value, or the mean of the two middle values for an even number; NaN for an empty
+// vector.
 inline double Median(std::vector<double> values) {
   if (values.empty()) return kUnknown;
   std::sort(values.begin(), values.end());
@@ -16,8 +17,8 @@ inline double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-// The value that half of the others do not exceed, one that was measured: of an even number the
-// upper of the two in the middle. NaN of none.
+// The upper median: always one of the values, the larger of the two middle ones for an even number.
+// NaN for an empty vector.
 inline double UpperMedian(std::vector<double> values) {
   if (values.empty()) return kUnknown;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

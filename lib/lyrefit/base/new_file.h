@@ -9,11 +9,11 @@
 
 namespace lyrefit {
 
-// A file that is written piece by piece and gets its name when all of it is there. Until then, after
-// an error, and after a kill the file of before stands under the name as it was. It has no name at
-// all while it grows, so that nothing is left of it if the process is killed. Where the file system
-// knows no such files it is NAME.PID-COUNT.tmp; the next one to write NAME removes what dead
-// processes left. Devices and pipes cannot be replaced: they are written straight into.
+// A file that is written piece by piece and gets its name when it is complete. Until then, and
+// after an error or a kill, an existing file of that name stays unchanged. The growing file has no
+// name, so a killed process leaves nothing behind. If the file system has no unnamed files, its
+// name is NAME.PID-COUNT.tmp. The next writer of NAME removes such files of dead processes. Devices
+// and pipes cannot be replaced and are written directly.
 class NewFile {
  public:
   explicit NewFile(std::string path);
@@ -21,13 +21,14 @@ class NewFile {
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  // Errors of all: the path is a folder, the folder cannot be written, the disk is full, the limit
-  // of the file size is reached. Each names the path.
+  // Errors of all functions: the path is a folder, the folder is not writable, the disk is full, or
+  // the file size limit is reached. Each message names the path.
   Expected<void> Begin();
   Expected<void> Add(std::string_view text);
-  // All of it is with the operating system; with `on_disk` also on the disk.
+  // Passes all remaining text to the operating system and, with `on_disk`, waits until it is on the
+  // disk.
   Expected<void> Complete(bool on_disk = false);
-  // Gives it its name, after Complete.
+  // Gives the file its name. Call it after Complete.
   Expected<void> Name();
 
  private:
@@ -36,14 +37,16 @@ class NewFile {
   Expected<void> CopyToTemporary();
 
   const std::string path_;
-  std::filesystem::path target_;  // of a symbolic link the file that it leads to
+  std::filesystem::path target_;  // the file to replace; for a symbolic link its target
   Descriptor file_;
-  std::string temporary_;  // empty: the file has no name, or is written in place
+  std::string temporary_;  // name of the temporary file; empty if the file is unnamed or written in
+                           // place
   bool in_place_ = false;
   std::string waiting_;
 };
 
-// Whether `path` is a device or a pipe, or may stand for a file that the shell holds open.
+// Whether `path` must be written in place: a device, a pipe, or a path such as /dev/stdout that may
+// stand for a file opened by the shell.
 bool IsWrittenInPlace(const std::string& path);
 
 }  // namespace lyrefit

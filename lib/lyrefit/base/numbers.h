@@ -6,7 +6,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A number that nobody knows: unstated, not computed, not identifiable.
+// An unknown number: not stated, not computed or not identifiable.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

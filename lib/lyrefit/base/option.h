@@ -16,26 +16,27 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A value that differs from its default, as reports echo it.
+// An option whose value differs from its default, for the echo in reports.
 struct OptionEcho {
   std::string name;           // as in flags and JSON
-  std::string value;          // as a flag would say it
-  std::string default_value;  // the same of the default
+  std::string value;          // as the flag's argument
+  std::string default_value;  // the default, as the flag's argument
 };
 
-// A field that is told by text: an enumeration, a list, a map, what a file says.
+// A field that is set from text: an enumeration, a list, a map or a file's content.
 template <class Options>
 struct OptionText {
-  // What a text means for the options; an error is a sentence without the option's name. None: the
-  // option can be set in code alone.
+  // Parses a text into the options. An error is a sentence without the option's name. Null: the
+  // option can be set in code only.
   Expected<void> (*read)(const std::string& text, Options* options) = nullptr;
-  // The texts that say what the options hold: one, or of `many` as many as there are.
+  // Formats the field as text: one text, or one for each element if `many`.
   std::vector<std::string> (*write)(const Options& options) = nullptr;
-  std::string (*allowed)() = nullptr;  // "sd, dd, td", for --help; none: the doc line says it
-  bool many = false;                   // given once for each
+  std::string (*allowed)() = nullptr;  // list of values for --help, "sd, dd, td"; null: the doc
+                                       // line names them
+  bool many = false;                   // the flag may be repeated, once for each element
 };
 
-// A switch that is no member of the options themselves.
+// A switch that is not itself a member of the options.
 template <class Options>
 struct OptionSwitch {
   // Whether it is on.
@@ -44,46 +45,45 @@ struct OptionSwitch {
   void (*set)(Options* options, bool on);
 };
 
-// Options inside of options, with a table of their own.
+// Options nested inside other options, with their own table.
 template <class Options>
 struct OptionNest {
-  // Appends those that differ.
+  // Appends the nested options that differ from their defaults.
   void (*echo)(const Options& options, const Options& defaults, std::vector<OptionEcho>* echoes);
 };
 
-// What is special about a row.
+// Special treatment of a row.
 enum class OptionTrait : unsigned {
   kNone = 0,
-  kNoFlag = 1,     // has none of its own, or one that a verb declares
-  kNoEcho = 2,     // never changes a result, or reports say it anyway
-  kQuiet = 4,      // its range is a flag's alone, and --help does not print it
-  kUnchecked = 8,  // whoever uses it says in its own words what it has to be
-  kNoDefault = 16  // --help prints none
+  kNoFlag = 1,     // no flag, or a flag that a command declares itself
+  kNoEcho = 2,     // not echoed: it never changes a result, or reports state it already
+  kQuiet = 4,      // the range applies to the flag only; --help does not print it
+  kUnchecked = 8,  // ValidateOptions skips the row: the code that uses the option checks it
+  kNoDefault = 16  // --help prints no default
 };
 constexpr OptionTrait operator|(OptionTrait a, OptionTrait b) {
   return static_cast<OptionTrait>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-// One field of an options struct. The table of a struct's rows is its only description: checks,
-// --help, flags, manual, completion and the echo of non-defaults in reports all walk it. A row with
-// nothing but a name is the heading of those that follow. An option that is true by default has the
-// flag --no-NAME.
+// One field of an options struct. The table of rows is the only description of the struct. Checks,
+// flags, --help, the manual, completion and the echo in reports all use it. A row with only a name
+// is the heading of the rows after it. An option that is true by default has the flag --no-NAME.
 template <class Options>
 struct OptionRow {
-  // Where a value lies, and of which type it is; monostate: nowhere.
+  // Pointer to the field, which also fixes its type; monostate: no field (a heading).
   using Field = std::variant<std::monostate, int Options::*, std::int64_t Options::*,
                              std::uint64_t Options::*, double Options::*, bool Options::*,
                              std::string Options::*, std::vector<std::string> Options::*,
                              std::optional<int> Options::*, std::optional<double> Options::*,
                              OptionText<Options>, OptionSwitch<Options>, OptionNest<Options>>;
 
-  // A heading of the rows that follow.
+  // A heading of the following rows.
   constexpr explicit OptionRow(const char* heading) : name(heading) {}
-  // A field of any type; of numbers, any number is allowed.
+  // A field of any type. A number may have any value.
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       OptionTrait its = OptionTrait::kNone, const char* by_default = nullptr)
       : name(its_name), unit(its_unit), doc(line), field(at), traits(its), usual(by_default) {}
-  // A number from `least` to `most`.
+  // A number in [least, most].
   constexpr OptionRow(const char* its_name, const char* its_unit, const char* line, Field at,
                       double least, double most, OptionTrait its = OptionTrait::kNone)
       : name(its_name),
@@ -98,27 +98,27 @@ struct OptionRow {
   constexpr bool Is(OptionTrait trait) const {
     return (static_cast<unsigned>(traits) & static_cast<unsigned>(trait)) != 0;
   }
-  // Whether it is a heading.
+  // Whether the row is a heading.
   constexpr bool IsHeading() const { return std::holds_alternative<std::monostate>(field); }
 
   const char* name;       // in flags and JSON, lower case with '-'
-  const char* unit = "";  // or what --help shows for the value; "" for pure numbers
+  const char* unit = "";  // or the placeholder of the value in --help; "" for pure numbers
   const char* doc = "";   // one line
   Field field;
-  double lower = -kInfinity;  // smallest and largest number allowed, both included
+  double lower = -kInfinity;  // smallest and largest allowed number, both included
   double upper = kInfinity;
   OptionTrait traits = OptionTrait::kNone;
-  const char* usual = nullptr;  // what --help says behind "(default" in the place of the value
+  const char* usual = nullptr;  // text that --help prints as the default instead of the value
 };
 
-// Whether a row's field is a plain number.
+// Whether a row's field is a number (arithmetic, not bool).
 template <class Field>
 struct IsNumberField : std::false_type {};
 template <class Options, class T>
 struct IsNumberField<T Options::*>
     : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {};
 
-// Plain decimal text, as short as reads back to 15 digits.
+// Decimal text with up to 15 significant digits.
 template <class T>
 std::string NumberText(T value) {
   std::ostringstream text;
@@ -127,8 +127,7 @@ std::string NumberText(T value) {
   return text.str();
 }
 
-// The texts that say what a field holds: one, none if it is unset, or of lists as many as there
-// are.
+// Formats a field as text: one text, none for an unset optional, one for each element of a list.
 template <class Options>
 std::vector<std::string> OptionTexts(const OptionRow<Options>& row, const Options& options) {
   return std::visit(
@@ -146,7 +145,7 @@ std::vector<std::string> OptionTexts(const OptionRow<Options>& row, const Option
           return {options.*field};
         } else if constexpr (std::is_same_v<Field, std::vector<std::string> Options::*>) {
           return options.*field;
-        } else if constexpr (std::is_member_pointer_v<Field>) {  // of optional numbers
+        } else if constexpr (std::is_member_pointer_v<Field>) {  // std::optional of a number
           if (!(options.*field)) return {};
           return {NumberText(*(options.*field))};
         } else {
@@ -156,14 +155,14 @@ std::vector<std::string> OptionTexts(const OptionRow<Options>& row, const Option
       row.field);
 }
 
-// Whether a field is a list, which echoes each of its members.
+// Whether a field is a list, whose elements are echoed separately.
 template <class Options>
 bool IsList(const OptionRow<Options>& row) {
   if (const auto* text = std::get_if<OptionText<Options>>(&row.field)) return text->many;
   return std::holds_alternative<std::vector<std::string> Options::*>(row.field);
 }
 
-// The first number outside its range, as a sentence.
+// Checks every number against its range. The error names the first number outside.
 template <class Options, class Table>
 Expected<void> ValidateOptions(const Options& options, const Table& table) {
   for (const OptionRow<Options>& row : table) {
@@ -183,7 +182,8 @@ Expected<void> ValidateOptions(const Options& options, const Table& table) {
   return {};
 }
 
-// Appends the options that differ from `defaults`, in the table's order.
+// Appends the options that differ from `defaults`, in the table's order. The elements of a list are
+// appended always.
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Options& defaults, const Table& table,
                        std::vector<OptionEcho>* echoes) {
@@ -204,7 +204,7 @@ void AppendNonDefaults(const Options& options, const Options& defaults, const Ta
   }
 }
 
-// The same with the defaults of a new struct.
+// Compares with the defaults of a newly constructed struct.
 template <class Options, class Table>
 void AppendNonDefaults(const Options& options, const Table& table,
                        std::vector<OptionEcho>* echoes) {
@@ -212,7 +212,7 @@ void AppendNonDefaults(const Options& options, const Table& table,
   AppendNonDefaults(options, defaults, table, echoes);
 }
 
-// The options that are not at their defaults.
+// The options that differ from the defaults of a newly constructed struct, in the table's order.
 template <class Options, class Table>
 std::vector<OptionEcho> NonDefaults(const Options& options, const Table& table) {
   std::vector<OptionEcho> echoes;
@@ -220,38 +220,38 @@ std::vector<OptionEcho> NonDefaults(const Options& options, const Table& table) 
   return echoes;
 }
 
-// "a,b" as its parts; empty parts are refused.
+// Splits a comma-separated list, "a,b". Errors: an empty element.
 Expected<std::vector<std::string>> SplitList(const std::string& text);
-// The same the other way round.
+// Joins the elements of a list with commas.
 std::string JoinList(const std::vector<std::string>& parts);
 
-// Where a text's field lies: Along<&FitOptions::search, &SearchOptions::algorithm>(options).
+// A reference to a nested field: Along<&FitOptions::search, &SearchOptions::algorithm>(options).
 template <auto First, auto... Rest, class Options>
 auto& Along(Options& options) {
   return ((options.*First).*....*Rest);
 }
 
-// The class of a pointer to a member.
+// Class is the class that a pointer to member belongs to.
 template <class Member>
 struct MemberParts;
 template <class C, class T>
 struct MemberParts<T C::*> {
-  using Class = C;  // whose member it is
+  using Class = C;  // class of the member
 };
 template <auto Member>
 using ClassOf = typename MemberParts<decltype(Member)>::Class;
 
-// What an optional holds, and any other type itself.
+// Type is the value type of an optional, and any other type itself.
 template <class T>
 struct WithoutOptional {
-  using Type = T;  // without it
+  using Type = T;  // T is not an optional
 };
 template <class T>
 struct WithoutOptional<std::optional<T>> {
-  using Type = T;  // what it holds
+  using Type = T;  // value type of the optional
 };
 
-// An enumeration, or one that may be unset.
+// Option for an enumeration or an optional enumeration.
 template <auto First, auto... Rest>
 constexpr auto EnumOption() {
   using Options = ClassOf<First>;
@@ -276,7 +276,7 @@ constexpr auto EnumOption() {
       [] { return AllTexts<E>(); }, false};
 }
 
-// A switch inside of nested options.
+// Option for a switch inside nested options.
 template <auto First, auto... Rest>
 constexpr auto SwitchOption() {
   using Options = ClassOf<First>;
@@ -285,7 +285,7 @@ constexpr auto SwitchOption() {
       [](Options* options, bool on) { Along<First, Rest...>(*options) = on; }};
 }
 
-// Several of an enumeration, as a list with commas.
+// Option for a comma-separated list of enumeration values.
 template <auto First, auto... Rest>
 constexpr auto EnumListOption() {
   using Options = ClassOf<First>;

@@ -10,7 +10,7 @@ namespace lyrefit {
 namespace {
 
 #if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
-constexpr bool kHasThreads = false;  // a page has memory that one thread sees
+constexpr bool kHasThreads = false;  // memory is not shared between threads
 #else
 constexpr bool kHasThreads = true;
 #endif

@@ -7,15 +7,15 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// More than any machine has; what a flag takes.
+// Upper limit of thread-count flags, more than any machine has.
 constexpr int kMostThreads = 1024;
 
-// What every `threads` among options must be: 0, all cores, or more.
+// Checks a `threads` option: 0 (all cores) or more, otherwise an error.
 Expected<void> ValidateThreads(int threads);
 
-// Runs body(0) .. body(count - 1) on up to `threads` threads (0: all cores) and returns when all
-// are done. The bodies must be independent and write only to their own slot: then the result does
-// not depend on the number of threads.
+// Calls body(0) .. body(count - 1) on up to `threads` threads (0: all cores) and returns when all
+// calls have returned. The calls must be independent and write only to their own slot; then the
+// result does not depend on the number of threads.
 void ParallelFor(int count, int threads, const std::function<void(int)>& body);
 
 }  // namespace lyrefit

@@ -7,14 +7,15 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// exp(x) from additions, multiplications and bit moves alone, so that it gives the same bits on
-// every IEEE 754 machine and in every vector width (the mathematics library's does not: its last
-// bit follows the processor). `V` is double or a GCC vector of doubles, `B` the unsigned integer
-// type of the same shape. Error below 1 ulp for x in [-700, 700]; below that range it is cut, above
-// it the caller must not go.
+// exp(x) from additions, multiplications and bit shifts only. The result has the same bits on every
+// IEEE 754 machine and for every vector width; the last bit of a mathematics library's exp depends
+// on the processor. `V` is double or a GCC vector of doubles, `B` the unsigned integer type of the
+// same shape. The error is below 1 ulp for x in [-700, 700]. Lower x are set to -700; the caller
+// must not pass higher ones.
 //
-// Method: x = k ln 2 + r with |r| <= ln(2) / 2 (Cody and Waite's two-part ln 2), exp(r) = 1 + r +
-// r^2 q(r) with q the degree-9 Chebyshev fit (error 2e-17), then 2^k through the exponent bits.
+// Method: x = k ln 2 + r with |r| <= ln(2) / 2, by Cody and Waite's two-part ln 2. Then exp(r) = 1
+// + r + r^2 q(r), where q is the degree-9 Chebyshev fit (error 2e-17). The factor 2^k is set
+// through the exponent bits.
 template <class V>
 struct ExpParts {
   V power;   // 2^k
@@ -25,7 +26,7 @@ template <class V, class B>
   static_assert(sizeof(V) == sizeof(B), "V and B must have the same shape");
   const V lowest = V{} - 700.0;
   x = x < lowest ? lowest : x;
-  constexpr double kMagic = 0x1.8p52;  // adding it rounds to an integer that sits in the low bits
+  constexpr double kMagic = 0x1.8p52;  // adding it leaves the nearest integer in the low bits
   const V shifted = x * 0x1.71547652b82fep+0 + kMagic;
   const V k = shifted - kMagic;
   const V r = (x - k * 0x1.62e42fefa0000p-1) - k * 0x1.cf79abc9e3b3ap-40;
@@ -51,31 +52,31 @@ template <class V, class B>
   return (1.0 + parts.beyond) * parts.power;
 }
 
-// exp(x) - 1 to 3 ulp, also where it is close to 0.
+// exp(x) - 1, error within 3 ulp, also near x = 0.
 template <class V, class B>
 [[gnu::always_inline]] inline V PortableExpm1(V x) {
   const ExpParts<V> parts = SplitExp<V, B>(x);
   return parts.power * parts.beyond + (parts.power - 1.0);
 }
 
-// The same for one number of any size.
+// exp(x) of one number; x above 700 is set to 700.
 inline double PortableExp(double x) {
   if (x > 700.0) x = 700.0;
   return PortableExp<double, std::uint64_t>(x);
 }
 
-// x = mantissa x 2^exponent with a mantissa in [1, 2), for finite x > 0.
+// Decomposition x = mantissa * 2^exponent with a mantissa in [1, 2), for finite x > 0.
 template <class V>
 struct BinaryParts {
-  V exponent;  // a whole number
-  V mantissa;  // 1 to below 2
+  V exponent;  // an integer
+  V mantissa;  // in [1, 2)
 };
 template <class V, class B>
 [[gnu::always_inline]] inline BinaryParts<V> SplitBinary(const V& x) {
   BinaryParts<V> parts;
   B bits;
   std::memcpy(&bits, &x, sizeof bits);
-  // As the low bits of 2^52, which is then taken off, an integer becomes a double.
+  // Integer to double: the integer becomes the low bits of 2^52, and 2^52 is subtracted below.
   const B exponent = (bits >> 52) | 0x4330000000000000ULL;
   std::memcpy(&parts.exponent, &exponent, sizeof exponent);
   parts.exponent = parts.exponent - (0x1p52 + 1023);
@@ -84,9 +85,9 @@ template <class V, class B>
   return parts;
 }
 
-// ln(x) for finite x > 0, the same bits everywhere, for the same types as PortableExp: a first
-// value from the exponent bits and a line, within 0.04, then Halley's steps on exp(y) = x. Error
-// below 2 ulp of max(|ln x|, 1).
+// ln(x) for finite x > 0, with the same bits on every machine and the types of PortableExp. The
+// starting value, within 0.04, comes from the exponent bits and a straight line. Two Halley steps
+// on exp(y) = x follow. The error is below 2 ulp of max(|ln x|, 1).
 template <class V, class B>
 [[gnu::always_inline]] inline V PortableLog(const V& x) {
   const BinaryParts<V> parts = SplitBinary<V, B>(x);
@@ -99,8 +100,8 @@ template <class V, class B>
 }
 inline double PortableLog(double x) { return PortableLog<double, std::uint64_t>(x); }
 
-// An upper bound of ln(x) that is never more than 0.07 above it, for finite x > 0, by the exponent
-// bits and one tangent; the same bits everywhere.
+// An upper bound of ln(x), at most 0.07 above it, for finite x > 0. It uses the exponent bits and
+// one tangent, and has the same bits on every machine.
 template <class V, class B>
 [[gnu::always_inline]] inline V LogUpperBound(const V& x) {
   const BinaryParts<V> parts = SplitBinary<V, B>(x);

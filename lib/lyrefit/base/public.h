@@ -1,6 +1,5 @@
 #pragma once
 
-// What a public header declares is seen from outside of the shared library; all else is hidden in
-// it. A public header opens its namespace with this word, `namespace LYREFIT_PUBLIC lyrefit {`,
-// and no other header does.
+// Marks public headers: a shared library exports only their declarations. Public headers, and no
+// others, open their namespace with `namespace LYREFIT_PUBLIC lyrefit {`.
 #define LYREFIT_PUBLIC [[gnu::visibility("default")]]

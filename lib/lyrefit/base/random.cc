@@ -5,8 +5,8 @@
 namespace lyrefit {
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014, doi:10.1145/2660193.2660195): neighbouring seeds and runs
-// start far apart.
+// Finaliser of SplitMix64 (Steele, Lea, Flood 2014, doi:10.1145/2660193.2660195): neighbouring
+// seeds and runs get unrelated states.
 std::uint64_t Mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;

@@ -6,13 +6,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One portable stream of random numbers per (seed, run): xoshiro256++ (Blackman and Vigna 2021,
-// doi:10.1145/3460772) under our own transforms, in integers and basic arithmetic only, so that a
-// seed means the same numbers with every compiler and standard library. (std::mt19937_64 is as
-// portable but six times slower, and took a fifth of a whole search.)
+// A portable stream of random numbers for each pair (seed, run): xoshiro256++ (Blackman and Vigna
+// 2021, doi:10.1145/3460772). Bits, Uniform and Index use integers and basic arithmetic only. A
+// seed therefore gives their numbers with every compiler and standard library. std::mt19937_64 is
+// as portable but six times slower; it took a fifth of a whole search.
 class RandomStream {
  public:
-  // The same numbers for the same seed and run, and unlike those of any other.
+  // The stream is fixed by seed and run; other pairs give other streams.
   explicit RandomStream(std::uint64_t seed, std::uint64_t run = 0);
 
   // 64 random bits.
@@ -31,13 +31,13 @@ class RandomStream {
   // Uniform in [0, 1), 53 bits.
   double Uniform() { return static_cast<double>(Bits() >> 11) * 0x1p-53; }
 
-  // Uniform in {0, ..., n - 1}, by the high half of a 64 x 32 bit product; n >= 1. The bias of at
-  // most n / 2^32 is far below what any run of ours can see.
+  // Uniform in {0, ..., n - 1}, from the high half of a 64 x 32 bit product; n >= 1. The bias of at
+  // most n / 2^32 is far below what a run of this library can resolve.
   std::uint32_t Index(std::uint32_t n) {
     return static_cast<std::uint32_t>(((Bits() >> 32) * n) >> 32);
   }
 
-  // Standard normal (Marsaglia's polar method).
+  // Standard normal deviate (Marsaglia's polar method).
   double Normal();
 
  private:

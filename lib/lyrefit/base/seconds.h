@@ -6,13 +6,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The one stopwatch: const Instant begin = Now(); ... SecondsSince(begin).
+// A point in time. To measure: const Instant begin = Now(); ... SecondsSince(begin).
 using Instant = std::chrono::steady_clock::time_point;
 
-// A moment, by a clock that nobody sets.
+// The current time of the monotonic clock.
 inline Instant Now() { return std::chrono::steady_clock::now(); }
 
-// Seconds from `begin` to now.
+// Elapsed time from `begin` to now, in s.
 inline double SecondsSince(Instant begin) {
   return std::chrono::duration<double>(Now() - begin).count();
 }

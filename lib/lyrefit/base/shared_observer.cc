@@ -4,7 +4,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kPeriod_s = 0.05;  // between calls from inside jobs
+constexpr double kPeriod_s = 0.05;  // shortest time between calls from inside jobs
 
 }  // namespace
 

@@ -11,38 +11,39 @@
 
 namespace lyrefit {
 
-// One observer for the jobs of a stage, which may run side by side: it is called from one thread at
-// a time, hears of the stage when it begins and after every job, and in between as often as the
-// jobs look up, at most every few milliseconds.
+// Shares one observer among the jobs of a stage, which may run in parallel. The observer is called
+// from one thread at a time: when the stage begins, after every job, and in between when a job
+// polls. Calls from inside jobs are at least 50 ms apart.
 class SharedObserver {
  public:
-  // `observer` and `stage` outlive it. `work` is that of all jobs, where they differ in size, in
-  // any unit; 0: all are alike.
+  // `observer` and `stage` must outlive the object. `work` is the total over all jobs, in any unit,
+  // if jobs differ in size; 0: they do not.
   SharedObserver(const Observer& observer, std::string_view stage, std::int64_t jobs,
                  double work = 0);
 
-  // Counts a job that an earlier process did, before the stage begins.
+  // Counts a job that an earlier process finished. Call it before Begin.
   void SkipJob(double work = 0);
-  // Tells the observer that the stage begins.
+  // Calls the observer for the begin of the stage.
   void Begin();
-  // Counts a job and tells the observer.
+  // Counts a finished job and calls the observer.
   void FinishJob(double work = 0, std::int64_t evaluations = 0);
 
-  // Whether the observer wants to stop: for the inside of a job.
+  // Polls from inside a job: whether the observer has requested a stop.
   bool Stopped();
-  // The same for what takes an observer, or asks whether to go on; empty where nobody watches.
+  // Wrap Stopped() as an observer, and as a function that returns whether to continue. Both are
+  // empty if the observer is empty.
   Observer Inside();
   std::function<bool()> Proceed();
 
  private:
   void Count(double work);
-  void Tell();  // `mutex_` must be held
+  void Tell();  // the caller must hold `mutex_`
 
   const Observer& observer_;
   const double work_;
   const Instant begin_ = Now();
   std::atomic<bool> stopped_{false};
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   Instant told_;
   Progress progress_;
   double work_done_ = 0;

@@ -6,18 +6,18 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// While it lives, what this thread reads from files ends with an error once `stopped` says so. It is
-// asked at every block, and ten times a second while a pipe has nothing to give. For an observer
-// that may want to stop while there is still something to be read.
+// Makes file reads interruptible. While an object lives, reads of its thread fail once `stopped`
+// returns true. The function is called before every block, and ten times a second while a pipe has
+// no data. It lets an observer stop a computation that is still reading.
 class StoppableReads {
  public:
-  // `stopped` is called from this thread alone.
+  // `stopped` is called only from the thread that constructs the object.
   explicit StoppableReads(std::function<bool()> stopped);
   ~StoppableReads();
-  StoppableReads(const StoppableReads&) = delete;             // it belongs to a thread
-  StoppableReads& operator=(const StoppableReads&) = delete;  // it belongs to a thread
+  StoppableReads(const StoppableReads&) = delete;             // tied to its thread
+  StoppableReads& operator=(const StoppableReads&) = delete;  // tied to its thread
 
-  // Whether any that lives in this thread says so.
+  // Whether `stopped` of any object of the current thread returns true.
   static bool Stopped();
 
  private:

@@ -1,10 +1,9 @@
 #pragma once
 
-// Passing an error on, in one line. Either
-//   TRY(const IvCurve curve, ReadCurve(file));    the value, or out of this function with its error
-//   TRY(CheckReadings(curve));                    where there is no value, or none is wanted
-// in a function that returns some Expected<T> itself. Not installed: a macro with so short a name
-// belongs to the inside of a library.
+// Error propagation in one line, inside functions that return some Expected<T>:
+//   TRY(const IvCurve curve, ReadCurve(file));    takes the value, or returns the error
+//   TRY(CheckReadings(curve));                    returns the error; discards a value
+// The header is not installed, because so short a macro name could clash with a user's code.
 
 #include <utility>
 

@@ -4,7 +4,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// "0.1.0", the version of the project in CMakeLists.txt.
+// The project's version in CMakeLists.txt, such as "0.1.0".
 const char* Version();
 
 }  // namespace lyrefit

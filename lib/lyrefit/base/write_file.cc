@@ -24,18 +24,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kTemporaryEnd[] = ".tmp";
-// A temporary file of a process that lives nowhere on this machine may be another machine's; not so
-// if nobody has written into it for that long.
+// A temporary file whose process does not run on this machine may belong to another machine. It
+// counts as abandoned once it has not been written for this long.
 constexpr std::chrono::minutes kStale(1);
-constexpr std::size_t kWriteAt = std::size_t{1} << 18;  // bytes
+constexpr std::size_t kWriteAt = std::size_t{1} << 18;  // bytes collected before a write
 
-// "curve.json.4711-0.tmp" for process 4711.
+// Name of a temporary file, such as "curve.json.4711-0.tmp" for process 4711.
 std::string TemporaryName(const fs::path& target) {
   static std::atomic<unsigned> count{0};
   return fmt::format("{}.{}-{}{}", target.string(), ::getpid(), count++, kTemporaryEnd);
 }
 
-// The process that wrote `name`, a temporary file of `target`; 0 if it is not one.
+// The process that wrote the temporary file `name` of `target`; 0 if `name` is no such file.
 pid_t OwnerOf(std::string_view name, const std::string& target) {
   if (name.rfind(target + ".", 0) != 0) return 0;
   name.remove_prefix(target.size() + 1);
@@ -49,7 +49,7 @@ pid_t OwnerOf(std::string_view name, const std::string& target) {
   return std::string_view(counter.ptr, end - counter.ptr) == kTemporaryEnd ? owner : 0;
 }
 
-// Removes what killed processes have left of this target.
+// Removes temporary files of `target` that killed processes left.
 void RemoveStale(const fs::path& folder, const std::string& target) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -63,13 +63,13 @@ void RemoveStale(const fs::path& folder, const std::string& target) {
   }
 }
 
-// As an old file at `target`, if there is one.
+// Copies the permissions of an existing file at `target`.
 void TakePermissions(const fs::path& target, int file) {
   struct stat old;
   if (::stat(target.c_str(), &old) == 0) ::fchmod(file, old.st_mode & 07777);
 }
 
-// A file without a name in `folder`; not open where there is no such thing.
+// Opens an unnamed file in `folder`; -1 if the system or file system has none.
 int OpenNameless(const fs::path& folder) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) == 0) {
@@ -114,7 +114,7 @@ Expected<void> NewFile::Begin() {
     return Fail("cannot open the file for writing: " + std::generic_category().message(errno),
                 path_);
   }
-  // Through a symbolic link, so that the link survives.
+  // The link's target is replaced, so that a symbolic link stays a link.
   target_ = fs::weakly_canonical(path_, error);
   if (error) target_ = path_;
   const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
@@ -125,7 +125,7 @@ Expected<void> NewFile::Begin() {
   return {};
 }
 
-// Where the file system knows no files without names.
+// For file systems without unnamed files.
 Expected<void> NewFile::OpenTemporary() {
   const std::string name = TemporaryName(target_);
   file_.Reset(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -150,11 +150,11 @@ Expected<void> NewFile::Complete(bool on_disk) {
   if (!file_.Write(waiting_)) return CannotWrite(errno);
   waiting_.clear();
   if (on_disk && fdatasync(file_.number()) != 0 && errno != EINVAL) return CannotWrite(errno);
-  const bool nameless = temporary_.empty() && !in_place_;  // it would be gone
+  const bool nameless = temporary_.empty() && !in_place_;  // closing would delete it
   return nameless || file_.Close() ? Expected<void>() : CannotWrite(errno);
 }
 
-// A file that cannot be given a name becomes one that has one.
+// Copies an unnamed file that cannot be linked into a named temporary file.
 Expected<void> NewFile::CopyToTemporary() {
   const int from = ::dup(file_.number());
   const Descriptor nameless(from);

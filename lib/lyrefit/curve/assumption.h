@@ -9,7 +9,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What an assumption is about.
+// Subject of an assumption.
 enum class About { kReading, kCells, kTemperature, kIrradiance, kCurrentUnit };
 
 template <>
@@ -23,22 +23,22 @@ struct EnumTable<About> {
   };
 };
 
-// What a reader had to assume or took from where, as a plain sentence. It is taken back where
-// somebody states what it is about.
+// A value that a reader assumed, or took from a particular source, as a plain sentence. The
+// assumption is removed once the user states the value.
 struct Assumption {
   std::string sentence;  // what was assumed, and from where
   About about = About::kReading;
 
-  // A sentence is an assumption of the readings unless it says of what.
+  // The default subject is the readings themselves.
   Assumption(std::string text, About what = About::kReading)  // NOLINT: a sentence is one
       : sentence(std::move(text)), about(what) {}
   Assumption(const char* text) : sentence(text) {}  // NOLINT
 };
 
-// Takes back what was assumed about one thing.
+// Removes the assumptions about one subject.
 void Forget(About about, std::vector<Assumption>* assumptions);
 
-// For whoever only shows them.
+// The sentences alone, for display.
 std::vector<std::string> SentencesOf(const std::vector<Assumption>& assumptions);
 
 }  // namespace lyrefit

@@ -5,9 +5,9 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What becomes of readings that no file says anything about: `readings` holds its name and columns.
-// Load sign is turned, and it is one cell at 25 C under 1000 W/m2 unless the columns say otherwise;
-// each of these `assumptions` says until somebody states it. Not checked: see Validate.
+// Completes readings without a file: `readings` holds a name and columns. Currents in load sign are
+// negated. Without columns that state otherwise, the curve is of one cell at 25 C and 1000 W/m2;
+// `assumptions` names each of these defaults. The result is not checked: see Validate.
 IvCurve BareCurve(IvCurve readings);
 
 }  // namespace lyrefit

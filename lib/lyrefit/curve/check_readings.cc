@@ -20,19 +20,19 @@ namespace {
 
 using Findings = std::vector<ReadingFinding>;
 
-constexpr double kSmallest_A = 1e-18;    // below any instrument
-constexpr double kLargestString_A = 30;  // of one string, where nobody named a unit
+constexpr double kSmallest_A = 1e-18;    // below the resolution of any instrument
+constexpr double kLargestString_A = 30;  // of one string, if no unit is named
 constexpr double kLargestVoltage_V = 2000;
-constexpr double kLargestStated_A = 2e4;  // of one string, whatever the unit
+constexpr double kLargestStated_A = 2e4;  // of one string, for any unit
 constexpr double kLargestStated_V = 2e4;
 constexpr double kLowestCell_V = 0.2;
 constexpr double kHighestCell_V = 1.6;
 constexpr double kUsualCell_V = 0.62;
-constexpr double kHighestStack_V = 5.5;  // of one cell of several junctions
-constexpr double kDim_W_m2 = 50;         // below, a cell may have little voltage
-constexpr double kDark_W_m2 = 20;        // below, a sensor may show an offset
+constexpr double kHighestStack_V = 5.5;  // of one cell with several junctions
+constexpr double kDim_W_m2 = 50;         // a cell may have a low voltage below this
+constexpr double kDark_W_m2 = 20;        // a sensor may show an offset below this
 
-// What the checks after the first two look at.
+// Quantities that the checks after LookForOverflow and LookForNothing share.
 struct Examined {
   const IvCurve& curve;
   KeyPoints key;
@@ -127,8 +127,8 @@ void LookAtSigns(const Examined& look, Findings* out) {
   }
 }
 
-// A device without light delivers no current; under a few W/m2 it delivers less than the largest
-// string would. A sensor's offset or a leak of the instrument stays below a part of the currents.
+// Without light a device delivers no current, and at a few W/m2 less than the largest string would.
+// A sensor's offset or an instrument's leakage stays below 5 % of the largest current.
 void LookAtLight(const Examined& look, Findings* out) {
   constexpr double kOffset = 0.05;  // of the largest current
   const IvCurve& curve = look.curve;
@@ -151,7 +151,7 @@ bool ImplausibleCell(double voltage_V) {
   return voltage_V < kLowestCell_V || voltage_V > kHighestCell_V;
 }
 
-// The voltage at which the current has fallen to `part` of `whole`, coming from open circuit.
+// Voltage at which the current has fallen to `part` of `whole`, searched from open circuit.
 double VoltageAt(double part, double whole, const std::vector<std::pair<double, double>>& points) {
   for (std::size_t k = points.size() - 1; k > 0; --k) {
     const auto& [v0, i0] = points[k - 1];
@@ -170,14 +170,14 @@ std::vector<std::pair<double, double>> ByFirst(const std::vector<double>& x,
   return points;
 }
 
-// A diode at n = 1 loses ln 2 of its thermal voltage, 1.2 % of Voc or more, between open circuit
-// and half the current, and series resistance adds to it; a shunt that takes as much of the current
-// up to half the voltage is a poor one. With voltage and current exchanged it is the other way
-// round.
+// Detects exchanged columns of voltage and current. Between open circuit and half the current, a
+// diode at n = 1 loses ln 2 of its thermal voltage, 1.2 % of Voc or more. Series resistance adds to
+// it. A shunt that takes an equal fraction of the current up to half the voltage is a poor one. In
+// an exchanged curve the two fractions change places.
 void LookForExchange(const Examined& look, Findings* out) {
   constexpr double kLeastDiode = 0.012, kPoorShunt = 0.02;
   const double voc = look.key.open_circuit_voltage_V;
-  // A curve that does not reach open circuit, exchanged, does not reach short circuit.
+  // An exchanged curve without open circuit looks like one without short circuit.
   const double known_isc = look.key.short_circuit_current_A;
   const double isc = known_isc > 0 ? known_isc : look.delivered_A;
   if (!look.lit || !(voc > 0)) return;
@@ -235,7 +235,7 @@ void LookAtUnits(const Examined& look, Findings* out) {
   }
 }
 
-// A voltage between that of a common cell and that of a short string has two readings.
+// Whether a voltage may belong to one cell of several junctions as well as to a short string.
 bool MayBeStack(double open_circuit_voltage_V, int cells) {
   return cells == 1 && open_circuit_voltage_V > kHighestCell_V &&
          open_circuit_voltage_V < kHighestStack_V;
@@ -248,7 +248,7 @@ constexpr char kStack[] =
 void LookAtCells(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
   const bool reached = look.key.open_circuit_voltage_V > 0;
-  // A sweep that ends before says that it is more.
+  // If the sweep ends before open circuit, Voc is above its highest voltage.
   const double voc = reached ? look.key.open_circuit_voltage_V
                              : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
   if (!look.lit || !(voc > 0)) return;
@@ -302,7 +302,7 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   Findings findings;
   LookForOverflow(curve, &findings);
   LookForNothing(curve, &findings);
-  if (!findings.empty()) return findings;  // nothing else can be said of such values
+  if (!findings.empty()) return findings;  // such values allow no other check
   const Examined look = Examine(curve);
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);

@@ -9,41 +9,44 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Something in the readings that no device does, or that is more likely the instrument's or the
-// file's than the device's.
+// A property of the readings that no device shows, or that the instrument or the file explains
+// better than the device.
 struct ReadingFinding {
   std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "light", "cells",
                             // "current", "shape", "limit"
-  std::string sentence;     // what was seen and what to do; no full stop
-  bool refuse = false;      // false: a doubt, the readings can be worked with
-  std::vector<int> points;  // positions in the curve it is about; empty: all
-  bool always = false;      // refused even `as_is`: there is nothing that could be fitted
+  std::string sentence;     // what was found and what to do; no full stop
+  bool refuse = false;      // false: a doubt; the readings can be used
+  std::vector<int> points;  // positions in the curve; empty: all points
+  bool always = false;      // refused even with `as_is`: no fit is possible
 };
 
-// What is wrong with the readings of a sound curve (see Validate) before anything is fitted, the
-// worst first:
+// Checks the readings of a curve that passes Validate, before any fit. Findings that refuse the
+// curve come first. The ids are:
 //   overflow   values that instruments write for "out of range" (9.91e37 and the like)
-//   nothing    all currents 0, equal, or below what any instrument resolves
-//   sign       current that rises with voltage; current taken in at 0 V
+//   nothing    all currents 0, equal, or below the resolution of any instrument
+//   sign       current that rises with voltage; negative current at 0 V
 //   exchanged  voltage in the column of the current
-//   unit       more than 30 A a string or 2000 V where the file names no unit
-//   light      no light stated, or next to none, where the device delivers current
-//   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, at light
-//   current, shape   sizes that no device has: see CheckPlausibility
-//   limit      equal readings at an end of the curve where a device's would differ
-// Real curves, dark, coarse, noisy or shaded ones among them, have none.
+//   unit       more than 30 A a string or 2000 V if the file names no unit; more than 20 kA a
+//              string or 20 kV in any unit
+//   light      a stated irradiance near 0 although the device delivers current
+//   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, under light
+//   current, shape   magnitudes that no device has: see CheckPlausibility
+//   limit      equal readings at an end of the curve where those of a device would differ
+// Real curves have no findings, including dark, coarse, noisy and shaded ones.
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);
 
-// The sentences of what is doubted. Errors: those of Validate, and what has to be refused, unless
-// the curve is to be taken `as_is`; then that is the first of the doubts. Overflows and dead
-// channels are refused always.
+// Sentences of the doubts about a curve. Errors: those of Validate, and the first finding that
+// refuses the curve. With `as_is`, refusing findings become the first doubts, except overflow codes
+// and dead channels, which are always errors.
 Expected<std::vector<std::string>> JudgeReadings(const IvCurve& curve);
 
-// The same for curves of one measurement: each doubt once, with the first curve it is about.
+// Doubts about the curves of one measurement: one sentence for each id, which names the first curve
+// concerned.
 Expected<std::vector<std::string>> JudgeReadings(const std::vector<IvCurve>& curves);
 
-// How many cells in series give so many volts: a usual number of a module's (36, 54, 60, 72, 96)
-// where one is within a tenth.
+// Likely number of cells in series for an open-circuit voltage in V. It is the nearest usual module
+// size (36, 54, 60, 72, 96) if one is within a tenth, otherwise the voltage divided by 0.62 V a
+// cell.
 int LikelyCells(double open_circuit_voltage_V);
 
 }  // namespace lyrefit

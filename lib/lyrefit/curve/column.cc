@@ -23,7 +23,7 @@ constexpr Name kNames[] = {
     {"voltages", ColumnKind::kVoltage},
     {"potential", ColumnKind::kVoltage},
     {"ewe", ColumnKind::kVoltage},  // working electrode
-    {"vf", ColumnKind::kVoltage},   // "full", as potentiostats call what they measured
+    {"vf", ColumnKind::kVoltage},   // "full", the measured voltage of potentiostats
     {"vm", ColumnKind::kVoltage},
     {"spannung", ColumnKind::kVoltage},
     {"tension", ColumnKind::kVoltage},
@@ -66,12 +66,14 @@ constexpr Name kNames[] = {
     {"currentdensity", ColumnKind::kCurrentDensity},
 };
 
-// Say where a quantity was taken, not what it is. A lone letter may carry one: "Vmeas", "Idc".
+// Words that say where a quantity was measured, not which one. A single letter may carry them:
+// "Vmeas", "Idc".
 constexpr std::string_view kQualifiers[] = {
     "pv",       "module", "cell", "panel",  "array", "string", "load",      "bias", "dut", "device",
     "measured", "meas",   "dc",   "output", "in",    "opc",    "electrode", "we",   "smu"};
 
-// Not ours, but certainly units: "voltage_percent" is a voltage in percent, "voltage_set" is not.
+// Unsupported units. They mark "voltage_percent" as a voltage with a wrong unit; "voltage_set" is
+// no voltage.
 constexpr std::string_view kForeignUnits[] = {"percent", "pct", "pu",  "w",         "mw", "kw",
                                               "ohm",     "db",  "f",   "degf",      "h",  "lux",
                                               "adc",     "raw", "bit", "fahrenheit"};
@@ -106,7 +108,7 @@ void DropQualifiers(std::vector<LabelWord>* words) {
   if (!kept.empty()) *words = kept;
 }
 
-// "vmeas" is "v", since "meas" only says how.
+// Shortens "vmeas" to "v", since "meas" is a qualifier.
 void CutQualifierOffLetter(LabelWord* word) {
   if (word->text.size() < 3 || FindName(word->text) != nullptr) return;
   const Name* letter = FindName(word->text.substr(0, 1));
@@ -114,8 +116,8 @@ void CutQualifierOffLetter(LabelWord* word) {
   if (IsAmong(kQualifiers, std::string_view(word->text).substr(1))) word->text.resize(1);
 }
 
-// Takes the number of a pixel, channel or unit out of the words: "I1", "Ch2 voltage",
-// "Current 1 (A)". The 2 of "mA cm-2" is none.
+// Removes the number of a pixel, channel or unit from the words and returns it: "I1", "Ch2
+// voltage", "Current 1 (A)". The 2 of "mA cm-2" is not such a number.
 std::string TakeNumber(std::vector<LabelWord>* words) {
   std::string number;
   const auto add = [&number](std::string_view digits) {
@@ -162,7 +164,7 @@ void RefuseUnit(const std::string& unit, Column* column) {
                                 Quoted(unit), ExpectedUnits(column->kind));
 }
 
-// False if the words behind the name make it the name of something else.
+// Interprets the words after the name. False if they turn it into the name of another quantity.
 bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* column) {
   const std::string rest = JoinWords(words, from, words.size());
   if (rest.empty()) return true;
@@ -182,7 +184,7 @@ bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* col
   return true;
 }
 
-// A lone T is a temperature and a lone t a time, unless the unit says otherwise.
+// A single T is a temperature and a single t a time, unless the unit decides otherwise.
 ColumnKind TimeOrTemperature(const std::vector<LabelWord>& words) {
   const std::string unit = JoinWords(words, 1, words.size());
   if (FindUnit(ColumnKind::kTime, unit) != nullptr) return ColumnKind::kTime;
@@ -190,12 +192,12 @@ ColumnKind TimeOrTemperature(const std::vector<LabelWord>& words) {
   return words[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
 }
 
-// An intensity is one of light only if its unit says so.
+// "Intensity" denotes an irradiance only if the unit confirms it.
 bool IsVague(const Column& column, std::string_view name) {
   return name == "intensity" && (column.unit.empty() || !column.refusal.empty());
 }
 
-// A density without a unit is in what everybody writes.
+// A current density without a unit is assumed in mA/cm2, the usual unit.
 void SettleDensity(Column* column) {
   if (column->kind != ColumnKind::kCurrentDensity || !column->unit.empty()) return;
   column->factor = FindUnit(ColumnKind::kCurrentDensity, "macm2")->factor;
@@ -253,7 +255,7 @@ Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
     for (const ColumnKind as : {kind, ColumnKind::kCurrentDensity}) {
       if (as != kind && kind != ColumnKind::kCurrent) continue;
       const Unit* found = FindUnit(as, unit);
-      // A lone "A" may be a name as well as a unit.
+      // A single "A" may be a name as well as a unit.
       if (found == nullptr || (from == 0 && words.size() == 1)) continue;
       column.kind = as;
       TakeUnit(*found, &column);

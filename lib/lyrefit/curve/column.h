@@ -11,32 +11,32 @@ enum class ColumnKind {
   kCurrent,
   kSigma,
   kTime,
-  kSweep,  // member of one measurement: up, down, light, dark
+  kSweep,  // sweep of one measurement: up, down, light, dark
   kCurve,  // one of several measurements in a file
   kIrradiance,
   kTemperature,
-  kCurrentDensity,  // becomes a current by the area of the cell
+  kCurrentDensity,  // converted to a current by the area of the cell
   kArea,            // stated in the head of a table, never a column
 };
 
-// What a header cell says about its column. A value in the file becomes factor * value + offset in
-// V, A, A/cm2, s, W/m2 or degrees Celsius.
+// Interpretation of a header cell. A value of the file is converted as factor * value + offset. The
+// result is in V, A, A/cm2, s, W/m2 or degrees Celsius.
 struct Column {
   ColumnKind kind = ColumnKind::kUnrecognised;
   std::string label;  // as in the file
-  std::string unit;   // as understood, empty where the label names none
+  std::string unit;   // as recognised; empty if the label names none
   double factor = 1;
   double offset = 0;
-  std::string refusal;  // why a column of this kind cannot be used, empty if it can
-  std::string number;   // of one voltage or current among several: "1" of "I1" and "Current 1 (A)"
+  std::string refusal;  // why the column cannot be used; empty if it can
+  std::string number;   // of one of several voltages or currents: "1" of "I1" and "Current 1 (A)"
 };
 
-// Reads "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)", ... without regard to case and
-// punctuation. Only a lone t and T differ: time and temperature.
+// Recognises labels such as "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)". Case and
+// punctuation are ignored, except that a lone t is a time and a lone T a temperature.
 Column RecogniseColumn(std::string_view label);
 
-// The column called `label` where somebody has said that it holds a voltage or a current: its name
-// does not matter, its unit does.
+// Interprets the label of a column that the user has declared a voltage or a current. Only the unit
+// is read from the label.
 Column ColumnSaidToBe(ColumnKind kind, std::string_view label);
 
 }  // namespace lyrefit

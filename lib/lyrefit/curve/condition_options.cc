@@ -61,7 +61,7 @@ Expected<void> ApplyConditions(const ConditionOptions& stated, CurveSet* set) {
   for (IvCurve& curve : set->curves) {
     TRY(ApplyConditions(stated, &curve));
   }
-  IvCurve common;  // carries the assumptions that hold for the whole set
+  IvCurve common;  // carries the assumptions shared by the set
   common.assumptions = set->assumptions;
   TRY(ApplyConditions(stated, &common));
   set->assumptions = common.assumptions;

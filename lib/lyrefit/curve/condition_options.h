@@ -10,8 +10,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What somebody says of a measurement beside its file, which it goes before; unset: as the file has
-// it.
+// Conditions that the user states for a measurement. They replace those of the file; unset fields
+// keep the file's values.
 struct ConditionOptions {
   std::optional<int> cells;             // in series
   std::optional<double> temperature_C;  // of the cells
@@ -30,11 +30,11 @@ inline constexpr OptionRow<ConditionOptions> kConditionOptionTable[] = {
      &ConditionOptions::as_is},
 };
 
-// Puts them into `curve`, where they replace what was assumed. The error, whose sentence begins with
-// the name of the option: fewer than one cell, a temperature outside -100 .. 150 C, an irradiance
-// below zero.
+// Sets the stated conditions in `curve` and removes the assumptions about them. Errors, whose
+// sentence begins with the option's name: fewer than one cell, a temperature outside -100 .. 150 C,
+// an irradiance below zero.
 Expected<void> ApplyConditions(const ConditionOptions& stated, IvCurve* curve);
-// The same for every curve of a set, and for what is assumed of all of them.
+// Applies the conditions to every curve of a set and to the set's common assumptions.
 Expected<void> ApplyConditions(const ConditionOptions& stated, CurveSet* set);
 
 }  // namespace lyrefit

@@ -15,7 +15,7 @@ struct Line {
   double slope = 0;
 };
 
-// Tukey's resistant line, through the medians of the outer thirds: outliers do not move it.
+// Tukey's resistant line, through the medians of the outer thirds. Outliers have little effect.
 Line ResistantLine(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<std::size_t> order(x.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -37,7 +37,8 @@ Line ResistantLine(const std::vector<double>& x, const std::vector<double>& y) {
   return {low_y - slope * low_x, slope};
 }
 
-// The median of the three readings nearest to `voltage`, so that one outlier does not decide.
+// Median of the three readings nearest to `voltage` (of fewer than five, the nearest one), against
+// outliers.
 double CurrentNear(double voltage, const std::vector<double>& voltage_V,
                    const std::vector<double>& current_A) {
   std::vector<std::size_t> order(voltage_V.size());

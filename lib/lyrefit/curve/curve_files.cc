@@ -50,7 +50,7 @@ void AddBounds(const fs::path& folder, Paths* paths) {
   }
 }
 
-// What is read along with a table.
+// Files that are read together with a table.
 Paths BesideTable(const fs::path& table) {
   const fs::path folder = FolderOf(table);
   Paths paths = {fs::path(table).replace_extension(".json"),
@@ -66,7 +66,7 @@ Paths BesideTable(const fs::path& table) {
 FileRole RoleOfTable(const fs::path& file, const fs::path& table) {
   if (IsSame(file, table)) return FileRole::kRead;
   if (IsAmong(file, BesideTable(table))) return FileRole::kConditions;
-  // The conditions may also lie where a link leads to.
+  // The conditions may also be beside the target of a symbolic link.
   std::error_code error;
   const fs::path target = fs::canonical(table, error);
   return !error && IsAmong(file, BesideTable(target)) ? FileRole::kConditions : FileRole::kNone;

@@ -6,22 +6,22 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a file is to a measurement.
+// Role of a file for a measurement.
 enum class FileRole {
   kNone,
-  kRead,        // it is read: the table itself, a table of the folder
-  kConditions,  // conditions, an index or published bounds are read from a file of this name, be it
-                // there or not
-  kNewCurve,    // it is not there, but in a folder where every table is read as a curve
+  kRead,        // an input: the table itself, or a table of the folder
+  kConditions,  // conditions, an index or published bounds are read from this name, whether the
+                // file exists or not
+  kNewCurve,    // does not exist yet, in a folder whose tables are all read as curves
 };
 
-// What writing `file` would do to the measurement at `input`, a file or folder as ReadCurve and
-// ReadCurveSet take it. Files are the same if they are one file on the disk (links, another way to
-// it), and where one is not there yet, if folder and name are the same but for upper and lower
-// case. kNone where there is no `input`.
+// Role of `file` for the measurement at `input`, a file or folder as ReadCurve and ReadCurveSet
+// accept it. The role shows whether writing `file` would change the measurement. Two existing paths
+// are the same if they lead to one file on the disk. Otherwise the folder must be the same and the
+// names must agree, ignoring case. kNone if `input` does not exist.
 FileRole RoleOf(const std::string& file, const std::string& input);
 
-// Whether two paths lead to one file, in the same sense.
+// Whether two paths lead to one file, by the rules of RoleOf.
 bool IsSameFile(const std::string& a, const std::string& b);
 
 }  // namespace lyrefit

@@ -31,7 +31,7 @@ bool Contains(const std::string& text, std::string_view part) {
   return LowerCase(text).find(part) != std::string::npos;
 }
 
-// Beside a column `file` one named curve may be a mere count.
+// A column `file` has priority, since a column `curve` beside it may be a mere count.
 int FindId(const std::vector<Column>& columns, IndexIds ids) {
   int found = kNoColumn;
   for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
@@ -43,8 +43,8 @@ int FindId(const std::vector<Column>& columns, IndexIds ids) {
   return found;
 }
 
-// The first column of the kind that can be used; one whose label holds `lesser` only without
-// others.
+// The first usable column of the kind. A column whose label contains `lesser` is used only if there
+// is no other.
 int FindCondition(const std::vector<Column>& columns, ColumnKind kind, std::string_view lesser) {
   int found = kNoColumn;
   for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
@@ -81,7 +81,7 @@ Expected<IndexLayout> FindIndexLayout(std::string_view header, int line, const s
               path, line, 1);
 }
 
-// The rows of an index.
+// The rows of an index while they are read.
 struct IndexRows {
   const IndexLayout& layout;
   IndexIds ids;
@@ -131,7 +131,7 @@ Expected<void> ReadIndexRow(IndexRows* rows, std::string_view line, int number) 
   return {};
 }
 
-// What the header says besides.
+// Records which conditions the index states, and the conversions of its columns.
 void DescribeColumns(const IndexLayout& layout, CurveIndex* index) {
   index->states_irradiance = layout.irradiance != kNoColumn;
   index->states_temperature = layout.temperature != kNoColumn;

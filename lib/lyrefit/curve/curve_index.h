@@ -10,28 +10,28 @@
 
 namespace lyrefit {
 
-// What the index of a set says about one curve; empty where its field is.
+// One row of the index of a set; unset values belong to empty fields.
 struct IndexRow {
   std::optional<double> irradiance_W_m2;
   std::optional<double> temperature_C;
-  Error missing;  // what to answer if the set has no such curve
+  Error missing;  // the error to report if the set has no such curve
 };
 
 struct CurveIndex {
-  std::map<std::string, IndexRow> rows;  // by the id of the curve
-  bool states_irradiance = false;        // there is such a column
+  std::map<std::string, IndexRow> rows;  // by curve id
+  bool states_irradiance = false;        // the index has an irradiance column
   bool states_temperature = false;
   std::vector<Assumption> assumptions;
 };
 
 enum class IndexIds {
-  kNumbers,  // of a table's curve column; "07" is 7
-  kFiles     // names of tables, with or without their ending
+  kNumbers,  // numbers in a table's curve column; "07" is 7
+  kFiles     // names of tables, with or without extension
 };
 
-// Reads a table of one row a curve: a column `curve`, `sweep` or `file` says which. Of several
-// temperatures the cell's goes before the module's; those of the air and irradiances of other
-// planes are left alone.
+// Reads a table with one row for each curve. The column `curve`, `sweep` or `file` holds the id. Of
+// several temperatures, that of the cell is preferred to that of the module. Air temperatures and
+// irradiances of other planes are ignored.
 Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
                                     const ReadOptions& options);
 

@@ -10,42 +10,41 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A curve of a set that could not be read, and why.
+// A curve of a set that could not be read, with the reason.
 struct RejectedCurve {
   std::string id;
   Error error;
 };
 
-// Curves of one device under different irradiance and temperature. IvCurve::name is the curve's id,
+// Curves of one device at different irradiances and temperatures. IvCurve::name is the curve's id,
 // unique within the set.
 struct CurveSet {
   std::string name;    // "sandia_pvue125"
   std::string source;  // file or folder
   std::vector<IvCurve> curves;
-  std::vector<RejectedCurve> rejected;  // the others are there nevertheless
-  std::vector<Assumption> assumptions;  // what holds for every curve
+  std::vector<RejectedCurve> rejected;  // curves that could not be read
+  std::vector<Assumption> assumptions;  // assumptions shared by all curves
 };
 
-// Reads a set from
-//   - a folder that holds curves.csv (columns curve, voltage, current) and, beside it, index.csv
-//     with one row a curve (curve, irradiance, temperature, other columns are left alone) and
-//     dataset.json (a sidecar with what holds for all curves),
-//   - one table with a `curve` or `sweep` column, conditions per row, in a sidecar NAME.json or in
-//     an index file NAME-index.csv beside it,
-//   - a folder of tables, one curve each, each with its own sidecar or with a row of index.csv
+// Reads a set from one of these sources:
+//   - a folder with curves.csv (columns curve, voltage, current) and, beside it, index.csv with one
+//     row for each curve (curve, irradiance, temperature; other columns are ignored) and
+//     dataset.json (a sidecar for all curves),
+//   - one table with a `curve` or `sweep` column and conditions in its rows, in a sidecar NAME.json
+//     or in an index file NAME-index.csv beside it,
+//   - a folder of tables of one curve each, with separate sidecars or with rows of index.csv
 //     (column `curve` or `file`),
-//   - one table with several currents over one voltage, or several pairs, side by side,
-//   - a JSON file with many curves, as ReadCurve knows them.
-// A condition that nobody states is left at its default with irradiance_known or temperature_known
-// false. Ids that occur twice, rows of the index without a curve and the like are errors; a file of
-// a folder or a curve of a table that is broken goes to `rejected`, unless nothing is left.
+//   - one table with several currents over one voltage, or several voltage-current pairs,
+//   - a JSON file with many curves, in the formats that ReadCurve reads.
+// A condition that is not stated has its default, with irradiance_known or temperature_known false.
+// Errors include ids that occur twice and rows of the index without a curve. An invalid file of a
+// folder or curve of a table is added to `rejected`; it is an error if no valid curve remains.
 Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options = {});
 
-// Whether `path` holds several curves, as ReadCurveSet understands it. A pipe is not looked into:
-// false.
+// Whether ReadCurveSet would find several curves in `path`. False for a pipe, which is not read.
 bool HoldsCurveSet(const std::string& path, const ReadOptions& options = {});
 
-// A curve as a set of its own.
+// A set of one curve.
 CurveSet SetOfOne(IvCurve curve);
 
 }  // namespace lyrefit

@@ -34,7 +34,7 @@ void SayWhereTheyDiffer(About about, const char* unit, const std::optional<doubl
       about);
 }
 
-// Moves the sentences that every curve has to the set.
+// Moves the assumptions that all curves share to the set.
 void GatherAssumptions(CurveSet* set) {
   std::map<std::string, std::size_t> curves_saying;
   for (const IvCurve& curve : set->curves) {
@@ -88,7 +88,8 @@ Expected<void> CurveSetBuilder::CheckIndex(const std::set<std::string>& ids) con
 
 void CurveSetBuilder::ApplyIndex(const Sidecar& own, Sidecar* stated, IvCurve* curve) const {
   if (!index_) return;
-  // An empty field says that nobody knows this curve's value, whatever holds for others.
+  // An empty field of the index means that the value is unknown for this curve, despite common
+  // values.
   if (index_->states_irradiance) stated->irradiance_W_m2.reset();
   if (index_->states_temperature) stated->temperature_C.reset();
   const auto found = index_->rows.find(curve->name);
@@ -111,7 +112,7 @@ void CurveSetBuilder::TakeHead(const Sidecar& head) {
 void CurveSetBuilder::Add(RawCurve raw, int line) {
   std::string id = raw.curve.name;
   Sidecar stated = common_;
-  // A nominal value of the whole set only stands in for a column.
+  // A common nominal value is used only if the curve has no column.
   if (!raw.curve.irradiance_W_m2.empty()) stated.irradiance_W_m2.reset();
   if (!raw.curve.temperature_C.empty()) stated.temperature_C.reset();
   ApplyIndex(raw.stated, &stated, &raw.curve);

@@ -14,32 +14,32 @@
 
 namespace lyrefit {
 
-// Collects the curves of a set and settles under what each was taken.
+// Collects the curves of a set and determines their conditions.
 class CurveSetBuilder {
  public:
   CurveSetBuilder(std::string name, std::string source, const ReadOptions& options);
 
-  // The sidecar and the index of the whole set; files that are not there say nothing.
+  // Reads the sidecar and the index of the whole set. A missing file adds nothing.
   Expected<void> ReadCommon(const std::string& path, SidecarOf of);
   Expected<void> ReadIndex(const std::string& path, IndexIds ids);
 
-  // What the head of a table of the whole set states; the sidecar goes before it.
+  // Adds the conditions in the head of a table of the whole set. The sidecar has priority.
   void TakeHead(const Sidecar& head);
 
-  // Every row of the index has to have its curve among `ids`.
+  // Checks that the curve of every index row is among `ids`.
   Expected<void> CheckIndex(const std::set<std::string>& ids) const;
 
-  // Takes a curve named by its id that begins in `line` of its file (0: not tied to one). What a
-  // column says goes before what is stated for the curve; then comes the index, then what is
-  // common.
+  // Adds a curve whose name is its id and whose first row is in `line` of its file (0: no line).
+  // Priority of conditions: column, statement for this curve, index, common statement. A curve that
+  // fails its checks is rejected.
   void Add(RawCurve raw, int line);
 
-  // Takes a curve whose reader has settled everything.
+  // Adds a curve whose conditions are already determined.
   void AddSettled(IvCurve curve);
 
   void Reject(std::string id, Error error);
 
-  // What holds for every curve.
+  // Adds assumptions shared by all curves.
   void Assume(const std::vector<Assumption>& assumptions);
 
   Expected<CurveSet> Finish();

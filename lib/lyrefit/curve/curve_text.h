@@ -7,20 +7,21 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/text_encoding.h"
 
-// What a file holds, where it cannot be read twice. JSON is known by its text.
+// Reading from text that is already in memory, for sources that cannot be read twice. JSON is
+// detected by parsing.
 namespace lyrefit {
 
-// As ReadCurve reads it.
+// Interprets the text as ReadCurve would interpret a file.
 Expected<IvCurve> CurveOfFile(const DecodedText& text, const std::string& path,
                               const ReadOptions& options);
 
-// As HoldsCurveSet and ReadCurveSet understand it.
+// Interpret the text as HoldsCurveSet and ReadCurveSet would interpret a file.
 bool TextHoldsCurveSet(const DecodedText& text, const std::string& path,
                        const ReadOptions& options);
 Expected<CurveSet> CurveSetOfFile(const DecodedText& text, const std::string& path,
                                   const ReadOptions& options);
 
-// The set that a pipe holds, or its one curve as a set; reads it once.
+// Reads a pipe once: its set, or its single curve as a set.
 Expected<CurveSet> ReadCurvesOfStream(const std::string& path, const ReadOptions& options);
 
 }  // namespace lyrefit

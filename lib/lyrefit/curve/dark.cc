@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-// Current at the smallest |V|.
+// Current at the reading with the smallest |V|.
 double CurrentNearZero(const IvCurve& curve) {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < curve.size(); ++k) {

@@ -4,12 +4,12 @@
 
 namespace lyrefit {
 
-// Whether a curve was taken in the dark: it has no photocurrent. A curve that is stated as dark
-// (irradiance 0) has one where it delivers at 0 V more than an offset of the meter could be (5 % of
-// its largest current), any other where it delivers 0.2 %.
+// Whether a curve was measured in the dark, without photocurrent. The current at the voltage
+// nearest to 0 V is compared with the largest |current|. A curve stated as dark (irradiance 0) is
+// dark up to 5 %, which may be an offset of the meter. Any other curve is dark up to 0.2 %.
 bool IsDark(const IvCurve& curve);
 
-// Whether somebody stated that it was.
+// Whether the irradiance is stated, and as 0.
 bool IsStatedDark(const IvCurve& curve);
 
 }  // namespace lyrefit

@@ -9,12 +9,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kFewestEqual = 5;    // readings; fewer are chance
-constexpr double kSteps = 20;      // a change of so many steps of the instrument is no rounding
+constexpr int kFewestEqual = 5;    // readings; shorter runs occur by chance
+constexpr double kSteps = 20;      // steps of the instrument that exceed rounding
 constexpr double kVisible = 0.02;  // of the range of the currents
 constexpr double kSharp = 5e-4;    // of the range of the currents, at a corner
 
-// The readings by rising voltage, or by falling voltage, which looks at the other end.
+// The readings by rising voltage; by falling voltage to examine the low-voltage end.
 struct Ordered {
   std::vector<int> position;  // in the curve
   std::vector<double> voltage_V;
@@ -36,15 +36,16 @@ Ordered ByVoltage(const IvCurve& curve, bool falling) {
   return ordered;
 }
 
-// How many of the last values are equal.
+// Number of equal values at the end.
 int EqualAtTheEnd(const std::vector<double>& values) {
   const auto other = std::find_if(values.rbegin(), values.rend(),
                                   [&](double value) { return value != values.back(); });
   return static_cast<int>(other - values.rbegin());
 }
 
-// The step of a coarse instrument: what all small differences between neighbours are multiples of.
-// 0: a fine one. Where the differences are too few or too unequal to tell, the smallest.
+// Current step of a coarse instrument, of which all small differences between neighbours are
+// multiples; 0 for a fine instrument. With too few small differences to decide, it is the smallest
+// difference.
 double CoarseStep(const std::vector<double>& values) {
   constexpr int kTelling = 6;
   constexpr int kMostParts = 8;
@@ -76,8 +77,8 @@ double RangeOf(const std::vector<double>& values) {
   return *high - *low;
 }
 
-// The smallest slope of the three intervals before the last `run` readings, in ampere per volt: an
-// outlier or a bypass diode's step makes one or two steep, not three.
+// The smallest slope of the three intervals before the last `run` readings, in A/V. An outlier or
+// the step of a bypass diode makes one or two intervals steep, but not three.
 double SlopeBefore(const Ordered& readings, int run) {
   double slope = HUGE_VAL;
   int intervals = 0;
@@ -92,7 +93,8 @@ double SlopeBefore(const Ordered& readings, int run) {
   return intervals == 3 ? slope : 0;
 }
 
-// Beyond the knee a device's current falls ever faster.
+// Whether the slope before the run makes constant current implausible: beyond the knee a device's
+// current falls ever faster.
 bool IsForwardLimit(const Ordered& readings, int run) {
   const double width =
       std::fabs(readings.voltage_V.back() - readings.voltage_V[readings.position.size() - run]);
@@ -101,11 +103,12 @@ bool IsForwardLimit(const Ordered& readings, int run) {
          expected > kVisible * RangeOf(readings.current_A);
 }
 
-// Over how many volts the slope of a device falls by e, at least: a diode of n = 1 in the cold; in
-// a module a third of its cells may turn the corner alone, behind a bypass diode.
+// Lower limit of the voltage over which the slope of a device falls by a factor of e, in V. It is
+// that of a cold diode with n = 1 for each cell. In a module a third of the cells may pass the knee
+// alone, behind a bypass diode.
 double SharpestCorner_V(const IvCurve& curve) {
   constexpr double kThermal_V = 0.02;
-  constexpr double kUsual_V = 0.62;  // of a cell, where nobody counted them
+  constexpr double kUsual_V = 0.62;  // of a cell, if their number is unknown
   constexpr double kFewestBypassed = 18;
   const double highest_V = *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
   const double cells =
@@ -113,8 +116,8 @@ double SharpestCorner_V(const IvCurve& curve) {
   return kThermal_V * (cells < kFewestBypassed ? cells : cells / 3);
 }
 
-// Towards low voltage (the order is falling) the slope of a device dies away, but no faster than a
-// diode's exponential does.
+// Whether the run ends the curve more abruptly than a diode. Towards low voltage (`readings` are in
+// falling order) the slope decays at most exponentially.
 bool IsReverseLimit(const Ordered& readings, int run, double corner_V) {
   const std::size_t first = readings.position.size() - run;
   const double level = readings.current_A.back();
@@ -165,12 +168,12 @@ int LongestRunElsewhere(const Ordered& readings, int run) {
 }
 
 void LookForVoltageLimit(const IvCurve& curve, bool low_end, std::vector<ReadingFinding>* out) {
-  constexpr int kUpAndDown = 2;  // readings at one voltage that a sweep there and back has
+  constexpr int kUpAndDown = 2;  // readings at one voltage in a sweep up and down
   const Ordered readings = ByVoltage(curve, low_end);
   const int run = EqualAtTheEnd(readings.voltage_V);
   if (run < kFewestEqual || run + 4 > static_cast<int>(curve.size())) return;
   if (LongestRunElsewhere(readings, run) > kUpAndDown) return;
-  // Equal currents as well are one state read again and again, which harms nobody.
+  // If the currents agree as well, one state was read repeatedly, which is harmless.
   const std::vector<double> currents(readings.current_A.end() - run, readings.current_A.end());
   if (RangeOf(currents) < kVisible * RangeOf(readings.current_A)) return;
   out->push_back(LimitFinding(

@@ -7,13 +7,14 @@
 
 namespace lyrefit {
 
-// Runs of exactly equal currents or voltages at an end of the curve that a coarse instrument does
-// not explain: a limit of the source or the load. All are doubts, with their points.
+// Finds runs of exactly equal currents or voltages at an end of the curve. Such a run is a limit of
+// the source or the load unless the resolution of the instrument explains it. All findings are
+// doubts and list their points.
 //
-// Equal currents at the high end need a slope before them that goes on nowhere; at the low end,
-// where an illuminated device is flat by nature and a coarse instrument repeats itself, they need a
-// corner sharper than a diode's. Equal voltages need currents
-// that differ, and readings elsewhere that do not repeat.
+// Equal currents at the high-voltage end are a finding if the slope before them would have
+// continued visibly. An illuminated device is flat at the low-voltage end, and a coarse instrument
+// repeats readings there. Equal currents there are a finding only after a corner sharper than a
+// diode's. Equal voltages are a finding if their currents differ and no readings elsewhere repeat.
 std::vector<ReadingFinding> FindEqualReadings(const IvCurve& curve);
 
 }  // namespace lyrefit

@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kFewestPoints = 10;  // readings
+constexpr std::size_t kFewestPoints = 10;  // bins with readings
 constexpr int kBins = 64;
 constexpr double kDeep = 0.02;  // of the largest current
 constexpr double kNoises = 6;
@@ -21,8 +21,8 @@ double Median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// Delivered current at forward voltage by rising voltage: means over even bins, so that sweeps up
-// and down and readings at one voltage count once.
+// Currents at forward voltage up to the last delivering voltage, as means over equal voltage bins.
+// Binning merges sweeps up and down and repeated readings at one voltage.
 std::vector<StepPoint> Binned(const IvCurve& curve) {
   double last_V = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -49,7 +49,7 @@ std::vector<StepPoint> Binned(const IvCurve& curve) {
   return points;
 }
 
-// Single outliers taken out.
+// Removes single outliers by a running median of three.
 std::vector<StepPoint> Smooth(const std::vector<StepPoint>& points) {
   std::vector<StepPoint> smooth = points;
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {
@@ -59,7 +59,8 @@ std::vector<StepPoint> Smooth(const std::vector<StepPoint>& points) {
   return smooth;
 }
 
-// From second differences, by their median: neither a knee nor a step counts.
+// Standard deviation of the noise from the median second difference, which knees and steps hardly
+// affect.
 double NoiseOf(const std::vector<StepPoint>& points) {
   std::vector<double> differences;
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {

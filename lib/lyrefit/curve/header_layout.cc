@@ -19,7 +19,7 @@ Fields LabelsOf(const std::vector<Column>& columns) {
   return labels;
 }
 
-// The column of `kind`: the usable one if there is one, the refused one if it is the only.
+// The usable column of `kind`; if the only one is unusable, its error.
 Expected<int> PickColumn(const TableLayout& layout, ColumnKind kind, const HeaderPlace& place) {
   int usable = kNoColumn;
   int refused = kNoColumn;
@@ -44,7 +44,7 @@ Expected<int> PickColumn(const TableLayout& layout, ColumnKind kind, const Heade
   return usable;
 }
 
-// Why there is no pair of voltage and current, at the place of the column to blame.
+// Error for a missing pair of voltage and current, at the position of the column that causes it.
 tl::unexpected<Error> NoChannel(const TableLayout& layout, const ReadOptions& options,
                                 const HeaderPlace& place) {
   for (const std::string* wish : {&options.voltage_column, &options.current_column}) {
@@ -95,7 +95,7 @@ Expected<void> PickColumns(const ReadOptions& options, const HeaderPlace& place,
   return {};
 }
 
-// A time of day or a label is no use to us, but no reason to refuse the curve.
+// Drops a time column of text, such as a time of day, which is no reason to refuse the curve.
 void DropTextColumns(std::string_view row, TableLayout* layout) {
   const auto fields = SplitFields(row, layout->delimiter);
   if (!fields || layout->time == kNoColumn) return;
@@ -137,7 +137,8 @@ void SayWhatWasAssumed(TableLayout* layout) {
   }
 }
 
-// The two columns of a table without a header: the first two, unless the options name others.
+// Columns of voltage and current in a table without a header: the first two, unless the options
+// select others.
 Expected<Channel> PlacesWithoutHeader(const std::vector<Column>& columns, const HeaderPlace& place,
                                       const ReadOptions& options) {
   std::optional<int> places[2];

@@ -11,7 +11,7 @@
 
 namespace lyrefit {
 
-// Where a header or first row stands, for the errors.
+// Position of a header or first row, for errors.
 struct HeaderPlace {
   const std::string& file;
   int line;
@@ -23,19 +23,19 @@ struct HeaderPlace {
   }
 };
 
-// What the columns of a header are; where the rows begin is left open. `next_line` is the first
-// row.
+// Interprets the columns of a header. `next_line` is the line below it. The caller sets where the
+// rows begin.
 Expected<TableLayout> LayoutOfHeader(const TableLine& header, const HeaderPlace& place,
                                      std::string_view next_line, const ReadOptions& options);
 
-// The same for a table that begins with a row.
+// Builds the layout of a table without a header from its first row.
 Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlace& place,
                                           const ReadOptions& options);
 
-// Whether the rows are asked for this column.
+// Whether values of this column are read.
 bool IsUsed(const TableLayout& layout, int column);
 
-// "'a', 'b'", of many names the first ones.
+// The names as "'a', 'b'"; of many names only the first ones.
 std::string ListOf(const Fields& names);
 
 }  // namespace lyrefit

@@ -54,7 +54,7 @@ bool TableHoldsSet(const std::string& text, const fs::path& path, const ReadOpti
 
 bool HoldsCurveSet(const std::string& path, const ReadOptions& options) {
   if (IsFolder(path)) return FolderHoldsSet(path);
-  if (IsStream(path)) return false;  // what is read to be looked at is gone
+  if (IsStream(path)) return false;  // reading a pipe would consume its content
   const auto text = ReadDecodedFile(path, options.largest_file_bytes);
   if (!text) return false;
   return IsJson(path) ? JsonHoldsSet(text->text, path, options)

@@ -20,14 +20,14 @@
 namespace lyrefit {
 namespace {
 
-// The name of what stands in `id` under `key`.
+// The id of the element `key` inside the element `id`.
 std::string Below(const std::string& id, const std::string& key) {
   return id.empty() ? key : fmt::format("{}.{}", id, key);
 }
 
 using nlohmann::json;
 
-// A table in whatever form JSON gave it.
+// A table in any JSON form: column names and cells.
 struct JsonTable {
   std::vector<std::string> names;
   std::vector<std::vector<const json*>> columns;
@@ -37,14 +37,15 @@ bool IsScalar(const json& value) {
   return value.is_number() || value.is_null() || value.is_string();
 }
 
-// What NOMAD's schema says of numbers whose names say no unit.
+// Adds the units of NOMAD's schema to names that state none.
 std::string LabelInNomad(const std::string& key) {
   if (key == "active_area") return key + " [cm2]";
   if (key == "light_intensity" || key == "intensity") return key + " [mW/cm2]";
   return key;
 }
 
-// {"v": [...], "i": [...]}, also with {"0": ..., "1": ...} for the lists, as pandas writes columns.
+// Lists under names, {"v": [...], "i": [...]}. Lists may also be {"0": ..., "1": ...}, as pandas
+// writes columns.
 JsonTable FromLists(const json& object) {
   JsonTable table;
   for (const auto& [key, value] : object.items()) {
@@ -58,7 +59,7 @@ JsonTable FromLists(const json& object) {
   return table;
 }
 
-// [{"v": 0, "i": 1}, ...], also {"0": {"v": 0, "i": 1}, ...}, as pandas writes rows.
+// Records, [{"v": 0, "i": 1}, ...], or {"0": {"v": 0, "i": 1}, ...}, as pandas writes rows.
 JsonTable FromRecords(const json& records) {
   JsonTable table;
   if (records.size() < 2 || !records.begin()->is_object()) return table;
@@ -78,7 +79,7 @@ JsonTable FromRecords(const json& records) {
   return table;
 }
 
-// {"columns": ["v", "i"], "data": [[0, 1], ...]}, as pandas writes split tables.
+// Split tables of pandas, {"columns": ["v", "i"], "data": [[0, 1], ...]}.
 JsonTable FromSplit(const json& object) {
   JsonTable table;
   const auto names = object.find("columns");
@@ -103,7 +104,7 @@ bool IsMissing(const json& value) {
   return value.is_number() && !(std::fabs(value.get<double>()) < kOverflowCode);
 }
 
-// Leaves out the rows without a voltage or a current; returns how many.
+// Removes the rows without a voltage or a current and returns their number.
 std::size_t DropMissing(const Channel& channel, JsonTable* table) {
   const std::size_t rows = table->columns[channel.voltage].size();
   if (table->columns[channel.current].size() != rows) return 0;
@@ -124,7 +125,7 @@ std::size_t DropMissing(const Channel& channel, JsonTable* table) {
   return std::count(missing.begin(), missing.end(), true);
 }
 
-// The curves of a document, as they are found.
+// The curves found so far in a document.
 struct FoundCurves {
   const std::string& path;
   const ReadOptions& options;
@@ -138,7 +139,7 @@ std::vector<JsonTable> TablesOf(const json& node) {
   return {};
 }
 
-// Curves may have names of their own.
+// The curve's name in the document, or else `otherwise`.
 std::string NameOf(const json& node, const std::string& otherwise) {
   for (const char* key : {"cell_name", "name", "id"}) {
     if (!node.is_object()) break;
@@ -223,7 +224,7 @@ std::string UniqueId(FoundCurves* found, const std::string& id) {
   return unique;
 }
 
-// False if the table holds no voltage and current.
+// Adds the curves of a table. False if it has no pair of voltage and current.
 Expected<bool> TakeTable(FoundCurves* found, const JsonTable& table, const std::string& id,
                          const Sidecar& around) {
   std::vector<Column> columns;

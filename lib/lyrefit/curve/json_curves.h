@@ -10,11 +10,11 @@
 
 namespace lyrefit {
 
-// Finds the curves of a JSON document that is no ivcurves file: lists of numbers under names that a
-// table's header may have, pandas tables (records, columns, split, index), NOMAD archives (V,
-// mA/cm2). Conditions are taken from the numbers beside a curve and around it. The curves are in
-// generator sign and named by their ids, unique in the document. Errors: no curve in it, or a
-// broken one; `path` is for them.
+// Finds the curves of a JSON document other than an ivcurves file. It recognises lists of numbers
+// under names that a table's header may have, pandas tables (records, columns, split, index) and
+// NOMAD archives (V, mA/cm2). Conditions are taken from numbers beside and around a curve. The
+// curves are in generator sign and named by ids that are unique in the document. Errors: no curve,
+// or an invalid one. `path` is only used in errors.
 Expected<std::vector<RawCurve>> FindJsonCurves(const nlohmann::json& document,
                                                const std::string& path, const ReadOptions& options);
 

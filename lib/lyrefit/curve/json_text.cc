@@ -29,8 +29,8 @@ Position PositionOf(const std::string& text, std::size_t offset) {
   return position;
 }
 
-// Reads along without building anything: finds where the text breaks, and keeps a text of endless
-// brackets from filling the memory.
+// Parses without building a document. It locates syntax errors, and limits the depth so that nested
+// brackets cannot exhaust the memory.
 class Inspector : public nlohmann::json_sax<json> {
  public:
   bool null() override { return true; }

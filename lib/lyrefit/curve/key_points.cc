@@ -11,7 +11,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kFarthest = 0.05;  // how far beyond its range a curve is extrapolated
+constexpr double kFarthest = 0.05;  // largest extrapolation, as a fraction of the curve's own range
 
 struct Point {
   double voltage_V;
@@ -20,7 +20,7 @@ struct Point {
   double power_W() const { return voltage_V * current_A; }
 };
 
-// By rising voltage; readings at one voltage become their mean.
+// Points by rising voltage; readings at one voltage are replaced by their mean.
 std::vector<Point> SortAndMerge(const std::vector<double>& voltage_V,
                                 const std::vector<double>& current_A) {
   std::vector<Point> points(voltage_V.size());
@@ -48,8 +48,8 @@ double CurrentAt(double voltage_V, const Point& a, const Point& b) {
   return a.current_A + part * (b.current_A - a.current_A);
 }
 
-// The last point and, from `last` in direction `step`, the next one far enough away for the slope
-// between them to stand above the noise of densely read curves.
+// The nearest point to `last` in direction `step` that is at least 1 % of the voltage range away.
+// The slope between closer points of a dense curve would be noise.
 const Point& Partner(const std::vector<Point>& points, std::size_t last, int step) {
   const double range = points.back().voltage_V - points.front().voltage_V;
   std::size_t at = last + step;
@@ -75,7 +75,7 @@ double ShortCircuitCurrent(const std::vector<Point>& points) {
 }
 
 double OpenCircuitVoltage(const std::vector<Point>& points) {
-  // The crossing at the highest voltage: noise may make several.
+  // Noise may cause several crossings; the one at the highest voltage is used.
   for (std::size_t i = points.size() - 1; i > 0; --i) {
     const Point& a = points[i - 1];
     const Point& b = points[i];
@@ -95,13 +95,14 @@ double OpenCircuitVoltage(const std::vector<Point>& points) {
   if (!near) return kUnknown;
   const double beyond =
       last.current_A / (before.current_A - last.current_A) * (last.voltage_V - before.voltage_V);
-  // Two noisy points may be all but parallel to the axis.
+  // Two noisy points may be almost parallel to the axis, which makes the extrapolation unreliable.
   const double range = last.voltage_V - points[0].voltage_V;
   return beyond <= kFarthest * range ? last.voltage_V + beyond : kUnknown;
 }
 
-// The top of the parabola of power over voltage through three points with the middle one highest;
-// that point itself where uneven spacing would let noise carry the top far above the readings.
+// Vertex of the parabola of power over voltage through three points, of which the middle one is
+// highest. Returns the middle point if uneven spacing lets noise raise the vertex far above the
+// readings.
 Point TopOfParabola(const Point& left, const Point& best, const Point& right) {
   const double to_left = left.voltage_V - best.voltage_V;
   const double to_right = right.voltage_V - best.voltage_V;

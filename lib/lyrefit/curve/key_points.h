@@ -6,7 +6,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The five numbers a data sheet prints, and the fill factor. NaN where the curve does not reach.
+// The five key points of a data sheet, and the fill factor. NaN if the curve does not determine a
+// value.
 struct KeyPoints {
   double short_circuit_current_A;  // Isc
   double open_circuit_voltage_V;   // Voc
@@ -16,12 +17,12 @@ struct KeyPoints {
   double fill_factor;              // Pmp / (Isc Voc)
 };
 
-// Key points of measured points in any order. Isc and Voc by linear interpolation between the two
-// neighbours of the axis; where the curve stops short of an axis by at most 5 % of its own range
-// they are extrapolated on the last point and the nearest one at least 1 % of the voltage range
-// away, else NaN. Maximum power from the parabola through the best point and its neighbours in V
-// (the best point itself at the end of a curve, and where very uneven neighbours make the parabola
-// worthless).
+// Key points of measured points in any order, in V, A and W. Isc and Voc are interpolated linearly
+// between the two points next to the axis. If the curve ends before an axis by at most 5 % of its
+// own range, they are extrapolated, otherwise NaN. The extrapolation uses the last point and the
+// nearest one at least 1 % of the voltage range away. The maximum power is the vertex of a parabola
+// in V through the best point and its two neighbours. The best point itself is used at the end of a
+// curve, and if uneven spacing makes the parabola unreliable.
 KeyPoints FindKeyPoints(const std::vector<double>& voltage_V, const std::vector<double>& current_A);
 
 }  // namespace lyrefit

@@ -51,7 +51,8 @@ constexpr Unit kUnits[] = {
     {ColumnKind::kArea, "m2", 1e4, 0, false},
 };
 
-// The character beyond ASCII at the start of `text`, where it means something in a unit.
+// Translates a non-ASCII character at the start of `text` that has a meaning in units; nullopt if
+// there is none.
 std::optional<std::pair<std::string_view, std::string_view>> Symbol(std::string_view text) {
   static constexpr std::pair<std::string_view, std::string_view> kSymbols[] = {
       {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b2", "2"}, {"\u00b0", ""},     {"\u03a9", "ohm"},

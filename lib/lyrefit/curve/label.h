@@ -12,33 +12,33 @@ namespace lyrefit {
 struct LabelWord {
   std::string text;      // lower case, letters and digits only
   std::string original;  // as written
-  bool marked_as_unit;   // behind a bracket, slash or comma
+  bool marked_as_unit;   // preceded by a bracket, slash or comma
 };
 
-// The words of a label, none of a text too long to be one; what stands behind "vs." (the reference
-// of a potential) is left out.
+// The words of a label; none if the text is too long for a label. Words after "vs." are dropped:
+// they name the reference of a potential.
 std::vector<LabelWord> SplitLabel(std::string_view label);
 
-// The words from `from` up to `to`, one behind the other.
+// Concatenates the words from `from` up to, not including, `to`.
 std::string JoinWords(const std::vector<LabelWord>& words, std::size_t from, std::size_t to);
 
-// A value in this unit becomes factor * value + offset in that of IvCurve; a current density
-// becomes A/cm2, an area cm2.
+// A unit. factor * value + offset converts to the unit of IvCurve, a current density to A/cm2, an
+// area to cm2.
 struct Unit {
   ColumnKind kind;
   std::string_view text;
   double factor;
   double offset;
-  bool is_a_header;  // stands alone as a header: "Volts", "mA"
+  bool is_a_header;  // valid as a whole header: "Volts", "mA"
 };
 
 // The unit of `kind` called `text`; nullptr if there is none.
 const Unit* FindUnit(ColumnKind kind, std::string_view text);
 
-// The unit that stands alone as a header.
+// The unit that `text` names if it is a whole header; nullptr if none.
 const Unit* FindUnitHeader(std::string_view text);
 
-// What to name in an error.
+// Accepted units as text, for errors.
 std::string_view ExpectedUnits(ColumnKind kind);
 
 }  // namespace lyrefit

@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// What an outdoor record spans, so that neither drowns the other. With less for the temperature a
-// set without cold curves at low irradiance would answer 200 W/m2 with 400.
+// Spans of an outdoor record, so that neither quantity dominates. With a smaller span of
+// temperature, a set without cold curves at low irradiance would return 400 W/m2 for 200.
 constexpr double kIrradianceUnit_W_m2 = 1000;
 constexpr double kTemperatureUnit_K = 100;
 

@@ -9,21 +9,21 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Position of the curve that was taken closest to an irradiance and cell temperature. The distance
-// is that of (G / 1000 W/m2, T / 100 K), the spans of an outdoor record: 10 W/m2 count as much as 1
-// K. Of two curves equally far the first; curves whose irradiance or temperature nobody stated do
-// not take part. Errors: values that are no condition, a set without a curve whose conditions are
-// known.
+// Position of the curve measured nearest to an irradiance and a cell temperature in degrees
+// Celsius. The distance is Euclidean in (G / 1000 W/m2, T / 100 K), the spans of an outdoor record,
+// so that 10 W/m2 count as much as 1 K. The first of equally near curves is chosen. Curves without
+// stated irradiance or temperature are ignored. Errors: impossible conditions; no curve with known
+// conditions.
 Expected<std::size_t> NearestCurve(const CurveSet& set, double irradiance_W_m2,
                                    double temperature_C);
 
-// Position of the curve with that id. Errors: there is none.
+// Position of the curve with an id. Error: no such curve.
 Expected<std::size_t> FindCurve(const CurveSet& set, const std::string& id);
 
-// "987.2 W/m2, 24.6 C"; "?" for what nobody stated.
+// Conditions as text: "987.2 W/m2, 24.6 C"; "?" for values that are not stated.
 std::string ConditionsText(const IvCurve& curve);
 
-// How tables call a curve of a set: "sandia_pvue125/1234 (987.2 W/m2, 24.6 C)".
+// Label of a curve of a set in tables: "sandia_pvue125/1234 (987.2 W/m2, 24.6 C)".
 std::string LabelInSet(const CurveSet& set, const IvCurve& curve);
 
 }  // namespace lyrefit

@@ -22,7 +22,7 @@ std::optional<double> ConvertPlain(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
-#else  // a standard library that reads integers alone: C's function, less what it takes beyond that
+#else  // std::from_chars reads integers only: strtod, restricted to the same syntax
 std::optional<double> ConvertPlain(std::string_view text) {
   const bool beyond = text.empty() || text.find_first_of("xX") != std::string_view::npos ||
                       std::isspace(static_cast<unsigned char>(text[0])) != 0 || text[0] == '+';
@@ -42,7 +42,7 @@ std::optional<double> Convert(std::string_view text) {
   return ConvertPlain(text);
 }
 
-// "8,892.6" without the separators of its thousands; anything else as it is.
+// Removes the separators of thousands from "8,892.6"; returns other text unchanged.
 std::string WithoutThousands(std::string text, bool decimal_comma) {
   const std::size_t point = text.find_last_of(".,");
   if (point == std::string::npos || point == 0) return text;
@@ -64,7 +64,7 @@ std::string WithoutThousands(std::string text, bool decimal_comma) {
   return plain + text.substr(point);
 }
 
-// Bytes that follow `lead` in its UTF-8 sequence, -1 if none can begin with it.
+// Number of bytes that follow `lead` in a UTF-8 sequence; -1 if `lead` is invalid.
 int Followers(unsigned char lead) {
   if (lead < 0x80) return 0;
   if (lead >= 0xc2 && lead <= 0xdf) return 1;
@@ -73,7 +73,7 @@ int Followers(unsigned char lead) {
   return -1;
 }
 
-// Overlong forms, surrogates and values past U+10FFFF show in the first follower.
+// Overlong forms, surrogates and values above U+10FFFF are detected in the first following byte.
 bool FirstFollowerFits(unsigned char lead, unsigned char next) {
   switch (lead) {
     case 0xe0:
@@ -147,7 +147,7 @@ std::string LowerCase(std::string_view text) {
 std::string Quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string shown(text.substr(0, kLongest));
-  // Never cut through a character.
+  // Does not cut a character in two.
   while (!shown.empty() && FirstInvalidUtf8(shown)) shown.pop_back();
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';

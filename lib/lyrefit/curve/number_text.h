@@ -8,37 +8,38 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A decimal number in any locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus, blanks around it
-// allowed; with `decimal_comma` also "1,5". Thousands may be set apart where a decimal part shows
-// which separator is which: "8,892.6", with `decimal_comma` also "8.892,6". Empty for anything else
-// and for numbers beyond double; "nan" and "inf" are numbers here, so that the caller can refuse
-// them in its own words.
+// Parses a decimal number, independent of the locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus
+// and with blanks around it. `decimal_comma` also allows "1,5". Separators of thousands are allowed
+// if a decimal part identifies them: "8,892.6", with `decimal_comma` also "8.892,6". nullopt for
+// any other text and for numbers beyond double. "nan" and "inf" are returned as numbers, so that
+// the caller can report them.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
-// Half a unit of the last digit of a number as printed: 0.005 for "1.23", 5e-9 for "1.23E-06".
+// Half a unit of the last printed digit: 0.005 for "1.23", 5e-9 for "1.23E-06".
 double HalfUnit(const std::string& printed);
 
-// What instruments write for an overflow or for no value lies beyond this, what anybody measures
-// below.
+// Magnitudes from here on are codes that instruments write for an overflow or a missing value.
+// Readings are smaller.
 inline constexpr double kOverflowCode = 1e30;
 
-// Whether a field stands for a reading that is missing: empty, NaN, a word such as "NA" or "ovf",
-// or an overflow code.
+// Whether a field stands for a missing reading: empty, NaN, a word such as "NA" or "ovf", or an
+// overflow code.
 bool IsMissingReading(std::string_view text, bool decimal_comma = false);
 
-// A word that stands for a missing reading.
+// Whether the text is a word that stands for a missing reading.
 bool IsMissingWord(std::string_view text);
 
 // `text` without the blanks and tabs around it.
 std::string_view TrimBlanks(std::string_view text);
 
-// `text` with the letters of ASCII in lower case.
+// `text` with ASCII letters in lower case.
 std::string LowerCase(std::string_view text);
 
-// `text` in quotes for a message, shortened, control characters replaced.
+// `text` in quotes for a message; shortened, control characters replaced.
 std::string Quoted(std::string_view text);
 
-// Position (from 0) of the first byte that is not part of well-formed UTF-8.
+// Position (from 0) of the first byte that is not part of well-formed UTF-8; nullopt if there is
+// none.
 std::optional<std::size_t> FirstInvalidUtf8(std::string_view text);
 
 }  // namespace lyrefit

@@ -12,25 +12,26 @@ namespace lyrefit {
 namespace {
 
 constexpr double kStandard_W_m2 = 1000;
-// The offset of a sensor: less is not brought to 1000 W/m2.
+// Lower irradiances may be a sensor's offset; currents are scaled by this value at least.
 constexpr double kLeastLight_W_m2 = 10;
-// The largest cells give some 20 A; nobody states all strings of a combiner box.
+// The largest cells deliver about 20 A, and the strings of a combiner box are rarely all stated.
 constexpr double kMostOfString_A = 100;
-// All photons of AM1.5G down to 0.3 eV.
+// Current density of all photons of AM1.5G down to 0.3 eV.
 constexpr double kMostDensity_mA_cm2 = 70;
 constexpr double kLeastOfModule_A = 0.02;
 constexpr int kCellsOfModule = 30;
-constexpr double kLeastLightOfModule_W_m2 = 100;  // not dusk
-// A diode of n = 1 at 1.5 V has 0.92, and light that rises during the sweep adds to it.
+constexpr double kLeastLightOfModule_W_m2 = 100;  // excludes dusk
+// A diode of n = 1 at 1.5 V has 0.92, and irradiance that rises during the sweep increases it.
 constexpr double kMostFillFactor = 0.95;
 constexpr double kLeastFillFactor = 0.1;
-// Bright light, cold cells and a bright back come to less than twice the rating.
+// Strong irradiance, cold cells and a bright rear side give less than twice the rating.
 constexpr double kMostOfRating = 3;
-// The unit of the current is a factor of 1000.
+// A wrong unit of the current (mA for A) is a factor of 1000.
 constexpr double kLeastOfRating = 1.0 / 300;
 constexpr double kLeastLightOfRating_W_m2 = 200;
 
-// Isc, or the largest current delivered where the readings do not reach 0 V; 0: none is delivered.
+// Isc, or the largest current at forward voltage if the readings do not reach 0 V; 0 if none is
+// delivered.
 double DeliveredCurrent_A(const IvCurve& curve, const KeyPoints& key) {
   constexpr double kLit = 0.1;  // of the largest current
   double delivered_A = 0;
@@ -41,7 +42,7 @@ double DeliveredCurrent_A(const IvCurve& curve, const KeyPoints& key) {
   return delivered_A > kLit * LargestMagnitude(curve.current_A) ? delivered_A : 0;
 }
 
-// In parts of 1000 W/m2; 1 where nobody stated it.
+// Irradiance as a fraction of 1000 W/m2; 1 if not stated.
 double LightOf(const IvCurve& curve) {
   if (!curve.irradiance_known) return 1;
   return std::max(curve.conditions.irradiance_W_m2, kLeastLight_W_m2) / kStandard_W_m2;
@@ -86,7 +87,8 @@ std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
       isc_A, AtLight(curve), at.cells_in_series);
 }
 
-// By the readings themselves: a parabola through few of them may pass above all.
+// Checks the fill factor of the readings themselves: a parabola through few readings may exceed
+// them.
 std::string OddShape(const IvCurve& curve, const KeyPoints& key) {
   double power_W = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {

@@ -23,11 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// A curve of a document by its number among them: the Index of an ivcurves file, else its place.
+// A curve of a document and its number: the Index of an ivcurves file, else its place.
 struct NumberedCurve {
   std::string number;
   RawCurve raw;
-  bool settled = false;  // its reader has settled the conditions
+  bool settled = false;  // the reader has determined the conditions
 };
 
 Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::string& path,
@@ -100,7 +100,7 @@ Expected<IvCurve> ReadFromTable(const std::string& path, const ReadOptions& opti
   return FromTable(std::move(raw), options);
 }
 
-// The document that a text is; none where it is no JSON.
+// The JSON document that the text holds; nullopt if it is no JSON object or array.
 std::optional<json> DocumentIn(const DecodedText& text, const std::string& path) {
   Expected<json> document = ParseJson(text.text, path);
   const bool is_json = document && (document->is_object() || document->is_array());

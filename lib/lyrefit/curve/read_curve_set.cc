@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A curve of a table and the line of its first row.
+// A curve of a table, and the line of its first row.
 struct TablePart {
   IvCurve curve;
   int line;
@@ -43,7 +43,7 @@ void AppendRow(const IvCurve& all, std::size_t row, IvCurve* curve) {
   }
 }
 
-// The curves of a table in the order in which they begin, without those that have broken rows.
+// The curves of a table in order of their first rows, without those that have invalid rows.
 std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
   std::vector<TablePart> parts;
   std::map<int, std::size_t> places;
@@ -63,7 +63,7 @@ std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
   return parts;
 }
 
-// How many pairs of voltage and current stand side by side.
+// Number of voltage-current pairs side by side.
 Expected<std::size_t> CountChannels(std::string_view text, const std::string& path,
                                     const ReadOptions& options) {
   ReadOptions first = options;
@@ -72,7 +72,7 @@ Expected<std::size_t> CountChannels(std::string_view text, const std::string& pa
   return layout.channels.size();
 }
 
-// Every pair is a curve, named by its current.
+// Adds each voltage-current pair as a curve, named by its current.
 Expected<void> AddChannels(std::string_view text, const std::string& path, std::size_t channels,
                            const ReadOptions& options, CurveSetBuilder* builder) {
   std::set<std::string> ids;
@@ -95,7 +95,7 @@ Expected<void> AddChannels(std::string_view text, const std::string& path, std::
   return {};
 }
 
-// Every number in the column curve or sweep is a curve, and so is every table below another.
+// Adds a curve for each number in the column curve or sweep, and for each further table below.
 Expected<void> AddSweeps(std::string_view text, const std::string& path, const fs::path& index,
                          const ReadOptions& options, CurveSetBuilder* builder) {
   TRY(const Table table, ReadTable(text, path, options, BrokenRows::kSetAside));
@@ -119,7 +119,7 @@ Expected<void> AddSweeps(std::string_view text, const std::string& path, const f
   return builder->CheckIndex(ids);
 }
 
-// `path` is the table, `source` what the caller named: the table or its folder.
+// `path` is the table; `source` is the path that the caller gave, the table or its folder.
 Expected<CurveSet> SetFromTable(const DecodedText& text, const std::string& path,
                                 const std::string& source, const ReadOptions& options) {
   const fs::path file(path);

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// One file, and the entry that is read.
+// A file and its current entry.
 struct IvCurvesFile {
   const json& document;
   const std::string& path;
@@ -60,7 +60,7 @@ Expected<void> ReadNumbers(const std::string& path, const std::string& place, co
   return {};
 }
 
-// The entry of the curve, else that of the file; null where neither says anything.
+// The setting of the curve's entry, else that of the file; null if neither states it.
 json Setting(const json& document, const json& entry, const char* key) {
   for (const json* object : {&entry, &document}) {
     const auto found = object->find(key);

@@ -10,20 +10,21 @@
 
 namespace lyrefit {
 
-// A curve of an ivcurves file, or why it could not be read.
+// A curve of an ivcurves file, or the reason why it could not be read.
 struct IvCurvesEntry {
-  std::string id;  // its Index; its place in the file where that is not a number
+  std::string id;  // the Index; the place in the file if the Index is no number
   Expected<IvCurve> curve;
 };
 
 // Whether a JSON document is an ivcurves file, by its key "IV Curves".
 bool IsIvCurves(const nlohmann::json& document);
 
-// What ReadIvCurvesJson reads, with the broken entries. Two of the same Index are an error.
+// All entries of an ivcurves file, including invalid ones. Error: an Index that occurs twice.
+// `path` is only used in errors and names.
 Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const nlohmann::json& document,
                                                          const std::string& path);
 
-// A file as JSON.
+// Parses a file as JSON.
 Expected<nlohmann::json> ReadJsonFile(const std::string& path, const ReadOptions& options);
 
 }  // namespace lyrefit

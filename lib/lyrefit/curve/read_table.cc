@@ -21,7 +21,7 @@
 namespace lyrefit {
 namespace {
 
-// A column that is read and where its values go.
+// A column that is read, and the destination of its values.
 struct Slot {
   int field;
   std::vector<double>* values;
@@ -47,7 +47,7 @@ class RowReader {
     values_.resize(slots_.size());
   }
 
-  // Appends the row, or nothing of it: one without a reading may be left out.
+  // Appends the row completely or not at all. A row with a missing reading may be skipped.
   Expected<void> Read(std::string_view line, int number) {
     if (layout_.channels.size() > 1 && IsPastEnd(line)) return {};
     TRY(row_.Take(line, number));
@@ -68,7 +68,7 @@ class RowReader {
     return {};
   }
 
-  // Remembers the row that Read refused, if it can be told whose it is.
+  // Records the error of a row that Read refused. False if the row's sweep cannot be read.
   bool SetAside(std::string_view line, int number, const Error& error) {
     if (layout_.sweep == kNoColumn || !row_.Take(line, number)) return false;
     const Expected<int> sweep = row_.WholeNumber(layout_.sweep);
@@ -81,7 +81,7 @@ class RowReader {
     return IsMissingReading(row_[field], layout_.delimiter != ',');
   }
 
-  // Of pairs side by side some may end before the others.
+  // Whether this pair has ended: of pairs side by side, some may be shorter than others.
   bool IsPastEnd(std::string_view line) const {
     const auto fields = SplitFields(line, layout_.delimiter);
     if (!fields) return false;
@@ -106,8 +106,9 @@ bool HasLetter(std::string_view text) {
   });
 }
 
-// Whether `line` can be no row of the table, not even a broken one: it begins with a word where a
-// number belongs, or has no number where the voltage belongs. Only delimiters are nothing at all.
+// Whether `line` cannot be a row of the table, not even an invalid one. Such a line begins with a
+// word in place of a number, or has no number in the voltage column. A line of delimiters only
+// counts as text.
 bool IsText(std::string_view line, const TableLayout& layout) {
   const auto fields = SplitFields(line, layout.delimiter);
   if (!fields) return false;
@@ -120,18 +121,18 @@ bool IsText(std::string_view line, const TableLayout& layout) {
   return voltage >= fields->size() || !ParseNumber((*fields)[voltage], decimal_comma);
 }
 
-// A table and the tables below it, while they are read.
+// State while a table and the tables below it are read.
 struct TablesBelow {
   std::string_view text;
   const std::string& file;
   const ReadOptions& options;
   BrokenRows broken_rows;
   Table table;
-  std::vector<std::size_t> starts;  // of the second table and so on, by their rows
+  std::vector<std::size_t> starts;  // first rows of the second and later tables
   std::vector<Sidecar> heads;
 };
 
-// Whether what follows, up to the line `before` (0: the end), holds no row of the table.
+// Whether the lines up to line `before` (0: the end) contain no row of the table.
 bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
   for (std::string_view line; lines.NextContent(&line);) {
     if (before != 0 && lines.number() >= before) return true;
@@ -156,7 +157,7 @@ void SayWhatWasLeft(Table* table, LineReader lines) {
                   count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : ""));
 }
 
-// Until the text ends, or the next table begins.
+// Reads rows up to the end of the text or the next table.
 Expected<std::optional<TableLayout>> ReadRows(TablesBelow* rows, const TableLayout& layout) {
   RowReader reader(layout, rows->file, rows->options.skip_missing, &rows->table);
   LineReader lines(rows->text, layout.first_row_offset, layout.first_row_line);
@@ -196,7 +197,7 @@ void SayWhatWasSkipped(Table* table) {
                   skipped.size() > kShown ? ", ..." : ""));
 }
 
-// Its columns have to be those of the table above.
+// Begins a further table, which must have the columns of the table above.
 Expected<void> BeginNextTable(TablesBelow* rows, const TableLayout& above,
                               const TableLayout& next) {
   const auto has = [](const TableLayout& layout, int TableLayout::*column) {
@@ -218,8 +219,8 @@ Expected<void> BeginNextTable(TablesBelow* rows, const TableLayout& above,
   return {};
 }
 
-// A column of currents that names no unit is in the one in which the head states the current at
-// zero volt, if it shows that very number there.
+// Finds the unit of a current column that names none. If the head states a short-circuit current
+// and the reading at zero volt shows the same number, the column has the unit of that statement.
 void TakeUnitOfShortCircuit(Table* table, const TableLayout& layout) {
   constexpr double kAgrees = 0.02;
   const std::optional<StatedCurrent>& stated = layout.head.short_circuit;
@@ -244,7 +245,8 @@ void TakeUnitOfShortCircuit(Table* table, const TableLayout& layout) {
       About::kCurrentUnit);
 }
 
-// A head that says nothing leaves what the one above said.
+// Turns a condition that differs between heads into a column. A head that does not state it keeps
+// the value of the table above.
 void SpreadCondition(TablesBelow* rows, std::optional<double> Sidecar::*condition,
                      std::vector<double>* column) {
   std::optional<double> value = rows->heads.front().*condition;
@@ -259,8 +261,8 @@ void SpreadCondition(TablesBelow* rows, std::optional<double> Sidecar::*conditio
   (rows->table.head.*condition).reset();
 }
 
-// Several tables without a sweep column are sweeps 1, 2, ...; where their heads state conditions
-// these become columns.
+// Numbers several tables without a sweep column as sweeps 1, 2, ... Conditions that differ between
+// their heads become columns.
 void NumberTables(TablesBelow* rows) {
   IvCurve& curve = rows->table.curve;
   if (rows->starts.empty() || !curve.sweep.empty()) return;

@@ -12,26 +12,26 @@
 
 namespace lyrefit {
 
-// The columns of a table as they stand in the file: every row, converted to the units of IvCurve,
-// the sign of the current untouched.
+// The columns of a table: every row in file order, converted to the units of IvCurve, with the
+// currents' original sign.
 struct Table {
   IvCurve curve;                // columns and assumptions only
   bool holds_curves = false;    // `sweep` comes from a column named curve
-  std::vector<int> lines;       // where each row stands
-  std::vector<int> skipped;     // lines without a reading that were left out
-  std::map<int, Error> broken;  // sweeps with a row that could not be read: their first error
-  Sidecar head;                 // what the lines before the header state
+  std::vector<int> lines;       // line of each row in the file
+  std::vector<int> skipped;     // lines of missing readings that were left out
+  std::map<int, Error> broken;  // first error of each sweep with an invalid row
+  Sidecar head;                 // conditions stated in lines before the header
   bool per_area = false;        // the currents are in A/cm2
-  std::string current_label;    // of the column of the currents
+  std::string current_label;    // label of the current column
 };
 
 enum class BrokenRows {
-  kRefuse,   // the first one is the answer
-  kSetAside  // in `broken`, as long as the row tells its sweep
+  kRefuse,   // the first one is the error of the table
+  kSetAside  // record it in `broken` if the row's sweep can be read
 };
 
-// Reads a table and the further ones below it, which become sweeps of their own; text below the
-// last row is left, and said in `assumptions`. `file` is only for the errors.
+// Reads a table and further tables below it, which become separate sweeps. Text below the last row
+// is ignored, and `assumptions` mentions it. `file` is only used in errors.
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options = {},
                           BrokenRows broken_rows = BrokenRows::kRefuse);

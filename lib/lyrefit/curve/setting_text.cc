@@ -13,7 +13,7 @@ tl::unexpected<Error> MisreadSetting(const char* example, const std::string& tex
   return Fail(fmt::format("expected {}, found '{}'", example, text));
 }
 
-// "a<separator>b" as its two sides; none where there is another number of them.
+// Splits "a<separator>b"; nullopt unless the separator occurs exactly once.
 std::optional<std::pair<std::string, std::string>> Sides(const std::string& text, char separator) {
   const std::size_t at = text.find(separator);
   if (at == std::string::npos || text.find(separator, at + 1) != std::string::npos) return {};

@@ -10,16 +10,16 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a person writes to set single parameters: "n2=2", or a range of one, "Rs=0:0.5".
+// Parse the text of a parameter setting: a value, "n2=2", or a range, "Rs=0:0.5".
 Expected<std::pair<std::string, double>> ReadAssignment(const std::string& text);
 Expected<std::pair<std::string, std::pair<double, double>>> ReadRange(const std::string& text);
 
-// The same the other way round, to six digits.
+// Format a setting, with six significant digits.
 std::string AssignmentText(const std::string& name, double value);
 std::string RangeText(const std::string& name, const std::pair<double, double>& range);
 
-// A map that is given one by one, of values or of ranges, as `Read` reads them and `Text` writes
-// them: see base/option.h.
+// Option for a map whose entries are given one by one, parsed by `Read` and formatted by `Text`:
+// see base/option.h.
 template <auto Read, auto Text, auto First, auto... Rest>
 constexpr auto MapOption() {
   using Options = ClassOf<First>;
@@ -39,13 +39,13 @@ constexpr auto MapOption() {
                              nullptr, true};
 }
 
-// NAME=VALUE, once for each.
+// Option NAME=VALUE, repeated for each entry.
 template <auto First, auto... Rest>
 constexpr auto AssignmentsOption() {
   return MapOption<ReadAssignment, AssignmentText, First, Rest...>();
 }
 
-// NAME=LOW:HIGH, once for each.
+// Option NAME=LOW:HIGH, repeated for each entry.
 template <auto First, auto... Rest>
 constexpr auto RangesOption() {
   return MapOption<ReadRange, RangeText, First, Rest...>();

@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// One condition: what the file beside the table and the column in it say.
+// One condition: the sidecar's value and the table's column.
 struct Source {
   About about;
   const char* unit;
@@ -20,7 +20,7 @@ struct Source {
 };
 
 double Mean(const std::vector<double>& values) {
-  // Exact for constant columns, whatever their length.
+  // Keeps the mean of a constant column exact for any length.
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*low == *high) return *low;
   double mean = 0;
@@ -84,7 +84,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
                                  &curve->assumptions);
   if (!irradiance) curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
   curve->irradiance_known = irradiance.has_value();
-  // A sensor in the dark may show a little less than nothing.
+  // A sensor in the dark may show slightly negative values.
   conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
 }
 

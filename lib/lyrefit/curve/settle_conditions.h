@@ -7,25 +7,25 @@
 
 namespace lyrefit {
 
-// Sentences for what nobody said.
+// Sentences about assumed default values.
 extern const char* const kCellsAssumed;
 extern const char* const kTemperatureAssumed;
 extern const char* const kIrradianceAssumed;
 
-// What a sensor may show in the dark without being wrong.
+// Largest magnitude of a negative reading that a correct irradiance sensor may show in the dark.
 constexpr double kLargestDarkOffset_W_m2 = 20;
 
-// Sets conditions, notes and name from the sidecar and from the columns of the curve. A column and
-// the sidecar that agree (2 % of irradiance, 1 K) leave the sidecar's round figure; where they
-// differ the mean of the column counts, since it belongs to these very points.
+// Sets conditions, notes and name from the sidecar and the columns of the curve. If a column's mean
+// agrees with the sidecar (2 % of irradiance, 1 K), the sidecar's rounded value is kept. Otherwise
+// the mean is used, since the column belongs to these points.
 void SettleConditions(const Sidecar& sidecar, IvCurve* curve);
 
-// Makes currents of the current densities (A/cm2) of `curve` by the area that the options or the
-// sidecar state. The error says how to state one.
+// Converts the current densities of `curve` from A/cm2 to A by the area in the options or the
+// sidecar. Error: no area or an invalid one; the message explains how to state it.
 Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve);
 
-// What the file beside a table says, completed by the head of the table; where they differ the file
-// beside it counts, and the sentence says so.
+// Completes the sidecar beside a table by the head of the table. If they differ, the sidecar has
+// priority, and `assumptions` mentions it.
 Sidecar MergeHead(Sidecar beside, const Sidecar& head);
 
 }  // namespace lyrefit

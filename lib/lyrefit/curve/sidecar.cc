@@ -38,12 +38,12 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "compliance_A",
                                       "date"};
 
-// The word that says an entry has no single value.
+// A text that states that an entry has no single value.
 constexpr const char* kVaried = "varied";
 
 enum class Sign { kAny, kNotNegative, kPositive };
 
-// A sidecar while it is read; of several errors the first is told.
+// State while a sidecar is read; only the first error is kept.
 struct SidecarReading {
   JsonFields fields;
   const std::string& text;
@@ -98,14 +98,14 @@ void ReadWhole(SidecarReading* reading, std::initializer_list<const char*> keys,
   *target = *number;
 }
 
-// A text that begins like a number ("25 C") is rather a mistake.
+// Whether a value is a remark. A text that begins like a number ("25 C") is more likely a mistake.
 bool IsRemark(const json& value) {
   if (!value.is_string()) return false;
   const auto& text = value.get_ref<const std::string&>();
   return !text.empty() && text.find_first_of("+-.0123456789 ") != 0;
 }
 
-// The first of `keys` that is given, in a set without those that are remarks.
+// Reads the first key of `keys` that is present; in a set, remarks are skipped.
 void ReadCondition(SidecarReading* reading, std::initializer_list<const char*> keys, Sign sign,
                    std::optional<double>* target) {
   for (const char* key : keys) {
@@ -173,11 +173,11 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   return reading->sidecar;
 }
 
-// The conditions in a report, and which of them it had to assume itself.
+// The conditions in a report, and those among them that the report assumed.
 struct StatedConditions {
   const json& values;
-  json assumed;                  // a list of keys
-  bool nothing_assumed = false;  // decides where there is no such list
+  json assumed;                  // its list of assumed keys
+  bool nothing_assumed = false;  // used if there is no such list
 };
 
 std::optional<double> Number(const StatedConditions& conditions, const char* key, double low,
@@ -228,7 +228,7 @@ Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_fi
 }
 
 Expected<Sidecar> SidecarOfKeys(const json& object, const std::string& path) {
-  const std::string text;  // nothing to point at
+  const std::string text;  // no text, so errors carry no position
   SidecarReading reading{
       JsonFields(object, text, path), text, path, SidecarOf::kCurve, {}, false, {}};
   return ReadKeys(&reading);

@@ -11,7 +11,7 @@
 
 namespace lyrefit {
 
-// What the JSON file beside a table says; empty where it says nothing.
+// Content of the JSON file beside a table; unset fields were not stated.
 struct Sidecar {
   std::string name;
   std::optional<double> temperature_C;
@@ -19,36 +19,36 @@ struct Sidecar {
   std::optional<int> cells_in_series;
   std::optional<int> strings_in_parallel;
   DeviceNotes notes;
-  std::vector<Assumption> assumptions;  // plain sentences on how it was read
+  std::vector<Assumption> assumptions;  // sentences on how it was read
 };
 
 enum class SidecarOf {
   kCurve,
-  kSet,  // temperature and irradiance may be remarks ("per curve"), which state no value
+  kSet,  // temperature and irradiance may be remarks ("per curve") without a value
 };
 
-// Reads the sidecar in `path`. A report of `lyrefit fit` that stands in its place gives the
-// conditions that were fitted, and a file without any known key says so. Keys as ReadCurve lists
-// them; cell_temperature_C and irradiance_W_m2 are accepted too and go before the nominal values.
-// Unknown keys are left alone.
+// Reads the sidecar `path`. The keys are those that ReadCurve lists. cell_temperature_C and
+// irradiance_W_m2 are accepted too and have priority over nominal values. Unknown keys are ignored;
+// a file without any known key adds an assumption. A report of `lyrefit fit` under this name
+// supplies the fitted curve's conditions.
 Expected<Sidecar> ReadSidecar(const std::string& path, std::uintmax_t largest_file_bytes,
                               SidecarOf of = SidecarOf::kCurve);
 
-// The same from the keys themselves, wherever they stand: beside the readings of a row.
+// Reads a sidecar from keys inside another JSON object, for example beside the readings of a row.
 Expected<Sidecar> SidecarOfKeys(const nlohmann::json& object, const std::string& path);
 
-// Whether a sidecar may have this key.
+// Whether a sidecar may contain this key.
 bool IsSidecarKey(std::string_view key);
 
-// Whether a JSON document is a report that this library wrote.
+// Whether a JSON document is a report of this library.
 bool IsReport(const nlohmann::json& document);
 
-// The conditions under which the one curve of a report was taken, without those that the report had
-// to assume (all, where an older one does not list these and assumed anything); nothing if it is on
-// no single curve.
+// Conditions of the single curve of a report, without those that the report assumed. Older reports
+// do not list them; if such a report assumed anything, all its conditions are left out. nullopt if
+// the report is not about a single curve.
 std::optional<Sidecar> ReportedConditions(const nlohmann::json& report, const std::string& path);
 
-// What `own` does not say is taken from `common`.
+// Fills the unset fields of `own` from `common`.
 Sidecar Merge(Sidecar own, const Sidecar& common);
 
 }  // namespace lyrefit

@@ -5,9 +5,9 @@
 
 namespace lyrefit {
 
-// The reply of a source meter whose whole buffer is one line of readings of five numbers each
-// (voltage, current, resistance, time, status; a resistance that was not measured is 9.91e37), as a
-// table of one reading a line. Empty if `text` is no such line.
+// Converts the reply of a source meter to a table with one reading a line. The reply is the whole
+// buffer in one line, five numbers a reading: voltage, current, resistance, time, status. A
+// resistance that was not measured is 9.91e37. Empty if `text` has another form.
 std::string RowsOfTrace(std::string_view text);
 
 }  // namespace lyrefit

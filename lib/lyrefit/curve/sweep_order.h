@@ -7,12 +7,13 @@
 
 namespace lyrefit {
 
-// A copy of the set in which curves whose readings come in no order (hardly two in a row go one
-// way) are sorted by voltage, their times forgotten; says so.
+// A copy of the set with disordered curves sorted by voltage and without their times and sweeps. A
+// curve is disordered if it has at least three monotone stretches, of less than six readings on
+// average. `warnings` names each sorted curve.
 CurveSet InOrder(const CurveSet& set, std::vector<std::string>* warnings);
 
-// Where monotone stretches of voltage begin: 0, then every turning point. Turns of less than a
-// fifth of the whole range are jitter.
+// Starts of the monotone stretches of voltage: 0, then every turning point. Reversals of less than
+// a fifth of the whole range are ignored as jitter.
 std::vector<int> FindTurns(const std::vector<double>& voltage);
 
 }  // namespace lyrefit

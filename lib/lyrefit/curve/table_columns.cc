@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-// What stands behind V and I in the name of a point or of something that was not measured.
+// Suffixes of V and I for key points and for quantities that were not measured.
 constexpr std::string_view kNoReading[] = {
     "sc",  "oc",       "mp",    "mpp",   "pm",   "max",    "min", "x",   "xx",    "pmax",
     "set", "setpoint", "model", "fit",   "stc",  "ref",    "nom", "lim", "limit", "range",
@@ -24,11 +24,11 @@ bool IsCurrent(ColumnKind kind) {
 
 bool SameSide(ColumnKind a, ColumnKind b) { return a == b || (IsCurrent(a) && IsCurrent(b)); }
 
-// What a column may be by its unit and by the letter its name begins with.
+// Interpretations of a column by its unit and by the first letter of its name.
 struct Guess {
   ColumnKind by_unit = ColumnKind::kUnrecognised;
   ColumnKind by_letter = ColumnKind::kUnrecognised;
-  std::string suffix;  // behind the letter
+  std::string suffix;  // the name after the letter
   const Unit* unit = nullptr;
 };
 
@@ -71,7 +71,7 @@ void Become(ColumnKind kind, const Unit* unit, Column* column) {
   column->factor = unit->factor;
 }
 
-// Takes the two columns and leaves all others of their kinds aside.
+// Sets the two columns as voltage and current; other columns of these kinds are no longer used.
 void TakePair(const std::vector<Guess>& guesses, int voltage, int current,
               std::vector<Column>* columns) {
   for (Column& column : *columns) {
@@ -132,7 +132,7 @@ std::vector<int> Usable(const std::vector<Column>& columns, ColumnKind kind) {
   return places;
 }
 
-// The voltage with the number of `current`; -1 if there is not exactly one.
+// The voltage with the number of `current`; -1 unless there is exactly one.
 int SameNumber(const std::vector<Column>& columns, const std::vector<int>& voltages, int current) {
   int found = -1;
   for (const int voltage : voltages) {

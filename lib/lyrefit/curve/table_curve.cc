@@ -102,7 +102,7 @@ Expected<RawCurve> TableCurveOfFile(const DecodedText& text, const std::string& 
   Expected<RawCurve> raw = TableCurveFromText(text, path, options);
   if (!raw) return raw;
   raw->curve.source = path;
-  // "curve.csv" is named after its folder.
+  // A table "curve.csv" is named after its folder.
   const fs::path file(path);
   const std::string folder = file.filename() == "curve.csv" ? FolderNameOf(file) : "";
   raw->curve.name = folder.empty() ? file.stem().string() : folder;

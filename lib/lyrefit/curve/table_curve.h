@@ -12,50 +12,51 @@
 
 namespace lyrefit {
 
-// What a folder of curves may hold besides them.
+// Names of files in a folder of curves.
 constexpr char kCurvesName[] = "curves.csv";
 constexpr char kIndexName[] = "index.csv";
 constexpr char kDatasetName[] = "dataset.json";
 
 bool IsFile(const std::filesystem::path& path);
-// Of what nobody named: a pipe among the files of a folder would be waited for.
+// Error if a path found in a folder is a pipe or device, since opening a pipe would wait for its
+// writer.
 Expected<void> CheckIsNoStream(const std::filesystem::path& path);
 bool IsFolder(const std::filesystem::path& path);
 bool IsJson(const std::filesystem::path& path);
-bool IsTable(const std::filesystem::path& path);  // by its ending: .csv, .txt, .dat, ...
+bool IsTable(const std::filesystem::path& path);  // by its extension: .csv, .txt, .dat, ...
 
-// The name of the folder the path stands in; empty at the root.
+// Name of the folder that contains the path; empty at the root.
 std::string FolderNameOf(const std::filesystem::path& path);
 
-// The table of a folder of one curve: curve.csv, or one of the folder's own name, as IV_Swinger
+// The table in a folder of one curve: curve.csv, or a table of the folder's own name, as IV_Swinger
 // writes it. Empty if there is none.
 std::filesystem::path CurveInFolder(const std::filesystem::path& folder);
 
-// The tables in a folder, by name, except an index.
+// Paths of the tables in a folder, sorted by name, except an index.
 std::vector<std::filesystem::path> TablesIn(const std::filesystem::path& folder);
 
-// A curve in generator sign whose conditions are still to be settled.
+// A curve in generator sign whose conditions are still open.
 struct RawCurve {
   IvCurve curve;
-  Sidecar stated;         // in the file beside it and in its own
+  Sidecar stated;         // conditions of the sidecar and of the table's head
   bool per_area = false;  // current_A holds A/cm2
 };
 
-// The one curve of a table.
+// Reads the single curve of a table.
 Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options);
 
-// The same from what the file holds, which is not read again.
+// Interprets the content of a table that was already read. The sidecar is read from the disk.
 Expected<RawCurve> TableCurveOfFile(const DecodedText& text, const std::string& path,
                                     const ReadOptions& options);
 
-// The same from its text, of which nothing stands beside it.
+// Interprets a table's text without looking for a sidecar.
 Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,
                                       const ReadOptions& options);
 
-// Settles what is open.
+// Determines the conditions, converts current densities and checks the curve.
 Expected<IvCurve> FinishCurve(RawCurve raw, const ReadOptions& options);
 
-// NAME.json beside NAME.csv; says nothing where there is no such file.
+// Reads the sidecar NAME.json of the table NAME.csv; an empty Sidecar if there is none.
 Expected<Sidecar> ReadSidecarBeside(const std::string& path, const ReadOptions& options);
 
 }  // namespace lyrefit

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t kShownLines = 6;
 
-// A label taken apart: the words of its name, and the unit behind it.
+// A statement: the words of its name, its unit and its value.
 struct Statement {
   std::set<std::string> words;
-  std::string name;  // the words, one behind the other
+  std::string name;  // the words, concatenated
   std::string unit;
   double value = 0;
 };
@@ -30,7 +30,7 @@ bool HasAny(const Statement& statement, std::initializer_list<const char*> words
                      [&](const char* word) { return statement.words.count(word) != 0; });
 }
 
-// Said of something else than this curve: another plane, a limit, a standard condition.
+// Whether the statement concerns another plane, a limit or a standard condition.
 bool IsAboutOtherThings(const Statement& statement) {
   return HasAny(
       statement,
@@ -104,7 +104,7 @@ std::optional<double> AsCompliance(const Statement& statement) {
   return value;
 }
 
-// Fills what nobody has stated yet.
+// Records a value of a quantity that has none yet. False if there is no value or an earlier one.
 template <class T>
 bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
                const std::string& source, std::optional<T>* target, TableHead* head) {
@@ -116,14 +116,15 @@ bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char
   return true;
 }
 
-// The same of a condition.
+// Records a value of a condition.
 template <class T>
 bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
                const std::string& source, std::optional<T>* target, TableHead* head) {
   return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head);
 }
 
-// Remembered, but not understood: the readings say it better.
+// Keeps a stated Isc or Jsc for the unit of the current column. It does not count as understood,
+// since the readings determine it better.
 void NoteShortCircuit(const Statement& statement, const std::string& source, TableHead* head) {
   const bool named = statement.name == "isc" || statement.name == "jsc";
   if (!named || head->short_circuit || statement.value == 0) return;
@@ -150,7 +151,8 @@ bool Take(const Statement& statement, const std::string& source, TableHead* head
          TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
 }
 
-// The unit is the longest end of the label that is one: "Cell area (cm2)", "area_cm2".
+// Splits a label into name and unit. The unit is the longest end of the label that is a unit: "Cell
+// area (cm2)", "area_cm2".
 Statement Understand(const std::vector<LabelWord>& words, double value, std::string_view unit) {
   Statement statement;
   statement.value = value;
@@ -178,14 +180,15 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
   return statement;
 }
 
-// Without blanks, quotes and the marks of a comment.
+// Removes blanks, quotes and comment marks at the ends.
 std::string_view TrimMarks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\"#%");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\"") - begin + 1);
 }
 
-// "47,3 C" as number and unit; a second number or a word before it makes it something else.
+// Number and unit of a text such as "47,3 C". Text with a second number, or with a word before the
+// number, has none.
 struct Quantity {
   double value;
   std::string_view unit;
@@ -215,7 +218,7 @@ std::optional<Quantity> AsQuantity(std::string_view text) {
   return Quantity{*value, text.substr(digits)};
 }
 
-// What reading one line, or the part of it between two delimiters, has come to.
+// Result of reading one line, or the field of a line between two delimiters.
 struct HeadLineState {
   const std::string& source;
   TableHead* head;
@@ -244,7 +247,7 @@ void TakeDate(HeadLineState* state, std::string_view text) {
   state->understood = true;
 }
 
-// "Label: 47.3 C" or "Label = 47.3"
+// Reads a statement such as "Label: 47.3 C" or "Label = 47.3".
 bool ReadPart(HeadLineState* state, std::string_view text) {
   const std::size_t at = text.find_first_of(":=");
   if (at == std::string_view::npos || at == 0) return false;
@@ -274,12 +277,12 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
     }
   }
   if (parts && quantities.empty()) return;
-  // A unit may have a field of its own: "Irradiance;912;W/m2". Its words mark it.
+  // The unit may be in a separate field: "Irradiance;912;W/m2". The label then contains it.
   if (quantities.size() == 1) TakeQuantity(state, label, quantities[0]);
   if (quantities.size() > 1) state->holds_number = true;
 }
 
-// "POA 912 W/m2": one number between words.
+// Reads one number between words, "POA 912 W/m2".
 void ReadWords(HeadLineState* state, std::string_view text) {
   const auto words = SplitFields(text, ' ');
   if (!words) return;
@@ -313,7 +316,7 @@ void ReadLine(HeadLineState* state, std::string_view line) {
 
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
   constexpr std::size_t kLongestLine = 1000;
-  if (line.size() > kLongestLine) return;  // no statement
+  if (line.size() > kLongestLine) return;  // too long for a statement
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));

@@ -10,38 +10,38 @@
 
 namespace lyrefit {
 
-// A current at zero volt as the head of a table states it: it tells the unit of a column that names
-// none.
+// A short-circuit current stated in the head of a table. It identifies the unit of a current column
+// that names none.
 struct StatedCurrent {
-  double value;     // in its own unit
-  ColumnKind kind;  // a current or a density
-  double factor;    // makes A or A/cm2 of it
+  double value;     // in the stated unit
+  ColumnKind kind;  // a current or a current density
+  double factor;    // converts to A or A/cm2
   std::string source;
 };
 
-// What the lines before the header of a table state.
+// Statements in the lines before the header of a table.
 struct TableHead {
   Sidecar said;
-  std::vector<Assumption> assumptions;  // what was taken from where
-  std::vector<std::string> left;        // lines that hold a number nobody understood
+  std::vector<Assumption> assumptions;  // values taken, with their source
+  std::vector<std::string> left;        // lines with a number that was not understood
   std::optional<StatedCurrent> short_circuit;
 };
 
 enum class HeadLine {
   kText,
-  kComment  // only what it clearly states counts; the rest is a remark
+  kComment  // only a clear statement counts; other text is a remark
 };
 
-// Takes what `line` clearly states: irradiance, cell temperature, number of cells, area,
-// compliance, date, as "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". Of two
-// statements on one thing the first counts.
+// Records the statements of `line`: irradiance, cell temperature, number of cells, area,
+// compliance, date. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". The
+// first of two statements about one quantity is kept.
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head);
 
-// A value with its name, as JSON files state it. False if it was not understood.
+// Records a named value, as JSON files state it. False if it was not understood.
 bool TakeStatement(std::string_view label, double value, const std::string& source,
                    TableHead* head);
 
-// The sentences about the head: what was taken, and some of the lines that were left.
+// Sentences about the head: the values taken, and some of the lines not understood.
 std::vector<Assumption> HeadSentences(const TableHead& head);
 
 }  // namespace lyrefit

@@ -10,9 +10,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kMostColumns = 5000;  // a line of more is no header
+constexpr std::size_t kMostColumns = 5000;  // a longer line is no header
 
-// In a header separated by blanks "Voltage (V)" is one name.
+// Joins brackets to the name before them: with blanks as delimiter, "Voltage (V)" would be two
+// fields.
 Fields JoinBrackets(const Fields& fields) {
   Fields joined;
   for (const std::string& field : fields) {
@@ -39,7 +40,8 @@ bool IsNumericRow(const Fields& fields, char delimiter) {
   return fields.size() >= 2 && IsNumber(fields[0], delimiter) && IsNumber(fields[1], delimiter);
 }
 
-// A column called "... Unit" that holds "Amp DC" says what the column on its left is.
+// Interprets unit columns: a column "... Unit" that holds "Amp DC" determines the kind of the
+// column on its left.
 void TakeUnitColumns(const Fields& names, const Fields& row, std::vector<Column>* columns) {
   for (std::size_t i = 1; i < names.size() && i < row.size(); ++i) {
     const std::vector<LabelWord> words = SplitLabel(names[i]);
@@ -58,7 +60,8 @@ std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, 
   const auto row = SplitFields(next_line, delimiter);
   const bool wished =
       !rules.options.voltage_column.empty() || !rules.options.current_column.empty();
-  // A wish may be a mere place: only a line right above the numbers is the header then.
+  // An option may give only a place, which any line has. So only a line right above the numbers is
+  // then a header.
   const bool above_numbers =
       row && row->size() <= fields.size() && row->size() >= 2 && !IsNumericRow(fields, delimiter);
   if (wished && above_numbers) ApplyColumnWishes(rules.options, &columns);
@@ -68,7 +71,7 @@ std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, 
   return columns;
 }
 
-// True if the line below the header has numbers where the header promises voltage and current.
+// Whether the line below the header has numbers in the header's voltage and current columns.
 bool RowFits(std::string_view line, const TableLine& header) {
   const auto row = SplitFields(line, header.delimiter);
   if (!row || row->size() > header.columns.size()) return false;

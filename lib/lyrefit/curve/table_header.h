@@ -12,49 +12,51 @@ namespace lyrefit {
 
 using Fields = std::vector<std::string>;
 
-constexpr char kDelimiters[] = {'\t', ';', ',', ' '};  // in the order they are tried
+constexpr char kDelimiters[] = {'\t', ';', ',', ' '};  // in the order of trial
 
-// One line of a table under the one delimiter that makes most of it.
+// One line of a table, split at the best-fitting delimiter.
 struct TableLine {
   char delimiter = 0;  // 0: none fits
   Fields fields;
   std::vector<Column> columns;  // of a header
-  bool fits = false;            // the line below a header has numbers where it promises them
+  bool fits = false;            // the next line has numbers for voltage and current
 };
 
-// The fields without the empty ones that trailing delimiters leave; nothing if quotes do not close.
+// Fields of a line, without the empty ones of trailing delimiters; nullopt if quotes do not close.
 std::optional<Fields> SplitFields(std::string_view line, char delimiter);
 
 std::vector<Column> RecogniseAll(const Fields& fields);
 
 bool HasKind(const std::vector<Column>& columns, ColumnKind kind);
 
-// How a header is recognised.
+// Rules for the recognition of a header.
 struct HeaderRules {
   const ReadOptions& options;  // names of columns
-  bool guess = false;          // letters and units count where names are unknown
+  bool guess = false;          // use letters and units of unknown names
 };
 
-// `line` as a header of at least a voltage and a current; `next_line` helps to choose the
-// delimiter, and says the units where they stand in columns of their own ("Reading,Unit").
+// Interprets `line` as a header with at least a voltage and a current. `next_line` helps to select
+// the delimiter, and supplies units that stand in separate columns ("Reading,Unit"). The delimiter
+// is 0 if `line` is no header.
 TableLine AsHeader(std::string_view line, std::string_view next_line, const HeaderRules& rules);
 
-// The line of names with the units that `units` has below them, "V [mV],I [mA]": as many fields,
-// none a number, some known units. Empty if `units` is no such line.
+// Joins a line of names with a line of units below it: "V [mV],I [mA]". Both must have equally many
+// fields. No unit field may be a number, and some must be known units. Empty otherwise.
 std::string WithUnits(std::string_view names, std::string_view units);
 
-// `line` as a row that begins with two numbers.
+// Interprets `line` as a row that begins with two numbers.
 TableLine AsRow(std::string_view line);
 
-// Remembers the name of a column that a line of its own gives, "Label1: Voltage [V]" or "Column 2 =
-// Current (A)"; they are numbered from 1, another first one begins anew.
+// Records a column name given on a separate line: "Label1: Voltage [V]" or "Column 2 = Current
+// (A)". Names are numbered from 1; another first name starts a new list.
 void TakeColumnName(std::string_view line, Fields* names);
 
-// The names so given as the header of `row`; without a delimiter if they are not as many as the row
-// has fields, or no voltage and current.
+// Interprets recorded names as the header of `row`. The delimiter is 0 if names and fields differ
+// in number, or if there is no voltage and current.
 TableLine HeaderOfNames(const Fields& names, const TableLine& row, const HeaderRules& rules);
 
-// "# voltage current" above headerless numbers, as NumPy writes it.
+// Interprets a comment above headerless numbers as a header, "# voltage current", as NumPy writes
+// it.
 TableLine HeaderInComment(std::string_view comment, std::string_view row, const HeaderRules& rules);
 
 }  // namespace lyrefit

@@ -36,7 +36,7 @@ const char* NameOf(ColumnKind kind) {
   }
 }
 
-// Isc, Voc and the like alone: what some call a curve.
+// Whether the names are key points such as Isc and Voc, which some files list in place of a curve.
 bool AreKeyPoints(const Fields& names) {
   static constexpr std::string_view kPoints[] = {"isc", "voc", "imp", "vmp", "impp", "vmpp", "pmp"};
   const auto found = std::count_if(names.begin(), names.end(), [](const std::string& name) {
@@ -47,8 +47,8 @@ bool AreKeyPoints(const Fields& names) {
   return found >= 3;
 }
 
-// Why nothing could be made of the file, at the line that comes nearest to a header. Its fields are
-// shown as the delimiter separates them that is really there.
+// Error for a file without a recognised table, at the line most similar to a header. The message
+// lists the line's fields, split at the first delimiter that yields several.
 Error NoLayout(std::string_view line, int number, const std::string& file) {
   const std::string expected =
       "expected a header with a voltage and a current, such as voltage_V,current_A";
@@ -58,7 +58,7 @@ Error NoLayout(std::string_view line, int number, const std::string& file) {
     const auto fields = SplitFields(line, delimiter);
     if (!fields || fields->size() < 2) continue;
     best = {delimiter, *fields, RecogniseAll(*fields)};
-    break;  // in the order they are tried: blanks separate words, too
+    break;  // in order of trial: blanks also separate words
   }
   if (best.delimiter == 0) {
     const char* what = ParseNumber(line, true) ? "a table of one column" : "one field";
@@ -84,19 +84,19 @@ struct SkippedLine {
   int number = 0;
 };
 
-// The search for the first line that is a header or, without one, the first row.
+// State of the search for the header or, without one, the first row.
 struct LayoutSearch {
   LineReader lines;
   const std::string& file;
   HeaderRules rules;
   std::string_view line = {};
   std::string_view comment = {};
-  Fields names = {};  // of columns, given one a line
+  Fields names = {};  // of columns, each given on a separate line
   SkippedLine first_text = {};
   SkippedLine last_text = {};
   SkippedLine text_before_row = {};
   bool row_after_text = false;
-  bool demand_header = false;  // only a header with numbers below it counts
+  bool demand_header = false;  // accept only a header with numbers below it
   std::optional<Expected<TableLayout>> second_best = {};
   TableHead head = {};
   int skipped = 0;  // lines of text, not counting comments
@@ -106,7 +106,7 @@ HeaderPlace PlaceOfHeader(const LayoutSearch& search, const TableLine& found) {
   return {search.file, search.lines.number(), search.line, found.delimiter};
 }
 
-// Whether columns are named by their places, so that no header is needed.
+// Whether the options select columns by place, so that no header is needed.
 bool WishesArePlaces(const LayoutSearch& search) {
   return ParseNumber(search.rules.options.voltage_column) &&
          ParseNumber(search.rules.options.current_column);
@@ -149,8 +149,8 @@ std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
   return Finished(*search, std::move(layout), search->lines.offset(), search->lines.number());
 }
 
-// The line as a header, alone or with a line of units below it. One without numbers below is kept
-// in mind: it is still better than none, its rows tell what is wrong.
+// Interprets the line as a header, alone or with a line of units below it. A header without numbers
+// below it is kept as second best: its rows produce a more specific error than no header would.
 std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
   if (auto with_units = TryHeaderWithUnits(search)) return with_units;
   std::string_view next_line;
@@ -167,7 +167,8 @@ std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
   return std::nullopt;
 }
 
-// Like LineReader's, but remembers comments and where the line began.
+// Moves to the next line with content, like LineReader::NextContent. It also records comments and
+// the offset of the line.
 bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
   while (true) {
     *offset = search->lines.offset();
@@ -218,7 +219,8 @@ Expected<TableLayout> FindLayout(LayoutSearch* search) {
       if (search->skipped == 0 || WishesArePlaces(*search)) {
         return Finished(*search, LayoutFromRow(*search, row), offset, search->lines.number() - 1);
       }
-      // A header may still follow: numbers may stand in what a tracer writes before it.
+      // Numbers may occur in text that a tracer writes before the header, so a header may still
+      // follow.
       search->row_after_text = true;
       search->text_before_row = search->last_text;
     }

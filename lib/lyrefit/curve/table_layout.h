@@ -16,14 +16,13 @@ namespace lyrefit {
 
 constexpr int kNoColumn = -1;
 
-// How a table is written: what separates the columns, where the rows begin and which column is
-// what.
+// Layout of a table: delimiter, begin of the rows, and meaning of the columns.
 struct TableLayout {
   char delimiter = ',';
   std::size_t first_row_offset = 0;  // where reading the rows begins
   int first_row_line = 0;            // lines before that offset
-  std::vector<Column> columns;       // as many as the header has
-  std::vector<Channel> channels;     // pairs of voltage and current; one of them is read
+  std::vector<Column> columns;       // one for each header field
+  std::vector<Channel> channels;     // pairs of voltage and current; only one is read
   int voltage = kNoColumn;
   int current = kNoColumn;
   int sigma = kNoColumn;
@@ -31,23 +30,23 @@ struct TableLayout {
   int sweep = kNoColumn;  // a `sweep` or `curve` column
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
-  TableHead head;  // what the lines before the header state
+  TableHead head;  // statements of the lines before the header
   std::vector<Assumption> assumptions;
 
   bool per_area() const { return columns[current].kind == ColumnKind::kCurrentDensity; }
 };
 
-// Finds the header among the first lines, behind whatever a tracer writes before it, or decides
-// that there is none. `file` is only for the errors.
+// Finds the header among the first lines, after any text that a tracer writes before it, or
+// determines that there is none. `file` is only used in errors.
 Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
                                       const ReadOptions& options = {});
 
-// The same for text between tables, read by `lines` from there on: a header with numbers below it,
-// and no numbers before it.
+// Finds the header of a further table in the rest of `lines`. It needs numbers below it and none
+// before it.
 Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
                                      const ReadOptions& options);
 
-// The columns of a table and what each would be read as.
+// Columns of a table and the interpretation of each.
 Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
                                                    const ReadOptions& options);
 

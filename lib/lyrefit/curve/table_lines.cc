@@ -61,14 +61,14 @@ bool LineSplitter::Split(std::string_view line) {
   ends_.clear();
   line_.assign(line);
   if (delimiter_ == ' ') std::replace(line_.begin(), line_.end(), '\t', ' ');
-  // The parser copies a field anew whenever it has grown by a block.
+  // libcsv copies a field whenever it has grown by a block, so blocks are as large as the line.
   constexpr std::size_t kBlock = 128;
   csv_set_blk_size(&parser_, std::max(kBlock, line_.size()));
   const bool parsed =
       csv_parse(&parser_, line_.data(), line_.size(), TakeField, nullptr, this) == line_.size();
   const bool closed = csv_fini(&parser_, TakeField, nullptr, this) == 0;
   if (parsed && closed) return true;
-  // libcsv keeps the state of the broken line; a new parser does not.
+  // The parser keeps the state of the broken line, so it is replaced.
   csv_individual(&parser_);
   csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
   csv_set_delim(&parser_, static_cast<unsigned char>(delimiter_));

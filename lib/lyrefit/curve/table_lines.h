@@ -11,28 +11,28 @@ namespace lyrefit {
 // Whether a line that begins with this character is a comment.
 constexpr bool BeginsComment(char c) { return c == '#' || c == '%'; }
 
-// The lines of a text, counted from 1; ends of line may be LF, CRLF or, without any LF, CR.
+// Reads the lines of a text, numbered from 1. Line ends are LF, CRLF or, in a text without LF, CR.
 class LineReader {
  public:
-  // From `offset`, behind `lines_before` lines.
+  // Starts at byte `offset`, after `lines_before` lines.
   explicit LineReader(std::string_view text, std::size_t offset = 0, int lines_before = 0);
 
-  // The next line without its end; false at the end of the text.
+  // Reads the next line, without its line end; false at the end of the text.
   bool Next(std::string_view* line);
 
-  // The next line that is neither blank nor a comment ('#' or '%').
+  // Reads the next line that is neither blank nor a comment ('#' or '%').
   bool NextContent(std::string_view* line);
 
-  // The same; `offset` becomes where it began.
+  // Also returns in `offset` where the line begins.
   bool NextContent(std::string_view* line, std::size_t* offset);
 
-  // So that the line returned last, which began at `offset`, comes again.
+  // Returns to the last line read, which began at `offset`, so that it is read again.
   void StepBack(std::size_t offset) {
     at_ = offset;
     --number_;
   }
 
-  int number() const { return number_; }  // of the line returned last
+  int number() const { return number_; }  // of the last line read
   std::size_t offset() const { return at_; }
 
  private:
@@ -42,8 +42,8 @@ class LineReader {
   char end_ = '\n';
 };
 
-// Splits single lines at one delimiter with libcsv, which takes care of quotes and blanks around
-// the fields. With ' ' any run of blanks and tabs separates.
+// Splits lines at a delimiter with libcsv, which handles quotes and blanks around fields. The
+// delimiter ' ' stands for any run of blanks and tabs.
 class LineSplitter {
  public:
   explicit LineSplitter(char delimiter);
@@ -51,7 +51,7 @@ class LineSplitter {
   LineSplitter(const LineSplitter&) = delete;
   LineSplitter& operator=(const LineSplitter&) = delete;
 
-  // False if the quotes do not close. The fields live until the next call.
+  // Splits a line; false if quotes do not close. The fields stay valid until the next call.
   bool Split(std::string_view line);
 
   std::size_t size() const { return ends_.size(); }
@@ -62,12 +62,12 @@ class LineSplitter {
 
   char delimiter_;
   csv_parser parser_;
-  std::string line_;     // in libcsv's form
-  std::string content_;  // all fields, one behind the other
+  std::string line_;     // with tabs replaced if blanks separate
+  std::string content_;  // all fields, concatenated
   std::vector<std::size_t> ends_;
 };
 
-// Where field `index` of `line` begins, counted from 1 in bytes.
+// Byte position, from 1, at which field `index` (from 0) of `line` begins.
 int FieldColumn(std::string_view line, char delimiter, std::size_t index);
 
 }  // namespace lyrefit

@@ -91,10 +91,10 @@ Expected<int> TableRow::WholeNumber(int field) {
   return static_cast<int>(value);
 }
 
-// "1,234" beside "0.5" is a thousands separator, not a decimal comma.
+// Detects a thousands separator: "1,234" beside "0.5" is not a decimal comma.
 Expected<void> TableRow::CheckSeparator(int field, std::string_view text) {
   if (delimiter_ == ',') return {};
-  const std::size_t last = text.find_last_of(",.");  // before it stand thousands, if anything
+  const std::size_t last = text.find_last_of(",.");  // earlier ones separate thousands
   const char found = last == std::string_view::npos ? '\0' : text[last];
   if (found == '\0' || found == separator_) return {};
   if (separator_ == '\0') {

@@ -10,29 +10,29 @@
 
 namespace lyrefit {
 
-// The row of a table that is being read; its errors name file, line and column. What it is made
-// from has to outlive it.
+// The current row of a table. Errors name file, line and column. The constructor's arguments must
+// outlive the object.
 class TableRow {
  public:
   TableRow(const std::vector<Column>& columns, char delimiter, const std::string& file)
       : columns_(columns), delimiter_(delimiter), file_(file), splitter_(delimiter) {}
 
-  // Takes the fields of `line`: as many as there are columns.
+  // Splits `line` into fields. Errors: quotes that do not close; not as many fields as columns.
   Expected<void> Take(std::string_view line, int number);
 
   std::string_view operator[](int field) const { return splitter_[field]; }
   int number() const { return number_; }
 
-  // The number in a field, in the unit of IvCurve.
+  // The number in a field, converted to the unit of IvCurve.
   Expected<double> Value(int field);
 
-  // The same for a column of whole numbers.
+  // The integer in a field of a column of whole numbers.
   Expected<int> WholeNumber(int field);
 
-  // "expected <expected> in column irradiance, found 'x'".
+  // Error such as "expected <expected> in column irradiance, found 'x'".
   tl::unexpected<Error> RefuseField(int field, std::string_view expected) const;
 
-  // Any message, at the place of a field.
+  // Error with any message, at the position of a field.
   tl::unexpected<Error> Refuse(std::string message, int field) const;
 
  private:
@@ -50,7 +50,7 @@ class TableRow {
   char separator_ = '\0';
 };
 
-// The text has to be UTF-8: the error names the place of the first byte that is not.
+// Checks that the text is UTF-8. The error names the position of the first invalid byte.
 Expected<void> CheckUtf8(std::string_view text, const std::string& file);
 
 }  // namespace lyrefit

@@ -33,7 +33,7 @@ void AppendUtf8(char32_t code, std::string* text) {
   add(0x80 | (code & 0x3f));
 }
 
-// Where Windows-1252 is not Latin-1: the characters of 0x80 to 0x9f, 0 for the five it leaves out.
+// Characters 0x80 to 0x9f, where Windows-1252 differs from Latin-1; 0 for the five undefined codes.
 constexpr char32_t kWindows1252[32] = {
     0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021, 0x02c6, 0x2030, 0x0160,
     0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
@@ -52,7 +52,7 @@ std::string FromWindows1252(std::string_view bytes) {
 
 enum class ByteOrder { kLittle, kBig };
 
-// Half surrogates become the replacement character; an odd last byte is left out.
+// Unpaired surrogates become the replacement character; an odd last byte is dropped.
 std::string FromUtf16(std::string_view bytes, ByteOrder order) {
   const auto unit = [&](std::size_t at) -> char32_t {
     const auto first = static_cast<unsigned char>(bytes[at]);
@@ -76,8 +76,8 @@ std::string FromUtf16(std::string_view bytes, ByteOrder order) {
   return text;
 }
 
-// Without a byte order mark: tables are digits, and every digit has one zero byte, always on the
-// same side.
+// Guesses the byte order of UTF-16 without a byte order mark. Tables consist mostly of digits, and
+// every digit has one zero byte, always on the same side.
 std::optional<ByteOrder> GuessUtf16(std::string_view bytes) {
   constexpr std::size_t kLooked = 4096;
   const std::string_view start = bytes.substr(0, kLooked);

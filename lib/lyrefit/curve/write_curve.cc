@@ -13,7 +13,8 @@
 namespace lyrefit {
 namespace {
 
-// The temperature in degrees Celsius that becomes the same kelvin again, round where possible.
+// Temperature in degrees Celsius that converts back to the same kelvin, rounded to 1e-9 if
+// possible.
 double Celsius(double temperature_K) {
   const double exact = temperature_K - kZeroCelsius_K;
   const double rounded = std::round(exact * 1e9) / 1e9;

@@ -8,8 +8,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A table that ReadCurve understands: voltage_V,current_A and the optional columns the curve has,
-// with as many digits as bring back the same bits.
+// Formats a curve as a table that ReadCurve accepts: voltage_V, current_A and the optional columns
+// in use. The digits suffice to restore the same bits.
 std::string CurveToCsv(const IvCurve& curve);
 
 // The sidecar of that table: conditions and notes as JSON.

@@ -8,7 +8,8 @@
 
 namespace lyrefit {
 
-// Candidates by rising objective value, so that "a random candidate better than i" needs no scan.
+// Candidates sorted by rising objective value, so that drawing a candidate better than i needs no
+// scan.
 class CandidateOrder {
  public:
   explicit CandidateOrder(const SearchRun& run)
@@ -19,8 +20,8 @@ class CandidateOrder {
     for (std::size_t r = 0; r < order_.size(); ++r) rank_[order_[r]] = static_cast<int>(r);
   }
 
-  // How many candidates are strictly better: they are order_[0 .. count - 1], the safe set S_i of
-  // Eq. 18.
+  // Number of strictly better candidates. They have the ranks 0 .. count - 1 and form the safe set
+  // S_i of Eq. 18.
   int Better(int candidate) const {
     int count = rank_[candidate];
     while (count > 0 && run_.f(order_[count - 1]) == run_.f(candidate)) --count;
@@ -28,7 +29,7 @@ class CandidateOrder {
   }
   int At(int rank) const { return order_[rank]; }
 
-  // Candidate has become better: let it rise to its place.
+  // Restores the order after the objective value of `candidate` has fallen.
   void Improved(int candidate) {
     int r = rank_[candidate];
     for (; r > 0 && run_.f(order_[r - 1]) > run_.f(candidate); --r) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLanes = 8;
 
-// These loops are elementwise and free of fused operations: every clone gives the same bits.
+// The loops are elementwise and have no fused operations, so that every clone gives the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define LYREFIT_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -27,8 +27,8 @@ LYREFIT_CLONES void Distances(const double* coordinate, int stride, int dimensio
   for (int k = 0; k < stride; ++k) distance[k] = std::sqrt(distance[k]);
 }
 
-// The sums and the bounds of the largest distance, after one candidate has moved: its distances to the
-// others were `past` and are `fresh`.
+// Updates the other candidates' sums and distance bounds after one candidate has moved. `past` and
+// `fresh` are its distances to them before and after the move.
 LYREFIT_CLONES void UpdateOthers(const double* past, const double* fresh, int stride, double* sum,
                                  double* bound) {
   for (int k = 0; k < stride; ++k) {
@@ -107,8 +107,8 @@ void Crowding::Move(int i, const double* unit) {
   }
 }
 
-// The greatest bound is the answer once it is attained; one that is not is lowered to what its candidate
-// attains.
+// The largest bound is the largest distance if its candidate reaches it. Otherwise the bound is
+// lowered to the candidate's largest distance, and the search repeats.
 void Crowding::FindLargest() {
   while (true) {
     end_a_ = FarthestOf(bound_);

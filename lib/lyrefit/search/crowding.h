@@ -4,16 +4,17 @@
 
 namespace lyrefit {
 
-// How crowded each candidate of a population is in the unit box: the mean of its distances to the others,
-// and the largest distance of all, kept up to date candidate by candidate. A move costs O(N d), a question
-// O(1), the memory is O(N d): no distance is stored. The sums are updated by differences; their
-// drift is far below the threshold's own arbitrariness and the same in every run.
+// Crowding of a population in the unit box: each candidate's mean distance to the others, and the
+// largest distance of all. Both are updated after each move. A move costs O(N d), a query O(1), and
+// the memory is O(N d), because no distances are stored. The sums are updated by differences. Their
+// rounding drift is far below the uncertainty in the choice of the threshold, and the same in every
+// run.
 class Crowding {
  public:
-  // `unit` holds `candidates` rows of `dimensions` coordinates.
+  // `unit` holds `candidates` rows of `dimensions` unit-box coordinates.
   Crowding(int candidates, int dimensions, const std::vector<double>& unit);
 
-  // Candidate `i` now sits at `unit` (its `dimensions` coordinates).
+  // Sets the position of candidate `i` to the `dimensions` coordinates at `unit`.
   void Move(int i, const double* unit);
 
   double MeanDistance(int i) const { return sum_[i] / (candidates_ - 1); }  // Dis_i, Eq. 24
@@ -26,11 +27,12 @@ class Crowding {
 
   int candidates_;
   int dimensions_;
-  int stride_;                      // candidates, rounded up to whole vectors
-  std::vector<double> coordinate_;  // dimension by dimension, stride_ apart
+  int stride_;                      // number of candidates, rounded up to whole vectors
+  std::vector<double> coordinate_;  // all candidates' values of dimension 0, then of 1, ...;
+                                    // stride_ apart
   std::vector<double> point_;
   std::vector<double> sum_;
-  std::vector<double> bound_;  // no distance of a candidate is larger
+  std::vector<double> bound_;  // upper bound of each candidate's distances
   std::vector<double> past_;
   std::vector<double> fresh_;
   double largest_ = 0;

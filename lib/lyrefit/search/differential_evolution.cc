@@ -1,5 +1,6 @@
-// Differential evolution DE/rand/1/bin (Storn and Price 1997, doi:10.1023/A:1008202821328). Ours:
-// greedy in place, and a mutant outside the box is clamped, as the lyrebirds are.
+// Differential evolution DE/rand/1/bin (Storn and Price 1997, doi:10.1023/A:1008202821328). Two
+// choices of this library: acceptance is greedy and in place, and mutants are clamped to the box,
+// as in lyrebird.cc.
 
 #include <algorithm>
 
@@ -9,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// Three different candidates, none of them `candidate`.
+// Draws three different candidates other than `candidate`.
 void DrawThree(RandomStream* random, int population, int candidate, int (&three)[3]) {
   for (int k = 0; k < 3; ++k) {
     bool taken;

@@ -6,7 +6,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kReach = 0.5;  // of a draw, to either side of what is remembered
+constexpr double kReach = 0.5;  // largest distance of a draw from the remembered value
 
 }  // namespace
 

@@ -6,18 +6,19 @@
 
 namespace lyrefit {
 
-// A setting in [0, 1] that is learned while a search runs: every use draws it around a value that
-// lately served, and each iteration remembers the mean of the values its gaining moves used,
-// weighted by what they gained. Success-history adaptation, after Tanabe and Fukunaga 2013
-// (doi:10.1109/CEC.2013.6557555), but drawn uniformly within half the range: with so few moves in a
-// search, wide draws learn sooner.
+// A setting in [0, 1] that adapts during a search. Each use draws a value around one of the
+// remembered values. Each iteration remembers the mean of the values that its improving moves used,
+// weighted by the decrease of the objective. This is success-history adaptation after Tanabe and
+// Fukunaga 2013 (doi:10.1109/CEC.2013.6557555). Unlike theirs, the draw is uniform within 0.5 of
+// the remembered value, because wide draws adapt sooner in a search of few moves.
 class LearnedSetting {
  public:
   explicit LearnedSetting(double first) { memory_.fill(first); }
 
   double Draw(RandomStream* random);
 
-  // The move that used `value` made its candidate better by `gain`; what is not finite is passed over.
+  // Records that a move with `value` lowered its candidate's objective by `gain`. Infinite and NaN
+  // gains are ignored.
   void Gained(double value, double gain);
 
   void EndIteration();

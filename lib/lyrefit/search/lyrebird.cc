@@ -1,14 +1,14 @@
-// The lyrebird optimizer (LO, doi:10.3390/biomimetics8060507) and its modification (MLO), after J.
-// Ind. Manag. Optim. 22(1), 642-690, section 3; equation numbers are that paper's. One algorithm,
-// four settings: LO has Pm = gamma = 0. What the paper prints, what LO's own paper says and what is
-// chosen here, with the evidence, stands in README.md beside this file.
+// The lyrebird optimizer (LO, doi:10.3390/biomimetics8060507) and its modification (MLO, J. Ind.
+// Manag. Optim. 22(1), 642-690, section 3). Equation numbers are those of the MLO paper. One
+// algorithm has four settings; LO has Pm = gamma = 0. README.md beside this file lists the source
+// of each step and the evidence for the choices.
 //
-// Chosen here, in short: in Eq. 20 the memory is that of a random candidate and z is one number a move,
-// where the paper prints the candidate's own memory and a vector (kMloVector has the vector); Eq. 23 and
-// 24 are lost in print, and their form is a reconstruction.
+// In short, the choices are: in Eq. 20 the memory is that of a random candidate, and z is one
+// number a move. The paper prints the candidate's own memory and a vector z (kMloVector uses the
+// vector). Eq. 23 and 24 are missing in print, and the code is a reconstruction.
 //
-// Under a name of its own, and of no paper, is tuning during the run: each move draws its Pm or
-// gamma from what lately gained.
+// kMloTuned comes from no paper: each move draws Pm or gamma near values that recently improved a
+// candidate.
 
 #include <algorithm>
 #include <optional>
@@ -25,7 +25,7 @@ namespace {
 
 bool Learns(const SearchOptions& options) { return options.algorithm == Algorithm::kMloTuned; }
 
-// LO and its ablations are MLO with strategies off.
+// LO and its ablations are MLO with strategies switched off.
 double MemoryRateOf(const SearchOptions& options) {
   const Algorithm a = options.algorithm;
   return a == Algorithm::kLo || a == Algorithm::kLoDmlss ? 0 : options.memory_rate;
@@ -36,13 +36,13 @@ double GammaOf(const SearchOptions& options) {
   return a == Algorithm::kLo || a == Algorithm::kLoMblss ? 0 : options.distance_coefficient;
 }
 
-// The moves of a population of lyrebirds, which are the candidates of a run.
+// Moves the population of a run; each candidate is a lyrebird.
 class Lyrebird {
  public:
-  // The candidates have been drawn.
+  // The first population must have been drawn.
   Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random);
 
-  // Iteration `t` of `planned`: every candidate moves, until the run stops.
+  // Iteration `t` of `planned`: moves every candidate, unless the run stops.
   void Move(double t, double planned);
 
  private:
@@ -69,14 +69,14 @@ class Lyrebird {
   const double memory_rate_;
   const double gamma_;
   const bool keeps_distances_;
-  const bool vector_;  // a z for each coordinate in Eq. 20
+  const bool vector_;  // draw z of Eq. 20 for each coordinate
   std::vector<double> candidate_;
   std::vector<double> unit_;
   CandidateOrder order_;
   std::optional<Crowding> crowding_;
   std::optional<Learned> learned_;
-  bool escaped_ = false;  // the move at hand
-  double drawn_ = 0;      // and the learned setting's value for it
+  bool escaped_ = false;  // whether the current move is of the escape phase
+  double drawn_ = 0;      // the current move's learned setting
 };
 
 Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random)
@@ -104,14 +104,14 @@ void Lyrebird::Move(double t, double planned) {
   learned_->gamma.EndIteration();
 }
 
-// Pm and gamma of the move at hand.
+// Pm and gamma of the current move.
 double Lyrebird::MemoryRate() {
   return learned_ ? drawn_ = learned_->rate.Draw(random_) : memory_rate_;
 }
 
 double Lyrebird::Gamma() { return learned_ ? drawn_ = learned_->gamma.Draw(random_) : gamma_; }
 
-// Fills candidate_; false where the candidate stays.
+// Computes the new position in candidate_; false if the candidate does not move.
 bool Lyrebird::Propose(int i, double t, double planned) {
   escaped_ = random_->Uniform() < 0.5;
   if (!escaped_) run_->CountHide();
@@ -149,8 +149,8 @@ bool Lyrebird::Escape(int i) {
   return true;
 }
 
-// MBLSS, Eq. 20, 21: x' = b + z (m_k - x). Acceptance is greedy and memories follow improvements,
-// so a candidate's memory is its position and needs no array of its own.
+// MBLSS, Eq. 20, 21: x' = b + z (m_k - x). With greedy acceptance a candidate's memory is its
+// position, so no separate array is needed.
 void Lyrebird::Imitate(int i) {
   const double* memory = run_->x(random_->Index(n_));
   const double* best = run_->x(run_->best());
@@ -171,7 +171,7 @@ void Lyrebird::Hide(int i, double t) {
   }
 }
 
-// DMLSS in place of Eq. 23, which is lost in print: a crowded candidate moves towards a random other one.
+// DMLSS. Eq. 23 is missing in print; here a crowded candidate moves towards a random other one.
 void Lyrebird::Disperse(int i) {
   int other = static_cast<int>(random_->Index(n_ - 1));
   if (other >= i) ++other;
@@ -180,7 +180,7 @@ void Lyrebird::Disperse(int i) {
   for (int j = 0; j < d_; ++j) candidate_[j] = x[j] + random_->Uniform() * (target[j] - x[j]);
 }
 
-// Eq. 26, 27: greedy, in place.
+// Eq. 26, 27: greedy acceptance, in place.
 void Lyrebird::Accept(int i) {
   const double value = run_->Evaluate(candidate_.data());
   if (!(value < run_->f(i))) return;

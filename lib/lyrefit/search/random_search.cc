@@ -1,5 +1,5 @@
-// Uniform random search: the baseline that every metaheuristic figure is printed beside. The
-// population is simply the best points drawn so far, so that elites mean the same as elsewhere.
+// Uniform random search, the baseline of every comparison of metaheuristics. Slot i of the
+// population keeps the best of its own draws, from which the elites are taken.
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/search/run.h"

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// What every algorithm of this module shares: the population, the count of evaluations, the trace and
-// the reasons to stop. An algorithm is a function that moves the population until `stopped()`.
+// State that all algorithms of this module share: population, evaluation count, trace and
+// termination. An algorithm is a function that changes the population until `stopped()`.
 class SearchRun {
  public:
   SearchRun(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
@@ -21,7 +21,7 @@ class SearchRun {
   int best() const { return best_; }
   bool stopped() const { return summary_.termination != SearchTermination::kNotRun; }
 
-  // Objective at x, NaN as infinity. Must not be called once stopped().
+  // Objective at x; NaN becomes infinity. Must not be called once stopped().
   double Evaluate(const double* x) {
     const double value = objective_(x);
     ++summary_.evaluations;
@@ -29,7 +29,8 @@ class SearchRun {
     return value == value ? value : kInfinity;
   }
 
-  // Moves of the hiding phase, and those of them that the diversity strategy took.
+  // Count the moves of the hiding phase, and those hiding moves that the diversity strategy
+  // replaced.
   void CountHide() { ++hides_; }
   void CountDispersal() { ++dispersals_; }
   std::int64_t hides() const { return hides_; }
@@ -37,7 +38,8 @@ class SearchRun {
 
   void Replace(int candidate, const double* x, double f);
 
-  // Ends iteration `t` of `planned`: adds to the trace, asks the observer, looks at the clock.
+  // Ends iteration `t` of `planned`: extends the trace, calls the observer and checks the criteria
+  // of termination.
   void EndIteration(std::int64_t t, std::int64_t planned);
 
   SearchSummary Finish();
@@ -64,23 +66,23 @@ class SearchRun {
   std::int64_t dispersals_ = 0;
   double best_at_last_gain_ = kInfinity;
   std::int64_t last_gain_ = 0;
-  std::int64_t trace_step_ = 1;  // iterations from one point of the trace to the next
-  TracePoint last_;              // of the iteration that ended last
+  std::int64_t trace_step_ = 1;  // iterations between points of the trace
+  TracePoint last_;              // of the last finished iteration
   SearchSummary summary_;
 };
 
-// The algorithms, one file each.
+// The algorithms, each in its own file.
 void RunLyrebird(SearchRun* run, const SearchOptions& options);
 void RunRandom(SearchRun* run, const SearchOptions& options);
 void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options);
 
-// Draws the first population uniformly in the box (Eq. 14), up to a quarter of it at the places
-// that the box suggests where `suggested`, and ends iteration 0.
+// Draws the first population uniformly in the box (Eq. 14) and ends iteration 0. With `suggested`,
+// up to a quarter of the candidates start at the points that the box suggests.
 class RandomStream;
 void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned,
                     bool suggested = false);
 
-// A point of the box, uniformly.
+// Draws x uniformly in the box.
 void DrawPoint(const Box& box, RandomStream* random, double* x);
 
 }  // namespace lyrefit

@@ -58,7 +58,8 @@ void SearchRun::Replace(int candidate, const double* x, double f) {
   if (f < f_[best_]) best_ = candidate;
 }
 
-// A trace that is full loses every second point, and takes every second one from then on.
+// Extends the trace. A full trace is halved: every second point is removed, and half as many points
+// are recorded from then on.
 void SearchRun::AddToTrace(const TracePoint& point) {
   last_ = point;
   if (point.iteration % trace_step_ != 0) return;
@@ -94,7 +95,7 @@ void SearchRun::EndIteration(std::int64_t t, std::int64_t planned) {
   }
 }
 
-// Unless there are enough or one is close by.
+// Adds an elite unless there are enough or one is close.
 void SearchRun::AddElite(const double* candidate, double f) {
   if (static_cast<int>(summary_.elites.size()) == options_.elites) return;
   const bool distinct =

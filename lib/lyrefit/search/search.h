@@ -7,8 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Minimises `objective` over the box. Same seed and run, same bits. Options must be valid and the
-// box sound (CHECKed); a search that stops early is a result, see `termination`.
+// Minimises `objective` over the box. The same seed and run give the same bits. Options and box
+// must be valid (CHECKed). A search that ends early is a result, not an error: see `termination`.
 SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
                      const SearchOptions& options, const Observer& observer = {});
 

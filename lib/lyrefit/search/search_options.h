@@ -10,17 +10,17 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The four settings of the lyrebird optimizer, what is built on it, and two plain baselines.
+// The lyrebird optimizer in four settings, variants of it, and two baselines.
 enum class Algorithm {
   kMlo,        // modified lyrebird: both strategies
   kLo,         // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
   kLoMblss,    // with the memory-based learn search strategy only
   kLoDmlss,    // with the diversity-maintenance learn search strategy only
-  kMloTuned,   // mlo that learns Pm and gamma from the moves that gained
-  kMloKnees,   // mlo whose first population sits partly where the problem suggests
-  kRandom,     // uniform random points: the baseline every figure is printed beside
+  kMloTuned,   // mlo that adapts Pm and gamma to the values of improving moves
+  kMloKnees,   // mlo whose first population contains points that the problem suggests
+  kRandom,     // uniform random points: the baseline
   kDe,         // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
-  kMloVector,  // mlo whose Eq. 20 draws a number for each coordinate, as the paper prints it
+  kMloVector,  // mlo that draws z of Eq. 20 for each coordinate, as the paper prints it
 };
 
 template <>
@@ -38,13 +38,13 @@ struct EnumTable<Algorithm> {
   };
 };
 
-// How a search goes about it, and when it ends.
+// Settings of a search and its criteria of termination.
 struct SearchOptions {
   Algorithm algorithm = Algorithm::kMlo;
   std::uint64_t seed = 0;
-  std::uint64_t run = 0;               // number of the run: seed and run together name the stream
-  int population = 20;                 // candidates
-  int iterations = 20;                 // one evaluation a candidate each
+  std::uint64_t run = 0;               // number of the run; seed and run select the stream
+  int population = 20;                 // number of candidates
+  int iterations = 20;                 // each evaluates one point a candidate
   double memory_rate = 0.5;            // Pm of MBLSS; 0 switches it off
   double distance_coefficient = 0.25;  // gamma of DMLSS; 0 switches it off
   double de_scale = 0.5;               // F of differential evolution
@@ -52,11 +52,11 @@ struct SearchOptions {
   std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
   double target = -kInfinity;  // stop at or below this objective value
   double time_limit_s = kInfinity;
-  int patience = 0;  // stop after so many iterations without a better best; 0: never
-  int elites = 4;    // how many distinct candidates to return, the best included
+  int patience = 0;  // stop after so many iterations without a lower best value; 0: never
+  int elites = 4;    // number of distinct candidates to return, including the best
 };
 
-// The algorithm has its row where these options are part of others.
+// The table has no row for the algorithm: structs that contain these options declare it themselves.
 inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     OptionRow<SearchOptions>("Search"),
     {"seed", "", "seed of the random stream", &SearchOptions::seed, 0, 1.8446744073709552e19},

@@ -17,11 +17,11 @@ namespace LYREFIT_PUBLIC lyrefit {
 enum class SearchTermination {
   kNotRun,
   kIterations,   // all iterations done
-  kEvaluations,  // budget used up
+  kEvaluations,  // evaluation budget used up
   kTarget,       // target reached
   kTimeLimit,
-  kPatience,     // no gain for `patience` iterations
-  kInterrupted,  // the observer asked to stop
+  kPatience,     // no improvement for `patience` iterations
+  kInterrupted,  // the observer requested a stop
 };
 
 template <>
@@ -39,46 +39,45 @@ struct EnumTable<SearchTermination> {
 
 // A point of the box and its objective value.
 struct Candidate {
-  std::vector<double> x;         // as many as the box has sides
-  double objective = kInfinity;  // at x; infinite where there is none
+  std::vector<double> x;         // one coordinate for each side of the box
+  double objective = kInfinity;  // at x; infinite if not evaluated
 };
 
-// The best so far after an iteration (iteration 0: the first random candidates).
+// The best objective value after an iteration; iteration 0 is the first population.
 struct TracePoint {
   std::int64_t iteration = 0;  // from 0
   std::int64_t evaluations = 0;
   double best = kInfinity;  // objective
 };
 
-// What a search found, and how it went.
+// Result of a search.
 struct SearchSummary {
   SearchTermination termination = SearchTermination::kNotRun;
   std::string message;
   Candidate best;
   std::vector<Candidate> elites;  // distinct candidates, best first; the first one is `best`
   std::int64_t evaluations = 0;
-  std::int64_t iterations = 0;  // that were done
+  std::int64_t iterations = 0;  // completed
   double seconds = 0;
-  // From iteration 0 to the last one; of a search of more than 65,536 iterations every second,
-  // fourth, eighth, ... so that no trace is longer than 65,538 points.
+  // From iteration 0 to the last. A search of more than 65,536 iterations keeps only every second,
+  // fourth, eighth, ... iteration, so that no trace exceeds 65,538 points.
   std::vector<TracePoint> trace;
 };
 
-// Between what limits a search looks, a side for each parameter.
+// Bounds of a search, one side for each parameter.
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;
-  // Places where a minimum may lie, best guess first; only kMloKnees looks at them. May be empty.
+  // Points where a minimum may lie, most likely first; used by kMloKnees only. May be empty.
   std::vector<std::vector<double>> suggested = {};
 };
 
-// The function to minimise: takes as many numbers as the box has sides. Must return the same value
-// for the same point; NaN counts as infinity.
+// The function to minimise. It reads as many numbers as the box has sides and must return the same
+// value for the same point. NaN counts as infinity.
 using ObjectiveFunction = std::function<double(const double*)>;
 
-// Any search with this signature can take the place of Search(): it must come back with the best
-// point, at least one elite, the trace and the count of evaluations, and the same for the same seed
-// and run.
+// A replacement for Search(). It must return the best point, at least one elite, the trace and the
+// evaluation count, and the same result for the same seed and run.
 using SearchFunction = std::function<SearchSummary(const ObjectiveFunction&, const Box&,
                                                    const SearchOptions&, const Observer&)>;
 

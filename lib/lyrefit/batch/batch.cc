@@ -27,7 +27,7 @@ CheckpointHead OptionsJson(const BatchTaskType& task, const BatchOptions& option
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
   if (options.raw_csv) json["raw-csv"] = true;
-  // Of one that is given several times all values.
+  // An option that is given several times is echoed with all its values.
   for (const auto* echoes : {&options.reading, &task.options}) {
     for (const OptionEcho& echo : *echoes) {
       CheckpointHead& value = json[echo.name];
@@ -64,7 +64,7 @@ Expected<CheckpointHead> HeadOf(const BatchSource& source, const BatchTaskType& 
   return head;
 }
 
-// Why a curve is broken, without the file, which is in a column of its own.
+// Reason why a curve is broken. The file is left out, since another column has it.
 std::string ReasonOf(const Error& error) {
   if (error.line == 0) return error.message;
   if (error.column == 0) return fmt::format("line {}: {}", error.line, error.message);
@@ -85,7 +85,7 @@ std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& colum
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-// What makes a row of a curve. From any thread.
+// Creates the row of a curve. Thread-safe.
 class RowMaker {
  public:
   RowMaker(const BatchSource& source, const BatchTaskType& task, const BatchOptions& options)
@@ -123,8 +123,8 @@ class RowMaker {
   }
 
  private:
-  // The curve's page, which is written before the row that names it in its last cell. One that
-  // cannot be written is a remark on the row.
+  // Writes the curve's page before its row and puts the path into the row's last cell. A page that
+  // cannot be written becomes a remark on the row.
   void AddPage(const std::string& id, const TaskResult& result, ResultRow* row) const {
     if (!result.page || (options_.pages == PagesOf::kFailed && !result.failed)) return;
     const std::string path = StringPagePath(id);
@@ -139,7 +139,7 @@ class RowMaker {
     remark = (before == nullptr ? "" : *before + "; ") + "no page: " + written.error().message;
   }
 
-  // What is known besides, and whether the readings can be worked with at all.
+  // Adds the known conditions and validates the readings.
   void Settle(BatchCurve* curve) const {
     Expected<void> settled;
     if (options_.prepare) settled = options_.prepare(&*curve->curve);
@@ -151,7 +151,7 @@ class RowMaker {
   const BatchTaskType& task_;
   const BatchOptions& options_;
   const std::vector<ResultColumn> columns_;
-  const std::size_t remark_;  // the column of remarks
+  const std::size_t remark_;  // position of the column `remark`
 };
 
 Expected<PipelineEnd> WriteRows(BatchSource* source, const BatchTaskType& task,
@@ -191,7 +191,7 @@ std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePla
   return std::make_pair(place->input, place->number);
 }
 
-// Whether there is nothing left to do: the results of this very run are there.
+// True if the folder already has the results of this run, so that nothing is left to do.
 Expected<bool> AreThere(const CheckpointHead& head, const BatchOptions& options) {
   if (options.start != BatchStart::kResume || options.shard.of > 1) return false;
   if (std::filesystem::exists(CheckpointPath(options.folder, options.shard))) return false;
@@ -266,7 +266,7 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
   } else {
     const BatchSummary before = summary;
     TRY(WriteResults({path}, options.folder, observer, row_observer, &summary));
-    if (summary.interrupted) {  // what was counted is not all
+    if (summary.interrupted) {  // the counts are incomplete
       summary = before;
       summary.interrupted = true;
       return summary;

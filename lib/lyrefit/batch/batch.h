@@ -16,85 +16,87 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One thing done with each of many curves.
+// Runs one task on each of many curves.
 //
-// Writes into a folder
-//   results.csv           one row a curve, always, in the order of the input, a column each for what
-//                         CommonColumns, the task and NeighbourColumns name
-//   results.jsonl         the same as one JSON object a line, null for what is not known
-//   pages/ID.html         a page each, where they were asked for (string_pages.h). It stands there
-//                         before its row does; one that is removed later is made again by --force;
-//                         one that cannot be written is a remark on its row
+// The results are written into one folder:
+//   results.csv           one row for each curve, always, in the order of the input; the columns
+//                         are those of CommonColumns, the task and NeighbourColumns
+//   results.jsonl         one JSON object a line with the cells of results.csv; null: unknown
+//   pages/ID.html         one page for each curve, if requested (string_pages.h). It is written
+//                         before its row. --force writes a removed page again. A page that cannot
+//                         be written is a remark on its row
 //   results.schema.json   a Table Schema of both (specs.frictionlessdata.io/table-schema): names,
-//                         types, units and a line on each column, and what the run was
-// with the same bytes on any number of threads and machines, in however many shards or goes it was
-// done. Memory does not grow with the number of curves.
+//                         types, units and a description of each column, and the run's settings
+// The files have the same bytes on any number of threads, machines, shards and resumed runs. Memory
+// does not grow with the number of curves.
 //
-// While it runs the rows stand in results.part (checkpoint.h); a killed run loses those curves only
-// that were worked on. A shard of several leaves shard-K-of-N.part, which MergeShards makes results
-// of; all shards may have one folder.
+// During the run the rows are in results.part (checkpoint.h). A killed run loses only the curves in
+// progress. A shard of several writes shard-K-of-N.part, and MergeShards combines the shards into
+// results. All shards may use one folder.
 
-// Why a kind of rows is broken or not usable, and how many there are.
+// Number of rows that are broken or not usable for one reason.
 struct ReasonCount {
-  std::int64_t rows = 0;  // how many
-  std::string where;      // the first of them
+  std::int64_t rows = 0;  // number of rows
+  std::string where;      // location of the first of these rows
 };
 
-// What a run came to.
+// Summary of a run.
 struct BatchSummary {
   std::string version;  // of lyrefit
   std::string task;     // "fit", "diagnose", "translate"
-  std::string folder;   // where the results are
+  std::string folder;   // folder of the results
   std::uint64_t seed = 0;
-  std::int64_t rows = 0;         // in the results
-  std::int64_t rows_before = 0;  // of them written by runs before this one
+  std::int64_t rows = 0;         // number of rows in the results
+  std::int64_t rows_before = 0;  // of `rows`: written by earlier runs
   double seconds = 0;
-  bool interrupted = false;                      // there are no results yet; what follows is empty
-  bool was_complete = false;                     // nothing was left to do
-  std::map<std::string, std::int64_t> statuses;  // how many rows of each
-  std::map<std::string, std::int64_t> zones;     // of a field test
-  std::map<std::string, std::int64_t> causes;    // where the task looks for any
-  std::map<std::string, std::int64_t> abouts;    // what those belong to: see AboutOf
-  // With all numbers in them written as "N"; the rarest beyond kMostReasons as one.
+  bool interrupted = false;  // there are no results yet; the members below are empty
+  bool was_complete = false;                     // the results were complete before the run
+  std::map<std::string, std::int64_t> statuses;  // number of rows for each status
+  std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
+  // Number of rows for each cause, if the task reports causes.
+  std::map<std::string, std::int64_t> causes;
+  // Number of rows for each subject of a cause; see AboutOf.
+  std::map<std::string, std::int64_t> abouts;
+  // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.
   std::map<std::string, ReasonCount> reasons;
-  std::vector<ResultColumn> columns;  // of the results
-  std::int64_t compared = 0;          // strings with neighbours
-  std::int64_t flagged = 0;           // of those
+  std::vector<ResultColumn> columns;  // columns of the results
+  std::int64_t compared = 0;          // number of strings with neighbours
+  std::int64_t flagged = 0;           // of `compared`: flagged as different
 };
 
-// So many different reasons are counted one by one.
+// Number of different reasons that are counted separately.
 constexpr int kMostReasons = 40;
 
-// Hears every row of the results in their order, as soon as it is written.
+// Receives every row of the results in their order, directly after it is written.
 using RowObserver = std::function<void(const std::vector<ResultColumn>&, const ResultRow&)>;
 
-// The observer hears of stage "batch", whose `iteration` counts rows and whose `part` bytes.
-// Errors: options outside their ranges; a folder that cannot be written; results, or an unfinished
-// run, that are there already and not to be replaced or gone on with; what cannot be gone on with,
-// as input, options or version differ, or another process writes it; a full disk. What was written
-// before stays as it is, and --resume goes on from it.
+// Runs `task` on every curve of `source`. The observer receives stage "batch", whose `iteration`
+// counts rows and whose `part` counts bytes. Errors: options outside their ranges; a folder that is
+// not writable; existing results or an unfinished run without permission to replace or resume them;
+// a run that cannot be resumed, since input, options or version differ or another process writes
+// it; a full disk. After an error the rows written before are kept, and --resume continues from
+// them.
 Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
                                 const BatchOptions& options, const Observer& observer = {},
                                 const RowObserver& row_observer = {});
 
-// Where the results of all shards go.
+// Options of MergeShards.
 struct MergeOptions {
-  std::string folder;    // where the results go
-  bool replace = false;  // results that are there already
+  std::string folder;    // folder of the results
+  bool replace = false;  // overwrite existing results
 };
 
-// The results of all shards in these folders. Errors: shards that are missing or not finished, all
-// by their numbers; shards of different runs; one that is there twice; what RunBatch says of the
-// folder.
+// Merges the shards in `folders` into results. Errors: missing or unfinished shards, listed by
+// number; shards of different runs; a duplicate shard; the folder errors of RunBatch.
 Expected<BatchSummary> MergeShards(const std::vector<std::string>& folders,
                                    const MergeOptions& options,
                                    const RowObserver& row_observer = {});
 
-// What there is to say at the end of a run: how many rows are fine, why others are not, causes.
+// The report at the end of a run: number of fine rows, reasons of the others, causes.
 Document BatchDocument(const BatchSummary& summary);
 std::string BatchText(const BatchSummary& summary);
 
-// The seed of the curve `id` in a run with this seed: FNV-1a of the id, mixed with the run's.
+// Seed of the curve `id` in a run with seed `seed`: FNV-1a of the id, mixed with the run's seed.
 std::uint64_t SeedOf(std::uint64_t seed, const std::string& id);
 
 }  // namespace lyrefit

@@ -24,7 +24,7 @@ std::string Done(const BatchSummary& summary) {
   return text;
 }
 
-// The most frequent first.
+// By decreasing count.
 template <class Count>
 std::vector<std::pair<std::string, Count>> Ordered(const std::map<std::string, Count>& counts,
                                                    std::int64_t (*rows)(const Count&)) {

@@ -15,31 +15,31 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What to do where a run was not finished, or results are there.
+// Behaviour if an unfinished run or results exist.
 enum class BatchStart {
-  kNew,      // refuse
-  kResume,   // go on with a run of the same input, options and version; done already is fine too
-  kReplace,  // begin anew
+  kNew,      // return an error
+  kResume,   // continue a run of the same input, options and version; a complete run is no error
+  kReplace,  // start again
 };
 
-// How many curves are worked on, and where the rows go.
+// How many curves are processed at once, and where the rows are written.
 struct BatchOptions {
-  std::string folder;  // where the results go; made if it is not there
-  Shard shard;         // which the source was opened with
+  std::string folder;  // folder of the results; created if missing
+  Shard shard;         // must be the shard that the source was opened with
   BatchStart start = BatchStart::kNew;
-  std::uint64_t seed = 0;  // of the run; each curve's comes from it and its id
-  int threads = 0;         // 0: all cores; never changes a result
-  // Of the comparison of strings with their neighbours: see neighbours.h.
+  std::uint64_t seed = 0;  // of the run; each curve's seed is computed from it and the id
+  int threads = 0;         // 0: all cores; no effect on results
+  // For the comparison of strings with their neighbours: see neighbours.h.
   double group_level = 0.001;
   double like_light = 0.05;
-  // Pages of single curves, in the folder of the results: see string_pages.h.
+  // Pages of single curves in the folder of the results: see string_pages.h.
   PagesOf pages = PagesOf::kNone;
   bool interactive_pages = false;
-  // Texts of results.csv as they are, also those that a spreadsheet would run as formulas.
+  // Write texts of results.csv unchanged, including those that a spreadsheet would run as formulas.
   bool raw_csv = false;
-  // What is known of every curve besides, put into each as it is read.
+  // Adds known conditions to each curve after it is read. Empty: none.
   std::function<Expected<void>(IvCurve* curve)> prepare;
-  // How the curves were read and prepared, for the digest of the run.
+  // Options of reading and preparation, for the digest of the run.
   std::vector<OptionEcho> reading;
 };
 

@@ -29,7 +29,7 @@ std::string WhereOf(const IdPlace& place, const std::vector<std::string>& paths)
   return place.line == 0 ? path : fmt::format("{}:{}", path, place.line);
 }
 
-// What ends a line or a page has no place in an id.
+// `id` without characters that end a line or a page.
 std::string CleanId(std::string id) {
   id = PercentCoded(id);
   for (char& c : id) {
@@ -51,7 +51,7 @@ std::string PercentCoded(std::string_view text) {
 
 namespace {
 
-// The inputs one after the other, of which one shard is given.
+// All inputs in sequence, limited to one shard.
 class Batch : public BatchSource {
  public:
   Batch(std::vector<std::string> paths, std::vector<std::unique_ptr<BatchInput>> inputs,
@@ -59,7 +59,7 @@ class Batch : public BatchSource {
       : paths_(std::move(paths)), inputs_(std::move(inputs)) {
     std::int64_t all = 0;
     for (const auto& input : inputs_) all += input->size();
-    // Without an overflow of the product for any size that a file can have.
+    // This order of operations cannot overflow for any file size.
     const auto part = [&](int k) { return all / shard.of * k + all % shard.of * k / shard.of; };
     begin_ = part(shard.k - 1);
     end_ = part(shard.k);
@@ -125,7 +125,7 @@ class Batch : public BatchSource {
   }
 
  private:
-  // Gives it an id, and an error if that was used before.
+  // Sets the id of a curve, and an error if the id was used before.
   void NameIt(FoundCurve* found) {
     const std::string& path = paths_[input_];
     if (found->id.empty()) {
@@ -161,16 +161,16 @@ class Batch : public BatchSource {
   const std::vector<std::string> paths_;
   const std::vector<std::unique_ptr<BatchInput>> inputs_;
   SeenIds ids_;
-  std::int64_t begin_ = 0;  // of the shard, of the bytes of all inputs
+  std::int64_t begin_ = 0;  // first byte of the shard, counted over all inputs
   std::int64_t end_ = 0;
-  bool known_ = true;  // how much there is, and all of it can be read again
-  bool any_ = false;   // curve was found
+  bool known_ = true;  // the size is known, and all inputs can be read again
+  bool any_ = false;   // at least one curve was found
   std::size_t input_ = 0;
-  std::int64_t base_ = 0;  // where the input begins
+  std::int64_t base_ = 0;  // position of the current input
   std::int64_t place_ = 0;
 };
 
-// The sidecars of the tables among the inputs, as `roof/*` names them too.
+// Sidecars of the tables among the inputs, since a pattern such as `roof/*` includes them.
 std::set<fs::path> SidecarsOf(const std::vector<std::string>& inputs) {
   std::set<fs::path> sidecars;
   for (const std::string& path : inputs) {

@@ -20,12 +20,12 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a row says of its curve.
+// Usability of the row of a curve.
 enum class RowStatus {
   kFine,
-  kDoubtful,   // there is an answer, but of readings that no device has: see PlausibilityProblem
-  kNotUsable,  // there is an answer, but nobody should work with it
-  kBroken,     // there is none: the curve could not be read, or not be worked with
+  kDoubtful,   // there is an answer, but the readings are implausible: see PlausibilityProblem
+  kNotUsable,  // there is an answer, but it should not be used
+  kBroken,     // there is no answer: the curve could not be read or processed
 };
 
 template <>
@@ -36,60 +36,61 @@ struct EnumTable<RowStatus> {
                                                   {RowStatus::kBroken, "broken"}};
 };
 
-// What a task found out about one curve.
+// Result of a task for one curve.
 struct TaskResult {
   RowStatus status = RowStatus::kFine;
-  std::string reason;             // why it is not fine, in one sentence
-  std::vector<ResultCell> cells;  // one for each of the task's columns; empty where it is broken
-  bool interrupted = false;       // the observer stopped it: to be thrown away
-  bool failed = false;            // somebody has to look at this curve
-  // Its page, the same bytes for the same curve and seed; empty: there is none.
+  std::string reason;             // reason in one sentence if it is not fine
+  std::vector<ResultCell> cells;  // one for each of the task's columns; empty if broken
+  bool interrupted = false;       // the observer stopped the task: to be discarded
+  bool failed = false;            // the curve needs inspection
+  // Creates the curve's page, with the same bytes for the same curve and seed. Empty: no page.
   std::function<std::string(const PageOptions& options)> page = {};
 };
 
-// What is done with each of many curves, as data: another task is another of these.
+// A task, as data: what is run on each of many curves.
 struct BatchTaskType {
   std::string name;                   // "fit"
-  std::vector<ResultColumn> columns;  // its own, behind those that every row has (ResultColumns)
-  std::vector<OptionEcho> options;    // whatever its cells depend on; threads do not count
-  // From any thread, on one thread, with the seed of this curve. `curve.curve` holds one. The same
-  // curve and seed give the same cells, so no times are measured.
+  // The task's columns, after those of every row (CommonColumns).
+  std::vector<ResultColumn> columns;
+  std::vector<OptionEcho> options;  // all options that affect its cells; not the number of threads
+  // Runs the task on one curve with the curve's seed. It must be thread-safe and use one thread.
+  // `curve.curve` has a value. The same curve and seed must give the same cells, so times are not
+  // allowed in them.
   std::function<TaskResult(const BatchCurve& curve, std::uint64_t seed, const Observer& observer)>
       run;
 };
 
-// What `fit` says of a curve; `auto_model`: one to three diodes, as the data decide (FitAuto).
-// Searches are small and intervals symmetric unless the options say otherwise: see BatchFitOptions.
+// The task `fit`. `auto_model`: one to three diodes, selected by the data (FitAuto).
+// BatchFitOptions has the usual options: small searches and symmetric intervals.
 BatchTaskType FitTask(const FitOptions& asked, bool auto_model = false);
 
-// What `diagnose` says of a curve. The gain is not measured on held-out readings: no column has it.
+// The task `diagnose`. The gain on held-out readings is not computed, since no column has it.
 BatchTaskType DiagnoseTask(const DiagnoseOptions& asked);
 
-// What `translate` says of a curve at standard conditions: power with its uncertainty, zone,
-// checklist. A rating that stands beside a curve (rated_power_W, of the whole string) counts where
-// the options state none.
+// The task `translate` to standard conditions: power with its uncertainty, zone, checklist. A
+// rating beside a curve (rated_power_W, of the whole string) is used if the options state none.
 BatchTaskType FieldTestTask(const TranslateOptions& asked);
 
-// The usual options of a fit among many: symmetric intervals, and no random points beside the
-// search, whose figure has no column.
+// Usual options for fits of many curves: symmetric intervals, and no random baseline, since its
+// RMSE has no column.
 FitOptions BatchFitOptions();
 
-// The usual options of a field test among many: 1,000 draws, which tell a wrong decision's
-// probability to 1.6 % or better and the ends of an interval to a twelfth of its half width.
+// Usual options for field tests of many curves: 1,000 draws. They determine the probability of a
+// wrong decision to 1.6 % or better, and the ends of an interval to a twelfth of its half-width.
 TranslateOptions BatchTranslateOptions();
 
-// The rated power that stands beside a curve (rated_power_W, of the whole string), in W; none: there
-// is none, or it is no number.
+// The rated power beside a curve (rated_power_W, of the whole string) in W. Empty: missing or not a
+// number.
 std::optional<double> RatedPowerBeside(const BatchCurve& curve);
 
-// What the causes of a verdict are about, by the catalogue (Effect::where): "device", "sweep",
-// "instrument", "conditions", "unknown". Empty: there is no such cause.
+// Subject of the cause `cause` by the catalogue (Effect::where): "device", "sweep", "instrument",
+// "conditions", "unknown". Empty: no such cause.
 std::string AboutOf(const std::string& cause);
 
-// For cells that may not be known: nothing where the number is not finite, or the text empty.
+// A cell; unknown if the number is not finite or the text is empty.
 ResultCell NumberCell(double value);
 ResultCell TextCell(const std::string& text);
-// Texts as one, with `separator` between them.
+// Texts joined with `separator`.
 ResultCell ListCell(const std::vector<std::string>& texts, const char* separator = " ");
 
 }  // namespace lyrefit

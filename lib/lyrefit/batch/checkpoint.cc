@@ -21,10 +21,10 @@ constexpr char kNoSums[] =
     "one, or begin anew with batch --force";
 constexpr AppendLog::Kind kKind = {"rows", "these rows", "rows of a batch", kHeadBegin, kNoPart};
 
-// {"lyrefit_batch":2, ...}. Files of format 1 have no checksums.
+// Format number in the head: {"lyrefit_batch":2, ...}. Files of format 1 have no checksums.
 constexpr int kFormat = 2;
 
-// ,"crc":"0123abcd"}
+// End of every line: ,"crc":"0123abcd"}
 constexpr char kSumBegin[] = ",\"crc\":\"";
 constexpr std::size_t kSumSize = sizeof kSumBegin - 1 + 8 + 2;
 
@@ -39,7 +39,7 @@ std::string ValueText(const CheckpointHead& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// How heads call things, and how people do.
+// Name of a member of the head, for messages.
 std::string Spoken(const std::string& key) {
   if (key == "version") return "by lyrefit";
   if (key == "input") return "on an input with the digest";
@@ -58,7 +58,7 @@ std::optional<std::pair<int, std::int64_t>> PlaceOf(const nlohmann::json& json) 
   return std::make_pair(json[0].get<int>(), json[1].get<std::int64_t>());
 }
 
-// What a head says, whose checksum is the first.
+// Parses the head, whose checksum is the first of the file.
 Expected<CheckpointHead> HeadOf(const std::string& line, LineSums* sums, const std::string& path) {
   const CheckpointHead as_it_is = CheckpointHead::parse(line, nullptr, false);
   if (!as_it_is.is_object()) return Fail(kNoPart, path, 1);
@@ -186,7 +186,7 @@ Expected<void> CheckpointFile::Finish(const PartEnd& end) {
 Expected<void> CheckpointFile::Remove() { return log_->Remove(); }
 
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path) {
-  constexpr std::streamoff kEnough = 4096;  // the last line of a part that is complete is short
+  constexpr std::streamoff kEnough = 4096;  // the last line of a complete file is shorter
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) return Fail("cannot read the rows: " + Because(), path);
   const std::streamoff size = in.tellg();

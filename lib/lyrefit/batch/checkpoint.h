@@ -15,70 +15,70 @@
 
 namespace lyrefit {
 
-// The file that a run over many curves writes row by row, so that it can be taken up again. Lines
-// of JSON: a head with all that a row depends on (version, task, options, shard, digest of the
-// input), the rows in the order of the input, and once all are there {"end": how many}. The last
-// member of every line, "crc", is the CRC-32 of it and all lines before it: a line that was changed,
-// moved, or lost is found by whoever reads the file.
+// The file to which a run over many curves writes row by row, so that it can be resumed. It has
+// lines of JSON: a head with all inputs of a row (version, task, options, shard, digest of the
+// input), the rows in the order of the input, and {"end": number of rows} when complete. The last
+// member of every line, "crc", is the CRC-32 of this and all earlier lines. A reader thus detects a
+// line that was changed, moved or lost.
 
 using CheckpointHead = nlohmann::ordered_json;
 
-// A head that holds the format of part files alone.
+// A head that holds only the format of checkpoint files.
 CheckpointHead NewCheckpointHead();
 
-// DIR/results.part; of a shard of several DIR/shard-3-of-8.part.
+// DIR/results.part; for a shard of several DIR/shard-3-of-8.part.
 std::string CheckpointPath(const std::string& folder, const Shard& shard);
 
-// The first thing in which a run differs from the one that wrote `before`, as a sentence.
+// Checks that a run has the head `before` of the file at `path`. Error: the first difference, as a
+// sentence.
 Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now, const std::string& path);
 
-// Where in the whole input the first and the last row of a part stand: which file, and which curve
-// of that; nothing where there are no rows.
+// Positions of the first and the last row of a checkpoint in the whole input: index of the input,
+// and index of the curve in it. Empty without rows.
 struct PartEnd {
   std::int64_t rows = 0;
   std::optional<std::pair<int, std::int64_t>> first;
   std::optional<std::pair<int, std::int64_t>> last;
 };
 
-// What the last line of a part file says; nothing where the run has not finished.
+// The last line of a complete checkpoint file; empty if the run is unfinished.
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path);
 
-// The checksums of the lines of a part file, one after the other.
+// Running checksums over the lines of a checkpoint file.
 class LineSums {
  public:
-  // A line, without its end, with its checksum as the last member.
+  // `line`, without its line end, with its checksum added as the last member.
   std::string Seal(std::string_view line);
-  // The line without its checksum. Errors, a sentence: it has none, or another one than it should.
+  // `line` without its checksum. Errors, as a sentence: a missing or wrong checksum.
   Expected<std::string> Check(std::string_view line);
 
  private:
   unsigned long Add(std::string_view line);
 
-  unsigned long crc_ = 0;  // of the lines so far
+  unsigned long crc_ = 0;  // of all lines so far
 };
 
 enum class PartStart {
-  kNew,      // nothing may be there
-  kResume,   // goes on with what is there, if it is of the same run
-  kReplace,  // begins anew
+  kNew,      // the file must not exist
+  kResume,   // continues an existing file of the same run
+  kReplace,  // starts again
 };
 
 class CheckpointFile {
  public:
-  // Errors, and nothing is changed: what cannot be opened or is written by another process; what is
-  // there without kResume, or is of another run, no part file, or not as it was written. A last line
-  // without an end was never finished: it is cut off.
+  // Opens or creates a file. A last line without a line end is incomplete and is cut off. Errors,
+  // without any change to the file: it cannot be opened, or another process writes it; it exists
+  // without kResume; it is of another run, is no checkpoint file or was changed.
   static Expected<std::unique_ptr<CheckpointFile>> Open(const std::string& path, const CheckpointHead& head,
                                                   PartStart start);
 
-  std::int64_t rows() const { return rows_; }  // that are there
+  std::int64_t rows() const { return rows_; }  // number of rows in the file
   bool complete() const { return complete_; }
   const std::string& path() const { return log_->path(); }
 
-  // Whole lines, each with its end, `rows` of them; see AppendLog.
+  // Appends `rows` complete lines, each with its line end; see AppendLog.
   Expected<void> Append(const std::string& lines, std::int64_t rows);
-  // Says that all rows are there, which curves of the input they are of, and waits until they are on
-  // the disk.
+  // Writes the final line with the positions of the rows, and waits until all rows are on the disk.
   Expected<void> Finish(const PartEnd& end);
   Expected<void> Remove();
 
@@ -92,15 +92,15 @@ class CheckpointFile {
   bool complete_ = false;
 };
 
-// Reads the rows of a part file one after the other.
+// Reads the rows of a checkpoint file in order.
 class CheckpointReader {
  public:
   static Expected<CheckpointReader> Open(const std::string& path);
 
   const CheckpointHead& head() const { return head_; }
   const std::string& path() const { return path_; }
-  // None after the last. Errors: a line that is no row or not as it was written; an end that is
-  // missing, or counts other rows than there were.
+  // The next row; empty after the last. Errors: a line that is no row or was changed; a missing
+  // end, or one with another number of rows.
   Expected<std::optional<nlohmann::json>> Next();
 
  private:

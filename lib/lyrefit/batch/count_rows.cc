@@ -60,13 +60,13 @@ std::string WithoutNumbers(const std::string& sentence) {
   for (std::size_t i = 0; i < sentence.size();) {
     const char c = sentence[i];
     const std::size_t close = c == '\'' ? sentence.find('\'', i + 1) : std::string::npos;
-    if (close != std::string::npos) {  // what was found there
+    if (close != std::string::npos) {  // a quoted text, usually the found value
       text += "'N'";
       i = close + 1;
     } else if (IsNumeral(c)) {
       const std::size_t end = sentence.find_first_not_of("0123456789.,eE+-", i);
       std::size_t last = std::min(end, sentence.size());
-      while (!IsNumeral(sentence[last - 1])) --last;  // the point of the sentence stays
+      while (!IsNumeral(sentence[last - 1])) --last;  // keeps the full stop of the sentence
       text += 'N';
       i = last;
     } else {

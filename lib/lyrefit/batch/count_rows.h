@@ -9,20 +9,20 @@
 
 namespace lyrefit {
 
-// Sums rows up for the end of a run, in constant memory.
+// Counts rows for the summary of a run, in constant memory.
 class RowCounter {
  public:
-  // `summary` outlives it.
+  // `summary` must outlive the counter.
   RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* summary);
   void Count(const ResultRow& row);
 
  private:
-  // Columns; as many as there are: none.
+  // Positions of columns; the number of columns for a missing one.
   std::size_t status_, reason_, where_, zone_, cause_, about_, flag_;
   BatchSummary* const summary_;
 };
 
-// A sentence with every number, and every word in quotes that holds one, written as "N".
+// `sentence` with every number, and every quoted text, replaced by "N".
 std::string WithoutNumbers(const std::string& sentence);
 
 }  // namespace lyrefit

@@ -36,7 +36,7 @@ bool IsElectrical(ColumnKind kind) {
          kind == ColumnKind::kCurrentDensity;
 }
 
-// The names as columns, with what the options say of them.
+// The names as columns, with the columns named by the options.
 std::vector<Column> ColumnsOf(const std::vector<std::string>& names, const ReadOptions& options) {
   std::vector<Column> columns;
   columns.reserve(names.size());
@@ -46,7 +46,7 @@ std::vector<Column> ColumnsOf(const std::vector<std::string>& names, const ReadO
   return columns;
 }
 
-// The columns that make the id: one that is whole, else all levels, else any name.
+// Columns of the id: a complete id, else all levels, else any name.
 std::vector<int> IdColumns(const std::vector<std::string>& names) {
   std::array<int, static_cast<std::size_t>(IdPart::kOtherwise) + 1> places;
   places.fill(-1);
@@ -65,7 +65,7 @@ std::vector<int> IdColumns(const std::vector<std::string>& names) {
   return columns;
 }
 
-// What the rows below a header are.
+// Shape of the table, from the rows below a header.
 CsvShape ShapeOfRows(const CsvHead& head, const std::vector<Column>& columns,
                      const std::vector<std::string_view>& rows) {
   const std::vector<Channel> channels = FindChannels(columns);
@@ -92,7 +92,7 @@ CsvShape ShapeOfRows(const CsvHead& head, const std::vector<Column>& columns,
   return single > 0 && !head.id_columns.empty() ? CsvShape::kLong : CsvShape::kNone;
 }
 
-// Whether a first line is a row already: it holds a list.
+// True if a first line is already a row, since it holds a list.
 bool IsRowWithoutHead(std::string_view line) {
   for (const char delimiter : {'\t', ';', ','}) {
     const std::vector<std::string> fields = Split(line, delimiter);
@@ -104,7 +104,8 @@ bool IsRowWithoutHead(std::string_view line) {
   return false;
 }
 
-// The raw field that begins at `at`; `at` becomes the beginning of the next one, npos at the end.
+// The raw field that begins at `at`. `at` is set to the beginning of the next field; npos at the
+// end.
 std::string_view TakeField(std::string_view row, char delimiter, std::size_t* at) {
   std::size_t begin = *at;
   std::size_t stop = begin;
@@ -140,7 +141,7 @@ std::string Unquoted(std::string_view field) {
   return WithoutApostrophe(AsUtf8(TrimBlanks(text)));
 }
 
-// A field of readings, or of something else.
+// Adds a field to the lists or to the scalars.
 Expected<void> TakeCsvField(const std::string& name, std::string_view text, int column,
                             char delimiter, const ReadOptions& options, RowFields* fields) {
   const NameMeaning& meaning = MeaningOf(name);

@@ -12,12 +12,12 @@
 
 namespace lyrefit {
 
-// What a table of many curves is.
+// Shape of a table of many curves.
 enum class CsvShape {
-  kNone,   // not that of many curves
+  kNone,   // not a table of many curves
   kRows,   // one curve a row
   kLong,   // one reading a row
-  kNoHead  // one curve a row, and no header
+  kNoHead  // one curve a row, without a header
 };
 
 // The header of a table of many curves.
@@ -25,26 +25,28 @@ struct CsvHead {
   CsvShape shape = CsvShape::kNone;
   char delimiter = ',';
   std::vector<std::string> names;
-  std::vector<int> id_columns;  // in the order in which they make the id
-  std::int64_t line = 0;        // where it stands
+  std::vector<int> id_columns;  // in the order of the parts of the id
+  std::int64_t line = 0;        // its line in the file
 };
 
-// Looks at the first lines of a file: the header, behind blank lines and comments, and some rows.
+// Detects header and shape from the first lines of a file. The header follows blank lines and
+// comments.
 CsvHead FindCsvHead(std::string_view text, const ReadOptions& options);
 
-// The id of a row, empty where it has none. In one pass over its beginning.
-// `looked_at`: how many bytes of it say so, if asked for; a row that begins alike has the same.
+// The id of a row; empty if there is none. Only the beginning of the row is parsed. `looked_at`, if
+// not null, receives the number of bytes that determine the id. A row with the same first bytes has
+// the same id.
 std::string IdOfCsvRow(std::string_view row, const CsvHead& head, std::size_t* looked_at = nullptr);
 
-// Takes a row apart. Errors: a sentence and the column.
+// Parses a row. Errors: a sentence and the column.
 Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, const ReadOptions& options,
                            RowFields* fields);
 
-// A field that is no reading; a number with a decimal comma gets a point, where the table may have
-// such.
+// A field that is not a reading. A decimal comma becomes a point if the delimiter allows decimal
+// commas.
 std::string ScalarText(std::string_view text, char delimiter);
 
-// Text in UTF-8; that of Windows is decoded.
+// `text` in UTF-8; Windows-1252 is decoded.
 std::string AsUtf8(std::string_view text);
 
 }  // namespace lyrefit

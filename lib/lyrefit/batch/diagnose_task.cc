@@ -86,7 +86,7 @@ BatchTaskType DiagnoseTask(const DiagnoseOptions& asked) {
                       extended.not_usable_because, DiagnoseCells(*diagnosis),
                       diagnosis->interrupted};
     result.failed = !extended.usable || diagnosis->verdict.found || diagnosis->verdict.unexplained;
-    diagnosis->seconds = kUnknown;  // nobody's clock is in a page
+    diagnosis->seconds = kUnknown;  // a page must not depend on the time used
     result.page = [diagnosis = std::make_shared<const Diagnosis>(std::move(*diagnosis))](
                       const PageOptions& page) {
       return DrawPage(DiagnosisDocument(*diagnosis), DiagnosisJson(*diagnosis), page);

@@ -15,7 +15,7 @@
 namespace lyrefit {
 namespace {
 
-// As KeyPointQuantities has them.
+// Names and units in the order of KeyPointQuantities.
 constexpr const char* kQuantities[] = {"Isc", "Voc", "Imp", "Vmp", "Pmax", "FF"};
 constexpr const char* kUnits[] = {"A", "V", "A", "V", "W", ""};
 constexpr std::size_t kQuantityCount = 6;
@@ -116,7 +116,7 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   return cells;
 }
 
-// The string's own rating, where one stands beside it and none was stated for all.
+// Uses the rating beside the curve, if the options state none.
 void TakeRating(const BatchCurve& curve, FieldTestOptions* options) {
   const std::optional<double> rated_W = RatedPowerBeside(curve);
   if (options->rated_W || !rated_W) return;
@@ -158,7 +158,7 @@ BatchTaskType FieldTestTask(const TranslateOptions& asked) {
     }
     const bool passes = !report->field_test || IsPass(report->field_test->zone);
     result.failed = !usable || !passes || !report->causes.empty();
-    report->seconds = kUnknown;  // nobody's clock is in a page
+    report->seconds = kUnknown;  // a page must not depend on the time used
     result.page = [report = std::make_shared<const TranslationReport>(std::move(*report))](
                       const PageOptions& page) {
       return DrawPage(TranslationDocument(*report), TranslationJson(*report), page);

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file of one curve as ReadCurve takes it.
+// A file with one curve, read by ReadCurve.
 class OneCurve : public BatchInput {
  public:
   OneCurve(std::string path, const ReadOptions& options)
@@ -56,7 +56,7 @@ class OneCurve : public BatchInput {
   bool done_ = false;
 };
 
-// A JSON document whose curves stand anywhere in it: read whole when the first is asked for.
+// A JSON document with curves at any position. It is read completely at the first call of Next().
 class JsonWhole : public BatchInput {
  public:
   JsonWhole(std::string path, const ReadOptions& options)

@@ -27,14 +27,14 @@ constexpr char kLines[] = "results.jsonl";
 constexpr char kSchema[] = "results.schema.json";
 constexpr std::uintmax_t kLargestSchema = 16U << 20;
 
-// Rows that stand one behind the other and have one parent.
+// Adjacent rows with the same parent.
 struct Group {
   std::string parent;
   std::vector<ResultRow> rows;
   std::vector<Neighbour> members;
 };
 
-// Where the columns stand that the comparison needs.
+// Positions of the columns that the comparison of neighbours uses.
 struct Places {
   explicit Places(const std::vector<ResultColumn>& columns) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -62,8 +62,8 @@ Neighbour NeighbourOf(const ResultRow& row, const Places& at) {
            NumberIn(row, at.pmax) / light}};
 }
 
-// Calls see(group) for the groups of all rows in their order. A group that is none, of a row without
-// a parent or of too many, has rows but no members.
+// Calls see(group) for the groups of all rows in order. Rows without a parent, and groups with too
+// many rows, are passed without members.
 template <class See>
 Expected<void> ForGroups(const std::vector<std::string>& parts,
                          const std::vector<ResultColumn>& columns, const See& see) {
@@ -102,7 +102,7 @@ Expected<void> ForGroups(const std::vector<std::string>& parts,
 }
 
 std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns) {
-  // `lyrefit` is of our own: the standard leaves room for more keys.
+  // The key `lyrefit` is an extension: the standard allows additional keys.
   const CheckpointHead schema = {{"fields", FieldsJson(columns)},
                            {"missingValues", {""}},
                            {"primaryKey", "where"},
@@ -110,12 +110,12 @@ std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColum
   return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
 }
 
-// Asks an observer now and then whether to go on.
+// Asks an observer at intervals whether to continue.
 class Watch {
  public:
   explicit Watch(const Observer& observer) : observer_(observer) {}
   bool stopped() const { return stopped_; }
-  // An error, without a sentence, once it is to stop.
+  // An error without text after the observer requested a stop.
   Expected<void> Hear(std::size_t rows) {
     rows_ += static_cast<std::int64_t>(rows);
     if (rows_ < next_) return {};
@@ -136,10 +136,10 @@ class Watch {
   bool stopped_ = false;
 };
 
-// How results are to be made of rows, as their head says.
+// How rows are converted to results, from the head of the checkpoint file.
 struct ResultsPlan {
-  std::vector<ResultColumn> rows;     // of the part files
-  std::vector<ResultColumn> results;  // with those of neighbours
+  std::vector<ResultColumn> rows;     // columns of the checkpoint files
+  std::vector<ResultColumn> results;  // the columns above and those of the comparison of neighbours
   double level = 0;
   double like_light = 0;
   CsvTexts texts = CsvTexts::kSafe;
@@ -210,7 +210,8 @@ namespace {
 Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
                                const RowObserver& row_observer, Watch* watch,
                                BatchSummary* summary) {
-  TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));  // whose digest is of all the input
+  // Its digest covers all of the input.
+  TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
   TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, watch));
   const fs::path base(folder);

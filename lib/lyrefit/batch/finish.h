@@ -9,26 +9,26 @@
 
 namespace lyrefit {
 
-// The end of a run: the part files, all rows of which are there, become the results. They are read
-// twice: what scatter is usual among neighbours is known when all were seen. Each result stands
-// under its name when all of it is there; a process that is killed, or a full disk, leaves the part
-// files and the results of before. So does an observer that stops it, which hears of
-// stage "results"; `summary` is then marked as interrupted.
+// Converts complete checkpoint files into results. The files are read twice, since the usual
+// scatter of neighbours is known only after all rows. A result file gets its name when it is
+// complete. A killed process or a full disk leaves the checkpoint files and the earlier results. An
+// observer that stops the call does so too, and `summary` is then marked as interrupted. The
+// observer receives stage "results".
 Expected<void> WriteResults(const std::vector<std::string>& parts, const std::string& folder,
                             const Observer& observer, const RowObserver& row_observer,
                             BatchSummary* summary);
 
-// Counts what is in a part file, where there are no results of it alone.
+// Counts the rows of one shard's checkpoint file, which has no results of its own.
 Expected<void> CountRows(const std::string& part, BatchSummary* summary);
 
-// The head of the results that are in the folder, nothing where there are none; an empty object
-// where results of another kind have their names.
+// The head of the results in the folder; null if there are none. An empty object: files with the
+// names of results exist that are not from lyrefit.
 CheckpointHead ResultsHead(const std::string& folder);
 
-// Whether the folder can be written and holds no results, unless they are to be replaced.
+// Checks that the folder is writable, and that it holds no results unless `replace`.
 Expected<void> PrepareFolder(const std::string& folder, bool replace);
 
-// What the results say of the run whose last part has this head.
+// The part of a checkpoint's head that the results contain. `head` is that of the last shard.
 CheckpointHead ResultsHeadOf(const CheckpointHead& head);
 
 }  // namespace lyrefit

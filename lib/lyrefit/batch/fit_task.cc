@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// Of the largest model that a row can have.
+// Parameters of the largest model that a row can have.
 std::vector<ParameterInfo> FitParameters(const FitOptions& options, bool auto_model) {
   const Model largest = auto_model ? Model::kTripleDiode : options.model;
   std::vector<ParameterInfo> infos = MakeDevice(largest, {}).parameters;
@@ -48,7 +48,7 @@ std::vector<ResultColumn> FitColumns(const std::vector<ParameterInfo>& parameter
   return columns;
 }
 
-// Under the errors that are believed.
+// Standard error under the recommended error model.
 double StandardError(const FitReport& report, const Estimate& of) {
   const auto k = static_cast<std::size_t>(&of - report.estimates.data());
   return k < report.under_errors.size() ? report.under_errors[k].standard_error : of.standard_error;
@@ -114,7 +114,7 @@ BatchTaskType FitTask(const FitOptions& asked, bool auto_model) {
     Expected<FitReport> report =
         auto_model ? FitAuto(*curve.curve, own, observer) : Fit(*curve.curve, own, observer);
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};
-    // Nobody's clock is in a page.
+    // A page must not depend on the time used.
     report->search.seconds = report->refine.seconds = kUnknown;
     report->interval_seconds = report->plain_seconds = kUnknown;
     report->refine.best_candidate_seconds = kUnknown;

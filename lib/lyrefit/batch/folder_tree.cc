@@ -22,7 +22,7 @@ std::string EndingOf(const std::string& name) {
   return LowerCase(fs::path(name).extension().string());
 }
 
-// Excel workbooks are curves to whoever saved them: reading them says what to do.
+// Excel workbooks count as curves, so that the user gets the error message of their reader.
 bool IsWorkbook(const std::string& name) {
   const std::string ending = EndingOf(name);
   return ending == ".xlsx" || ending == ".xls";
@@ -33,7 +33,7 @@ bool EndsWith(const std::string& text, std::string_view end) {
          std::string_view(text).substr(text.size() - end.size()) == end;
 }
 
-// What a folder of curves may hold that is none.
+// True for the names of known files that describe curves but are none.
 bool IsAboutCurves(const std::string& name) {
   const std::string lower = LowerCase(name);
   return name == kIndexName || name == kDatasetName || EndsWith(name, "-index.csv") ||

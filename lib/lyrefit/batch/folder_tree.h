@@ -9,23 +9,23 @@
 
 namespace lyrefit {
 
-// A table of a folder tree, or a part of the tree that cannot be looked into.
+// A table of a folder tree, or an unreadable part of the tree.
 struct TreeFile {
   std::string path;
-  std::string id;  // the path below the top, without its ending
+  std::string id;  // path below the top folder, without its ending
   std::int64_t size = 0;
-  std::string refusal;  // why it is no file
+  std::string refusal;  // reason why it is not a readable file; empty: it is
 };
 
-// The tables below a folder in natural order of their paths, hidden ones, indexes, sidecars and
-// other things left out. Holds the names of one folder a level at a time.
+// The tables below a folder in natural order of their paths. Hidden files, indexes, sidecars and
+// other files are left out. Memory: the names of one folder for each level.
 class FolderTree {
  public:
   explicit FolderTree(std::string top);
 
   std::optional<TreeFile> Next();
 
-  // How many other files were passed by, by their endings.
+  // Number of ignored files for each ending.
   const std::map<std::string, int>& others() const { return others_; }
 
  private:
@@ -39,10 +39,10 @@ class FolderTree {
     std::string path;
     std::string id;
     std::pair<std::uint64_t, std::uint64_t> file_id;  // device and inode
-    std::vector<Entry> entries;                       // the last one comes next
+    std::vector<Entry> entries;                       // next entry last
   };
 
-  // Looks into a folder; why that cannot be done, else empty.
+  // Lists a folder. Returns the reason if that fails, else an empty text.
   std::string Enter(const std::string& path, const std::string& id);
   void TakeEntries(Level* level, std::string* refusal);
 

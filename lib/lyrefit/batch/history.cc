@@ -19,7 +19,7 @@ class ReferenceSweeps {
 
 namespace {
 
-// What no comparison looks at.
+// Clears all data that the comparison does not use.
 void Slim(IvCurve* curve) {
   curve->sweep = {};
   curve->time_s = {};
@@ -31,7 +31,7 @@ void Slim(IvCurve* curve) {
 std::vector<IvCurve> SweepsOf(const ReferenceSweeps& sweeps, const std::string& id) {
   const auto own = sweeps.by_id.find(id);
   if (own != sweeps.by_id.end()) return own->second;
-  std::vector<IvCurve> below;  // of the folder "id/"
+  std::vector<IvCurve> below;  // sweeps in the folder "id/"
   const std::string prefix = id + "/";
   for (auto it = sweeps.by_id.lower_bound(prefix);
        it != sweeps.by_id.end() && it->first.compare(0, prefix.size(), prefix) == 0; ++it) {

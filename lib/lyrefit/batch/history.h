@@ -14,19 +14,21 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Strings against their own history: reference sweeps of every string, by their ids. They are kept in
-// memory, about 16 bytes a reading: what grows is this, not what is done with many curves.
+// Reference sweeps of every string by its id, for comparison with its history. They are kept in
+// memory, about 16 bytes a reading. This memory grows with the number of sweeps, unlike that of
+// other tasks.
 class ReferenceSweeps;
 
-// Reads all of them, each with `prepare` as the curves of the run. A sweep belongs to the string of
-// its id ("inv/comb/str7") or, in a folder a string, of the level above ("inv/comb/str7/2025-06-01").
-// Errors: no sweep that can be read.
+// Reads all sweeps and applies `prepare` to each, as to the curves of the run. A sweep belongs to
+// the string with its id ("inv/comb/str7"). If each string has a folder, it belongs to the level
+// above ("inv/comb/str7/2025-06-01"). Errors: no readable sweep.
 Expected<std::shared_ptr<const ReferenceSweeps>> ReadReferences(
     BatchSource* source, const std::function<Expected<void>(IvCurve*)>& prepare);
 
-// The task and, behind its columns, what CompareWithReferences says of each curve and the sweeps of its
-// own id: history_sweeps, history_p, history_cause, history_sentence (or why there is no comparison). `options`
-// echoes the digest of the sweeps.
+// Adds a comparison with the reference sweeps of the same id to a task. The columns history_sweeps,
+// history_p, history_cause and history_sentence follow those of the task. They hold the result of
+// CompareWithReferences, or the reason why there is no comparison. `options` of the task gets the
+// digest of the sweeps.
 BatchTaskType WithHistory(BatchTaskType task, std::shared_ptr<const ReferenceSweeps> sweeps,
                    const ReferenceOptions& asked);
 

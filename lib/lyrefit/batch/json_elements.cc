@@ -20,7 +20,7 @@ JsonElements::JsonElements(const std::string& path, std::optional<std::string> k
                            std::size_t longest)
     : file_(path), key_(std::move(key)), longest_(longest), block_(kElementBlock) {}
 
-// False at the end of the file.
+// Sets `c` to the next character without consuming it. False at the end of the file.
 Expected<bool> JsonElements::Peek(char* c) {
   if (at_ == end_) {
     at_ = 0;
@@ -37,7 +37,7 @@ void JsonElements::Take() {
   ++offset_;
 }
 
-// Appends the string that begins here, quotes and all, to `into`; null: drops it.
+// Appends the string at the current position, including its quotes, to `into`; null: discards it.
 Expected<void> JsonElements::TakeString(std::string* into) {
   char c = 0;
   bool escaped = false;
@@ -51,7 +51,7 @@ Expected<void> JsonElements::TakeString(std::string* into) {
   }
 }
 
-// Goes to the first item; false at the end of the document. What is passed by is kept.
+// Moves to the first item; false at the end of the document. Skipped text is added to `around_`.
 Expected<bool> JsonElements::FindList() {
   int depth = 0;
   std::string last;
@@ -78,7 +78,7 @@ Expected<bool> JsonElements::FindList() {
   }
 }
 
-// From its first character, `{` or something else, up to what ends it.
+// Reads an item from its first character to its end.
 Expected<void> JsonElements::TakeElement(JsonElement* element) {
   int depth = 0;
   char c = 0;
@@ -136,7 +136,7 @@ Expected<std::optional<JsonElement>> JsonElements::Next() {
     }
     if (c == ']') {
       in_list_ = false;
-      TRY(const bool again, FindList());  // the rest of the document
+      TRY(const bool again, FindList());  // reads the rest of the document
       over_ = !again;
       if (over_) return Found();
       continue;

@@ -11,24 +11,24 @@
 
 namespace lyrefit {
 
-// An item of the list of curves in a JSON document, or what stands in its place.
+// An item of the list of curves in a JSON document, or an error in its place.
 struct JsonElement {
-  std::string text;  // of the whole element
+  std::string text;  // complete text of the item
   std::int64_t begin = 0;
   std::int64_t end = 0;
-  std::int64_t line = 0;  // where it begins
-  std::string broken;     // why it is none
+  std::int64_t line = 0;  // its first line
+  std::string broken;     // reason why it is not an item; empty: it is
 };
 
-// Takes the items of one list out of a JSON document one by one, without holding the document: the
-// list that is the document, or that stands under a key of its outermost object. The rest of that
-// object is kept. Looks at brackets and quotes alone; what an item is made of is for its reader.
+// Reads the items of one list in a JSON document one by one, without holding the document. The list
+// is the document itself, or the value of a key of its outermost object. The rest of that object is
+// kept. Only brackets and quotes are parsed here; the reader of an item parses its content.
 class JsonElements {
  public:
   JsonElements(const std::string& path, std::optional<std::string> key, std::size_t longest);
 
-  // Nothing at the end of the document. A document that ends in the middle has a broken element
-  // last.
+  // The next item; empty at the end of the document. If the document is truncated, the last item is
+  // broken.
   Expected<std::optional<JsonElement>> Next();
 
   // The document without the list, as far as it was read.

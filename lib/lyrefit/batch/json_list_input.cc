@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr char kIvCurves[] = "IV Curves";
 
-// The curves of one list in a JSON document, as they stand one behind the other.
+// The curves of one list in a JSON document, in order.
 class JsonList : public BatchInput {
  public:
   JsonList(std::string path, const std::optional<std::string>& key, const ReadOptions& options)
@@ -28,7 +28,7 @@ class JsonList : public BatchInput {
         size_(SizeOfFile(path_) + 1),
         elements_(path_, key, options.largest_file_bytes) {}
 
-  // What stands around the list, before and behind it, counts for all.
+  // Reads the members before and after the list, which apply to all its curves.
   Expected<void> ReadAround() {
     if (!key_) return {};
     JsonElements all(path_, key_, options_.largest_file_bytes);
@@ -42,7 +42,8 @@ class JsonList : public BatchInput {
       text.insert(list + 1, "]");
     }
     around_ = json::parse(text, nullptr, false);
-    if (!around_.is_object()) around_ = json::object();  // the document is cut: said at its end
+    // The document is truncated; the error is reported at its end.
+    if (!around_.is_object()) around_ = json::object();
     ScanJsonScalars(text, &scalars_);
     return {};
   }
@@ -74,7 +75,7 @@ class JsonList : public BatchInput {
 
   std::int64_t size() const override { return size_; }
   Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
-    // What stands behind the list counts for all of it.
+    // The text after the list affects all its curves.
     return sum->AddFile(path_, key_ && until > 0 ? size_ : until);
   }
   void AddRemarks(std::vector<std::string>*) const override {}
@@ -90,7 +91,7 @@ class JsonList : public BatchInput {
     return id.empty() ? fmt::format("{}[{}]", IdOfPath(path_), number) : id;
   }
 
-  // An entry of an ivcurves file with what the file says of all.
+  // Reads an entry of an ivcurves file with the common data of the file.
   Expected<IvCurve> ReadEntry(const BatchItem& item) const {
     const auto refuse = [&](const Error& error) {
       const std::string first = fmt::format("\"{}\"[0]", kIvCurves);

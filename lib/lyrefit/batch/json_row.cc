@@ -21,7 +21,7 @@ bool IsRowSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'
 
 bool EndsToken(char c) { return c == ',' || c == ']' || c == '}' || c == ':' || IsRowSpace(c); }
 
-// The text while it is read.
+// The text with the read position.
 struct Cursor {
   std::string_view text;
   std::size_t at = 0;
@@ -39,7 +39,7 @@ struct Cursor {
     ++at;
     return true;
   }
-  // Up to what ends a number or a word.
+  // The text up to the delimiter of a number or a word.
   std::string_view Word() {
     const std::size_t begin = at;
     while (!over() && !EndsToken(text[at])) ++at;
@@ -51,13 +51,13 @@ struct Cursor {
   }
 };
 
-// Behind the closing quote of the string that begins at `at`; npos if there is none.
+// Position after the closing quote of the string that begins at `at`; npos if there is none.
 std::size_t EndOfString(std::string_view text, std::size_t at) {
   for (++at; at < text.size(); ++at) {
     at = text.find_first_of("\"\\", at);
     if (at == std::string_view::npos) return at;
     if (text[at] == '"') return at + 1;
-    ++at;  // what is escaped
+    ++at;  // skips the escaped character
   }
   return std::string_view::npos;
 }
@@ -85,8 +85,8 @@ Expected<std::string> TakeString(Cursor* cursor) {
   return decoded.get<std::string>();
 }
 
-// Behind a list of plain numbers or words that begins at `at`, which is most of a file; npos where it
-// is something else.
+// Position after a list of plain numbers or words that begins at `at`; npos for anything else. This
+// is the fast path, since most of a file consists of such lists.
 std::size_t EndOfPlainList(std::string_view text, std::size_t at) {
   const std::size_t end = text.find(']', at);
   if (end == std::string_view::npos) return end;
@@ -136,7 +136,8 @@ Expected<void> TakeListItem(Cursor* cursor, RowList* list) {
   return {};
 }
 
-// A list of scalars; false if it holds something else: the cursor stays where the list begins.
+// Reads a list of scalars. False if it holds other values; the cursor then stays at the beginning
+// of the list.
 Expected<bool> TakeList(Cursor* cursor, std::string name, RowFields* fields) {
   const std::size_t begin = cursor->at;
   RowList list;
@@ -236,7 +237,7 @@ void AddReading(std::string_view text, bool decimal_comma, int column, RowList* 
   const auto number = ParseNumber(text, decimal_comma);
   if (number && std::fabs(*number) < kOverflowCode) return list->values.push_back(*number);
   const bool missing = IsMissingReading(text, decimal_comma) || (number && !std::isfinite(*number));
-  // Beyond what a double holds: an overflow, too.
+  // The number exceeds the range of a double, which is an overflow too.
   const bool overflow = !number && text.find_first_not_of("+-.0123456789eE") == std::string::npos &&
                         text.find_first_of("eE") != std::string::npos;
   const bool is_text = !missing && !overflow && text != "Infinity" && text != "-Infinity";
@@ -286,7 +287,7 @@ Expected<void> ParseJsonRow(std::string_view text, RowFields* fields) {
 
 void ScanJsonScalars(std::string_view text, RowFields* fields) {
   Cursor cursor{text, 0, Lists::kSkip};
-  (void)TakeObject(&cursor, fields);  // what stands before an error counts
+  (void)TakeObject(&cursor, fields);  // the values before a syntax error are kept
 }
 
 }  // namespace lyrefit

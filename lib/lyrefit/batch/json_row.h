@@ -7,15 +7,15 @@
 
 namespace lyrefit {
 
-// A JSON object of scalars and lists of scalars on one line, as JSON Lines have it, in one pass.
-// NaN and Infinity, which Python writes, are missing readings. What is nested deeper is passed over
-// and marked. Errors: a sentence and the column, for the caller to say the file and line.
+// Parses a JSON object of scalars and lists of scalars on one line, as in JSON Lines, in one pass.
+// NaN and Infinity, which Python writes, are missing readings. Deeper nesting is skipped and
+// marked. Errors: a sentence and the column; the caller adds file and line.
 Expected<void> ParseJsonRow(std::string_view text, RowFields* fields);
 
-// The scalars alone, as far as the text can be read: enough for the id of a broken row.
+// Reads only the scalars, up to the first syntax error. This suffices for the id of a broken row.
 void ScanJsonScalars(std::string_view text, RowFields* fields);
 
-// Where the value that begins at `at` ends, whatever it is; the end of the text if it does not.
+// Position after the value that begins at `at`; the end of the text if the value is incomplete.
 std::size_t SkipJsonValue(std::string_view text, std::size_t at);
 
 }  // namespace lyrefit

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kFirstBlock = 1U << 16;
 constexpr std::size_t kBlock = 1U << 20;
-constexpr std::size_t kKeptOfLongLine = 4096;  // its id stands in front, if anywhere
+constexpr std::size_t kKeptOfLongLine = 4096;  // bytes; the id of a row is usually at its beginning
 constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 
 }  // namespace
@@ -19,14 +19,14 @@ constexpr std::string_view kMarkOfUtf8 = "\xef\xbb\xbf";
 LineScanner::LineScanner(std::string path, std::size_t longest)
     : file_(std::move(path)), longest_(std::max(longest, kKeptOfLongLine)) {}
 
-// Moves what is left to the front and reads more; the buffer grows with the line.
+// Moves the unused bytes to the front and reads more. The buffer grows with the length of the line.
 Expected<void> LineScanner::Fill() {
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     begin_ = 0;
   }
-  // Many files are small.
+  // A small first block, since many files are small.
   const std::size_t wanted = buffer_.empty() ? kFirstBlock : std::max(kBlock, 2 * end_);
   if (buffer_.size() == end_ || buffer_.size() < wanted) buffer_.resize(wanted);
   TRY(const std::size_t got, file_.Read(buffer_.data() + end_, buffer_.size() - end_));
@@ -40,7 +40,7 @@ Expected<std::string_view> LineScanner::Head() {
   return std::string_view(buffer_.data(), end_);
 }
 
-// Drops all up to the end of the line but its beginning; the memory is given back.
+// Skips the rest of a long line, keeps its beginning and releases the memory.
 Expected<void> LineScanner::SkipLine() {
   offset_ += static_cast<std::int64_t>(end_ - begin_);
   std::vector<char> kept(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
@@ -72,7 +72,7 @@ Expected<bool> LineScanner::Next(ScannedLine* line) {
   line->offset = offset_;
   line->number = ++number_;
   line->too_long = false;
-  std::size_t looked = 0;  // for the end of the line
+  std::size_t looked = 0;  // number of bytes already searched for the line end
   for (;;) {
     const char* const from = buffer_.data() + begin_;
     const void* const stop = std::memchr(from + looked, '\n', end_ - begin_ - looked);

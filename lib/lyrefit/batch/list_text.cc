@@ -24,14 +24,15 @@ std::string_view Inside(std::string_view text) {
   return TrimBlanks(text);
 }
 
-// The one that separates: blanks only where there is no other. Blanks beside another are its own.
+// The separator of a list. Blanks separate only if there is no other separator; otherwise they
+// belong to the other separator.
 char SeparatorOf(std::string_view text) {
   for (const char c : {';', '|'}) {
     if (text.find(c) != std::string_view::npos) return c;
   }
   const std::size_t comma = text.find(',');
   if (comma == std::string_view::npos) return ' ';
-  // "8,49 8,48": the commas are decimal ones if every blank stands between digits.
+  // "8,49 8,48": the commas are decimal commas if every blank is between digits.
   const std::size_t blank = text.find_first_of(kBlanks);
   if (blank == std::string_view::npos) return ',';
   for (std::size_t at = blank; at != std::string_view::npos; at = text.find_first_of(kBlanks, at)) {
@@ -43,7 +44,7 @@ char SeparatorOf(std::string_view text) {
   return ' ';
 }
 
-// Calls take(item) for each; an item between two separators may be empty, except between blanks.
+// Calls take(item) for each item. Items may be empty, except between blanks.
 template <class Take>
 void ForEachItem(std::string_view text, char separator, Take take) {
   if (text.empty()) return;

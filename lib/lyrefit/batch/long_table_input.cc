@@ -14,13 +14,13 @@
 namespace lyrefit {
 namespace {
 
-// The rows of one curve while they are taken apart.
+// The rows of one curve during parsing.
 struct LongReading {
   const CsvHead& head;
   RowPlace place;
-  std::vector<int> list_of;        // of each column: its list, -1 if it holds none
-  std::vector<bool> varies;        // of each column: not the same in all rows
-  std::vector<std::string> first;  // the fields of the first row
+  std::vector<int> list_of;        // for each column: position of its list, -1 if it has none
+  std::vector<bool> varies;        // for each column: its field differs between rows
+  std::vector<std::string> first;  // fields of the first row
   RowFields fields;
 };
 
@@ -41,7 +41,7 @@ LongReading Begin(const CsvHead& head, const RowPlace& place) {
   return reading;
 }
 
-// A field of readings goes to its list, with its line where it is bad.
+// Adds a field to the list of its column, with the line of an invalid value.
 void TakeReading(LongReading* reading, std::size_t field, std::string_view text,
                  std::string_view row, std::int64_t line) {
   RowList& list = reading->fields.lists[reading->list_of[field]];
@@ -80,7 +80,8 @@ Expected<void> TakeLine(LongReading* reading, LineSplitter* splitter, std::strin
   return {};
 }
 
-// What is the same in all rows and no reading says something of the curve: a condition, a date.
+// Adds columns without readings that are equal in all rows as scalars, such as a condition or a
+// date.
 void SettleColumns(LongReading* reading) {
   for (std::size_t i = 0; i < reading->first.size(); ++i) {
     const int list = reading->list_of[i];
@@ -92,7 +93,7 @@ void SettleColumns(LongReading* reading) {
   }
 }
 
-// A row a reading, those of a curve together.
+// One reading a row; the rows of a curve are adjacent.
 class LongTable : public BatchInput {
  public:
   LongTable(std::string path, std::unique_ptr<LineScanner> scanner, CsvHead head,
@@ -115,7 +116,7 @@ class LongTable : public BatchInput {
     const std::int64_t first = line_.number;
     std::int64_t expected = first;
     while (!over_ && id_ == found.id) {
-      // Blank lines between rows stay, so that those behind them keep their numbers.
+      // Blank lines between rows are kept, so that later rows keep their line numbers.
       bytes_.append(static_cast<std::size_t>(line_.number - expected), '\n');
       expected = line_.number + 1;
       if (line_.too_long || bytes_.size() > options_.largest_file_bytes) {
@@ -162,7 +163,7 @@ class LongTable : public BatchInput {
   void AddRemarks(std::vector<std::string>*) const override {}
 
  private:
-  // To the next row.
+  // Moves to the next row.
   Expected<void> Advance() {
     for (;;) {
       TRY(const bool more, scanner_->Next(&line_));
@@ -176,7 +177,7 @@ class LongTable : public BatchInput {
     }
     if (line_.text.size() > id_text_.size() &&
         line_.text.compare(0, id_text_.size(), id_text_) == 0 && !id_text_.empty()) {
-      return {};  // as the row before
+      return {};  // same id as in the row before
     }
     std::size_t looked_at = 0;
     id_ = IdOfCsvRow(line_.text, head_, &looked_at);
@@ -191,7 +192,7 @@ class LongTable : public BatchInput {
   std::unique_ptr<LineScanner> scanner_;
   ScannedLine line_;
   std::string id_;
-  std::string id_text_;  // the beginning of the row that says so
+  std::string id_text_;  // beginning of the row, which determines `id_`
   std::string bytes_;
   std::int64_t number_ = 0;
   std::int64_t count_ = 0;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 3 and 8 of "shard-3-of-8.part".
+// The shard 3 of 8 for "shard-3-of-8.part".
 std::optional<Shard> ShardOf(const std::string& name) {
   constexpr std::string_view kBegin = "shard-", kMiddle = "-of-", kEnd = ".part";
   const char* const end = name.data() + name.size();
@@ -36,7 +36,7 @@ std::optional<Shard> ShardOf(const std::string& name) {
   return shard;
 }
 
-// "2,5-7", as schedulers take the numbers of an array.
+// "2,5-7", the notation of schedulers for the numbers of an array.
 std::string Ranges(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size();) {
@@ -113,13 +113,14 @@ Expected<void> CheckAllThere(const Shards& shards) {
 CheckpointHead WithoutShard(const CheckpointHead& head) {
   CheckpointHead run = head;
   run.erase("shard");
-  // Names and sizes of all the input; the rest is of the bytes up to the shard's end.
+  // Only the names and sizes of the whole input are compared. The rest of the digest covers bytes
+  // up to the shard's end and so differs between shards.
   const std::string input = head.value("input", "");
   run["input"] = input.substr(0, input.find('-'));
   return run;
 }
 
-// One run, and each begins where the one before ends.
+// Checks that all shards are of one run and that each begins at the end of the one before.
 Expected<void> CheckOneRun(const Shards& shards) {
   std::optional<CheckpointHead> run;
   std::pair<int, std::int64_t> next{0, 0};
@@ -136,7 +137,7 @@ Expected<void> CheckOneRun(const Shards& shards) {
       return Fail("this shard is of another run than the first: " + same.error().message, path);
     }
     TRY(const auto end, ReadCheckpointEnd(path));
-    if (!end->first || !end->last) continue;  // without rows
+    if (!end->first || !end->last) continue;  // a shard without rows
     const bool another = end->first->first > next.first && end->first->second == 0;
     if (*end->first != next && !another) {
       return Fail(fmt::format("this shard does not begin where the one before it ends: the input "

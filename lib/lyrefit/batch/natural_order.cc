@@ -7,7 +7,7 @@ namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Takes the digits off the front.
+// Removes the digits at the front and returns them.
 std::string_view TakeDigits(std::string_view* text) {
   const auto end = std::find_if_not(text->begin(), text->end(), IsDigit);
   const std::string_view digits = text->substr(0, end - text->begin());

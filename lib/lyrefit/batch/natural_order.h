@@ -4,8 +4,8 @@
 
 namespace lyrefit {
 
-// Whether `a` comes before `b` where numbers count as such, in any locale: "str2" before "str10".
-// Bytes decide elsewhere; of equal numbers the one with fewer zeros in front comes first.
+// Natural order, independent of the locale: digits are compared as numbers, "str2" before "str10".
+// Other bytes are compared by value. Of equal numbers the one with fewer leading zeros comes first.
 bool NaturalLess(std::string_view a, std::string_view b);
 
 }  // namespace lyrefit

@@ -12,12 +12,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNormalMad = 1.4826;    // standard deviation over median of |x|, of a normal x
-constexpr double kMadEfficiency = 0.37;  // of that estimate
-// Bins of |deviation|, from kSmallest by factors of kStep.
+// Ratio of the standard deviation to the median of |x|, for a normal x.
+constexpr double kNormalMad = 1.4826;
+constexpr double kMadEfficiency = 0.37;  // efficiency of that estimate
+// Bins of |deviation| begin at kSmallest and grow by the factor kStep.
 constexpr double kSmallest = 1e-7;
 constexpr double kStep = 1.01;
-constexpr int kBins = 2000;  // to 40
+constexpr int kBins = 2000;  // up to |deviation| = 40
 
 int BinOf(double deviation) {
   const double size = std::max(std::fabs(deviation), kSmallest);
@@ -57,7 +58,7 @@ NeighbourDeviation DeviationOf(std::size_t i, const std::vector<Neighbour>& grou
   return deviation;
 }
 
-// |deviations| of one quantity in one group.
+// Values of |deviation| of one quantity in one group.
 std::vector<double> Sizes(const std::vector<NeighbourDeviation>& group, int q) {
   std::vector<double> sizes;
   for (const NeighbourDeviation& one : group) {

@@ -10,22 +10,22 @@
 
 namespace lyrefit {
 
-// Strings of one combiner at like light against each other (IEC 62446-1, 7.2: strings under like
-// conditions are compared, and those that differ looked into).
+// Comparison of strings of one combiner at similar irradiance (IEC 62446-1, 7.2: strings under like
+// conditions are compared, and those that differ are investigated).
 //
-// A group is the curves one behind the other whose ids have the same levels above the last. A string
-// is compared with its peers: the others of its group whose irradiance is within `like_light` of its
-// own, four at least. Its deviation in Isc / G, Voc, FF and Pmax / G is its value over the median of
-// theirs, less 1. Temperatures are taken to be alike, nothing is translated. Where nobody stated the
-// irradiance, light cannot be said to be alike, and nothing is compared.
+// A group is a sequence of adjacent curves whose ids have the same levels above the last. The peers
+// of a string are the others of its group whose irradiance is within `like_light` (relative) of its
+// own. At least four are required. The deviation in Isc / G, Voc, FF and Pmax / G is the string's
+// value divided by the median of its peers, minus 1. Temperatures are assumed equal, and nothing is
+// translated. Without a stated irradiance there is no comparison.
 //
-// What scatter is usual is learned from all groups: s = 1.4826 x the median of |deviation| over the
-// whole plant, or over the string's own group where that is larger. A string is flagged if one of
-// the four is beyond t s, with t so that a healthy string is flagged at the rate `level`: the
-// quantile of Student's t at level / 8 (four quantities, two sides) with 0.37 (deviations - groups)
-// degrees of freedom, 0.37 being the efficiency of a median of absolute deviations. The rate holds
-// where healthy strings scatter normally and most are healthy; groups that scatter more than the
-// plant are flagged more rarely.
+// The usual scatter is estimated from all groups. It is s = 1.4826 x the median of |deviation| over
+// the whole plant, or over the string's own group if that is larger. A string is flagged if one of
+// its four deviations exceeds t s. The factor t is chosen so that a string without a fault is
+// flagged at the rate `level`. It is the quantile of Student's t at level / 8 (four quantities, two
+// sides) with 0.37 (deviations - groups) degrees of freedom. Here 0.37 is the efficiency of a
+// median of absolute deviations. The rate holds if strings without a fault scatter normally and
+// most strings have no fault. In groups that scatter more than the plant the rate is lower.
 
 enum NeighbourQuantity { kIscPerLight, kVoc, kFillFactor, kPmaxPerLight, kNeighbourQuantities };
 
@@ -39,20 +39,21 @@ struct NeighbourDeviation {
   std::array<double, kNeighbourQuantities> parts{kUnknown, kUnknown, kUnknown, kUnknown};
 };
 
-// Larger groups are not compared: they are no combiner's.
+// Larger groups are not compared, since they cannot be one combiner.
 constexpr int kMostNeighbours = 1000;
 constexpr int kLeastPeers = 4;
 
 std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& group,
                                                 double like_light);
 
-// How much deviations scatter over the plant, counted in bins of 1 % in constant memory.
+// Scatter of deviations over the plant, counted in bins of 1 % in constant memory.
 class NeighbourScatter {
  public:
   NeighbourScatter();
   void Add(const std::vector<NeighbourDeviation>& group);
 
-  // Beyond which |deviation| a string of this group is flagged; infinite where too little is known.
+  // Values of |deviation| above which a string of this group is flagged; infinite if there are too
+  // few data.
   std::array<double, kNeighbourQuantities> Limits(const std::vector<NeighbourDeviation>& group,
                                                   double level) const;
 
@@ -65,12 +66,12 @@ class NeighbourScatter {
   std::array<Count, kNeighbourQuantities> counts_;
 };
 
-// The cells of NeighbourColumns().
+// The columns of the comparison, and the cells of one string.
 std::vector<ResultColumn> NeighbourColumns();
 std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
                                        const std::array<double, kNeighbourQuantities>& limits);
 
-// "site/inv/comb" of "site/inv/comb/string"; empty where there is no level above.
+// "site/inv/comb" for "site/inv/comb/string"; empty if there is no level above.
 std::string ParentOf(const std::string& id);
 
 }  // namespace lyrefit

@@ -20,14 +20,14 @@ enum class JsonShape { kRows, kList, kWhole };
 
 struct JsonHead {
   JsonShape shape = JsonShape::kWhole;
-  std::optional<std::string> key;  // of the list
+  std::optional<std::string> key;  // key of the list
 };
 
 std::size_t SkipSpace(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of(" \t\r\n", at), text.size());
 }
 
-// Whether an object holds lists or objects, as a curve does and a reading does not.
+// True if an object holds lists or objects. A curve does, a reading does not.
 bool HoldsLists(std::string_view element) {
   return element.find_first_of("[{", 1) != std::string_view::npos;
 }
@@ -39,7 +39,7 @@ bool BeginsListOfCurves(std::string_view text, std::size_t at) {
   return HoldsLists(text.substr(first, SkipJsonValue(text, first) - first));
 }
 
-// Whether a line is an object for itself, cut or not, that has readings at its top.
+// True if a line is a JSON object, complete or truncated, with readings at its top level.
 bool IsRow(std::string_view line) {
   RowFields fields;
   const bool whole = ParseJsonRow(line, &fields).has_value();
@@ -51,7 +51,7 @@ bool IsRow(std::string_view line) {
   return readings || (whole && !fields.lists.empty());
 }
 
-// The key of an object under which a list of curves stands.
+// The key of an object whose value is a list of curves.
 std::optional<std::string> KeyOfList(std::string_view text, std::size_t at) {
   for (++at; at < text.size();) {
     at = SkipSpace(text, at);
@@ -73,7 +73,7 @@ JsonHead LookAtJson(std::string_view text, std::size_t at) {
   if (text[at] == '[') {
     return {BeginsListOfCurves(text, at) ? JsonShape::kList : JsonShape::kWhole, {}};
   }
-  // Rows: several lines that are objects for themselves, or one with readings at its top.
+  // Rows: several lines that each begin an object, or one line with readings at its top level.
   const std::size_t end = std::min(text.find('\n', at), text.size());
   const std::size_t next = SkipSpace(text, end);
   const std::string_view line = text.substr(at, end - at);
@@ -86,7 +86,7 @@ JsonHead LookAtJson(std::string_view text, std::size_t at) {
   return {one_line && !fields.nested ? JsonShape::kRows : JsonShape::kWhole, {}};
 }
 
-// By its mark, or since every other byte of the first is zero.
+// UTF-16 is detected by its byte order mark, or by zeros in every other one of the first bytes.
 bool IsUtf16(std::string_view head) {
   if (head.size() < 4) return false;
   const std::string_view mark = head.substr(0, 2);
@@ -95,28 +95,28 @@ bool IsUtf16(std::string_view head) {
          (head[3] == '\0') == (head[1] == '\0');
 }
 
-// The ending says rows: no other shape is looked for.
+// True if the file name's ending means rows; other shapes are then not considered.
 bool IsRowsFile(const std::string& path) {
   const std::string ending = LowerCase(std::filesystem::path(path).extension().string());
   return ending == ".jsonl" || ending == ".ndjson";
 }
 
-// A file that was looked at.
+// An input whose first bytes were read.
 struct LookedAt {
   const std::string& path;
   const ReadOptions& options;
   std::unique_ptr<LineScanner>* scanner;
   bool stream = IsReadOnce(path);
 
-  // A stream cannot be opened again; a file is, when its turn comes: there may be many, and each
-  // that is open holds a block of memory.
+  // A stream cannot be opened again, so its scanner is passed on. A file is opened again when it is
+  // read. There may be many files, and each open one holds a block of memory.
   std::unique_ptr<LineScanner> Scanner() const {
     if (stream) return std::move(*scanner);
     return std::make_unique<LineScanner>(path, options.largest_file_bytes);
   }
 };
 
-// Of what can be read once.
+// Name of an input that cannot be read twice, for messages.
 const char* Within(const std::string& path) {
   return path == "-" ? "on standard input" : "in a pipe";
 }
@@ -174,7 +174,7 @@ Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const s
   auto scanner = std::make_unique<LineScanner>(path, options.largest_file_bytes);
   TRY(const std::string_view head, scanner->Head());
   if (IsUtf16(head)) {
-    // A single curve is decoded; of rows the bytes are needed.
+    // A single curve is decoded, but rows need the original bytes.
     const std::size_t lines = std::count(head.begin(), head.end(), '\n');
     const bool one = !IsReadOnce(path) &&
                      SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&

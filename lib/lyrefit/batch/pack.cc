@@ -23,10 +23,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kBatch = 1024;  // curves that are read at once
+constexpr std::size_t kBatch = 1024;  // number of curves read at once
 constexpr std::size_t kBatchBytes = 32U << 20;
 
-// Conditions and notes under the keys of a row.
+// Conditions and notes as keys of a row.
 ordered_json StatedOf(const IvCurve& curve) {
   const ordered_json sidecar = ordered_json::parse(CurveSidecarJson(curve), nullptr, false);
   ordered_json stated = ordered_json::object();
@@ -47,7 +47,7 @@ ordered_json StatedOf(const IvCurve& curve) {
   return stated;
 }
 
-// A number stays as it was written.
+// True if `text` is a number in JSON notation, which is written unchanged.
 bool IsJsonNumber(const std::string& text) {
   const bool digits = !text.empty() && (text[0] == '-' || (text[0] >= '0' && text[0] <= '9'));
   return digits && ordered_json::accept(text) &&
@@ -58,7 +58,7 @@ std::string TextOf(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-// "key": value, one behind the other.
+// A sequence of JSON members, "key": value.
 class Members {
  public:
   void Add(const std::string& key, std::string_view value) {
@@ -70,7 +70,7 @@ class Members {
   template <class T>
   void AddList(const std::string& key, const std::vector<T>& values) {
     std::string list = "[";
-    // Without a precision fmt writes the shortest text that reads back to the same bits.
+    // Without a precision, fmt writes the shortest text that restores the same bits.
     for (std::size_t i = 0; i < values.size(); ++i) {
       fmt::format_to(std::back_inserter(list), "{}{}", i == 0 ? "" : ",", values[i]);
     }
@@ -91,7 +91,7 @@ void AddBeside(const BatchCurve& curve, const ordered_json& stated, Members* mem
   }
 }
 
-// The lists besides voltage and current, and what was assumed.
+// Adds the lists other than voltage and current, and the assumptions.
 void AddFurther(const IvCurve& curve, Members* members) {
   const std::pair<const char*, const std::vector<double>*> lists[] = {
       {"sigma_A", &curve.sigma_A},
@@ -116,7 +116,7 @@ const char* CurrentName(const IvCurve& curve) {
   return curve.current_unit_known ? "current_A" : "current";
 }
 
-// Of a row that was packed before, what was said then.
+// The original reason, if the row was already broken when it was packed before.
 std::string PackedReason(const Error& error) {
   if (error.message.rfind(kPackedAsBroken, 0) != 0) return error.ToString();
   return error.message.substr(kPackedAsBroken.size());
@@ -165,7 +165,7 @@ std::string CsvRow(const BatchCurve& curve) {
   } else {
     const IvCurve& one = *curve.curve;
     std::string* const lists = &fields[fields.size() - 2];
-    // The header names units: lists without stand elsewhere.
+    // The header names units, so lists with unknown units go into the column `more`.
     if (one.voltage_unit_known && one.current_unit_known) {
       lists[0] = ListText(one.voltage_V);
       lists[1] = ListText(one.current_A);
@@ -179,7 +179,7 @@ std::string CsvRow(const BatchCurve& curve) {
   return CsvLine(fields);
 }
 
-// The next curves of the source, some thousand or some megabytes.
+// The next curves of the source, about a thousand of them or some megabytes.
 Expected<std::vector<BatchItem>> NextBatch(BatchSource* source) {
   std::vector<BatchItem> items;
   std::size_t bytes = 0;

@@ -12,36 +12,37 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Any shape of many curves as one curve a row, which OpenBatch reads back to the same curves, bit
-// for bit, and which can be split into shards.
+// Conversion of any shape of many curves to one curve a row. OpenBatch reads the rows back to the
+// same curves, bit for bit. The rows can be split into shards.
 enum class PackFormat {
   kJsonLines,
-  kCsv  // id, irradiance_W_m2, cell_temperature_C, cells_in_series, voltage_V, current_A, more
+  // Columns id, irradiance_W_m2, cell_temperature_C, cells_in_series, voltage_V, current_A, more.
+  kCsv
 };
 
-// What a run of PackBatch came to.
+// Result of PackBatch.
 struct PackReport {
-  std::int64_t curves = 0;  // written, broken ones among them
-  std::int64_t broken = 0;  // of them; their rows hold the reason as "error"
+  std::int64_t curves = 0;  // number written, including broken ones
+  std::int64_t broken = 0;  // of `curves`: broken; their rows have the reason as "error"
   std::string first_error;  // of the first broken one
   bool interrupted = false;
 };
 
-// Takes the text of some rows.
+// Receives the text of some rows.
 using PackSink = std::function<Expected<void>(std::string_view text)>;
 
-// Reads on up to `threads` threads (0: all cores) and writes in the order of the input. Conditions
-// that nobody stated are left out; what the reader assumed goes along as "assumptions". Errors: the
-// input cannot be read any further, or those of `sink`.
+// Reads on up to `threads` threads (0: all cores) and writes in the order of the input. Unstated
+// conditions are left out. The reader's assumptions are written as "assumptions". Errors: the input
+// cannot be read further, or an error of `sink`.
 Expected<PackReport> PackBatch(BatchSource* source, PackFormat format, int threads,
                                const PackSink& sink, const Observer& observer = {});
 
-// The same into a file, which gets its name when all rows are in it: an error or an interrupted run
-// leaves what was there before.
+// PackBatch into a file, which gets its name when all rows are written. An error or an interrupted
+// run leaves an existing file unchanged.
 Expected<PackReport> PackBatchInto(const std::string& file, BatchSource* source, PackFormat format,
                                    int threads, const Observer& observer = {});
 
-// One row with its end.
+// The text of one row with its line end.
 std::string PackedRow(const BatchCurve& curve, PackFormat format);
 
 }  // namespace lyrefit

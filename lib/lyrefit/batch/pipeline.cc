@@ -17,8 +17,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::chrono::milliseconds kLook(100);  // between two looks at whether to stop
-constexpr std::int64_t kAhead = 32;              // curves a worker between reader and writer
+constexpr std::chrono::milliseconds kLook(100);  // interval between two checks whether to stop
+constexpr std::int64_t kAhead = 32;  // number of curves for each worker between reader and writer
 
 class Crew {
  public:
@@ -60,12 +60,12 @@ class Crew {
   BatchSource* const source_;
   std::int64_t ahead_ = 0;
   std::atomic<bool> stopped_{false};
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::int64_t read_;     // curves that the reader has handed on, those skipped included
-  std::int64_t written_;  // and the writer has taken
+  std::int64_t read_;     // number of curves passed on by the reader, including those skipped
+  std::int64_t written_;  // number of curves taken by the writer, including those skipped
   bool all_read_ = false;
-  std::optional<Error> failure_;  // of the source
+  std::optional<Error> failure_;  // error of the source
   PipelineEnd end_;
   std::deque<std::pair<std::int64_t, BatchItem>> waiting_;
   std::map<std::int64_t, Done> done_;
@@ -111,7 +111,8 @@ void Crew::Work() {
   }
 }
 
-// All that is next in order, while the mutex is held. False: what came next was interrupted.
+// Takes all finished rows that are next in order. The mutex must be held. False: the next row was
+// interrupted.
 bool Crew::TakeReady(std::string* texts, std::int64_t* rows, PipelineProgress* progress) {
   while (!done_.empty() && done_.begin()->first == written_) {
     Done& next = done_.begin()->second;

@@ -10,47 +10,48 @@
 
 namespace lyrefit {
 
-// One reader, many workers, one writer: curves are read in the order of the input, worked on side
-// by side, and what came of them is written in that order. Between the three wait at most a few
-// dozen curves a worker, however many there are and however long one takes.
+// One reader, many workers, one writer. Curves are read in the order of the input and processed in
+// parallel. Results are written in the order of the input. At most a few dozen curves for each
+// worker are queued, whatever the number of curves and the time of one.
 
 struct PipelineStep {
-  std::string text;          // what is to be written of a curve
+  std::string text;          // text to be written for the curve
   bool broken = false;       // for progress
-  bool interrupted = false;  // to be thrown away, with all that come after it
+  bool interrupted = false;  // to be discarded, with all later ones
 };
 
 struct PipelineProgress {
   std::int64_t rows = 0;    // written by this call
-  std::int64_t broken = 0;  // of those
-  std::int64_t end = 0;     // BatchItem::end of the last one
+  std::int64_t broken = 0;  // of `rows`: broken
+  std::int64_t end = 0;     // BatchItem::end of the last row
 };
 
 struct Pipeline {
-  int threads = 0;        // that work; 0: all cores
-  std::int64_t skip = 0;  // curves at the beginning that are left out, unread
-  // From any thread. `stopped` says whether to give up.
+  int threads = 0;        // number of workers; 0: all cores
+  std::int64_t skip = 0;  // number of curves at the beginning that are not processed
+  // Processes one curve. Must be thread-safe. `stopped` returns true if the work is to be
+  // abandoned.
   std::function<PipelineStep(const BatchItem& item, const std::function<bool()>& stopped)> work;
-  // From the calling thread: the texts of `rows` curves, one behind the other.
+  // Writes the concatenated texts of `rows` curves. Called from the calling thread.
   std::function<Expected<void>(const std::string& texts, std::int64_t rows)> write;
-  // The same, after each write and ten times a second; true: stop.
+  // Called from the calling thread after each write and ten times a second. True: stop.
   std::function<bool(const PipelineProgress&)> stop;
 };
 
-// Where a curve stands in the whole input.
+// Position of a curve in the whole input.
 struct PipelinePlace {
   int input = 0;
   std::int64_t number = 0;
 };
 
 struct PipelineEnd {
-  bool complete = false;               // false: it was stopped, and a first part is written
-  std::optional<PipelinePlace> first;  // of the curves that were read, those skipped included
+  bool complete = false;               // false: stopped, and only the first rows are written
+  std::optional<PipelinePlace> first;  // first of all curves read, including those skipped
   std::optional<PipelinePlace> last;
 };
 
-// Reads to the end of the input, unless it is stopped. An error of the source or of `write` ends it
-// too, after what was read before is written.
+// Reads to the end of the input, unless it is stopped. An error of the source or of `write` stops
+// it too. Curves read before the error are still written.
 Expected<PipelineEnd> Run(const Pipeline& pipeline, BatchSource* source);
 
 }  // namespace lyrefit

@@ -4,7 +4,7 @@
 
 namespace lyrefit {
 
-// What lies in assets/, put into the library when it is built.
+// The content of assets/, embedded in the library at build time.
 std::string_view PlantStyle();
 std::string_view PlantScript();
 

@@ -36,7 +36,7 @@ std::string Counted(std::int64_t count) {
   return text;
 }
 
-// The most frequent first.
+// By decreasing count.
 std::vector<std::pair<std::string, PlantShare>> Ordered(const Shares& shares) {
   std::vector<std::pair<std::string, PlantShare>> ordered(shares.begin(), shares.end());
   std::stable_sort(ordered.begin(), ordered.end(), [](const auto& one, const auto& other) {
@@ -65,8 +65,8 @@ std::string Listed(const Shares& shares, std::size_t most) {
 }
 
 struct Row {
-  std::vector<std::string> cells;  // HTML already
-  // What a script shows alone when the row's name is pressed.
+  std::vector<std::string> cells;  // escaped HTML
+  // The filter that a script sets when the row's name is pressed: column and value.
   std::string column = {};
   std::string value = {};
 };
@@ -77,7 +77,7 @@ std::string RowStart(const Row& row) {
                      HtmlEscaped(row.value));
 }
 
-// The first cell names its row; those of columns 'r' are numbers.
+// The first cell of a row is its header. Columns with alignment 'r' are numbers.
 std::string Table(const std::string& caption, const std::string& alignment,
                   const std::vector<std::string>& head, const std::vector<Row>& rows) {
   std::string html = fmt::format(
@@ -140,8 +140,8 @@ std::string CausesTable(const std::string& caption, const Shares& causes) {
   return "<div>" + Table(caption, "lrr", {"Cause", "Strings", "Power to recover"}, rows) + "</div>";
 }
 
-// Its name, with a link to its page where it has one. Paths are those of StringPagePath, but files hold
-// anything.
+// The row's name, with a link to its page if it has one. Only paths in the form of StringPagePath
+// are linked, since files may hold any text.
 std::string Linked(const PlantRow& row, const std::string& results) {
   const bool safe = row.page.rfind("pages/", 0) == 0 && row.page.find("..") == std::string::npos;
   if (!safe) return HtmlEscaped(row.id);

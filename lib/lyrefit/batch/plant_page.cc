@@ -26,8 +26,8 @@ tl::unexpected<Error> CannotWrite(const std::string& path) {
   return Fail("cannot write the page: " + std::generic_category().message(errno), path);
 }
 
-// A file that nobody else sees and that is gone when it is closed; beside the page, where there is
-// room for it.
+// A file without a name, which disappears when it is closed. It is in the folder of the page, since
+// that folder has the space for it.
 int OpenNameless(const std::string& page) {
   std::error_code error;
   const std::string beside =
@@ -39,7 +39,7 @@ int OpenNameless(const std::string& page) {
   return number;
 }
 
-constexpr char kRowsHere[] = "<!--rows-->";  // no text of a row can hold it: it would be escaped
+constexpr char kRowsHere[] = "<!--rows-->";  // no row can contain this text, since rows are escaped
 
 class StreamedPage : public PlantPage {
  public:

@@ -13,12 +13,12 @@ namespace lyrefit {
 namespace {
 
 constexpr int kWidth = 960;
-constexpr int kLabel = 150;  // of it for names
+constexpr int kLabel = 150;  // part of the width for names
 constexpr std::size_t kMostCells = 400;
 constexpr std::size_t kMostRows = 60;
 
-// 0 to 1: how far a node is from what it should be. By its lowest performance factor where that is
-// known, 0.7 and below being 1; else by the share of strings that need work.
+// Deviation of a node from its target, 0 to 1. It is computed from the lowest performance factor if
+// that is known, with 1 at 0.7 and below. Otherwise it is the share of strings that need work.
 double Shade(const PlantNode& node) {
   const double lowest = node.lowest_performance;
   if (std::isfinite(lowest)) return std::clamp((1 - lowest) / 0.3, 0.0, 1.0);
@@ -39,7 +39,7 @@ std::string Shortened(const std::string& name, std::size_t most) {
 
 std::string CellPicture(double x, double y, double width, const std::string& name,
                         const PlantNode& node) {
-  // From light to vermilion; dark enough for white letters in the upper half.
+  // From light to vermilion. The upper half is dark enough for white text.
   const double shade = Shade(node);
   const bool dark = shade > 0.55;
   std::string svg = fmt::format(

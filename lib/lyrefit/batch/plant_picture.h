@@ -6,14 +6,14 @@
 
 namespace lyrefit {
 
-// The plant's tree as SVG: a cell for each node of the deepest level that has few enough of them, a
-// row of cells for each node above. Empty without a tree.
+// The plant's tree as SVG. Each node of the deepest level with few enough nodes is a cell, and each
+// node above is a row of cells. Empty without a tree.
 std::string MapPicture(const PlantSummary& summary);
 
-// Strings by performance factor as SVG, with its sentence. Empty where none is known.
+// Histogram of strings by performance factor as SVG, with a sentence. Empty if no factor is known.
 std::string PerformancePicture(const PlantSummary& summary);
 
-// The sign that stands beside the colour of a zone, as HTML; empty for a zone that is not known.
+// The symbol of a zone as HTML, shown beside its colour; empty for an unknown zone.
 std::string ZoneMark(const std::string& zone);
 
 }  // namespace lyrefit

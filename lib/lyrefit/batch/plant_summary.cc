@@ -41,7 +41,7 @@ bool Passes(const std::string& zone) { return zone.rfind("pass", 0) == 0; }
 
 bool IsFine(const std::string& status) { return status.empty() || status == "fine"; }
 
-// Of a heap whose top is the least bad.
+// Order of a heap with the least bad row on top.
 bool Worse(const std::pair<double, PlantRow>& one, const std::pair<double, PlantRow>& other) {
   return one.first > other.first;
 }
@@ -80,13 +80,13 @@ double PlantCounter::Number(const ResultRow& row, Known column) const {
   return whole ? static_cast<double>(*whole) : kUnknown;
 }
 
-// By the verdict of a field test where there is one, else where a cause was found.
+// By the zone of a field test if there is one, else by the existence of a cause.
 bool PlantCounter::NeedsWork(const std::string& zone, const std::string& cause) const {
   if (Has(kZone)) return !zone.empty() && !Passes(zone);
   return !IsNoCause(cause);
 }
 
-// A cause of the measurement and not of the plant, where no zone says that there is work.
+// True for a cause of the measurement rather than of the plant, unless the zone requires work.
 bool PlantCounter::ToRepeat(const ResultRow& row) const {
   const std::string about = Text(row, kCauseAbout);
   return (about == "sweep" || about == "instrument" || about == "conditions") &&
@@ -100,7 +100,7 @@ bool PlantCounter::Differs(const ResultRow& row) const {
   return differs != nullptr && *differs;
 }
 
-// The larger the worse; unknown where the row does not say.
+// Sort key of the worst rows, larger is worse; NaN: unknown.
 double PlantCounter::Badness(const ResultRow& row) const {
   if (Has(kPerformance)) return -Number(row, kPerformance);
   if (Has(kDeviation)) return -Number(row, kDeviation);
@@ -116,7 +116,7 @@ void PlantCounter::CountTree(const PlantRow& row, bool needs_work) {
     PlantNode& node = nodes[row.id.substr(0, end)];
     ++node.rows;
     node.in_need += needs_work ? 1 : 0;
-    // A comparison with what is not known is false.
+    // The comparison is false if one side is NaN.
     if (!(node.lowest_performance <= row.performance_factor) &&
         std::isfinite(row.performance_factor)) {
       node.lowest_performance = row.performance_factor;

@@ -12,10 +12,10 @@
 
 namespace lyrefit {
 
-// What the rows of a plant come to, in a space that does not grow with their number. Columns are
-// found by their names (batch/plant_page.h); what a column that is missing would say stays empty.
+// Summary of the rows of a plant, in constant memory. Columns are found by their names
+// (batch/plant_page.h). Members of missing columns stay empty.
 
-// A row as the tables name it that must be read without a script.
+// A row as listed in the tables that need no script.
 struct PlantRow {
   std::string id, zone, cause, cause_title, reason, page;
   double performance_factor = kUnknown;
@@ -26,54 +26,57 @@ struct PlantRow {
 struct PlantShare {
   std::int64_t rows = 0;
   double recoverable_power_W = 0;
-  std::string title;  // of a cause, where the rows give one
+  std::string title;  // title of a cause, if the rows have one
 };
 
 // A node of the plant's tree: site, inverter, combiner.
 struct PlantNode {
   std::int64_t rows = 0;
-  std::int64_t in_need = 0;  // that need work
+  std::int64_t in_need = 0;  // number of strings that need work
   double lowest_performance = kUnknown;
 };
 
 struct PlantSummary {
   std::int64_t rows = 0;
-  std::int64_t fine = 0;           // by their status
-  std::int64_t passed = 0;         // by their zone
-  std::int64_t in_need = 0;        // that need work: see NeedsWork
-  std::int64_t to_repeat = 0;      // that show a cause of the measurement alone and do not fail
-  double recoverable_power_W = 0;  // of those that need work
-  double below_rating_W = 0;       // of those that need work and are below it
-  double power_W = 0;              // at standard conditions where known, of all
-  std::string judged_by;           // the column that says who needs work: zone, cause or none
-  std::map<std::string, PlantShare> status, zones, causes;  // causes of those that need work
+  std::int64_t fine = 0;           // number of rows with the status "fine"
+  std::int64_t passed = 0;         // number of rows with a passing zone
+  std::int64_t in_need = 0;        // number of rows that need work: see NeedsWork
+  // Number of rows with a cause of the measurement alone that do not fail.
+  std::int64_t to_repeat = 0;
+  double recoverable_power_W = 0;  // sum over rows that need work
+  double below_rating_W = 0;       // shortfall of rows that need work and are below their rating
+  double power_W = 0;              // sum of the known power at standard conditions over all rows
+  std::string judged_by;           // the column that determines who needs work: zone, cause or none
+  std::map<std::string, PlantShare> status, zones, causes;  // causes of rows that need work
   std::map<std::string, PlantShare> causes_of_passed;
   std::map<std::string, PlantShare> causes_to_repeat;
   std::map<std::string, PlantShare> reasons;  // of rows that are not fine
-  std::int64_t passed_outlier = 0;                // that need no work but differ from their neighbours
+  // Number of rows that need no work but differ from their neighbours.
+  std::int64_t passed_outlier = 0;
   std::string first_date, last_date;
   std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
-  std::string worst_by;          // the column that says so
+  std::string worst_by;          // the column that ranks them
   std::vector<PlantRow> broken;  // the first kPlantWorst rows that are not fine
-  // By depth: [0] the first levels of the ids, [1] the first two, ... One that has more than
-  // kPlantMostNodes is dropped.
+  // Nodes by depth: [0] the first levels of the ids, [1] the first two, ... A depth with more than
+  // kPlantMostNodes nodes is dropped.
   std::vector<std::map<std::string, PlantNode>> levels;
-  // Rows by performance factor in steps of 0.01; the last also holds what lies above.
+  // Histogram of the performance factor in steps of 0.01. The last bin includes all larger values.
   std::array<std::int64_t, 151> performance{};
 };
 
 constexpr std::size_t kPlantWorst = 25;
 constexpr std::size_t kPlantMostNodes = 2000;
-constexpr std::size_t kPlantMostWords = 200;  // of statuses, causes, ...; the rest are "others"
+// Different statuses, causes, ...; further ones are counted as "others".
+constexpr std::size_t kPlantMostWords = 200;
 
-// Stands among the causes for strings that need work and show none.
+// Key among the causes for strings that need work without a cause.
 constexpr char kNoCause[] = "no cause found";
 
 class PlantCounter {
  public:
   explicit PlantCounter(const std::vector<ResultColumn>& columns);
   void Add(const ResultRow& row);
-  // Of the rows so far.
+  // Summary of the rows added so far.
   PlantSummary Summary() const;
 
  private:
@@ -110,11 +113,11 @@ class PlantCounter {
 
   std::array<int, kColumns> places_{};
   PlantSummary sum_;
-  std::size_t deepest_ = 8;                         // levels of the tree that are counted
+  std::size_t deepest_ = 8;                         // number of tree levels that are counted
   std::vector<std::pair<double, PlantRow>> worst_;  // a heap, the least bad on top
 };
 
-// No cause was found, in any of the ways of writing that.
+// True if `cause` means that no cause was found, in any of its notations.
 bool IsNoCause(const std::string& cause);
 
 }  // namespace lyrefit

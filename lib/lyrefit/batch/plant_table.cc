@@ -16,8 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 enum Kind : char { kDoubles, kDecimals, kTexts, kWords };
-constexpr double kLargestCode = 4503599627370496.0;  // 2^52: a browser's numbers count so far
-constexpr int kMostDecimals = 22;                    // 10^22 is a double, 10^23 is not
+// 2^52, below the limit of exact integers in a browser (2^53).
+constexpr double kLargestCode = 4503599627370496.0;
+constexpr int kMostDecimals = 22;                    // 10^22 is exact as a double, 10^23 is not
 
 double TenTo(int n) {
   static constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -42,7 +43,7 @@ double NumberOf(const ResultCell& cell, int digits) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Bytes of one significance together: those of like numbers are alike.
+// Bytes of the same significance in sequence. Similar numbers then compress well.
 std::string Planes(const std::vector<std::uint64_t>& codes, int width) {
   std::string bytes;
   bytes.reserve(codes.size() * width);
@@ -60,7 +61,7 @@ int WidthOf(std::uint64_t largest) {
   return width;
 }
 
-// How many decimals it takes to write every number exactly; none where that is not to be had.
+// Number of decimals that represents every value exactly; empty if there is none.
 std::optional<int> DecimalsOf(const std::vector<double>& values) {
   int decimals = 0;
   double largest = 0;
@@ -105,7 +106,7 @@ std::string JsonText(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// Words where they come again and again, else the texts themselves.
+// Words if texts are repeated, else the texts themselves.
 std::string PackTexts(const std::vector<ResultCell>& cells) {
   Json words = Json::array();
   std::map<std::string, std::uint64_t> places;

@@ -8,36 +8,37 @@
 
 namespace lyrefit {
 
-// The table inside a plant's page, for a browser to unpack without a library.
+// The table inside a plant's page, in a format that a browser unpacks without a library.
 //
-// Rows stand in groups of kPlantGroupRows, the cells of a group column by column. A column of a
-// group is a gzip stream of its own, in base64, so that a page reads the columns that it shows and
-// nothing else. Unpacked it is, all numbers little-endian, with n rows:
-//   byte 0      what follows: 0 doubles, 1 decimals, 2 texts, 3 words
-//   doubles     8 n bytes: first byte 0 of all rows, then byte 1 of all, ...; NaN is not known
-//   decimals    byte 1 is d, byte 2 is w; w n bytes in planes as above. A code of 0 is not known,
-//               else z = code - 1 is the number k = (z even ? z / 2 : -(z + 1) / 2) / 10^d
-//   texts       a JSON array of n texts, null where not known
-//   words       byte 1 is w, bytes 2 to 5 the length of a JSON array of the words that occur; after
-//               it the place of each row's word, w n bytes in planes
-// Truths are the decimals 0 and 1. Numbers are the doubles given, bit for bit, but for whole numbers
-// beyond 2^53, which are the nearest double, and minus zero, which is zero.
+// Rows are divided into groups of kPlantGroupRows. The cells of a group are stored column by
+// column. A column of a group is a separate gzip stream in base64, so that a page unpacks only the
+// columns it shows. The unpacked bytes, all numbers little-endian, with n rows, are:
+//   byte 0      type: 0 doubles, 1 decimals, 2 texts, 3 words
+//   doubles     8 n bytes: first byte 0 of all rows, then byte 1 of all, ...; NaN: unknown
+//   decimals    byte 1 is d, byte 2 is w; w n bytes in planes as for doubles. Code 0: unknown; else
+//               z = code - 1 is the number k = (z even ? z / 2 : -(z + 1) / 2) / 10^d
+//   texts       a JSON array of n texts, null: unknown
+//   words       byte 1 is w, bytes 2 to 5 the length of a JSON array of the different words; after
+//               it the index of each row's word, w n bytes in planes
+// Truth values are the decimals 0 and 1. Numbers are stored bit for bit, with two exceptions: whole
+// numbers beyond 2^53 become the nearest double, and minus zero becomes zero.
 constexpr int kPlantGroupRows = 8192;
 
 class PlantTable {
  public:
-  // `digits`: significant digits that numbers are rounded to; 0 keeps all.
+  // `digits`: significant digits to which numbers are rounded; 0 keeps all.
   PlantTable(std::vector<ResultColumn> columns, int digits);
 
-  // One cell a column. Returns whether the group is full and has to be taken.
+  // Adds a row with one cell for each column. True: the group is full, and TakeGroup must be
+  // called.
   bool Add(const ResultRow& row);
 
-  // The columns of the group one behind the other in base64, nothing where there are no rows. The
-  // group is empty afterwards.
+  // Returns the concatenated columns of the group in base64, empty without rows. It clears the
+  // group.
   std::string TakeGroup();
 
-  // {"columns": [{"name", "unit", "type", "doc"}], "groups": [{"rows", "parts": [characters of each
-  // column]}]}
+  // {"columns": [{"name", "unit", "type", "doc"}], "groups": [{"rows", "parts": [number of
+  // characters of each column]}]}
   std::string Index() const;
 
  private:

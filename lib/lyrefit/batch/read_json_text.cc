@@ -16,7 +16,7 @@
 namespace lyrefit {
 namespace {
 
-// Where the column of a text of several lines stands.
+// An error with the line and column of a text of several lines.
 tl::unexpected<Error> RefuseAt(std::string_view text, const RowPlace& place, const Error& error) {
   const std::size_t at = std::min<std::size_t>(std::max(error.column - 1, 0), text.size());
   const std::string_view before = text.substr(0, at);
@@ -25,7 +25,7 @@ tl::unexpected<Error> RefuseAt(std::string_view text, const RowPlace& place, con
   return place.Refuse(error.message, static_cast<int>(at - before.rfind('\n')), place.line + lines);
 }
 
-// Readings that are nested: tables as pandas writes them, records.
+// Reads nested readings: tables as written by pandas, lists of records.
 Expected<IvCurve> NestedCurve(std::string_view text, const RowPlace& place, const std::string& id,
                               const ReadOptions& options) {
   auto document = ParseJson(std::string(text), place.file);

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Calls `see` with every line's object and returns how many there were.
+// Calls `see` for the object of every line. Returns the number of lines.
 template <class See>
 Expected<std::int64_t> EachResult(const std::string& path, const See& see) {
   std::ifstream file(path);
@@ -59,7 +59,7 @@ ResultCell CellOf(const Json& value, CellType type) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// The columns of a file, by the values that stand in it.
+// Determines the columns of a file from its values.
 class ColumnFinder {
  public:
   explicit ColumnFinder(const std::vector<ResultColumn>& known) : known_(known) {}

@@ -41,7 +41,7 @@ ResultCell Date(const BatchCurve& curve) {
   return curve.curve ? TextCell(curve.curve->notes.date) : ResultCell();
 }
 
-// What has no column of its own, as one JSON object.
+// All values without a column of their own, as one JSON object.
 ResultCell Rest(const BatchCurve& curve) {
   nlohmann::json rest = nlohmann::json::object();
   for (const auto& [key, value] : curve.beside) {
@@ -53,7 +53,7 @@ ResultCell Rest(const BatchCurve& curve) {
 
 std::vector<ResultCell> ReadingCells(const IvCurve& curve) {
   const Conditions& at = curve.conditions;
-  // Without what the subtraction from kelvin leaves: 33.00000000000006.
+  // Removes the rounding error of the subtraction from kelvin: 33.00000000000006.
   const double celsius = std::round((at.cell_temperature_K - kZeroCelsius_K) * 1e9) / 1e9;
   const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
   return {NumberCell(curve.irradiance_known ? at.irradiance_W_m2 : kUnknown),

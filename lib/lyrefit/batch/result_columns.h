@@ -9,11 +9,11 @@
 
 namespace lyrefit {
 
-// The columns that every row has, whatever was done with its curve, before those of the task: who
-// it is, where it stands, under what it was taken, its key points and a sketch.
+// The columns of every row, for any task, before those of the task: id, location, conditions, key
+// points and a sparkline.
 std::vector<ResultColumn> CommonColumns();
 
-// Their cells. The curve may be broken.
+// The cells of CommonColumns() for one curve, which may be broken.
 std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& item,
                                     RowStatus status, const std::string& reason);
 

@@ -9,9 +9,9 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What is written of each curve of many: one row, always, with the same columns.
+// The rows of the results of many curves: exactly one for each curve, all with the same columns.
 
-// What a column holds: text, a number, a whole number, yes or no.
+// Type of a column's cells: text, number, integer, truth value.
 enum class CellType { kText, kNumber, kWhole, kTruth };
 
 // A column of the results.
@@ -19,15 +19,15 @@ struct ResultColumn {
   std::string name;  // with its unit where it has one: "Rs_ohm"
   std::string unit;
   CellType type = CellType::kText;  // of all its cells
-  std::string doc;                  // one line
+  std::string doc;                  // description in one line
 };
 
-// monostate: not known.
+// monostate: unknown.
 using ResultCell = std::variant<std::monostate, std::string, double, std::int64_t, bool>;
 
-// What is written of one curve.
+// The row of one curve.
 struct ResultRow {
-  std::vector<ResultCell> cells;  // one a column
+  std::vector<ResultCell> cells;  // one for each column
 };
 
 }  // namespace lyrefit

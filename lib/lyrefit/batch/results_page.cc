@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kManyRows = 50000;  // from here on with six digits
+constexpr std::int64_t kManyRows = 50000;  // above this number of rows, numbers have six digits
 constexpr int kDigitsOfMany = 6;
 constexpr std::uintmax_t kLargestResultsSchema = 16U << 20;
 
@@ -21,7 +21,7 @@ std::string Text(const CheckpointHead& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// What the run was, as it stands in the schema.
+// Facts about the run, from the schema.
 std::vector<PlantFact> FactsOf(const CheckpointHead& run) {
   std::vector<PlantFact> facts;
   const CheckpointHead options = run.value("options", CheckpointHead::object());
@@ -52,7 +52,7 @@ std::vector<PlantFact> FactsOf(const CheckpointHead& run) {
   return facts;
 }
 
-// Bytes that mean something in a URL are escaped.
+// Escapes the bytes that have a meaning in a URL.
 std::string UrlOf(const std::string& path) {
   std::string url;
   for (const char c : path) {

@@ -22,14 +22,14 @@
 namespace lyrefit {
 namespace {
 
-// The row while a curve is made of it.
+// A row while it is converted to a curve.
 struct RowReading {
   const RowFields& fields;
   const RowPlace& place;
   const ReadOptions& options;
-  std::vector<Column> columns;  // of the lists
+  std::vector<Column> columns;  // for each list
   Channel channel{-1, -1};
-  std::vector<bool> missing;  // points that are left out
+  std::vector<bool> missing;  // true: the point is left out
 };
 
 std::string NamesOf(const RowFields& fields) {
@@ -45,7 +45,7 @@ std::string NamesOf(const RowFields& fields) {
   return count > kShown ? names + ", ..." : names;
 }
 
-// Why the lists hold no voltage and current.
+// The error that explains why the lists hold no voltage and current.
 tl::unexpected<Error> RefuseNames(const RowReading& reading) {
   const auto has = [&](ColumnKind kind) {
     return std::any_of(reading.columns.begin(), reading.columns.end(), [&](const Column& column) {
@@ -178,7 +178,8 @@ void SayWhatWasAssumed(const RowReading& reading, IvCurve* curve) {
   curve->voltage_unit_known = !voltage.unit.empty();
   curve->current_unit_known = !current.unit.empty();
   const bool density = current.kind == ColumnKind::kCurrentDensity;
-  const bool packed = !reading.fields.assumptions.empty();  // it was said then
+  // A packed row already has the assumption.
+  const bool packed = !reading.fields.assumptions.empty();
   for (const auto& [column, unit] :
        {std::pair(&voltage, "V"), std::pair(&current, density ? "mA/cm2" : "A")}) {
     if (packed || !column->unit.empty()) continue;
@@ -191,7 +192,7 @@ void SayWhatWasAssumed(const RowReading& reading, IvCurve* curve) {
       fmt::format("{} of {} rows without a reading left out", skipped, reading.missing.size()));
 }
 
-// A condition in a column of its own: irradiance or temperature under any of their names.
+// Adds irradiance or temperature from a column with any of their names.
 Expected<void> TakeCondition(const RowPlace& place, const RowScalar& scalar, const Column& column,
                              double number, Sidecar* said) {
   const double value = number * column.factor + column.offset;
@@ -217,13 +218,13 @@ bool IsCondition(const NameMeaning& meaning) {
                                             meaning.column.kind == ColumnKind::kTemperature);
 }
 
-// A scalar says nothing where its field is empty.
+// True if the field of a scalar is empty.
 bool SaysNothing(const RowScalar& scalar) {
   const std::string_view text = TrimBlanks(scalar.text);
   return text.empty() || text == "NaN" || text == "nan" || IsMissingWord(text);
 }
 
-// Keys of a sidecar are read as in one.
+// The conditions and notes of a row. Keys of a sidecar are read as in a sidecar file.
 Expected<Sidecar> SidecarOfRow(const RowFields& fields, const RowPlace& place) {
   nlohmann::json keys = nlohmann::json::object();
   Sidecar said;
@@ -256,7 +257,7 @@ Expected<Sidecar> SidecarOfRow(const RowFields& fields, const RowPlace& place) {
   return Merge(std::move(*stated), said);
 }
 
-// What was carried along with a packed curve may be found again.
+// Removes duplicates: an assumption of a packed curve may be made again.
 void SayOnce(std::vector<Assumption>* assumptions) {
   std::vector<Assumption> kept;
   for (Assumption& one : *assumptions) {

@@ -13,15 +13,15 @@
 
 namespace lyrefit {
 
-// What the error of a row begins with that was broken when it was packed.
+// Prefix of the error of a row that was already broken when it was packed.
 inline constexpr std::string_view kPackedAsBroken = "packed as a broken one: ";
 
-// Where a row stands, for its errors.
+// Position of a row, for its errors.
 struct RowPlace {
   const std::string& file;
   std::int64_t line;
 
-  // `other_line`: of a reading in a line of its own.
+  // `other_line`: line of a single reading, if it differs from the row's; 0: the row's line.
   tl::unexpected<Error> Refuse(std::string message, int column = 0,
                                std::int64_t other_line = 0) const {
     return Fail(std::move(message), file, static_cast<int>(other_line == 0 ? line : other_line),
@@ -29,12 +29,12 @@ struct RowPlace {
   }
 };
 
-// The curve of a row: its lists under the names of ReadCurve, the conditions and notes that its
-// scalars state. `id` is its name.
+// The curve of a row. Its lists have the column names of ReadCurve, and its scalars state
+// conditions and notes. `id` becomes the curve's name.
 Expected<IvCurve> CurveOfRow(const RowFields& fields, const RowPlace& place, const std::string& id,
                              const ReadOptions& options);
 
-// The scalars that are neither condition nor note nor part of the id.
+// The scalars that are neither a condition nor a note nor part of the id.
 std::map<std::string, std::string> BesideOfRow(const RowFields& fields);
 
 }  // namespace lyrefit

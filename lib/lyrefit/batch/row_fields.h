@@ -9,12 +9,12 @@
 
 namespace lyrefit {
 
-// A row taken apart, whatever it was written in: what stands in it under which name.
+// A parsed row of any format, as names with scalars or lists.
 
 struct RowScalar {
   std::string name;
-  std::string text;      // without quotes; of a number as written
-  bool is_text = false;  // said to be text, not a number
+  std::string text;      // without quotes; a number as written
+  bool is_text = false;  // marked as text, not a number
   int column = 0;        // in its line, from 1
 };
 
@@ -23,21 +23,21 @@ struct RowList {
   std::string name;
   std::vector<double> values;  // NaN where one is missing
   int column = 0;
-  std::string bad;  // the first that is no finite number, as written
+  std::string bad;  // the first value that is no finite number, as written
   std::size_t bad_at = 0;
   int bad_column = 0;         // 0: there is none
-  std::int64_t bad_line = 0;  // where each reading has a line of its own
-  bool bad_is_text = false;   // it cannot be left out as missing
+  std::int64_t bad_line = 0;  // its line, if each reading has a line of its own
+  bool bad_is_text = false;   // true: it is text and cannot be treated as missing
 };
 
 struct RowFields {
   std::vector<RowScalar> scalars;
   std::vector<RowList> lists;
-  std::vector<std::string> assumptions;  // what reading it before had to assume
-  bool nested = false;                   // holds something that is neither
+  std::vector<std::string> assumptions;  // assumptions made when the row was packed
+  bool nested = false;                   // has values that are neither scalars nor lists of scalars
 };
 
-// Takes one item of a list: a number, or one that is missing or no number.
+// Adds one item to a list: a number, a missing value, or an invalid text.
 void AddReading(std::string_view text, bool decimal_comma, int column, RowList* list);
 
 }  // namespace lyrefit

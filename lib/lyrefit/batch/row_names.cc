@@ -69,7 +69,7 @@ IdPart IdPartOf(std::string_view name) {
   std::string letters;
   for (const char c : LowerCase(name)) {
     if (c >= 'a' && c <= 'z') letters += c;
-    if (c >= '0' && c <= '9') return IdPart::kNone;  // "string2_V" is no name of a level
+    if (c >= '0' && c <= '9') return IdPart::kNone;  // "string2_V" does not name a level
   }
   if (const IdPart part = FindIdName(letters); part != IdPart::kNone) return part;
   for (const std::string_view ending : kEndings) {
@@ -87,7 +87,7 @@ NameMeaning Understand(std::string_view name) {
   meaning.id = IdPartOf(name);
   meaning.column = RecogniseColumn(name);
   meaning.sidecar = name != "name" && IsSidecarKey(name);
-  // Thirty can be cells, degrees, W/m2 and cm2.
+  // 30 is a valid value of every condition: cells, degrees, W/m2 and cm2.
   TableHead head;
   constexpr double kAnything = 30;
   meaning.states =

@@ -8,43 +8,43 @@
 
 namespace lyrefit {
 
-// Part of an id that a name stands for.
+// The part of an id that a name denotes.
 enum class IdPart {
   kNone,
   kWhole,  // id, curve_id, path
-  kSite,   // the levels of a plant, in this order
+  kSite,   // levels of a plant, in this order
   kBlock,
   kInverter,
   kCombiner,
   kMppt,
   kString,
   kCurve,
-  kOtherwise,  // name, label, module: where nothing else tells
+  kOtherwise,  // name, label, module: used only without the others
 };
 
-// What a name says, as a key of a JSON row or the header of a column.
+// Meaning of a name, as a key of a JSON row or as the header of a column.
 struct NameMeaning {
   IdPart id = IdPart::kNone;
-  Column column;                // what it would be as readings
-  bool sidecar = false;         // a key of a sidecar
-  bool states = false;          // states a condition in words: "cells", "POA irradiance"
-  bool pairs = false;           // voltage and current in one text
-  bool more = false;            // a JSON object with further names
-  const char* noise = nullptr;  // its key in the sidecar's current_noise
+  Column column;                // its meaning for a column of readings
+  bool sidecar = false;         // it is a key of a sidecar
+  bool states = false;          // it states a condition in words: "cells", "POA irradiance"
+  bool pairs = false;           // its value has voltage and current in one text
+  bool more = false;            // its value is a JSON object with further names
+  const char* noise = nullptr;  // its key in the sidecar's current_noise; null: none
 };
 
-// Remembers the names that it was asked for: rows repeat them. The reference holds until
-// ForgetNames.
+// Meaning of `name`, cached for each thread, since rows repeat names. The reference is valid until
+// ForgetManyNames.
 const NameMeaning& MeaningOf(std::string_view name);
 
-// Forgets those of this thread when they have become many.
+// Clears this thread's cache if it has become large.
 void ForgetManyNames();
 
-// The id that the scalars of a row make, empty if they make none. `used` gets true for each that is
-// part of it, if given.
+// The id formed by the scalars of a row; empty: none. `used`, if not null, is set to true for each
+// scalar that is part of the id.
 std::string IdOf(const std::vector<RowScalar>& scalars, std::vector<bool>* used = nullptr);
 
-// '/' separates the levels: one level has none.
+// `text` as one level of an id, without '/', which separates levels.
 std::string AsLevel(std::string_view text);
 
 }  // namespace lyrefit

@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// As Table Schema names them.
+// Names of the types in Table Schema.
 template <>
 struct EnumTable<CellType> {
   static constexpr EnumText<CellType> kRows[] = {{CellType::kText, "string"},

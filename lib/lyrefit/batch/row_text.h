@@ -10,22 +10,22 @@
 
 namespace lyrefit {
 
-// Rows as text. A number has the shortest digits that bring back the same bits, here and there.
+// Rows as text. A number is written with the fewest digits that restore the same bits.
 
-// {"id":"...","status":"fine",...}: every column, in their order, null where it is not known.
+// {"id":"...","status":"fine",...}: every column in order; null: unknown.
 std::string RowJson(const std::vector<ResultColumn>& columns, const ResultRow& row);
 
-// The same read back; a column that is missing, or of another kind, is not known.
+// Reads a row from the JSON of RowJson. A missing column, or one of another type, is unknown.
 ResultRow RowOf(const std::vector<ResultColumn>& columns, const nlohmann::json& json);
 
-// A line of fields, empty where not known.
+// A CSV line; unknown cells are empty fields.
 std::string RowCsv(const ResultRow& row, CsvTexts texts = CsvTexts::kSafe);
 std::string HeadCsv(const std::vector<ResultColumn>& columns);
 
 // [{"name", "type", "unit", "description"}]: the fields of a Table Schema
-// (specs.frictionlessdata.io/table-schema), which leaves room for the unit.
+// (specs.frictionlessdata.io/table-schema), which allows further keys such as the unit.
 nlohmann::ordered_json FieldsJson(const std::vector<ResultColumn>& columns);
-// The same read back.
+// Reads columns from the JSON of FieldsJson.
 Expected<std::vector<ResultColumn>> ReadColumns(const nlohmann::ordered_json& fields);
 
 }  // namespace lyrefit

@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// What rows in JSON and in CSV have alike: one line is one curve.
+// Common base of JSON and CSV rows: one line is one curve.
 class RowsInput : public BatchInput {
  public:
   RowsInput(std::string path, std::unique_ptr<LineScanner> scanner, const ReadOptions& options)
@@ -28,7 +28,7 @@ class RowsInput : public BatchInput {
       const Expected<bool> more = scanner_ == nullptr ? false : scanner_->Next(&line);
       if (!more) return tl::unexpected(more.error());
       if (!*more) {
-        scanner_.reset();  // there may be many inputs, each with a block of memory
+        scanner_.reset();  // releases its block of memory, since there may be many inputs
         return std::optional<FoundCurve>();
       }
       if (line.number > HeadLine() && !TrimBlanks(line.text).empty()) break;
@@ -55,7 +55,7 @@ class RowsInput : public BatchInput {
   void AddRemarks(std::vector<std::string>*) const override {}
 
  protected:
-  virtual std::int64_t HeadLine() const { return 0; }  // and all before it are no rows
+  virtual std::int64_t HeadLine() const { return 0; }  // this line and all before it are no rows
   virtual std::string IdOf(std::string_view row) const = 0;
 
   std::uintmax_t RowLimit() const { return options_.largest_file_bytes; }

@@ -10,7 +10,7 @@ namespace {
 constexpr int kLineBits = 44;
 constexpr std::uint64_t kLineMask = (std::uint64_t{1} << kLineBits) - 1;
 
-// The finaliser of SplitMix64: every bit of the state reaches every bit of the result.
+// The finaliser of SplitMix64: every bit of the state affects every bit of the result.
 std::uint64_t Mix(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;

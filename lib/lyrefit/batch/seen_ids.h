@@ -7,20 +7,19 @@
 
 namespace lyrefit {
 
-// Where an id stood: the input, from 0, and the line in it, 0 where it is a file.
+// Location of an id: index of the input, from 0, and line in it; 0 for a file of its own.
 struct IdPlace {
   int input = 0;
   std::int64_t line = 0;
 };
 
-// The ids that were used. Holds hashes of 64 bits; behind the first few thousand in a table of 34 MB,
-// so that a run over ten thousand curves needs as much as one over a million; it doubles when 1.9
-// million are in it.
+// The set of used ids, as hashes of 64 bits. After the first few thousand ids the table takes 34
+// MB, so that ten thousand curves need as much memory as a million. It doubles at 1.9 million ids.
 class SeenIds {
  public:
   SeenIds() : slots_(kFirstSlots) {}
 
-  // Remembers it; where it stands already if it was there.
+  // Inserts an id. Returns its earlier location if it is already in the set.
   std::optional<IdPlace> Insert(std::string_view id, IdPlace place);
 
  private:
@@ -29,7 +28,7 @@ class SeenIds {
 
   struct Slot {
     std::uint64_t hash = 0;   // 0: free
-    std::uint64_t place = 0;  // 20 bits of the input, 44 of the line
+    std::uint64_t place = 0;  // 20 bits of the input, 44 bits of the line
   };
 
   Slot* Find(std::uint64_t hash);

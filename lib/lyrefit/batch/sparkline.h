@@ -7,19 +7,19 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A curve as small as a stamp, for pages with many of them.
+// A curve as a tiny picture (sparkline), for pages with many curves.
 
-// Currents in a sketch.
+// Number of currents in a sparkline.
 constexpr int kSparklinePoints = 24;
 
-// The currents at kSparklinePoints even voltages from 0 to `open_circuit_voltage_V` (to the largest
-// voltage where that is not known), each as a byte, in 1/255 of the largest of them, as base64
-// (RFC 4648): 32 letters. Currents below 0 are 0; between readings, which may stand in any order,
-// they are linear. Empty where there is nothing to draw.
+// The currents at kSparklinePoints even voltages from 0 to `open_circuit_voltage_V`, or to the
+// largest voltage if that is unknown. Each current is a byte in 1/255 of the largest of them. The
+// result is base64 (RFC 4648) of 32 letters. Currents below 0 become 0. Values are interpolated
+// linearly between readings, which may be in any order. Empty without a positive current.
 std::string Sparkline(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                    double open_circuit_voltage_V);
 
-// What Sketch wrote, in parts of the largest current; empty where `text` is none.
+// The currents of a text written by Sparkline, relative to the largest; empty if `text` is invalid.
 std::vector<double> ReadSparkline(const std::string& text);
 
 }  // namespace lyrefit

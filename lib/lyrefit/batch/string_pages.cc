@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 120;   // bytes of a level; file systems take some more
+constexpr std::size_t kLongestName = 120;   // bytes of a level; file systems allow slightly more
 constexpr std::size_t kLongestPath = 1000;  // bytes of all levels
 
 bool IsCapital(char c) { return c >= 'A' && c <= 'Z'; }
@@ -27,7 +27,7 @@ bool IsPlain(char c) {
          c == '-';
 }
 
-// The places of the capital letters, the last nibble first.
+// Bit mask of the positions of capital letters in hexadecimal, least significant digit first.
 std::string CapitalPlaces(const std::string& text) {
   std::string digits;
   for (std::size_t i = 0; i < text.size(); i += 4) {
@@ -43,8 +43,8 @@ std::string CapitalPlaces(const std::string& text) {
 
 std::string Escaped(char c) { return fmt::format("~{:02x}", static_cast<unsigned char>(c)); }
 
-// A file name of its own for a piece of a level. Dots at either end would hide a file, or mean a
-// folder above; a folder must not have the name of a page.
+// A unique file name for one level. A leading dot would hide the file or name a parent folder. The
+// last dot could give a folder the name of a page. Both are escaped.
 std::string SafeName(const std::string& piece) {
   std::string name;
   const std::size_t ending = piece.rfind('.');
@@ -56,8 +56,8 @@ std::string SafeName(const std::string& piece) {
   return capitals.empty() ? name : name + "~." + capitals;
 }
 
-// A name for what would have one that is too long: a UUID of its bytes (RFC 9562, version 5). No
-// other name begins with "~_".
+// A name for a level that would be too long: a UUID of its bytes (RFC 9562, version 5). No other
+// name begins with "~_".
 std::string DigestName(const std::string& text) {
   static const boost::uuids::name_generator_sha1 generate(boost::uuids::ns::oid());
   return "~_" + boost::uuids::to_string(generate(text));
@@ -100,7 +100,7 @@ Expected<void> BringStringPages(const std::string& part, const std::string& fold
     TRY(const auto row, reader.Next());
     if (!row) return {};
     const auto page = row->find("page");
-    if (page == row->end()) return {};  // nobody asked for any
+    if (page == row->end()) return {};  // no pages were requested
     if (!page->is_string()) continue;
     const fs::path to = fs::path(folder) / page->get<std::string>();
     const fs::path old = from / page->get<std::string>();

@@ -8,10 +8,10 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Which curves of a batch get a page of their own.
+// Curves of a batch that get a page.
 enum class PagesOf {
   kNone,
-  kFailed,  // that do not pass, show a cause, or have an answer not to be worked with
+  kFailed,  // curves that do not pass, show a cause, or are not usable
   kAll,
 };
 
@@ -21,21 +21,22 @@ struct EnumTable<PagesOf> {
       {PagesOf::kNone, "none"}, {PagesOf::kFailed, "failed"}, {PagesOf::kAll, "all"}};
 };
 
-// Where the page of a curve stands below the folder of the results: "pages/inv01/str07.html". The
-// levels of the id are folders. No two ids have one path, not even where file systems do not tell
-// A from a: beside a-z, 0-9, '.', '_' and '-' a byte is "~" and its two hexadecimal digits, and a
-// level with capital letters ends with "~" and the letters' places as a hexadecimal number ("INV01"
-// is "INV01~.7"). A level whose name would have more than 120 bytes is "~_" and a digest of it, 122
-// bits of SHA-1; so is the whole id where the path would have more than 1000. Nothing in a path has
-// to be escaped in a link.
+// Path of a curve's page below the folder of the results: "pages/inv01/str07.html". The levels of
+// the id are folders. Different ids have different paths, even on file systems that ignore case.
+// Bytes other than a-z, A-Z, 0-9, '.', '_' and '-' become "~" and two hexadecimal digits. So do a
+// leading dot and the last dot of a level. A level with capital letters ends with "~." and a bit
+// mask of their positions in hexadecimal, least significant digit first ("INV01" is "INV01~.7"). A
+// level longer than 120 bytes becomes "~_" and a digest of it, 122 bits of SHA-1. The whole id
+// becomes a digest if the path would have more than 1000 bytes. No character of a path has to be
+// escaped in a link.
 std::string StringPagePath(const std::string& id);
 
-// Writes the page, whole or not at all, and makes its folders. From any thread.
+// Writes the page, completely or not at all, and creates its folders. Thread-safe.
 Expected<void> WriteStringPage(const std::string& folder, const std::string& path,
                                const std::string& html);
 
-// The pages that rows of the part file name, from one folder into another: links to the same file
-// where both are on one disk, else copies. Errors: a page that is not there.
+// Copies the pages named by the rows of the checkpoint file `part` from its folder into `folder`.
+// Files on one disk are hard links, else copies. Errors: a missing page.
 Expected<void> BringStringPages(const std::string& part, const std::string& folder);
 
 }  // namespace lyrefit

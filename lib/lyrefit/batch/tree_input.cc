@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file counts as its bytes and one, so that empty ones lie somewhere, too.
+// A file has one byte more than its size, so that empty files have a position too.
 std::int64_t WeightOf(const TreeFile& file) { return file.size + 1; }
 
 class TreeInput : public BatchInput {
@@ -83,7 +83,8 @@ class TreeInput : public BatchInput {
   }
 
  private:
-  // A file that cannot be read is a broken row; that it cannot is part of the sum.
+  // Adds a file to the checksum. A file that cannot be read is a broken row, and its error message
+  // is added instead.
   static void AddBytes(const std::string& path, std::int64_t size, ByteSum* sum) {
     if (const auto added = sum->AddFile(path, size); !added) sum->Add(added.error().message + "\n");
   }

@@ -22,11 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kCoarse = 0.1;        // of the claim: a tolerance that lets almost anything pass
-constexpr double kMatchesWell = 0.01;  // of the claim: a match even of coarse digits
+// Relative to the claim: a larger tolerance accepts almost any value.
+constexpr double kCoarse = 0.1;
+// Relative to the claim: a smaller distance is a match despite a large tolerance.
+constexpr double kMatchesWell = 0.01;
 constexpr char kDefaultBounds[] = "paper";
 
-// The published bounds of a curve; nothing if no name is given and there are none.
+// The published bounds of a curve. Empty: no name is given and no default bounds exist.
 Expected<std::optional<BoundsSpec>> PublishedBounds(const std::string& name,
                                                     const AuditCurve& curve) {
   const fs::path file =
@@ -41,7 +43,7 @@ Expected<std::optional<BoundsSpec>> PublishedBounds(const std::string& name,
   return spec;
 }
 
-// What the rows of an audit share; shelf and optima grow with what rows ask for.
+// State shared by the rows of an audit. The shelf and the cached optima grow as rows use them.
 struct AuditDesk {
   const std::string& path;
   const AuditOptions& options;
@@ -61,7 +63,7 @@ AuditVerdict VerdictAsStated(const AuditFinding& finding) {
   return coarse ? AuditVerdict::kTooCoarse : AuditVerdict::kReproduces;
 }
 
-// What no fit there is can give.
+// Compares the claim with the lowest RMSE of any fit, and with its proved lower bound.
 void LookBelow(const AuditSubject& subject, LowestFinder* finder, AuditFinding* finding) {
   finding->lowest = finder->Find(subject, finding->stated.shown);
   if (!finding->lowest) return;
@@ -92,7 +94,7 @@ void LookFurther(const AuditSubject& subject, LowestFinder* finder, AuditFinding
   if (finding->verdict == AuditVerdict::kFails) LookBelow(subject, finder, finding);
 }
 
-// Of the row as stated, and of explanations on the same curve.
+// Finds violated bounds of the row as stated, and of explanations on the same curve.
 Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
                            AuditFinding* finding) {
   const Device device = MakeDevice(subject.row->model, subject.stated.conditions);
@@ -108,7 +110,7 @@ Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
   return {};
 }
 
-// A claim that is a sum of squares as the RMSE it stands for.
+// Replaces a claimed sum of squares by the equivalent RMSE.
 void TakeRoot(std::size_t points, AuditRow* row) {
   if (!row->sum_of_squares) return;
   PrintedNumber& claim = row->rmse;

@@ -9,13 +9,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Checks published parameter rows against the curves they are said to fit: does the claimed RMSE
-// come out of the printed digits, and if not, which plain mistake brings it back?
+// Checks published parameter rows against the curves they are said to fit. It computes whether the
+// claimed RMSE follows from the printed digits, and otherwise which simple mistake explains it.
 
-// Audits every row of the table at `path`, see ReadAuditRows. A row's device is a curve as
-// ReadCurve takes it, looked up beside the table, in the parent of its folder, and in
-// `options.curve_folders`; every folder there that holds a curve.csv may turn out to be the device
-// a row really belongs to. Errors: the table as a whole, a folder that is not there.
+// Audits every row of the table at `path`; ReadAuditRows describes its format. A row names its
+// device as ReadCurve names a curve. The curve is looked up beside the table, in the parent of the
+// table's folder, and in `options.curve_folders`. Every folder there with a curve.csv is also a
+// candidate for the device a row really describes. Errors: an unreadable table, a missing folder.
 Expected<AuditReport> Audit(const std::string& path, const AuditOptions& options = {});
 
 }  // namespace lyrefit

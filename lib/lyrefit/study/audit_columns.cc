@@ -25,7 +25,7 @@ constexpr const char* kWords[] = {"source", "device",    "model",  "algorithm", 
 constexpr const char* kNeededWords[] = {"source", "device", "model", "algorithm"};
 constexpr const char* kNeededQuantities[] = {"iph", "rs", "rsh", "is1", "n1"};
 
-// A column's name without its unit, and the unit.
+// A column's name without its unit, and the unit in ampere or ohm.
 struct Quantity {
   std::string name;
   double factor;
@@ -40,7 +40,7 @@ std::optional<Quantity> WithUnit(const std::string& name, const std::string& uni
   return std::nullopt;
 }
 
-// "is1_ua" -> {"is1", 1e-6}; n has no unit.
+// "is1_ua" -> {"is1", 1e-6}; n has no unit and gets the factor 1.
 std::optional<Quantity> AsQuantity(const std::string& name) {
   if (name == "n1" || name == "n2" || name == "n3") return Quantity{name, 1};
   const std::size_t at = name.find('_');
@@ -68,7 +68,7 @@ char DelimiterOf(std::string_view header) {
   return best;
 }
 
-// Enters a column; false if it is there already.
+// Adds a column; false if the column exists already.
 bool Enter(const Quantity& quantity, int field, AuditColumns* columns) {
   std::vector<QuantityColumn>& same = columns->quantities[quantity.name];
   const bool repeated = std::any_of(same.begin(), same.end(), [&](const QuantityColumn& column) {

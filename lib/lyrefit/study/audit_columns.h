@@ -9,29 +9,30 @@
 
 namespace lyrefit {
 
-// Every column a table of published parameters may have, for messages.
+// Every column that a table of published parameters may have, as text for error messages.
 extern const char* const kAuditColumnNames;
 
-// A column of a current, a resistance or an n.
+// A column that holds a current, a resistance or an ideality factor n.
 struct QuantityColumn {
-  int field = 0;      // position in the line
-  double factor = 1;  // its unit in ampere or ohm
+  int field = 0;      // position in the line, from 0
+  double factor = 1;  // the column's unit in ampere or ohm; 1 for n
 };
 
-// Which column is what.
+// The meaning of each column.
 struct AuditColumns {
   char delimiter = ',';
-  std::size_t fields = 0;            // in every line
-  std::map<std::string, int> words;  // "device" -> position in the line
-  // "is1" -> its columns, one a unit. Names are in lower case.
+  std::size_t fields = 0;            // number of fields in every line
+  // Column name -> position in the line, for example "device" -> 1.
+  std::map<std::string, int> words;
+  // Quantity in lower case ("is1") -> its columns, one for each unit.
   std::map<std::string, std::vector<QuantityColumn>> quantities;
 };
 
-// Understands the header, line `number` of the file at `path`. Errors: an unknown, repeated or
+// Parses the header, which is line `number` of the file at `path`. Errors: an unknown, repeated or
 // missing column.
 Expected<AuditColumns> ReadAuditColumns(std::string_view line, const std::string& path, int number);
 
-// `text` with A to Z made small.
+// `text` with A to Z in lower case; other bytes are unchanged.
 std::string AsciiLower(std::string_view text);
 
 }  // namespace lyrefit

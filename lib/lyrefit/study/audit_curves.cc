@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCurves = 200;  // candidates taken from the places
+constexpr std::size_t kMostCurves = 200;  // limit for the curves read from all places
 
 bool Exists(const fs::path& path) {
   std::error_code error;
@@ -39,7 +39,7 @@ AuditCurve Shelve(IvCurve curve, const fs::path& path) {
   return shelved;
 }
 
-// Where this very file or folder stands on the shelf.
+// Position of the curve on the shelf that was read from this file or folder.
 std::optional<int> PositionOf(const fs::path& path, const AuditShelf& shelf) {
   for (std::size_t i = 0; i < shelf.curves.size(); ++i) {
     std::error_code error;
@@ -54,7 +54,7 @@ void ShelveFolder(const fs::path& place, AuditShelf* shelf) {
   for (const auto& entry : fs::directory_iterator(place, error)) {
     if (Exists(entry.path() / "curve.csv")) folders.push_back(entry.path());
   }
-  std::sort(folders.begin(), folders.end());  // the system lists them in any order
+  std::sort(folders.begin(), folders.end());  // the directory order depends on the file system
   for (const fs::path& folder : folders) {
     if (shelf->curves.size() >= kMostCurves) return;
     if (PositionOf(folder, *shelf)) continue;

@@ -9,28 +9,28 @@
 
 namespace lyrefit {
 
-// A curve that rows are held against.
+// A curve that published rows are checked against.
 struct AuditCurve {
   IvCurve curve;
   std::string path;    // as given to ReadCurve
-  std::string folder;  // where its published bounds lie
+  std::string folder;  // folder that holds the curve's published bounds
   PointSet points;
   double short_circuit_A = 0;
 };
 
-// All curves within reach of a table of rows.
+// All curves that the rows of one table can refer to.
 struct AuditShelf {
-  std::vector<std::string> places;  // folders, in the order they are searched
+  std::vector<std::string> places;  // folders, in search order
   std::vector<AuditCurve> curves;
 };
 
-// Reads every folder with a curve.csv in the folder of `rows_path`, in its parent and in `folders`;
-// what cannot be read there is left out. Errors: one of `folders` is not there.
+// Reads every folder with a curve.csv in the folder of `rows_path`, in its parent and in `folders`.
+// Unreadable curves are left out. Errors: one of `folders` does not exist.
 Expected<AuditShelf> OpenShelf(const std::string& rows_path,
                                const std::vector<std::string>& folders);
 
-// Position of the curve that `device` names, read into the shelf if it is not there yet. Errors: no
-// such curve in any of the places, or one that cannot be read.
+// Position of the curve that `device` names. The curve is read and added to the shelf on first use.
+// Errors: no such curve in any of the places, or an unreadable curve.
 Expected<int> FindCurve(const std::string& device, AuditShelf* shelf);
 
 }  // namespace lyrefit

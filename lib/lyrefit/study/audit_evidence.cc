@@ -12,7 +12,8 @@ constexpr double kColdest_C = -20;
 constexpr double kHottest_C = 120;
 constexpr double kSameCurrent = 0.02;
 constexpr double kOtherCurrent = 0.1;
-constexpr double kFollows = 0.05;  // RMSE of the short-circuit current
+// Largest RMSE of a matching device, relative to the short-circuit current.
+constexpr double kFollows = 0.05;
 
 double RelativeDistance(double value, double reference) {
   return std::fabs(value - reference) / std::max(std::fabs(reference), 1e-300);
@@ -103,7 +104,7 @@ std::vector<LeftBound> FindLeftBounds(const Device& device,
                                       const AuditReading& reading) {
   std::vector<LeftBound> left;
   for (int i = 0; i < device.size(); ++i) {
-    // Products of units are rounded: 8 uA is not exactly 8e-6 A.
+    // Unit conversion rounds: 8 uA is not exactly 8e-6 A.
     const double value = reading.parameters[i];
     const double slack = reading.half_units[i] + 1e-12 * std::fabs(value);
     if (value >= bounds[i].lower - slack && value <= bounds[i].upper + slack) continue;

@@ -7,20 +7,21 @@
 
 namespace lyrefit {
 
-// What else can be said about a row whose claim does not reproduce.
+// Further evidence about a row whose claim does not reproduce.
 
-// How its RMSE as stated depends on the temperature.
+// RMSE of the row as stated, as a function of the temperature.
 AuditTemperatures ScanTemperatures(const AuditSubject& subject);
 
-// Whether its photocurrent is more than 10 % off the short-circuit current of the curve as stated.
+// True if the row's photocurrent is more than 10 % off the short-circuit current of the stated
+// curve.
 bool HasOtherPhotocurrent(const AuditSubject& subject);
 
-// The curve whose short-circuit current agrees with its photocurrent to 2 %, read with the
-// resistances, n and temperature that fit best. Empty: there is none, or the row does not follow
-// it, with an RMSE above 5 % of the short-circuit current.
+// The curve whose short-circuit current agrees with the row's photocurrent to 2 %. Resistances, n
+// and temperature are read in the way that fits that curve best. Empty: no such curve, or an RMSE
+// above 5 % of its short-circuit current.
 std::optional<AuditReading> FindOtherDevice(const AuditSubject& subject);
 
-// Parameters outside the bounds by more than half a unit of their last digit.
+// Parameters outside their bounds by more than half a unit of their last printed digit.
 std::vector<LeftBound> FindLeftBounds(const Device& device,
                                       const std::vector<ParameterBounds>& bounds,
                                       const AuditReading& reading);

@@ -10,28 +10,29 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMostChanges = 3;
-constexpr double kWindow = 0.5;       // of ln(RMSE / claim), to either side
-constexpr double kMostChance = 0.01;  // expected accidental matches
-constexpr double kFar = 0.1;          // of the claim; no match beyond is worth a look
-constexpr double kNear = 0.05;        // of ln(RMSE / claim): worth a word
+constexpr double kWindow = 0.5;       // half-width of the counting window in ln(RMSE / claim)
+constexpr double kMostChance = 0.01;  // largest accepted number of expected accidental matches
+// Relative to the claim: readings farther away get no tolerance computed.
+constexpr double kFar = 0.1;
+constexpr double kNear = 0.05;  // in ln(RMSE / claim): closer readings are reported as nearest
 
-// A plan and the set of constants that brings it nearest to the claim.
+// A plan and its smallest distance to the claim over its sets of constants.
 struct Candidate {
   const ReadingPlan* plan = nullptr;
   double distance = 0;  // |ln(RMSE / claim)|
   bool matches = false;
 };
 
-// A claim that is to be explained, and how many plans were tried so far.
+// The claim to be explained, and the number of plans tried so far.
 struct Sought {
   const AuditSubject& subject;
   ReadingEvaluator evaluator;
   double claim = 0;
   int tried = 0;
-  int neighbours = 0;  // of those tried, within the window
+  int neighbours = 0;  // number of tried plans within the window
 };
 
-// Whether two plans read a row in the same way.
+// True if two plans interpret a row in the same way.
 bool IsSame(const ReadingPlan& a, const ReadingPlan& b) {
   return a.curve == b.curve && a.objective == b.objective && a.newton_step == b.newton_step &&
          a.cut_off == b.cut_off && a.constants == b.constants &&
@@ -58,7 +59,8 @@ Candidate Try(const ReadingPlan& plan, Sought* sought) {
   return candidate;
 }
 
-// How far the temperature may move to one side until the claim no longer reproduces.
+// End in degrees Celsius of the temperature range in which the claim reproduces. `direction` is 1
+// for the upper end and -1 for the lower.
 double EndOfRange(const ReadingPlan& plan, ConstantSet set, int direction, Sought* sought) {
   constexpr double kFirstStep_K = 1e-4;
   constexpr double kFarthest_K = 10;
@@ -101,7 +103,7 @@ AuditExplanation Explanation(const ReadingPlan& plan, Sought* sought) {
   return explanation;
 }
 
-// Where the solved current matches, one step towards it is no other explanation.
+// Removes Newton-step plans whose solved-current plan matches too, since they explain nothing more.
 void DropSteps(std::vector<Candidate>* matching) {
   const auto only_further = [&](const Candidate& candidate) {
     if (!candidate.plan->newton_step) return false;
@@ -117,7 +119,7 @@ void DropSteps(std::vector<Candidate>* matching) {
   *matching = std::move(kept);
 }
 
-// Tells the matches of one level that mean something from those that may be accidents.
+// Separates significant matches of one level from possibly accidental ones.
 void Sort(std::vector<Candidate>* matching, Sought* sought, AuditSearch* result) {
   DropSteps(matching);
   std::stable_sort(matching->begin(), matching->end(),

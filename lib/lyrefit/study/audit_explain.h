@@ -8,17 +8,17 @@
 namespace lyrefit {
 
 struct AuditSearch {
-  std::vector<AuditExplanation> explanations;  // all with as few changes as any, nearest first
-  std::optional<AuditExplanation> nearest;     // where there are none; see AuditFinding
+  std::vector<AuditExplanation> explanations;  // all with the fewest changes, nearest first
+  std::optional<AuditExplanation> nearest;     // if there are no explanations; see AuditFinding
 };
 
-// Looks for the fewest changes, three at most, under which a row's claim reproduces.
+// Searches for the fewest changes, at most three, under which a row's claim reproduces.
 //
-// With thousands of readings at hand some come near any claim by accident. How many is judged from
-// the readings themselves: if N of those tried so far lie within a factor of exp(1/2) of the claim,
-// then N x 2 x tolerance / claim of them are to be expected within the tolerance, and as many more
-// for every further set of constants that was open and gives another figure. Above 0.01 a match
-// explains nothing.
+// Thousands of readings are tried, so some match any claim by accident. The expected number of
+// accidental matches is estimated from the readings themselves. Let N of the readings tried so far
+// lie within a factor of exp(1/2) of the claim. Then N x 2 x tolerance / claim of them are expected
+// within the tolerance. The number is added once more for every other open set of constants that
+// gives another RMSE. A match with an expectation above 0.01 is not an explanation.
 AuditSearch Explain(const AuditSubject& subject);
 
 }  // namespace lyrefit

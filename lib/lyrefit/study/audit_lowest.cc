@@ -12,15 +12,16 @@
 namespace lyrefit {
 namespace {
 
-// Where lower bounds are proved: wider than anything a diode has.
+// Range of n for proved lower bounds. It is wider than the range of real diodes.
 constexpr double kLowestProved = 0.5;
 constexpr double kHighestProved = 4;
 
-// Of the solved current: closer than any claim is printed, and an end to what does not close.
+// Limits of proofs for the solved current. The tolerance is finer than the digits of any claim, and
+// the effort stops proofs that do not converge.
 constexpr double kSolvedProofTolerance = 1e-9;
 constexpr std::int64_t kSolvedProofEffort = 5000;
 
-// Says nothing where the curve is none that can be proved anything about.
+// Leaves `lowest` unchanged if no bound can be proved for the curve.
 void Prove(const IvCurve& curve, Model model, ConstantSet constants, AuditLowest* lowest) {
   CertifyOptions options;
   options.n_lower = kLowestProved;
@@ -51,7 +52,7 @@ const LowestFinder::Fitted& LowestFinder::Fit(const AuditSubject& subject, const
   if (const auto known = fitted_.find(key); known != fitted_.end()) return known->second;
   IvCurve curve = subject.shelf->curves[plan.curve].curve;
   curve.conditions = plan.conditions;
-  curve.as_is = true;  // the publication may have counted other cells
+  curve.as_is = true;  // no refusal by CheckReadings: the publication may count other cells
   FitOptions options;
   options.model = subject.row->model;
   options.objective = plan.objective;

@@ -9,17 +9,19 @@
 
 namespace lyrefit {
 
-// Where fits look, per cell.
+// Bounds of the ideality factor n per cell in these fits.
 constexpr double kLowestFitted = 1;
 constexpr double kHighestFitted = 2;
 
-// How low claims on a curve can go; every curve, model and set of constants is looked at once.
+// Finds how low claims on a curve can go. Results are cached for each curve, model and set of
+// constants.
 class LowestFinder {
  public:
-  // The lowest RMSE of the plan's objective within physical bounds; NaN if there is no fit.
+  // The lowest RMSE of the plan's objective within physical bounds, in ampere. NaN: the fit failed.
   double Optimum(const AuditSubject& subject, const ReadingPlan& plan, ConstantSet constants);
-  // That of the curve as it is, and what else the claim may be the least of. Nothing if there is no
-  // fit.
+  // Lowest RMSE and its proved lower bound for the unchanged curve. The lowest RMSEs of the other
+  // objective and of one Newton step are included, since the claim may be one of them. Empty: the
+  // fit failed.
   std::optional<AuditLowest> Find(const AuditSubject& subject, ConstantSet constants);
 
  private:
@@ -33,14 +35,14 @@ class LowestFinder {
   std::map<std::string, AuditLowest> lowest_;
 };
 
-// The lowest RMSE that parameters were found for.
+// The lowest RMSE that is reached by known parameters, in ampere.
 double LowestFound(const AuditLowest& lowest);
 
-// Whether a claim lies below an RMSE: its rounding would have to be wrong by more than a whole unit
-// of its last digit. Never below one that is not known.
+// True if a claim lies below `rmse_A` by more than a whole unit of the claim's last digit. False if
+// `rmse_A` is unknown (NaN).
 bool IsBelow(const PrintedNumber& claim, double rmse_A);
 
-// Whether a claim is this number, rounded or cut off.
+// True if a claim is `value`, rounded or truncated to the printed digits.
 bool IsPrintOf(const PrintedNumber& claim, double value);
 
 }  // namespace lyrefit

@@ -10,13 +10,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kStepParameters = 9;  // of three diodes
-constexpr double kMilli = 1e3;      // residuals in mA, near 1
+constexpr int kStepParameters = 9;  // number of parameters of three diodes
+constexpr double kMilli = 1e3;      // residuals are scaled to mA, so that they are near 1
 
 using Slopes = Dual<kStepParameters>;
 
-// The step at one point, in ampere. `x` are a device's parameters with the conductance of the shunt
-// in the place of Rsh.
+// The Newton step at one point, in ampere. `x` holds a device's parameters with the shunt
+// conductance in place of Rsh.
 template <class T>
 T Step(const T* x, int diodes, double thermal_voltage_V, double voltage_V, double current_A) {
   using std::exp;

@@ -11,16 +11,17 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Checks published parameter rows against the curves they are said to fit: does the claimed RMSE
-// come out of the printed digits, and if not, which plain mistake brings it back?
+// Checks published parameter rows against the curves they are said to fit. It computes whether the
+// claimed RMSE follows from the printed digits, and otherwise which simple mistake explains it.
 
 // How a table of published parameters is checked.
 struct AuditOptions {
-  // Folders to look for curves in, after the folder of the rows and its parent.
+  // Folders that are searched for curves, after the folder of the rows and its parent.
   std::vector<std::string> curve_folders;
-  // Of rows that do not say. Unset: all three sets are tried, and those that fit are named.
+  // Constants k and q of rows that state none. Unset: all three sets are tried, and the matching
+  // ones are reported.
   std::optional<ConstantSet> constants;
-  Objective objective = Objective::kMeasuredCurrent;  // what the claims are of
+  Objective objective = Objective::kMeasuredCurrent;  // objective of the claimed RMSEs
 };
 
 inline constexpr OptionRow<AuditOptions> kAuditOptionTable[] = {

@@ -10,12 +10,13 @@ namespace {
 
 constexpr int kColdestTried_C = -20;
 constexpr int kHottestTried_C = 120;
-// Round temperatures in kelvin that publications take.
+// Round temperatures in kelvin that publications use.
 constexpr double kRoundKelvin[] = {298, 300};
-// A temperature in degrees Celsius plus 273 instead of 273.15.
+// Wrong zero of the Celsius scale that publications use: 273 instead of 273.15 K.
 constexpr double kShortZero_K = 273;
 
-// A photocurrent further from a curve's short-circuit current than this part of it rules it out.
+// Largest relative difference between a photocurrent and a curve's short-circuit current at which
+// the curve is still considered.
 constexpr double kLikeCurrent = 0.1;
 
 struct CurrentUnit {
@@ -31,7 +32,7 @@ const char* UnitName(double in_ampere) {
   return "?";
 }
 
-// Appends the alternatives of a plan along one kind of change.
+// Alternatives of a plan along one kind of change. The functions below append to them.
 using Alternatives = std::vector<ReadingPlan>;
 
 void OtherCurves(const AuditSubject& subject, const ReadingPlan& plan, Alternatives* out) {
@@ -61,7 +62,7 @@ void Ideality(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
 
 void SaturationCurrents(const AuditSubject& subject, const ReadingPlan& plan, Alternatives* out) {
   const AuditRow& row = *subject.row;
-  std::vector<int> diodes;  // that carry current
+  std::vector<int> diodes;  // positions of diodes that carry current
   for (int d = 0; d < static_cast<int>(row.model); ++d) {
     if (row.parameters[SaturationCurrentIndex(d)].value > 0) diodes.push_back(d);
   }
@@ -119,7 +120,8 @@ void OtherConstants(const AuditSubject&, const ReadingPlan& plan, Alternatives* 
   }
 }
 
-// Not beside another change: any claim has a chance twice as good by it.
+// Only tried without another change: it doubles the tolerance and so the chance of an accidental
+// match.
 void CutOffDigits(const AuditSubject&, const ReadingPlan& plan, Alternatives* out) {
   if (plan.changes > 0) return;
   out->push_back(plan);
@@ -152,7 +154,7 @@ std::string CurrentWords(const AuditSubject& subject, const ReadingPlan& plan) {
 
 std::vector<ReadingPlan> ReadingPlans(const AuditSubject& subject, int most_changes) {
   std::vector<ReadingPlan> plans = {subject.stated};
-  // A curve brings its own conditions, so it comes first.
+  // Another curve has its own conditions, so it must come before the changes of conditions.
   for (const auto append : {OtherCurves, Resistances, Ideality, SaturationCurrents, Temperatures,
                             OtherObjective, OtherConstants, CutOffDigits}) {
     const std::size_t count = plans.size();

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-// From the unit of the column or of the printed text to that of the plan.
+// Converts values from the unit of the column or of the printed text to the unit of the plan.
 std::vector<double> Convert(const AuditRow& row, const ReadingPlan& plan,
                             double PrintedNumber::*member) {
   std::vector<double> values;
@@ -92,7 +92,8 @@ double ReadingEvaluator::Tolerance(const ReadingPlan& plan, ConstantSet constant
   std::vector<double> parameters = Parameters(plan);
   const std::vector<double> half_units = HalfUnits(plan);
   const double centre = FigureOf(parameters, plan, constants);
-  const double part = plan.cut_off ? 2 : 1;  // of half a unit
+  // Number of half units: truncated digits have twice the error.
+  const double part = plan.cut_off ? 2 : 1;
   double tolerance = part * subject_.row->rmse.half_unit;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (half_units[i] == 0) continue;

@@ -16,17 +16,17 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What becomes of a row's claim when its RMSE is computed again.
+// The result for one row after its RMSE is computed again.
 enum class AuditVerdict {
-  kReproduces,         // the claim comes out of the printed digits
-  kReproducesChanged,  // it does after the change named
-  kBetter,             // it does not; the row is better than its claim
-  kOtherDevice,        // it does not; the row describes another device
-  kTooCoarse,          // the printed digits leave room for almost any claim
-  kBelowProved,        // no parameters whatever give the claim: it is proved
-  kBelowKnown,         // nothing that was found gives it; that nothing can is not proved
-  kFails,              // nothing that was tried explains the claim
-  kNoParameters,       // the row has none; there may be some that give the claim
+  kReproduces,         // the printed digits give the claim
+  kReproducesChanged,  // they give it after the reported change
+  kBetter,             // they do not; the computed RMSE is lower than the claim
+  kOtherDevice,        // they do not; the row describes another device
+  kTooCoarse,          // the printed digits are compatible with almost any claim
+  kBelowProved,        // proved: no parameters at all give the claim
+  kBelowKnown,         // no known parameters give the claim; there is no proof that none do
+  kFails,              // no reading that was tried explains the claim
+  kNoParameters,       // the row has no parameters; the claim may be possible
 };
 
 template <>
@@ -44,7 +44,7 @@ struct EnumTable<AuditVerdict> {
   };
 };
 
-// A parameter outside its published range by more than its printed digits leave open.
+// A parameter outside its published range by more than its printed digits allow.
 struct LeftBound {
   ParameterInfo info;
   double value = 0;  // as printed
@@ -52,26 +52,28 @@ struct LeftBound {
   double upper = 0;
 };
 
-// A row read in one way: which curve and conditions, which units.
+// One interpretation of a row: its curve, conditions and units.
 struct AuditReading {
-  std::vector<std::string> changes;  // against what the row says, in plain words; empty: none
+  std::vector<std::string> changes;  // changes to what the row states, as phrases; empty: none
   std::string curve;                 // name
   double temperature_C = kUnknown;
   int cells = 1;                                      // in series
-  Objective objective = Objective::kMeasuredCurrent;  // of the claim
+  Objective objective = Objective::kMeasuredCurrent;  // objective of the claim
   bool newton_step =
-      false;  // of one Newton step from the measured currents, not of the solved ones
-  bool any_constants = true;                 // none were stated, so all sets were tried
+      false;  // RMSE of one Newton step from the measured currents, not of the solved currents
+  bool any_constants = true;                 // the row states no constants, so all sets were tried
   std::vector<ConstantSet> constants;        // sets under which the claim reproduces, nearest first
-  ConstantSet shown = ConstantSet::kCodata;  // the set of the figures below
-  // Ampere, ohm of the module, n per cell; empty where the row has none, and no figures then.
+  ConstantSet shown = ConstantSet::kCodata;  // the set used for the figures below
+  // Currents in ampere, resistances of the module in ohm, n per cell. Empty: the row states no
+  // parameters, and the figures below are unknown.
   std::vector<double> parameters;
-  std::vector<double> half_units;  // of the last printed digit of each
+  std::vector<double> half_units;  // half a unit of the last printed digit of each parameter
   RmsePair rmse;
-  double figure_A = kUnknown;  // what is held against the claim: one of these, or of the step
-  // How far the claim may lie from this figure: half a unit of the claim's last digit, and for
-  // every parameter what half a unit of its last digit does to the figure. Twice that where digits
-  // are taken for cut off.
+  // The RMSE compared with the claim: one of `rmse`, or of the Newton step.
+  double figure_A = kUnknown;
+  // Largest compatible distance between the claim and this figure. It is half a unit of the claim's
+  // last digit plus, for every parameter, the effect of half a unit of its last digit. It is
+  // doubled if digits are read as truncated.
   double tolerance_A = kUnknown;
   std::vector<LeftBound> left_bounds;
 };
@@ -79,65 +81,67 @@ struct AuditReading {
 // A changed reading that reproduces the claim.
 struct AuditExplanation {
   AuditReading reading;
-  // Where the temperature was changed: the range that reproduces the claim.
+  // Temperature range that reproduces the claim, if the temperature was changed.
   double low_temperature_C = kUnknown;
   double high_temperature_C = kUnknown;
-  int readings_tried = 0;  // of all changes that were looked at
-  // How many of the readings tried would come as near to the claim by accident, judging by how many
-  // lie in its wider neighbourhood. An explanation needs this to be small.
+  int readings_tried = 0;  // number of changed readings that were tried
+  // Expected number of tried readings this near to the claim by accident. It is estimated from the
+  // number of readings in a wider range around the claim. An explanation requires a small value.
   double chance = kUnknown;
 };
 
-// The RMSE of a row as it depends on the temperature alone, from -20 to 120 C.
+// The RMSE of a row as a function of the temperature alone, from -20 to 120 C.
 struct AuditTemperatures {
-  std::vector<double> at_claim_C;  // where it equals the claim
-  double best_C = kUnknown;        // where it is least
+  std::vector<double> at_claim_C;  // temperatures at which it equals the claim
+  double best_C = kUnknown;        // temperature of the least RMSE
   double best_A = kUnknown;
 };
 
-// How low a claim can go on the curve as it is.
+// How low a claim can go on the unchanged curve.
 struct AuditLowest {
-  Objective objective = Objective::kMeasuredCurrent;  // of the claim
-  double rmse_A = kUnknown;                           // of the best fit, n from 1 to 2
-  // Nothing lies below, whatever the parameters: proved for n in the range below. Unknown for a curve
-  // that nothing can be proved about.
+  Objective objective = Objective::kMeasuredCurrent;  // objective of the claim
+  double rmse_A = kUnknown;                           // RMSE of the best fit, n from 1 to 2
+  // Proved lower bound of the RMSE for n in the range below and any other parameters. NaN: no proof
+  // is possible for this curve.
   double lower_bound_A = kUnknown;
-  double reached_A = kUnknown;          // by parameters within that range
-  double n_lower = kUnknown;            // per cell; the range of the bound, or of the best fit
-  double n_upper = kUnknown;            // end of that range
-  double other_objective_A = kUnknown;  // the best fit of the other objective
-  double newton_step_A = kUnknown;      // the least of one Newton step from the measured currents
+  double reached_A = kUnknown;          // RMSE of the best known parameters within that range
+  double n_lower = kUnknown;  // per cell; lower end of the n range of the bound, or of the best fit
+  double n_upper = kUnknown;            // upper end of that range
+  double other_objective_A = kUnknown;  // RMSE of the best fit of the other objective
+  double newton_step_A = kUnknown;      // least RMSE of one Newton step from the measured currents
 };
 
-// What was found out about one row.
+// The result of the audit of one row.
 struct AuditFinding {
   AuditRow row;
-  AuditReading stated;                          // the row taken at its word
-  AuditVerdict verdict = AuditVerdict::kFails;  // of the row at its word, or of what explains it
-  std::string sentence;                         // the verdict in plain words, with numbers
-  std::vector<AuditExplanation> explanations;   // those with the fewest changes, nearest first
-  std::string bounds_name;                      // empty: none are published for the curve
+  AuditReading stated;                          // the row as stated
+  AuditVerdict verdict = AuditVerdict::kFails;  // of the row as stated, or of its explanation
+  std::string sentence;                         // the verdict as a sentence with numbers
+  // Explanations with the fewest changes, nearest first.
+  std::vector<AuditExplanation> explanations;
+  std::string bounds_name;                      // empty: no published bounds exist for the curve
 
   // Of a row that does not reproduce:
-  std::optional<AuditExplanation> nearest;  // near the claim, or on it perhaps by accident
+  // A reading near the claim, or a match that may be accidental.
+  std::optional<AuditExplanation> nearest;
   std::optional<AuditTemperatures> temperatures;
-  double short_circuit_A = kUnknown;         // Isc of the curve as stated
-  std::optional<AuditReading> other_device;  // the curve whose Isc the row has, read to fit best
-  double optimum_A = kUnknown;               // best fit to the curve as stated, n from 1 to 2
-  std::optional<AuditLowest> lowest;         // also where the row has no parameters
+  double short_circuit_A = kUnknown;         // Isc of the stated curve
+  std::optional<AuditReading> other_device;  // the curve with the row's Isc, read to fit best
+  double optimum_A = kUnknown;  // RMSE of the best fit to the stated curve, n from 1 to 2
+  std::optional<AuditLowest> lowest;         // also set for rows without parameters
 };
 
-// What was found out about a table of published parameters.
+// The result of the audit of a table of published parameters.
 struct AuditReport {
   std::string version;
   std::string path;                    // of the table
-  AuditOptions options;                // what was asked for
+  AuditOptions options;                // options of the audit
   std::vector<AuditFinding> findings;  // in the order of the rows
   std::vector<Error> bad_rows;         // rows that could not be read or whose curve is missing
-  std::string remark;                  // how the table was read, where it is no UTF-8
+  std::string remark;                  // encoding of the table, if it is not UTF-8
 };
 
-// Findings with this verdict.
+// Number of findings with this verdict.
 int CountFindings(const AuditReport& report, AuditVerdict verdict);
 
 }  // namespace lyrefit

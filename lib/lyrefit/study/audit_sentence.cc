@@ -10,12 +10,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kOptimumWithin = 1e-4;  // of the optimum
-constexpr double kLargestIdeality = 5;   // above it n cannot be that of a cell
+constexpr double kOptimumWithin = 1e-4;  // relative to the optimum
+constexpr double kLargestIdeality = 5;   // a larger n cannot be that of a single cell
 
 std::string Ampere(double value) { return fmt::format("{:.6e} A", value); }
 
-// The sets that reproduce, where not all do and none was stated.
+// The sets of constants that reproduce the claim. Empty if all do or one was stated.
 std::string ConstantsText(const AuditReading& reading) {
   constexpr std::size_t kSets = std::size(EnumTable<ConstantSet>::kRows);
   if (!reading.any_constants || reading.constants.size() == kSets) return "";
@@ -52,7 +52,7 @@ std::string Explained(const AuditFinding& finding) {
   return text + ".";
 }
 
-// What the temperature alone can and cannot do.
+// The effect of the temperature alone on the RMSE.
 std::string TemperatureText(const AuditFinding& finding) {
   if (!finding.temperatures) return "";
   const AuditTemperatures& t = *finding.temperatures;
@@ -115,7 +115,7 @@ std::string OtherDevice(const AuditFinding& finding) {
   return text + ".";
 }
 
-// What the claim is the least of, if it is not of its own objective.
+// The claim as the least RMSE of a Newton step or of the other objective; empty if it is neither.
 std::string LeastOfText(const AuditFinding& finding) {
   const AuditLowest& lowest = *finding.lowest;
   const PrintedNumber& claim = finding.row.rmse;
@@ -132,7 +132,7 @@ std::string LeastOfText(const AuditFinding& finding) {
                      Ampere(lowest.other_objective_A));
 }
 
-// A claim that no fit gives, with parameters or without.
+// The verdict for a claim below every fit, with or without parameters.
 std::string Below(const AuditFinding& finding) {
   const AuditLowest& lowest = *finding.lowest;
   const std::string start =
@@ -148,7 +148,7 @@ std::string Below(const AuditFinding& finding) {
   return start + ", " + least + "." + LeastOfText(finding);
 }
 
-// A claim below the best fit, which n beyond the fit's range meet.
+// The verdict for a claim below the best fit that is possible with n outside the fit's range.
 std::string WiderText(const AuditFinding& finding) {
   if (!finding.lowest || !IsBelow(finding.row.rmse, finding.lowest->rmse_A)) return "";
   return fmt::format(" With n from {:g} to {:g} the claim can be met, down to {}.",

@@ -11,9 +11,9 @@ namespace lyrefit {
 namespace {
 
 constexpr std::int64_t kLongSearch = 200;  // evaluations for each random point
-constexpr int kFirstRun = 1000000000;      // far from the numbers of any compared's runs
+constexpr int kFirstRun = 1000000000;      // outside the run numbers of all compared algorithms
 
-// One point, wherever it falls.
+// A search that consists of a single random point.
 SearchSummary OnePoint(const ObjectiveFunction& objective, const Box& box,
                        const SearchOptions& options, const Observer& /*observer*/) {
   RandomStream random(options.seed, options.run);
@@ -36,7 +36,8 @@ BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& proble
   if (options.multistart == 0) return known;
   CompareOptions how = options;
   how.plain_polish = true;
-  // What one fit ends at; false where it was stopped. A fit that fails has nothing to add.
+  // End points of the fits from single points. `run` returns false if it was stopped. A failed fit
+  // is ignored.
   std::vector<double> ends;
   const auto run = [&](const ComparedAlgorithm& compared, int number) {
     const bool point = compared.starts == StartsFrom::kSearch;

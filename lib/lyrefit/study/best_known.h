@@ -7,19 +7,19 @@
 
 namespace lyrefit {
 
-// The lowest end of a long multistart of its own, which no compared's runs are part of:
-// CompareOptions::multistart random points, each polished by itself to its end, and the hybrid
-// after searches by DE, MLO and random points of 200 evaluations for each of these points.
+// The best result of a long multistart that is independent of the compared runs. It polishes
+// CompareOptions::multistart random points one by one. It also runs the hybrid fit after searches
+// by DE, MLO and random points, with 200 evaluations for each of these points.
 struct BestKnown {
   BestFound best;
   std::string found_by;  // "random point 17"
-  int points = 0;        // random points polished
-  int visits = 0;        // of those that ended within 1e-6 (relative) of `best`
+  int points = 0;        // number of random points polished
+  int visits = 0;        // number of random points that ended within 1e-6 (relative) of `best`
   bool interrupted = false;
 };
 
-// Nothing, with an RMSE of infinity, where no multistart is asked for. The same bits on any number
-// of threads. Stopped by the observer, it is the best so far.
+// Returns an infinite RMSE if CompareOptions::multistart is 0. The result has the same bits on any
+// number of threads. If the observer stops it, the result is the best so far.
 BestKnown FindBestKnown(const CompareCurve& subject, const ProblemResult& problem,
                         const CompareOptions& options, const Observer& observer = {});
 

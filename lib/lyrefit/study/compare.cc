@@ -24,15 +24,16 @@
 namespace lyrefit {
 namespace {
 
-// One subject with one model, while its runs are under way.
+// One curve or set with one model, while its runs are in progress.
 struct Problem {
   Problem(const CompareCurve& subject_, ProblemResult described, int runs)
       : subject(subject_), outcomes(runs), left(runs), result(std::move(described)) {}
 
   const CompareCurve& subject;
-  std::vector<std::optional<RunOutcome>> outcomes;  // compared by compared
-  std::atomic<int> left;                            // runs that are not done
-  std::optional<BestKnown> known;                   // where the journal has it
+  // Runs of the first algorithm, then of the second, ...
+  std::vector<std::optional<RunOutcome>> outcomes;
+  std::atomic<int> left;                            // number of unfinished runs
+  std::optional<BestKnown> known;                   // set if the journal has it
   ProblemResult result;
 };
 
@@ -41,7 +42,7 @@ using Problems = std::vector<std::unique_ptr<Problem>>;
 Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOptions& options,
                       int runs) {
   Problems problems;
-  std::set<std::string> names;  // of those that are pooled by themselves
+  std::set<std::string> names;  // problem names that are taken from curves
   for (const CompareCurve& curve : curves) {
     const bool own = curve.model || curve.set;
     for (const Model model : own ? std::vector<Model>{Model::kSingleDiode} : options.models) {
@@ -54,7 +55,7 @@ Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOpti
   return problems;
 }
 
-// What a run costs, in about evaluations of one diode; the polish is worth some thousands of them.
+// Estimated cost of a run in evaluations of a single-diode model. The polish costs some thousands.
 double WorkOf(const Problem& problem, const ComparedAlgorithm& compared) {
   constexpr double kPolish = 3000;
   const SearchOptions& search = compared.search;
@@ -71,8 +72,8 @@ double WorkOfAll(const Problems& problems, const std::vector<ComparedAlgorithm>&
   return work;
 }
 
-// The comparison as it goes on: jobs write to their own slot, and the last one of a problem sums it
-// up.
+// A comparison in progress. Jobs write to separate slots, and the last job of a problem summarises
+// it.
 class Study {
  public:
   Study(const std::vector<CompareCurve>& curves, const std::vector<ComparedAlgorithm>& algorithms,
@@ -83,7 +84,7 @@ class Study {
         problems_(MakeProblems(curves, options, runs_per_problem_)),
         watch_(observer, "compare", jobs(), WorkOfAll(problems_, algorithms, options.runs)) {}
 
-  // One cheap search each finds whatever a fit would object to.
+  // Runs one cheap search for each problem, which returns every error that a fit would return.
   Expected<void> Try() const {
     for (const auto& problem : problems_) {
       const auto tried = TryProblem(problem->subject, problem->result, options_);
@@ -98,7 +99,7 @@ class Study {
     return {};
   }
 
-  // Takes over the runs that stand in the journal.
+  // Resumes from the runs in the journal.
   Expected<void> TakeUp(std::unique_ptr<Journal> journal) {
     journal_ = std::move(journal);
     for (const Journal::Record& record : journal_->records()) {
@@ -114,7 +115,7 @@ class Study {
       auto run = ReadRun(*journal_, record);
       if (!run) return tl::unexpected(run.error());
       const RunPlace& at = run->place;
-      if (at.run >= options_.runs) continue;  // more than are asked for this time
+      if (at.run >= options_.runs) continue;  // the journal has more runs than requested
       if (at.problem < 0 || at.problem >= static_cast<int>(problems_.size()) || at.run < 0 ||
           at.compared < 0 || at.compared >= static_cast<int>(algorithms_.size())) {
         return Fail("this record is of no run of the study", journal_->path(), record.line);
@@ -158,7 +159,8 @@ class Study {
     return problems_[at.problem]->outcomes[at.compared * options_.runs + at.run];
   }
 
-  // Run by run, so that wherever a study ends its algorithms are about as far.
+  // The order of jobs is run by run. All algorithms of an interrupted study then have about the
+  // same number of runs.
   RunPlace PlaceOf(int job) const {
     const int algorithms = static_cast<int>(algorithms_.size());
     const int in_problem = job % runs_per_problem_;
@@ -178,19 +180,19 @@ class Study {
     if (!taken_up) watch_.FinishJob(WorkOf(*problem, algorithms_[at.compared]), evaluations);
   }
 
-  // Nothing where it was stopped.
+  // Empty if the observer stopped the run.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
     const ComparedAlgorithm& compared = algorithms_[at.compared];
     auto done =
         RunOnce(problem.subject, problem.result, options_, compared, at.run, watch_.Inside());
-    CHECK(done.has_value()) << done.error().ToString();  // Try() would have seen it
+    CHECK(done.has_value()) << done.error().ToString();  // Try() has found all errors before
     if (!*done) return {};
     RunOutcome outcome = std::move(**done);
     if (journal_) journal_->Append(WriteRun(at, problem.result, compared, options_, outcome));
     return outcome;
   }
 
-  // Of the runs that are done.
+  // Summarises the finished runs of a problem.
   void SumUp(int which) {
     Problem* problem = problems_[which].get();
     std::vector<std::vector<RunOutcome>> outcomes(algorithms_.size());
@@ -209,7 +211,7 @@ class Study {
     SumUpAlgorithms(algorithms_, options_, std::move(outcomes), &result);
   }
 
-  // Certified where that can be, else the best known.
+  // The certified optimum if a proof is possible, else the best known optimum.
   Reference ReferenceOf(int which, const BestFound& best) {
     Problem* problem = problems_[which].get();
     const ProblemResult& result = problem->result;

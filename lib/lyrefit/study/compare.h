@@ -11,17 +11,17 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A curve on its own.
+// A comparison input that is a single curve.
 CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
 
-// One of the made devices of a problem.
+// A comparison input that is one of the synthetic devices of a problem.
 CompareCurve SubjectOf(LandscapeCase made);
 
-// Runs every compared `runs` times on every curve with every model. Everything is checked before
-// the first run. Run r of all algorithms comes before run r + 1 of any. The observer hears of stage
-// "compare" at the beginning, after every run (iteration: runs done of those planned) and now and
-// then in between. Errors: an unusable curve, options outside their ranges, bounds that do not fit
-// a model, no or two equal compared names, a journal of another study.
+// Runs every algorithm `runs` times on every curve with every model. All inputs are checked before
+// the first run. Run r of all algorithms precedes run r + 1 of any. The observer receives stage
+// "compare" at the beginning, after every run and at intervals; `iteration` counts the runs done.
+// Errors: an unusable curve, options outside their ranges, bounds that do not fit a model, no
+// algorithm, two algorithms with equal names, a journal of another study.
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
                              const std::vector<ComparedAlgorithm>& algorithms,
                              const CompareOptions& options = {}, const Observer& observer = {});

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// What can be said against a comparison without a look at its curves: nothing to compare, names
-// that are missing or the same, options outside their ranges.
+// Checks a comparison without reading its curves. Errors: nothing to compare, missing or equal
+// names, options outside their ranges.
 Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
                                const std::vector<ComparedAlgorithm>& algorithms,
                                const CompareOptions& options);

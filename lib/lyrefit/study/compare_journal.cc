@@ -34,7 +34,7 @@ std::string FamilyText(const FamilyOptions& options) {
   return text;
 }
 
-// What one of the devices of a problem has of its own.
+// Adds the settings of a curve that override those of the comparison.
 void AddOwn(const CompareCurve& subject, const std::string& which, JournalLine* head) {
   JournalLine& lines = *head;
   if (!subject.problem.empty()) lines["problem of curve " + which] = subject.problem;

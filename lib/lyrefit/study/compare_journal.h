@@ -9,14 +9,14 @@
 
 namespace lyrefit {
 
-// Everything that a run of a comparison depends on. How many runs there are is not among it: a
-// study can be taken up with more. Everything must have been checked.
+// The journal head: all inputs that a run of a comparison depends on. The number of runs is left
+// out, so that a study can be resumed with more runs. The inputs must have been checked.
 JournalLine CompareHead(const std::vector<CompareCurve>& curves,
                         const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options);
 
-// Where a run stands in its comparison.
+// The position of a run in its comparison.
 struct RunPlace {
-  int problem = 0;  // curves in the order given, each with all models
+  int problem = 0;  // curves in the given order, each with all models
   int compared = 0;
   int run = 0;
 };
@@ -31,7 +31,7 @@ struct WrittenRun {
 };
 Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& record);
 
-// What a problem's multistart found, in a record of its own.
+// The record of a problem's multistart.
 JournalLine WriteBestKnown(int problem, const BestKnown& known);
 bool IsBestKnown(const Journal::Record& record);
 struct WrittenBestKnown {

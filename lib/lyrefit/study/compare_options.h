@@ -21,11 +21,11 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What of the hybrid a compared is about.
+// The stage of the hybrid fit that an algorithm evaluates.
 enum class AlgorithmKind {
-  kSearch,   // a search; what becomes of its candidates is looked at by how far they are polished
-  kShape,    // the places that the curve's shape suggests; its search is a token
-  kDefault,  // the fit with its default settings, as it is
+  kSearch,   // a search; its candidates are reported at every polish level
+  kShape,    // starts derived from the curve's shape; the search is minimal
+  kDefault,  // the fit with its default settings
 };
 
 template <>
@@ -35,58 +35,62 @@ struct EnumTable<AlgorithmKind> {
                                                       {AlgorithmKind::kDefault, "default"}};
 };
 
-// One competitor: how it searches. Seed and number of the run are set by the comparison, so that in
-// run r all of ours start from the same first candidates.
+// One algorithm of a comparison and its search settings. The comparison sets the seed and the
+// number of the run. In run r all algorithms of lyrefit therefore start from the same first
+// candidates.
 struct ComparedAlgorithm {
-  std::string name;         // as tables show it, no two the same: "mlo", "pagmo:de1220", "mlo@420"
-  std::string algorithm;    // without its setting, "mlo"; empty: the name
+  std::string name;         // unique, as tables show it: "mlo", "pagmo:de1220", "mlo@420"
+  std::string algorithm;    // name without settings, "mlo"; empty: same as `name`
   SearchOptions search;     // budget and settings
-  SearchFunction searcher;  // empty: Search()
+  SearchFunction searcher;  // empty: Search() is used
   AlgorithmKind kind = AlgorithmKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
-  SearchVariables candidates = SearchVariables::kAll;             // the same; kHard is for curves, not for families
-  std::int64_t budget = 0;  // of evaluations that it stands for in a study of budgets; 0: none
+  // See FitOptions; kHard applies to curves, not to families.
+  SearchVariables candidates = SearchVariables::kAll;
+  std::int64_t budget = 0;  // nominal budget of evaluations in a study of budgets; 0: none
 };
 
-// A curve, or a set of curves, that searches are compared on.
+// A curve, or a set of curves, on which searches are compared.
 struct CompareCurve {
   IvCurve curve;
   BoundsSpec bounds;
-  // Subjects with the same name here are devices of one problem, and summed up as one; see problem_summary.h.
+  // Inputs with the same `problem` are devices of one problem and are summarised together; see
+  // problem_summary.h.
   std::string problem;
-  // What is its own instead of the comparison's, empty: as there. Effects are fitted to the solved
-  // current, whatever is said here.
+  // Settings that override those of the comparison; empty: no override. With effects the objective
+  // is always the solved current.
   std::optional<Model> model;
   std::optional<Objective> objective;
   std::vector<EffectUse> with;
-  // A family instead of a curve, with its own law, model, effects and bounds.
+  // A family instead of a single curve, with its own law, model, effects and bounds.
   std::optional<CurveSet> set;
   FamilyOptions family;
 };
 
-// Who is compared, how often, and what is reported.
+// Number of runs, models and outputs of a comparison.
 struct CompareOptions {
   std::vector<Model> models = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
-  Objective objective = Objective::kMeasuredCurrent;  // of search, polish and every figure
+  Objective objective = Objective::kMeasuredCurrent;  // of search, polish and every reported RMSE
   ConstantSet constants = ConstantSet::kCodata;
-  std::vector<EffectUse> with;  // of every model; see FitOptions
+  std::vector<EffectUse> with;  // effects of every model; see FitOptions
   bool force_effects = false;
   std::uint64_t seed = 0;
-  int runs = 50;             // of each compared on each problem: runs 0 .. runs - 1 of the seed
+  int runs = 50;             // of each algorithm on each problem: runs 0 .. runs - 1 of the seed
   double target_gap = 1e-3;  // relative distance from the reference that counts as "reached"
   bool polish = true;
   bool plain_polish = false;  // see FitOptions
-  bool rankings = true;       // rank tests of the algorithms against each other
-  // Random points that are polished to their end, beside long searches, to find the best known
-  // optimum of a problem that no certificate is at hand for; 0: the runs alone. See best_known.h.
+  bool rankings = true;       // compute rank tests between the algorithms
+  // Number of random points that are polished, beside long searches, to find the best known optimum
+  // of a problem without a certificate. 0: only the compared runs are used. See best_known.h.
   int multistart = 0;
-  int threads = 0;  // 0: all cores; never changes a result but the seconds
+  int threads = 0;  // 0: all cores; affects only the measured seconds
   const Kernel* kernel = nullptr;
-  // A file that every finished run is written to, and that a study is taken up from; empty: none.
-  // Taken up, it ends with the bits of one that was never interrupted. `runs`, `target_gap`,
-  // `rankings` and `threads` may be others than before.
+  // File to which every finished run is appended and from which a study is resumed; empty: none. A
+  // resumed study ends with the same bits as an uninterrupted one. `runs`, `target_gap`, `rankings`
+  // and `threads` may differ from the first run.
   std::string journal;
-  std::string journal_section = "comparison";  // of a file that several studies share
+  // Section of a journal file that several studies share.
+  std::string journal_section = "comparison";
 };
 
 inline constexpr OptionRow<CompareOptions> kCompareOptionTable[] = {

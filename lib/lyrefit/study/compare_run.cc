@@ -26,7 +26,7 @@ FitOptions FitOptionsOf(const CompareCurve& subject, const ProblemResult& proble
   return fit;
 }
 
-// What a study has no use for is left out.
+// Family options with everything switched off that a comparison does not use.
 FamilyOptions FamilyOptionsOf(const CompareCurve& subject, const CompareOptions& options) {
   FamilyOptions family = subject.family;
   family.plain_polish = options.plain_polish;
@@ -38,7 +38,7 @@ FamilyOptions FamilyOptionsOf(const CompareCurve& subject, const CompareOptions&
   return family;
 }
 
-// How a compared searches in `fit`, FitOptions or FamilyOptions.
+// Sets the search of an algorithm in `fit`, a FitOptions or a FamilyOptions.
 template <class Options>
 void SetAlgorithm(const ComparedAlgorithm& compared, const CompareOptions& options, int run,
                   Options* fit) {
@@ -56,7 +56,7 @@ void FillSearch(const SearchSummary& search, int run, RunOutcome* outcome) {
   outcome->record.search_seconds = search.seconds;
 }
 
-// The best candidate's own polish, also where nothing else was polished.
+// RMSE of the best candidate's own polish. It is computed here if no other start was polished.
 double OwnPolish(const FitReport& report, const ProblemResult& problem) {
   const std::vector<double>& p = report.refined_best_candidate;
   if (report.polished || problem.problem.empty() || p.empty()) {
@@ -81,7 +81,7 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   record.plain_seconds = report.plain_seconds;
   record.own_seconds = report.refine.best_candidate_seconds;
   outcome.gains = KeepGains(report.search.trace);
-  if (outcome.gains.empty()) {  // a search of the user's own that keeps no trace
+  if (outcome.gains.empty()) {  // a user-defined search may have no trace
     outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
   }
   for (const Estimate& e : report.estimates) {
@@ -105,20 +105,20 @@ RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, i
   record.polish_seconds = report.individual_seconds + report.joint_seconds;
   record.plain_seconds = report.plain_seconds;
   record.own_seconds = report.best_candidate_seconds;
-  // The search saw some of the curves only: of its course nothing compares with the reference.
+  // The search used only some of the curves, so its trace is not comparable with the reference.
   outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
   for (const Estimate& e : report.estimates) outcome.parameters.push_back(e.refined);
   outcome.own_parameters = report.refined_best_candidate;
   return outcome;
 }
 
-// Names of the parameters and where those of the effects begin.
+// Sets the parameter names and the position of the first effect parameter.
 void NameParameters(const CompareCurve& subject, const CompareOptions& options,
                     ProblemResult* problem) {
   std::vector<ParameterInfo> infos;
   if (subject.set) {
     const auto law = CheckFamily(*subject.set, subject.family);
-    if (!law) return;  // TryProblem() will say why
+    if (!law) return;  // TryProblem() reports the error
     infos = law->parameters;
     problem->first_effect = law->first_effect;
   } else {

@@ -7,18 +7,18 @@
 
 namespace lyrefit {
 
-// What is known of a problem before its first run: names, model, objective, effects, parameters.
-// `model` is that of subjects without their own.
+// The description of a problem before its first run: names, model, objective, effects, parameters.
+// `model` applies to inputs without a model of their own.
 ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
                               const CompareOptions& options);
 
-// Whether the fits of such a problem can be done: one cheap search finds whatever a fit would
-// object to.
+// Checks that a problem can be fitted. It runs one cheap search, which returns every error that a
+// fit would return.
 Expected<void> TryProblem(const CompareCurve& subject, const ProblemResult& problem,
                           const CompareOptions& options);
 
-// One run of a compared on a problem, on one thread. Nothing where the observer stopped it.
-// Errors: those of Fit() and FitFamily().
+// One run of an algorithm on a problem, on one thread. Empty if the observer stopped it. Errors:
+// those of Fit() and FitFamily().
 Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
                                             const ProblemResult& problem,
                                             const CompareOptions& options,

@@ -27,7 +27,7 @@ FamilyOptions FitOptionsOf(const CoverageOptions& options) {
   return family;
 }
 
-// The shared parameters, then the offsets that are fitted.
+// The shared parameters, then the fitted offsets.
 std::vector<ParameterInfo> CoveredParameters(const Translation& translation,
                                              const CoverageOptions& options) {
   std::vector<ParameterInfo> infos = translation.parameters;
@@ -115,7 +115,7 @@ ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t inde
   return count;
 }
 
-// The sets as they come in, from any thread, each in its own slot.
+// A coverage study in progress. Sets arrive from any thread, each in its own slot.
 class CoverageRun {
  public:
   CoverageRun(const CoverageOptions& options, const FamilyFitter& fit, const Observer& observer)
@@ -124,7 +124,7 @@ class CoverageRun {
         slots_(options.sets),
         watch_(observer, "coverage", options.sets) {}
 
-  // Takes over the sets that stand in the journal.
+  // Resumes from the sets in the journal.
   Expected<void> TakeUp(std::unique_ptr<Journal> journal) {
     journal_ = std::move(journal);
     for (const Journal::Record& record : journal_->records()) {
@@ -199,7 +199,7 @@ Expected<CoverageReport> Coverage(const CoverageOptions& options, const FamilyFi
   }
   if (auto valid = ValidateThreads(options.threads); !valid) return tl::unexpected(valid.error());
   if (options.cells_in_series < 1) return Fail("expected at least 1 cell in series");
-  // The first set finds whatever is wrong with a module from the command line.
+  // Simulating the first set reports every error of a module from the command line.
   if (auto tried = SimulateSet(options, 0); !tried) return tl::unexpected(tried.error());
   const auto translation = CoverageTranslation(options, options.cells_in_series);
   if (!translation) return tl::unexpected(translation.error());

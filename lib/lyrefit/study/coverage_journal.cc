@@ -22,7 +22,7 @@ JournalLine CoverageHead(const CoverageOptions& options) {
   }
   for (const auto& [name, value] : options.module) head["set " + name] = value;
   for (const OptionEcho& echo : NonDefaults(options.family, kFamilyOptionTable)) {
-    JournalLine& value = head["fit " + echo.name];  // some are given more than once
+    JournalLine& value = head["fit " + echo.name];  // an option may be given more than once
     value = value.is_string() ? value.get<std::string>() + ", " + echo.value : echo.value;
   }
   return head;

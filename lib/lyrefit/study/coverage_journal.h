@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// Everything that a set of a coverage study and its fit depend on.
+// The journal head: all inputs that a set of a coverage study and its fit depend on.
 JournalLine CoverageHead(const CoverageOptions& options);
 
 JournalLine WriteSet(int index, const CoverageSet& set);

@@ -12,12 +12,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What the errors of the simulated currents are like.
+// Error model of the simulated currents.
 enum class CoverageNoise {
-  kEqual,       // independent, of one size over all curves
+  kEqual,       // independent, with one standard deviation for all curves
   kIsc,         // independent, in proportion to each curve's Isc
-  kCorrelated,  // wandering light: along each sweep, in proportion to its Isc, correlated over one
-                // Voc; a tenth of that is independent
+  // Drifting irradiance: in proportion to the curve's Isc, correlation length along the sweep one
+  // Voc; an independent error of a tenth of it is added.
+  kCorrelated,
 };
 
 template <>
@@ -27,25 +28,26 @@ struct EnumTable<CoverageNoise> {
                                                       {CoverageNoise::kCorrelated, "correlated"}};
 };
 
-// Which sets are simulated and fitted, and how many.
+// The sets that are simulated and fitted.
 struct CoverageOptions {
   int sets = 500;
-  std::uint64_t seed = 0;        // of everything that is drawn; set s has its own stream
-  int curves = 0;                // of each set; 0: drawn from 5 to 30 for every set
-  int points = 40;               // of each curve, even steps from 0 V to open circuit
-  double noise_relative = 1e-3;  // standard deviation of every current, of Isc at the reference
+  std::uint64_t seed = 0;        // of all random draws; set s has its own stream
+  int curves = 0;                // per set; 0: drawn from 5 to 30 for every set
+  int points = 40;               // per curve, at even steps from 0 V to open circuit
+  // Standard deviation of every current, relative to Isc at the reference conditions.
+  double noise_relative = 1e-3;
   CoverageNoise noise = CoverageNoise::kEqual;
-  double temperature_error_K = 0;        // every sensor reads that much too high
-  double irradiance_error_W_m2 = 0;      // the same
-  std::map<std::string, double> module;  // shared parameters by symbol or name, all of them; empty:
-                                         // a module drawn for every set
-  int cells_in_series = 72;              // of that module
-  int threads = 0;                       // 0: all cores; never changes a result but the seconds
-  // A file that every finished set is written to, and that a study is taken up from; empty: none.
-  // `sets` and `threads` may be others than before.
+  double temperature_error_K = 0;        // offset of every reported temperature
+  double irradiance_error_W_m2 = 0;      // offset of every reported irradiance
+  // Shared parameters by symbol or name, all of them; empty: a module is drawn for every set.
+  std::map<std::string, double> module;
+  int cells_in_series = 72;              // cells of `module`
+  int threads = 0;                       // 0: all cores; affects only the measured seconds
+  // File to which every finished set is appended and from which a study is resumed; empty: none.
+  // `sets` and `threads` may differ from the first run.
   std::string journal;
-  // Law, model, offsets and search of the fits. What costs time and says nothing here (fits of
-  // single curves, folds, random baseline) is switched off, and every fit has one thread.
+  // Law, model, offsets and search of the fits. Fits of single curves, folds and the random
+  // baseline are always switched off. Every fit uses one thread.
   FamilyOptions family;
 };
 

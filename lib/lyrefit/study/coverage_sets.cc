@@ -14,7 +14,8 @@
 namespace lyrefit {
 namespace {
 
-// IEC 61853-1:2011, Table 2: W/m2 and C. The first five span it.
+// Irradiance in W/m2 and temperature in C of IEC 61853-1:2011, Table 2. The first five span the
+// table.
 constexpr std::pair<double, double> kGrid[] = {
     {1000, 25}, {1000, 75}, {200, 25}, {600, 50}, {100, 15}, {1100, 25}, {1100, 50}, {1100, 75},
     {1000, 15}, {1000, 50}, {800, 15}, {800, 25}, {800, 50}, {800, 75},  {600, 15},  {600, 25},
@@ -24,7 +25,8 @@ constexpr int kSpanning = 5;
 constexpr int kFewestCurves = 5;
 constexpr int kMostSetCurves = 30;
 
-// With `known_bandgap` that of silicon, which a fit of the temperatures' error takes for granted.
+// Draws a module. With `known_bandgap` it has the band gap of silicon, since a fit of temperature
+// offsets assumes that value.
 std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomStream* random) {
   std::vector<double> p(t.parameters.size(), 0);
   const double isc = Between(3, 10, random);
@@ -36,7 +38,7 @@ std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomS
   p[t.resistance_series] = rs;
   p[t.resistance_shunt] = rsh;
   p[t.alpha_sc] = Between(2e-4, 8e-4, random) * isc;
-  p[t.photocurrent] = isc * (1 + rs / rsh);  // the diodes take nothing to speak of at 0 V
+  p[t.photocurrent] = isc * (1 + rs / rsh);  // the diode current at 0 V is negligible
   const bool pvsyst = t.spec.law == TranslationLaw::kPvsyst;
   const double bandgap_eV = Between(1.10, 1.14, random);
   p[t.bandgap] = pvsyst || known_bandgap ? kHeldBandgap_eV : bandgap_eV;
@@ -78,7 +80,7 @@ Expected<std::vector<double>> StatedModule(const Translation& t, const CoverageO
   return p;
 }
 
-// The conditions of a set, as they are.
+// The true conditions of a set.
 std::vector<std::pair<double, double>> DrawConditions(int count, RandomStream* random) {
   std::vector<std::pair<double, double>> grid(std::begin(kGrid), std::end(kGrid));
   for (int i = kGridSize - 1; i > kSpanning; --i) {
@@ -101,7 +103,8 @@ Expected<KeyPoints> PointsAt(const SimulatedSet& made, double irradiance_W_m2,
                           irradiance_W_m2, temperature_C));
 }
 
-// `share`: the curve's Isc in parts of that at the reference. Even steps up to Voc.
+// Adds noise to currents at even voltage steps up to Voc. `share`: the curve's Isc relative to Isc
+// at the reference conditions.
 void AddNoise(const CoverageOptions& options, double noise_A, double share,
               std::vector<double>* current_A, RandomStream* random) {
   constexpr double kIndependent = 0.1;
@@ -127,7 +130,7 @@ Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions&
   const TranslatedDevice module =
       TranslateTo(made.translation, made.truth, irradiance, temperature_C + kZeroCelsius_K);
   IvCurve curve;
-  curve.as_is = true;  // computed
+  curve.as_is = true;  // no refusal by CheckReadings: the readings are simulated
   curve.conditions.irradiance_W_m2 = irradiance + options.irradiance_error_W_m2;
   curve.conditions.cell_temperature_K =
       temperature_C + kZeroCelsius_K + options.temperature_error_K;

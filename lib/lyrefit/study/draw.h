@@ -11,7 +11,7 @@ inline double Between(double low, double high, RandomStream* random) {
   return low + (high - low) * random->Uniform();
 }
 
-// The same of the logarithm.
+// Log-uniform in [low, high).
 inline double LogBetween(double low, double high, RandomStream* random) {
   return low * std::pow(high / low, random->Uniform());
 }
@@ -21,7 +21,7 @@ inline int WholeBetween(int low, int high, RandomStream* random) {
   return low + static_cast<int>(random->Index(static_cast<std::uint32_t>(high - low + 1)));
 }
 
-// Saturation current of a diode that takes `current_A` at `voltage_V`.
+// Saturation current in ampere of a diode that carries `current_A` at `voltage_V`.
 inline double SaturationCurrent(double current_A, double voltage_V, double nNsVth) {
   return current_A / std::expm1(voltage_V / nNsVth);
 }

@@ -15,34 +15,34 @@ namespace lyrefit {
 
 using JournalLine = nlohmann::ordered_json;
 
-// What a study has done so far, in a file that grows line by line while it runs, so that a study
-// that was stopped, or killed, can be taken up again. Every line is one JSON object: a head with
-// the options of a section, or a record of it, one a finished run. A file may hold several sections
-// (the studies of one reproduction).
+// The results of a study so far, in a file that grows line by line while the study runs. A stopped
+// or killed study can be resumed from it. Every line is one JSON object: the head of a section,
+// which holds the options, or a record of a section, one for each finished run. A file may hold
+// several sections, such as the studies of one reproduction.
 class Journal {
  public:
-  // Opens `path` for `section`, or begins it. Of the options every one must be what the head of the
-  // section says. A last line without an end is what a process left that was killed while it wrote:
-  // it is cut off. Errors: a file that cannot be read or written, that another process is writing,
-  // or that is no journal; the first option that differs.
+  // Opens `path` for `section` and starts the section if it is new. Every option must equal the
+  // option in the section's head. A last line without a line end was left by a process killed while
+  // writing and is cut off. Errors: a file that cannot be read or written, is written by another
+  // process, or is no journal; the first option that differs.
   static Expected<std::unique_ptr<Journal>> Open(const std::string& path,
                                                  const std::string& section,
                                                  const JournalLine& options);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // The records of the section that were there, each with the line it stands in.
+  // A record of the section that was in the file when it was opened.
   struct Record {
     JournalLine json;
     int line = 0;
   };
   const std::vector<Record>& records() const { return records_; }
   const std::string& path() const { return log_->path(); }
-  bool torn() const { return log_->torn(); }  // a last line was cut off
+  bool torn() const { return log_->torn(); }  // true: an incomplete last line was cut off
 
-  // Writes a record before it returns, from any thread. After a failure nothing more is written.
+  // Writes a record before it returns. Thread-safe. After a write error nothing more is written.
   void Append(const JournalLine& record);
-  // Why not all records were written; empty: all were.
+  // Reason why not all records were written; empty: all were written.
   std::string failure() const;
 
  private:
@@ -55,16 +55,17 @@ class Journal {
   const std::string section_;
   bool has_head_ = false;
   std::vector<Record> records_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards `failure_` and the writing of records
   std::string failure_;
 };
 
-// JSON has no NaN and no infinity; a journal keeps them as text, all other numbers to the last bit.
+// JSON has no NaN and no infinity, so a journal stores them as text. All other numbers keep every
+// bit.
 JournalLine ExactNumber(double value);
 JournalLine ExactNumbers(const std::vector<double>& values);
 
-// Reads what a record holds; the first thing that is missing or of another kind is kept, and the
-// rest reads as nothing.
+// Reads the members of a record. The first missing or mistyped member is kept as the error. Missing
+// and mistyped members read as empty values.
 class RecordReader {
  public:
   RecordReader(const Journal& journal, const Journal::Record& record)
@@ -89,11 +90,12 @@ class RecordReader {
   std::string error_;
 };
 
-// Sixteen hexadecimal digits that differ where the numbers do: tells data apart in a head.
+// Sixteen hexadecimal digits that differ for different data, with high probability. The journal
+// head identifies data by them.
 std::string Fingerprint(const std::vector<double>& values);
 
-// What a reader at the terminal should know of a journal; `taken` says what was taken from it,
-// empty: nothing.
+// Messages about a journal for the user. `taken` describes the records that were resumed from;
+// empty: none.
 std::vector<std::string> JournalRemarks(const Journal& journal, const std::string& taken);
 
 }  // namespace lyrefit

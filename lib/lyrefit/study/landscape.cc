@@ -16,7 +16,8 @@ struct ProblemRow {
   Expected<LandscapeCase> (*draw)(RandomStream* random);
 };
 
-// Each has the streams of its place: new ones go to the end.
+// A problem's position selects its random streams. New problems must therefore be appended at the
+// end.
 const std::vector<ProblemRow>& ProblemRows() {
   using Random = RandomStream*;
   static const std::vector<ProblemRow> rows = {
@@ -48,7 +49,7 @@ const std::vector<ProblemRow>& ProblemRows() {
   return rows;
 }
 
-// Device number `device` of the problem in place `place`.
+// Device number `device` of the problem at position `place`.
 Expected<LandscapeCase> DrawCase(std::size_t place, int device, std::uint64_t seed) {
   const ProblemRow& row = ProblemRows()[place];
   RandomStream random(seed, place * kMostDevices + device);

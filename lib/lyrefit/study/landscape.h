@@ -16,36 +16,39 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Made measurements of a kind that has many local optima: problems for searches. Everything is drawn from
-// ranges that modules, cells and tracers have, none of it with an eye on any search.
+// Synthetic measurements whose fits have many local optima: test problems for searches. All values
+// are drawn from the ranges of real modules, cells and tracers, without regard to any search
+// algorithm.
 
-// One device of such a problem. All devices of a problem are fitted with the same laws.
+// One device of a problem. All devices of a problem are fitted with the same laws.
 struct LandscapeCase {
   std::string problem;  // "strings_3"
-  IvCurve curve;        // the measurement, where there is no set
+  IvCurve curve;        // the measurement, if there is no set
   Model model = Model::kSingleDiode;
   BoundsSpec bounds;
   std::vector<EffectUse> with;
-  std::optional<CurveSet> set;  // of a family: fitted as `family` says, `model` and `with` in it
+  // Curves of a family; fitted with `family`, which also holds the model and the effects.
+  std::optional<CurveSet> set;
   FamilyOptions family;         // how a set is fitted
-  // What it was made with, in the units of reports: "Iph", "substrings.d1"; of a set the shared
-  // parameters and, where no effect says it, "irradiance_offset_W_m2" and "temperature_offset_K",
-  // true less shown.
+  // True parameters of the simulation in reporting units: "Iph", "substrings.d1". For a set they
+  // are the shared parameters. If no effect has the sensor offsets, "irradiance_offset_W_m2" and
+  // "temperature_offset_K" are included, as true minus shown value.
   std::map<std::string, double> truth;
   double noise_A = 0;  // standard deviation of every current's error
 };
 
-// A kind of devices whose fit has many local optima.
+// A type of device whose fit has many local optima.
 struct LandscapeProblem {
   std::string name;   // "strings_3"
   std::string title;  // "three lights, one of three substrings each"
 };
 
-// All there are, in the order of tables.
+// All problems, in the order of the tables.
 const std::vector<LandscapeProblem>& LandscapeProblems();
 
-// So many devices of one problem; the same for the same seed, and the first ones whatever their
-// count. Errors: an unknown name, and which there are; a count out of 1 to 10000.
+// Draws `devices` devices of one problem. The same seed gives the same devices, and a larger count
+// only appends devices. Errors: an unknown name (the message lists the known ones); a count outside
+// 1 to 10000.
 Expected<std::vector<LandscapeCase>> MakeLandscape(const std::string& problem, int devices,
                                                    std::uint64_t seed);
 

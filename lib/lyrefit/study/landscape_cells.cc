@@ -8,8 +8,8 @@
 namespace lyrefit {
 namespace {
 
-// How many of the substrings each light has, in random order and not all alike: all ways to part
-// them are equally likely. `lights` is from 2 to one less than there are substrings.
+// Number of substrings for each irradiance, in random order and not all equal. All partitions are
+// equally likely. `lights` is from 2 to the number of substrings less one.
 std::vector<int> DrawGroups(int substrings, int lights, RandomStream* random) {
   for (;;) {
     std::vector<int> cuts(substrings - 1);
@@ -31,8 +31,9 @@ std::vector<int> DrawGroups(int substrings, int lights, RandomStream* random) {
 
 double DrawBypass(RandomStream* random) { return Between(0.35, 0.75, random); }
 
-// A module whose substrings stand under a light each group, the first of them under the brightest;
-// whose shares are `known` to the fit or somewhere among the whole substrings.
+// A module in which each group of substrings has its own irradiance; the first group has the
+// highest. If `known`, the fit fixes the shares of the groups. Otherwise it fits each share between
+// one substring and all substrings but one.
 Expected<LandscapeCase> UnderLights(const std::vector<int>& groups, bool known, bool covered,
                                     RandomStream* random) {
   const int substrings = std::accumulate(groups.begin(), groups.end(), 0);
@@ -58,8 +59,8 @@ Expected<LandscapeCase> UnderLights(const std::vector<int>& groups, bool known, 
   return Measure(device);
 }
 
-// A module of three substrings, one of them in the shade, as it is and as it is fitted: which
-// part is shaded is known.
+// A module of three substrings, one of them shaded, with its simulation and its fit. The fit has a
+// fixed shaded share.
 DrawnDevice DrawShadedModule(RandomStream* random) {
   constexpr double kShare = 1.0 / 3;
   DrawnDevice device = DrawModule(3, random);
@@ -112,7 +113,7 @@ Expected<LandscapeCase> DrawShadeAndShunt(RandomStream* random) {
   DrawnDevice device = DrawShadedModule(random);
   const SimulateOptions& made = device.made;
   const double exponent = Between(1.5, 4.5, random);
-  // What it takes at the cells' open-circuit voltage, of Isc.
+  // Shunt current at the cells' open-circuit voltage, relative to Isc.
   const double part = LogBetween(0.005, 0.1, random);
   const double isc = made.parameters.at("Iph");
   const double thermal_V =
@@ -134,7 +135,7 @@ Expected<LandscapeCase> DrawThreeDiodes(RandomStream* random) {
   const double voc = Between(0.55, 0.68, random);
   const double n[kDiodes] = {Between(0.95, 1.1, random), Between(1.8, 2.2, random),
                              Between(3, 6, random)};
-  // Of the current at open circuit.
+  // Shares of the current at open circuit.
   const double third = Between(0.03, 0.3, random);
   const double second = Between(0.05, 0.5, random);
   const double part[kDiodes] = {1 - second - third, second, third};

@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// Where a finely read curve crosses 0 A for good.
+// Voltage of the last crossing of 0 A on a finely sampled curve.
 std::optional<double> LastCrossing(const IvCurve& fine) {
   for (std::size_t k = fine.size() - 1; k > 0; --k) {
     const double before = fine.current_A[k - 1], after = fine.current_A[k];
@@ -22,9 +22,11 @@ std::optional<double> LastCrossing(const IvCurve& fine) {
   return std::nullopt;
 }
 
-// What a tracer's steps are even in, from 0 V to each voltage of a finely read curve.
+// Cumulative quantity of the tracer's even steps, from 0 V to each voltage of a finely sampled
+// curve.
 std::vector<double> Progress(const IvCurve& fine, Tracer tracer, double voc_V) {
-  constexpr double kLeastCurrent = 0.02;  // the capacitor is full where less flows
+  // Relative to the largest current; the capacitor counts as full below it.
+  constexpr double kLeastCurrent = 0.02;
   const double isc_A = *std::max_element(fine.current_A.begin(), fine.current_A.end());
   std::vector<double> progress = {0};
   for (std::size_t k = 1; k < fine.size(); ++k) {
@@ -38,14 +40,14 @@ std::vector<double> Progress(const IvCurve& fine, Tracer tracer, double voc_V) {
   return progress;
 }
 
-// y where x, which rises, is `value`.
+// Linear interpolation of y at x = `value`; x is increasing.
 double Interpolate(const std::vector<double>& x, const std::vector<double>& y, double value) {
   const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, value);
   const std::size_t k = above - x.begin();
   return y[k - 1] + (y[k] - y[k - 1]) * (value - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
-// What a tracer reads of it.
+// The curve as the tracer samples it.
 IvCurve ReadBy(const DrawnDevice& device, const IvCurve& fine, double voc_V) {
   const std::vector<double> progress = Progress(fine, device.tracer, voc_V);
   const double whole = Interpolate(fine.voltage_V, progress, device.beyond * voc_V);
@@ -60,8 +62,8 @@ IvCurve ReadBy(const DrawnDevice& device, const IvCurve& fine, double voc_V) {
   return read;
 }
 
-// The device read at many voltages, without noise. Effects act in a measurement of which it is
-// known how many bypass diodes the device has.
+// The device sampled at many voltages, without noise. Effects require a measurement with the number
+// of bypass diodes.
 Expected<IvCurve> ReadFinely(const DrawnDevice& device) {
   SimulateOptions made = device.made;
   made.points = 2000;
@@ -99,7 +101,7 @@ EffectUse Freed(const char* effect, Ranges ranges) {
 
 void DrawMeasurement(double isc_A, double least_noise, double most_noise, RandomStream* random,
                      DrawnDevice* device) {
-  // Half of all tracers step the voltage.
+  // Half of the tracers step the voltage.
   constexpr Tracer kTracers[] = {Tracer::kVoltage, Tracer::kVoltage, Tracer::kArc, Tracer::kCharge};
   device->tracer = kTracers[random->Index(4)];
   device->beyond = Between(1, 1.01, random);

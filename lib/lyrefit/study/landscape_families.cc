@@ -19,7 +19,7 @@ Expected<LandscapeCase> DrawFamily(bool effects, RandomStream* random) {
   LandscapeCase result;
   result.set = std::move(made->set);
   result.family = options.family;
-  // The search and its polish are what is looked at.
+  // Only the search and its polish are evaluated.
   result.family.individual_fits = result.family.intervals = result.family.random_baseline = false;
   result.family.folds = 0;
   for (int i = 0; i < made->translation.size(); ++i) {
@@ -29,7 +29,7 @@ Expected<LandscapeCase> DrawFamily(bool effects, RandomStream* random) {
   const double irradiance = -options.irradiance_error_W_m2;
   if (effects) {
     result.family.temperature_offset = result.family.irradiance_offset = false;
-    // What the fit with offsets holds as well: another band gap looks like an offset.
+    // The fit with offsets fixes the band gap too: its effect resembles an offset.
     result.family.fixed["EgRef"] = kHeldBandgap_eV;
     result.family.with = {Freed("temp_offset", {}), Freed("sensor_offset", {})};
     result.truth["temp_offset.c"] = kelvin;

@@ -10,19 +10,19 @@
 
 namespace lyrefit {
 
-// A small table whose columns are known by name and may stand in any order.
+// A small table whose columns are identified by name and may be in any order.
 class NamedTable {
  public:
-  // Reads the file and its header; all `columns` must be there.
+  // Reads the file and its header. All `columns` must exist.
   Expected<void> Open(const std::string& path, const std::vector<std::string>& columns);
 
   // The next row; false at the end of the file.
   Expected<bool> Next();
 
-  // A field of the row, by the position of its column in `columns`.
+  // A field of the current row; `column` is the position of its column in `columns`.
   std::string operator[](int column) const { return std::string(fields_[position_[column]]); }
 
-  // "expected ..., found '...'", with file, line and column of that field.
+  // An error "expected ..., found '...'" with file, line and column of the field.
   tl::unexpected<Error> Refuse(int column, const std::string& expected) const;
 
  private:

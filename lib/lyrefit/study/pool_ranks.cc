@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// The searches of a budget, in the order they came.
+// The searches of a budget, in the order of the comparison.
 std::vector<std::string> SearchesOf(const std::vector<const ProblemSummary*>& pools,
                                     std::int64_t budget) {
   std::vector<std::string> names;
@@ -24,7 +24,7 @@ std::vector<std::string> SearchesOf(const std::vector<const ProblemSummary*>& po
   return names;
 }
 
-// The figures of one device, run by run, of the runs that all have done.
+// Appends the figures of one device, run by run, for the runs that all searches have done.
 void AddBlocks(const ProblemResult& device, const SummaryRanking& ranking, PolishLevel level,
                std::vector<std::vector<double>>* values) {
   std::map<int, std::vector<double>> blocks;  // by run

@@ -7,20 +7,20 @@
 
 namespace lyrefit {
 
-// Ranks of the searches of one budget on one problem or on all: the blocks are all its runs of all
-// devices, the figures RMSE / reference of the device. Figures of one block within kHit of each
-// other are equal.
+// Ranks of the searches of one budget, on one problem or on all problems. The blocks are all runs
+// of all devices. The ranked figure is RMSE / reference of the device. Figures of one block within
+// kHit (relative) of each other are equal.
 struct SummaryRanking {
-  std::string problem;  // empty: all of them
+  std::string problem;  // empty: all problems together
   std::int64_t budget = 0;
-  std::vector<std::string> names;  // of the algorithms, as the ranks count them
+  std::vector<std::string> names;  // of the algorithms, in the order of the ranks
   Ranking searched;                // of the search alone
   Ranking own;                     // of the best candidate's own polish
 };
 
-// By rising budget: first of all problems together, where there are several, then of each in turn.
-// Blocks that not every search of a budget has done are left out, and budgets with fewer than two
-// searches or blocks.
+// Rankings by increasing budget. For each budget the first ranks all problems together, if there
+// are several, and then each problem follows. Blocks that not every search of a budget has done are
+// left out. Budgets with fewer than two searches or blocks are left out.
 std::vector<SummaryRanking> RankPools(const std::vector<ProblemSummary>& pools);
 
 }  // namespace lyrefit

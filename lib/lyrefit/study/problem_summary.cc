@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-// A run and the device it was made on.
+// A run and its device.
 struct SummaryRun {
   const ProblemResult* device = nullptr;
   const RunRecord* run = nullptr;
@@ -29,7 +29,7 @@ const std::vector<double>& ParametersAt(const RunRecord& run, PolishLevel level)
 // Runs of one device that ended in the same wrong local optimum.
 struct WrongOptimum {
   const ProblemResult* device;
-  double ratio;  // the lowest of them
+  double ratio;  // RMSE / reference, the lowest of these runs
   int runs;
 };
 
@@ -73,7 +73,7 @@ Failures SumUpFailures(const std::vector<SummaryRun>& missed, PolishLevel level)
     const Deviation deviation = LargestDeviation(*run.device, ParametersAt(*run.run, level));
     if (deviation.parameter < 0) continue;
     deviations.push_back(deviation.value);
-    if (deviation.value < failures.worst_deviation) continue;  // false at first
+    if (deviation.value < failures.worst_deviation) continue;  // false while worst_deviation is NaN
     failures.worst_deviation = deviation.value;
     failures.worst_parameter = run.device->parameters[deviation.parameter];
   }
@@ -128,7 +128,7 @@ AlgorithmSummary Pool(const AlgorithmResult& compared, const std::vector<Summary
   return pooled;
 }
 
-// By the first device that has them, in its order.
+// Order: by the first device that has the algorithm, then by its position there.
 void SummariseAlgorithms(ProblemSummary* problem) {
   for (const ProblemResult* first : problem->devices) {
     for (const AlgorithmResult& compared : first->algorithms) {
@@ -188,7 +188,7 @@ Deviation LargestDeviation(const ProblemResult& device, const std::vector<double
     const double apart = std::fabs(parameters[i] - there[i]);
     double value = there[i] == 0 ? 1.0 : apart / std::fabs(there[i]);
     if (apart == 0) value = 0;
-    if (value <= largest.value) continue;  // false at first
+    if (value <= largest.value) continue;  // false while largest.value is NaN
     largest = {value, static_cast<int>(i)};
   }
   return largest;

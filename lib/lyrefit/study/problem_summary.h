@@ -8,13 +8,14 @@
 
 #include "lyrefit/study/comparison.h"
 
-// Problems of many local optima, where what counts is how often a search ends in the best one and what it
-// costs: all devices of a problem are summed up as one. All of it follows from the runs.
+// Summaries of problems with many local optima. They count how often a search ends in the best
+// local optimum and measure its time. All devices of a problem are summarised together. Everything
+// is computed from the run records.
 namespace lyrefit {
 
-// How far a run is taken.
+// The stages of a run, by increasing polish.
 enum class PolishLevel {
-  kSearch,  // not beyond the search
+  kSearch,  // the search alone
   kPlain,   // one bounded solve from the best candidate
   kOwn,     // the best candidate's own polish
   kHybrid,  // all starts
@@ -27,75 +28,80 @@ struct EnumTable<PolishLevel> {
                                                     {PolishLevel::kOwn, "best candidate"},
                                                     {PolishLevel::kHybrid, "all starts"}};
 };
-// All of them, the least polished first.
+// All levels, the least polished first.
 constexpr std::array<PolishLevel, 4> kPolishLevels = {PolishLevel::kSearch, PolishLevel::kPlain,
                                                       PolishLevel::kOwn, PolishLevel::kHybrid};
 
-// A hit, and relative to each other two ends in the same local optimum: of RMSE, relative.
+// Relative RMSE difference below which a run is a hit, and two end points of a device are the same
+// local optimum.
 constexpr double kHit = 1e-6;
 
-// Runs that ended elsewhere than in the best known optimum. Excess: RMSE / reference - 1.
-// Deviation: the largest of any parameter of the effects (of the device, where there are none) from
-// its value at the reference, relative to that; 1 where that is 0 and the run's is not.
+// Runs that did not end in the best known optimum. Excess: RMSE / reference - 1. Deviation: the
+// largest relative deviation of an effect parameter from its value at the reference. Without
+// effects the parameters of the device are used. The deviation is 1 if the reference value is 0 and
+// the run's is not.
 struct Failures {
-  int runs = 0;                        // that ended elsewhere
-  int local_optima = 0;                      // ends of one device within kHit of each other are one
-  int commonest = 0;                   // runs in the one that most ended in; of several the lowest
-  std::string commonest_device;        // where that happened
-  double commonest_excess = kUnknown;  // of that local optimum
+  int runs = 0;                        // number of such runs
+  // Number of distinct ones; end points of a device within kHit of each other are one.
+  int local_optima = 0;
+  // Runs in the most frequent local optimum; of equally frequent ones the lowest.
+  int commonest = 0;
+  std::string commonest_device;        // name of its device
+  double commonest_excess = kUnknown;  // excess of that local optimum
   double median_excess = kUnknown;     // over these runs
-  double worst_excess = kUnknown;      // over these runs
-  double median_deviation = kUnknown;  // NaN of levels whose parameters are not kept
-  double worst_deviation = kUnknown;   // over these runs
-  std::string worst_parameter;         // the key of the one that deviates so
+  double worst_excess = kUnknown;
+  double median_deviation = kUnknown;  // NaN at levels that keep no parameters
+  double worst_deviation = kUnknown;
+  std::string worst_parameter;         // key of the parameter with that deviation
 };
 
-// What the runs of one compared came to at one level of polish.
+// The results of one algorithm at one level of polish.
 struct LevelSummary {
   int runs = 0;               // every run of every device
   int hits = 0;               // within kHit of the device's reference
-  RunSpread excess;           // over the runs; its counts are those of the hits
-  double seconds = kUnknown;  // median of a run: the search and this level's polish
+  RunSpread excess;           // over the runs; its within_1e6 equals `hits`
+  double seconds = kUnknown;  // median of a run: search plus the polish of this level
   Failures failures;
 };
 
-// One compared over all devices of a problem.
+// The results of one algorithm over all devices of a problem.
 struct AlgorithmSummary {
   std::string name;  // see ComparedAlgorithm
   std::string algorithm;
   AlgorithmKind kind = AlgorithmKind::kSearch;
   std::int64_t budget = 0;              // 0: none
   double evaluations = kUnknown;        // median of a run
-  double curve_evaluations = kUnknown;  // the same
-  // By PolishLevel; only the last one of algorithms that are no searches. Empty: not known.
+  double curve_evaluations = kUnknown;  // median of a run
+  // By PolishLevel. Algorithms that are not searches have only the last level. Empty: unknown.
   std::array<std::optional<LevelSummary>, 4> levels;
 
-  // By name instead of position.
+  // Summary of a level.
   const std::optional<LevelSummary>& At(PolishLevel level) const {
     return levels[static_cast<std::size_t>(level)];
   }
 };
 
-// All devices of a problem as one.
+// The results of a problem over all its devices.
 struct ProblemSummary {
   std::string name;                           // see ProblemResult::problem
-  std::vector<const ProblemResult*> devices;  // of the comparison, in its order
-  int certified = 0;                          // of them
+  std::vector<const ProblemResult*> devices;  // from the comparison, in its order
+  int certified = 0;                          // number of devices with a certified reference
   std::vector<AlgorithmSummary> algorithms;    // in the order of the comparison
 };
 
-// Every problem of the comparison that has a name to be pooled under, in the order of the first
-// device of each; none in a plain study. They point into the comparison.
+// Summaries of all named problems of the comparison, in the order of the first device of each.
+// Empty for a comparison without named problems. The results point into `comparison`, which must
+// outlive them.
 std::vector<ProblemSummary> SummariseProblems(const Comparison& comparison);
 
-// What one run came to at a level: RMSE in ampere, and seconds with the search. NaN: not known.
+// RMSE of one run at a level in ampere, and seconds of the search plus the polish. NaN: unknown.
 double RmseAt(const RunRecord& run, PolishLevel level);
 double SecondsAt(const RunRecord& run, PolishLevel level);
 
-// See Failures.
+// Failures defines the deviation.
 struct Deviation {
   double value = kUnknown;  // relative
-  int parameter = -1;       // whose it is: position; -1: none
+  int parameter = -1;       // position of the deviating parameter; -1: none
 };
 Deviation LargestDeviation(const ProblemResult& device, const std::vector<double>& parameters);
 

@@ -23,7 +23,7 @@ std::vector<std::size_t> OrderOf(const std::vector<double>& values) {
   return order;
 }
 
-// Ranks from 1, doubled so that the mean rank of a tie is a whole number too.
+// Ranks from 1, doubled so that the mean rank of a tie is an integer too.
 struct DoubledRanks {
   std::vector<int> rank;
   double tie_sum = 0;  // sum of t^3 - t over the groups of t equal values
@@ -64,8 +64,8 @@ DoubledRanks RankBlock(const std::vector<std::vector<double>>& values, std::size
   return RankDoubled(block);
 }
 
-// Half the variance of the difference of two algorithms' ranks in a block, if every order is as
-// likely: k (k + 1) / 12 without ties, the mean over the blocks with ties.
+// Half the variance of the difference of two algorithms' ranks in a block, if all orders are
+// equally likely. Without ties it is k (k + 1) / 12, with ties the mean over the blocks.
 double RankVariance(const std::vector<std::vector<double>>& values) {
   const auto k = static_cast<double>(values.size());
   const auto blocks = static_cast<double>(values[0].size());
@@ -74,10 +74,10 @@ double RankVariance(const std::vector<std::vector<double>>& values) {
   return (k * (k + 1) - tie_sum / blocks / (k - 1)) / 12;
 }
 
-// P(sum of the ranks of the positive differences <= doubled_sum / 2) when every sign is as likely
-// as its opposite: the distribution grows by one difference at a time.
+// P(sum of the ranks of the positive differences <= doubled_sum / 2), if both signs are equally
+// likely. The distribution is built up one difference at a time.
 double SignedRankTail(const std::vector<int>& doubled_ranks, int doubled_sum) {
-  // Rank sums above `doubled_sum` never come back down to it.
+  // Rank sums above `doubled_sum` cannot decrease and are dropped.
   std::vector<double> probability(static_cast<std::size_t>(doubled_sum) + 1, 0.0);
   probability[0] = 1;
   for (const int rank : doubled_ranks) {
@@ -94,7 +94,7 @@ std::vector<double> JoinEqual(std::vector<double> values, double relative) {
   for (const double value : values) CHECK(std::isfinite(value));
   CHECK_GE(relative, 0);
   const std::vector<std::size_t> order = OrderOf(values);
-  double smallest = 0;  // of the current group
+  double smallest = 0;  // smallest value of the current group
   double previous = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double value = values[order[i]];

@@ -19,7 +19,7 @@ constexpr double kColdestRow_C = -100;
 constexpr double kHottestRow_C = 150;
 constexpr int kMostCells = 10000;
 
-// What a number must satisfy beyond being finite.
+// Condition on a number, in addition to being finite.
 enum class Sign { kNotNegative, kPositive };
 
 // One line of the table below its header.
@@ -49,7 +49,7 @@ class RowReader {
   }
 
  private:
-  // Only the first complaint about a row is kept.
+  // Keeps only the first error of a row.
   void Refuse(int field, std::string message) {
     if (!error_) error_ = Error{std::move(message), path_, number_, ColumnOf(field)};
   }
@@ -159,7 +159,7 @@ class RowReader {
     }
   }
 
-  // Whether any column of a quantity holds something.
+  // True if any column of the quantity is not empty.
   bool Fills(const std::string& name) const {
     const auto found = columns_.quantities.find(name);
     return found != columns_.quantities.end() &&

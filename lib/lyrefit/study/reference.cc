@@ -8,9 +8,10 @@
 namespace lyrefit {
 namespace {
 
-// Convex problems to spend on one proof before the best of all runs has to do.
+// Largest number of convex problems in one proof. Without a proof the best of all runs is the
+// reference.
 constexpr std::int64_t kEffort = 20000;
-constexpr std::int64_t kSolvedEffort = 4000;  // of the solved current, each takes more time
+constexpr std::int64_t kSolvedEffort = 4000;  // for the solved current, which takes longer for each
 
 bool Within(const std::vector<double>& parameters, const std::vector<ParameterBounds>& bounds) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {

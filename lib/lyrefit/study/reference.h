@@ -6,14 +6,15 @@
 
 namespace lyrefit {
 
-// The lowest RMSE that any run of a problem came to, searched or polished.
+// The lowest RMSE over all runs and stages of a problem.
 struct BestFound {
   double rmse_A = kUnknown;
   std::vector<double> parameters;  // in the device's order
 };
 
-// What the runs of one problem are measured against. Stopped by the observer, it is the best of the
-// runs.
+// Computes the reference of one problem. It tries to certify the optimum within the bounds. Without
+// a certificate the reference is the lowest RMSE of the runs and the proof. If the observer stops
+// it, the reference is the best of the runs.
 Reference FindReference(const CompareCurve& subject, Model model, const CompareOptions& options,
                         const BestFound& best, const Observer& observer = {});
 

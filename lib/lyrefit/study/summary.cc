@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kEqual = 1e-9;  // relative: two polished answers are the same
+constexpr double kEqual = 1e-9;  // relative difference below which two polished RMSEs are equal
 constexpr double kClose = 1e-6;
 
 double Mean(const std::vector<double>& values) {
@@ -21,7 +21,7 @@ double Mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// One figure of every run.
+// The values of one member over all runs.
 template <class T>
 std::vector<double> Column(const std::vector<RunRecord>& runs, T RunRecord::*field) {
   std::vector<double> values;
@@ -93,7 +93,7 @@ BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
       const RunRecord& run = outcome.record;
       for (const double rmse :
            {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
-        if (!(rmse < best.rmse_A)) continue;  // what is not known as well
+        if (!(rmse < best.rmse_A)) continue;  // also skips NaN
         const bool own = rmse == run.own_polished_A && !outcome.own_parameters.empty();
         best = {rmse, own ? outcome.own_parameters : outcome.parameters};
       }
@@ -107,12 +107,12 @@ RunSpread SpreadOf(std::vector<double> values, double reference) {
   RunSpread spread;
   const auto unknown = [](double value) { return std::isnan(value); };
   if (std::any_of(values.begin(), values.end(), unknown)) return spread;
-  // Sums have the same bits whatever the order of the runs.
+  // Sorting makes the sums independent of the order of the runs.
   std::sort(values.begin(), values.end());
   spread.median = Median(values);
   spread.min = values.front();
   spread.max = values.back();
-  // Rounding must not carry the mean of equal values out of their range.
+  // Rounding must not move the mean of equal values outside their range.
   spread.mean = std::clamp(Mean(values), spread.min, spread.max);
   double squares = 0;
   for (const double value : values) {
@@ -194,7 +194,7 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
 
 void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
                      std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result) {
-  std::vector<int> done(options.runs, 0);  // by how many algorithms
+  std::vector<int> done(options.runs, 0);  // number of algorithms that have done the run
   for (std::size_t c = 0; c < algorithms.size(); ++c) {
     if (outcomes[c].empty()) continue;
     for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];

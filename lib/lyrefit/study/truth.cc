@@ -16,7 +16,7 @@ namespace {
 constexpr int kParameters = 5;
 constexpr int kMostTrueCells = 10000;
 
-// Columns in the order of a single-diode device, then the others.
+// Columns in the order of a single-diode device, then the other columns.
 const std::vector<std::string> kTruthColumns = {
     "photocurrent",     "saturation_current", "n",    "resistance_series",
     "resistance_shunt", "cells_in_series",    "Index"};
@@ -51,7 +51,7 @@ const TruthRow* RowOf(const FamilyCurve& curve, const std::vector<TruthRow>& tru
   return nullptr;
 }
 
-// A fit and what it should have been.
+// A fit and its true parameters.
 struct Pair {
   const FamilyCurve* curve;
   const TruthRow* row;
@@ -72,7 +72,7 @@ void CountInterval(const Pair& pair, int index, TruthParameter* result) {
   result->covered_believed += holds(under.empty() ? e : under[index]);
 }
 
-// What the fits of one device say together. Averaged is the value, of the shunt its inverse.
+// Statistics of all fits of one device. Means are of the value, or of the inverse for the shunt.
 void SumUpOneTruth(const std::vector<Pair>& pairs, int index, TruthParameter* result) {
   const bool inverse = IsConductance(result->info.kind);
   const auto averaged = [&](double value) { return inverse ? 1 / value : value; };
@@ -97,7 +97,7 @@ TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pai
   std::vector<double> errors;
   for (const Pair& pair : pairs) {
     const double truth = pair.row->values[index];
-    // An absolute error where there is nothing to be relative to.
+    // The error is absolute if the true value is 0.
     const double error =
         std::fabs(pair.curve->free_parameters[index] - truth) / (truth == 0 ? 1 : truth);
     if (errors.empty() || error > result.worst) {
@@ -135,7 +135,8 @@ Expected<std::vector<TruthRow>> ReadTruth(const std::string& path) {
 
 namespace {
 
-// Whether shared parameters, which are those of the reference, are those of every curve too.
+// True if all curves were taken at the reference conditions. Their parameters then equal the shared
+// parameters.
 bool AllAtReference(const FamilyReport& report) {
   return std::all_of(report.curves.begin(), report.curves.end(), [](const FamilyCurve& curve) {
     return curve.role == CurveRole::kLeftOut ||
@@ -144,7 +145,7 @@ bool AllAtReference(const FamilyReport& report) {
   });
 }
 
-// The shared parameters beside a lone truth.
+// Compares the shared parameters with the only true row.
 void CompareJoint(const FamilyReport& report, const TruthRow& truth, TruthComparison* result) {
   const bool one_diode = report.translation.spec.model == Model::kSingleDiode;
   if (report.free || report.estimates.empty() || !one_diode || !AllAtReference(report)) return;

@@ -10,56 +10,57 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The parameters that a curve was made from, as the contest sets of github.com/cwhanse/ivcurves
-// state them: of the whole module, n per cell, one diode.
+// The parameters from which a curve was simulated, in the format of the contest sets of
+// github.com/cwhanse/ivcurves: whole module, n per cell, one diode.
 struct TruthRow {
-  std::string index;           // of the curve; that of a lone row is of no account
+  std::string index;           // index of the curve; ignored if the table has only one row
   std::vector<double> values;  // Iph, Is1, n1, Rs, Rsh: the order of a single-diode device
   int cells_in_series = 1;
 };
 
-// A table with the columns Index, photocurrent, saturation_current, resistance_series,
-// resistance_shunt, n, cells_in_series in any order. Errors carry file, line and column: what
-// cannot be read, values no diode in the light has, an index that occurs twice, no row at all.
+// Reads a table with the columns Index, photocurrent, saturation_current, resistance_series,
+// resistance_shunt, n, cells_in_series in any order. Errors carry file, line and column: unreadable
+// fields, values that no illuminated diode has, a repeated index, no row at all.
 Expected<std::vector<TruthRow>> ReadTruth(const std::string& path);
 
-// Errors of one parameter, each relative to the truth of its own curve.
+// Errors of one parameter, each relative to the true value of its own curve.
 struct TruthParameter {
   ParameterInfo info;
   double worst = kUnknown;   // largest |error|
   std::string worst_id;      // of the curve with that error
   double median = kUnknown;  // of |error|
-  int intervals = 0;         // curves with a 95 % interval
-  int covered = 0;           // of those: it holds the truth
-  // The same of the intervals to believe: where the residuals ask for it, those under the error
-  // model.
+  int intervals = 0;         // number of curves with a 95 % interval
+  int covered = 0;           // of `intervals`: the interval contains the true value
+  // As `covered`, for the recommended intervals. These are the intervals under the error model, if
+  // the residuals indicate one.
   int covered_believed = 0;
-  // Of sets with one truth, else NaN. The shunt takes part as a conductance: a curve that says
-  // nothing of it has a resistance without limit, which no mean survives.
+  // The following are set for sets with one truth, else NaN. Rsh is averaged as a conductance. A
+  // curve without information on Rsh has an unlimited resistance, which would dominate a mean.
   double truth = kUnknown;
-  double mean = kUnknown;              // of the fits
-  double mean_error = kUnknown;        // of that mean, with its sign
+  double mean = kUnknown;              // mean of the fits
+  double mean_error = kUnknown;        // error of `mean`, signed
   double root_mean_square = kUnknown;  // of the errors of the single fits
-  // The parameter of a joint fit of curves that were all taken at the reference; NaN without one.
+  // The parameter of a joint fit, if all curves were taken at the reference conditions; else NaN.
   double joint = kUnknown;
-  double joint_error = kUnknown;  // relative, with its sign; of the shunt's conductance
-  Interval by_points;  // its 95 % interval with points, and with whole curves, as independent
+  double joint_error = kUnknown;  // relative and signed; for Rsh, of the conductance
+  // 95 % interval of `joint`: points independent; by_curves: curves independent.
+  Interval by_points;
   Interval by_curves;
 };
 
-// Fits held against what the curves were made with.
+// Fits compared with the parameters that the curves were simulated from.
 struct TruthComparison {
-  int rows = 0;                            // of truth
-  int curves = 0;                          // compared
-  int unmatched = 0;                       // fitted curves without a row of truth
-  bool one_truth = false;                  // one row for all curves
+  int rows = 0;                            // number of true rows
+  int curves = 0;                          // number of compared curves
+  int unmatched = 0;                       // number of fitted curves without a true row
+  bool one_truth = false;                  // one true row applies to all curves
   std::vector<TruthParameter> parameters;  // Iph, Is1, n1, Rs, Rsh
   std::vector<std::string> warnings;
 };
 
-// The fits of single curves, and with one truth the shared parameters, held against the truth: a
-// lone row holds for all curves, others for the curve with their index as its id. Only single-diode
-// fits can be compared; a warning says so where there is nothing else.
+// Compares the fits of single curves with the truth, and with one truth also the shared parameters.
+// A single row applies to all curves. Otherwise a row applies to the curve whose id is the row's
+// index. Only single-diode fits can be compared. A warning is added if there are none.
 TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<TruthRow>& truth);
 
 }  // namespace lyrefit

@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kPeers[] = "pagmo:";
 
-// The way with the smallest budget of one algorithm at one level from which on all are enough.
+// The smallest budget of one algorithm at one level from which all budgets are sufficient.
 std::optional<Configuration> EnoughFrom(std::vector<const AlgorithmSummary*> algorithms, PolishLevel level) {
   std::sort(algorithms.begin(), algorithms.end(),
             [](const auto* a, const auto* b) { return a->budget > b->budget; });
@@ -22,7 +22,7 @@ std::optional<Configuration> EnoughFrom(std::vector<const AlgorithmSummary*> alg
   return from;
 }
 
-// What was not timed counts as the slowest.
+// An unknown time counts as the slowest.
 bool Faster(const Configuration& a, const Configuration& b) {
   const double there = b.figures().seconds;
   return a.figures().seconds < there || (std::isnan(there) && !std::isnan(a.figures().seconds));
@@ -46,7 +46,7 @@ std::optional<Configuration> OfKind(const ProblemSummary& pool, AlgorithmKind ki
   return {};
 }
 
-// 0: it never hits.
+// Number of runs for one hit with probability kEnoughShare; 0: it never hits.
 int RepeatsToBeSure(const Configuration& way) {
   const LevelSummary& figures = way.figures();
   if (figures.hits == 0) return 0;

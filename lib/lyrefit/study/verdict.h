@@ -6,50 +6,55 @@
 
 namespace lyrefit {
 
-// Share of a problem's runs that must hit for a way to be enough.
+// Share of a problem's runs that must hit for a configuration to be sufficient.
 constexpr double kEnoughShare = 0.96;
 
-// The fewest hits of so many runs that are enough.
+// The smallest sufficient number of hits out of `runs` runs.
 int EnoughHits(int runs);
 
-// How a problem was solved: by whom, how far polished.
+// A way to solve a problem: an algorithm and a level of polish.
 struct Configuration {
-  const AlgorithmSummary* compared = nullptr;  // by whom
+  const AlgorithmSummary* compared = nullptr;  // the algorithm
   PolishLevel level = PolishLevel::kSearch;
-  // What the compared came to at the level.
+  // Results of the algorithm at the level.
   const LevelSummary& figures() const { return *compared->At(level); }
-  // Whether so many of its runs hit.
+  // True if enough of its runs hit.
   bool IsEnough() const { return figures().hits >= EnoughHits(figures().runs); }
 };
 
-// What the figures of one problem say, by rule. A search is enough at a level from a budget on if
-// its hits are enough there and at every larger budget; of the ways that are, the least median time
-// of a run wins. Where starts from the shape alone are enough, "all starts", which has them, says
-// nothing of a search and does not count.
+// The result for one problem, by a fixed rule. A search is sufficient at a level from a budget on
+// if its hits are sufficient at that and every larger budget. Of the sufficient configurations, the
+// one with the least median time of a run wins. If starts from the shape alone are sufficient, the
+// level "all starts" is ignored, since it includes these starts.
 struct SearchVerdict {
-  std::optional<Configuration> shape;      // where it was a compared, enough or not
-  std::optional<Configuration> search;     // the winner, random points among the searches
-  std::optional<Configuration> best;       // where none is enough: the most hits, then the least time
-  std::optional<Configuration> random;     // that of random points, where they are not the winner
-  int needed = 0;                // hits that are enough
-  bool shape_is_enough = false;  // that way is
-  bool shape_wins = false;       // it is enough, and no search that is enough is faster
+  // Starts from the shape, if they were compared, sufficient or not.
+  std::optional<Configuration> shape;
+  std::optional<Configuration> search;     // the winner; random points count as a search
+  // If none is sufficient: the one with the most hits, then the least time.
+  std::optional<Configuration> best;
+  // Best configuration of random points, unless it is the winner.
+  std::optional<Configuration> random;
+  int needed = 0;                // sufficient number of hits
+  bool shape_is_enough = false;  // starts from the shape are sufficient
+  bool shape_wins = false;       // they are sufficient, and no sufficient search is faster
 };
 SearchVerdict JudgeProblem(const ProblemSummary& pool);
 
-// Median time of so many runs that with a probability of kEnoughShare one of them hits, going by
-// the share of those that did; infinite without a hit.
+// Median time of as many runs as are needed so that one of them hits with probability kEnoughShare,
+// in seconds. The share of runs that hit is the estimate of the hit probability. Infinite without a
+// hit.
 double TimeToBeSure(const Configuration& way);
 
-// The fit with its default settings against pagmo2's algorithms with the best candidate's own polish,
-// each run as often as it takes to be sure.
+// The default fit against pagmo2's algorithms with the best candidate's own polish. Each is
+// repeated until a hit has probability kEnoughShare.
 struct PeerRatio {
   Configuration self;
-  std::optional<Configuration> peer;  // that of least TimeToBeSure
-  int repeats = 0;          // of the peer; 0: it never hits
-  double times = kUnknown;  // its TimeToBeSure by that of the default fit; NaN where it never hits
+  std::optional<Configuration> peer;  // the configuration with the least TimeToBeSure
+  int repeats = 0;          // number of runs of the peer; 0: it never hits
+  // TimeToBeSure of the peer divided by that of the default fit; NaN if it never hits.
+  double times = kUnknown;
 };
-// Nothing where the default fit was no compared.
+// Empty if the default fit was not compared.
 std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& pool);
 
 }  // namespace lyrefit

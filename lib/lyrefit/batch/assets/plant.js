@@ -1,6 +1,7 @@
-// One string in full, and the start of it all.
+// The panel of one string, and the start of the page.
 
-// A link to a path below the results' folder, or nothing: rows come from files, and files hold anything.
+// A link to a path below the results' folder. Empty for any other path, since rows come from files and may hold any
+// text.
 const results = JSON.parse(document.getElementById("results").textContent);
 function pageOf(path) {
   if (typeof path !== "string" || !path || path.split("/").some((part) => part === "..")) return null;
@@ -31,7 +32,7 @@ async function showRow(row) {
   dialog.scrollTop = 0;
 }
 
-// Rows of the tables made before: their names become buttons that filter.
+// Turns the row names of the static tables into buttons that filter.
 function makeTableButtons() {
   for (const line of document.querySelectorAll("tr[data-column]")) {
     const { column, value } = line.dataset;
@@ -42,7 +43,7 @@ function makeTableButtons() {
   }
 }
 
-// The first of these columns that is known of half the strings.
+// The first of these columns that holds texts, or numbers known for at least half of the strings.
 async function firstKnown(names) {
   for (const name of names) {
     const values = await valuesOf(name);
@@ -55,7 +56,7 @@ async function firstKnown(names) {
 async function chooseDefaults() {
   const first = (names) => names.filter(isNumber)[0] || numberColumns[0] || null;
   const colours = colourChoices();
-  // A cell of many strings always holds a bad one.
+  // With many strings a cell almost always holds a bad one, so the map shows the need of work.
   map.colour = rowCount > 20000 && colours.includes(needsWork) ? needsWork : await firstKnown(colours);
   map.statistic = worstFirst(map.colour) ? "lowest" : "mean";
   charts.worstBy = worstChoices()[0] || null;
@@ -68,7 +69,7 @@ async function chooseDefaults() {
   charts.trend = first(["performance_factor", "Pmax_stc_W", "FF", "Pmax_W"]);
 }
 
-// Where the worst are drawn, their table is folded; on paper it stands there in full.
+// Folds the table of the worst strings, since the script draws them. On paper the table is complete.
 function foldWorst() {
   const still = byId("still-worst");
   if (!has("sparkline") || !still.firstElementChild) return;
@@ -78,7 +79,7 @@ function foldWorst() {
 
 let drawing = 0;
 
-// One section after the other, so that the page answers in between; another filter begins anew.
+// Draws one section after the other, so that the page stays responsive. A changed filter restarts the drawing.
 async function drawAll() {
   const turn = ++drawing;
   for (const draw of [drawMap, drawWorst, drawSpread, drawCloud, drawTrend]) {

@@ -1,4 +1,4 @@
-// Worst curves, distributions, one quantity over another, trends.
+// Worst curves, distributions, one quantity against another, trends.
 
 const charts = { worstBy: null, spread: [], x: null, y: null, by: null, trend: null };
 const mostPoints = 4000;
@@ -139,7 +139,7 @@ function drawBinned(context, box, rows, xs, ys) {
   return Math.round(Math.exp(most));
 }
 
-// Spearman's: of the ranks.
+// Spearman's rank correlation.
 function rankCorrelation(rows, xs, ys) {
   const ranks = (values) => {
     const order = rows.slice().sort((a, b) => values[a] - values[b]);
@@ -241,7 +241,7 @@ function pickPoint(canvas, box, rows, xs, ys) {
   });
 }
 
-// Days where they are few, else months.
+// Groups by day if there are few days, else by month.
 function spans(rows, dates) {
   const by = (length) => {
     const groups = new Map();

@@ -1,4 +1,4 @@
-// Small things that all sections draw with.
+// Drawing helpers of all sections.
 
 const svgSpace = "http://www.w3.org/2000/svg";
 
@@ -17,7 +17,7 @@ const makeSvg = (tag, attributes, ...children) =>
   addTo(document.createElementNS(svgSpace, tag), attributes, children);
 const byId = (id) => document.getElementById(id);
 
-// Colours of Okabe and Ito, and the sign that stands beside each.
+// Colours of Okabe and Ito, each with a symbol.
 const palette = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7", "#F0E442", "#888888"];
 const signs = ["●", "▲", "■", "✕", "◆", "+", "▼", "○"];
 const zones = [
@@ -32,7 +32,7 @@ const noCause = (cause) => !cause || ["none", "clean", "reference"].includes(cau
 
 const counted = (count) => count.toLocaleString("en");
 
-// Columns of few words that a picture can be coloured by.
+// Columns with few different words, by which a picture can be coloured.
 const wordColumns = () => ["zone", has("cause_title") ? "cause_title" : "cause", "status"].filter(has);
 
 function shortNumber(value) {
@@ -42,7 +42,7 @@ function shortNumber(value) {
   return String(Number(value.toPrecision(5)));
 }
 
-// How numbers that stand below each other are written: as many decimals as the largest needs.
+// Formats numbers in a column, with as many decimals as the largest number needs.
 function writerOf(values) {
   const sizes = Array.from(values, Math.abs).filter((size) => Number.isFinite(size) && size > 0);
   const largest = Math.max(...sizes, 0);
@@ -67,7 +67,7 @@ function select(label, options, value, onchange) {
   return make("label", { class: "control" }, make("span", {}, label), box);
 }
 
-// Head and rows of texts, the first of a row naming it.
+// A table of texts; the first cell of a row is its header.
 function plainTable(caption, head, rows) {
   const numeric = head.map((_, c) => rows.length > 0 && rows.every((row) => typeof row[c] === "string" && !Number.isNaN(Number(row[c]))));
   return make("div", { class: "box", role: "region", tabindex: 0, "aria-label": caption },
@@ -81,7 +81,7 @@ function plainTable(caption, head, rows) {
 
 const folded = (title, ...inner) => make("details", {}, make("summary", {}, title), inner);
 
-// What is known of the values at these rows, in ascending order.
+// The known values at these rows, in ascending order.
 function sortedKnown(values, rows) {
   const known = new Float64Array(rows.length);
   let n = 0;
@@ -96,11 +96,11 @@ function quantile(sorted, share) {
   return sorted[low] + (place - low) * (sorted[Math.min(low + 1, sorted.length - 1)] - sorted[low]);
 }
 
-// Whether two numbers, the smaller first, differ by more than what rounding leaves: the labels of an axis
-// have 12 digits at the most, and steps have to be numbers too.
+// True if two numbers, the smaller first, differ by more than rounding. Axis labels have at most 12 digits, and steps
+// must be finite numbers.
 const areApart = (low, high) => high - low > Math.max(1e-9 * Math.abs(low), 1e-9 * Math.abs(high), 1e-300);
 
-// Ends and steps of an axis that read well: 1, 2 or 5 times a power of ten.
+// Ends and steps of an axis in round numbers: 1, 2 or 5 times a power of ten.
 function axisOf(low, high, steps) {
   if (!areApart(low, high)) {
     const room = Math.abs(low) * 0.1 || 1;
@@ -116,7 +116,7 @@ function axisOf(low, high, steps) {
   return { low: ticks[0], high: ticks[ticks.length - 1], ticks, step };
 }
 
-// All of them, but for strays so far out that everybody else would be squeezed.
+// An axis for all values, except distant outliers that would compress all others.
 function axisOfKnown(sorted, steps) {
   const low = quantile(sorted, 0.01);
   const high = quantile(sorted, 0.99);
@@ -124,8 +124,8 @@ function axisOfKnown(sorted, steps) {
   return axisOf(Math.max(sorted[0], low - room), Math.min(sorted[sorted.length - 1], high + room), steps);
 }
 
-// A field of CSV, as CsvField in report/csv.cc writes it: a spreadsheet takes a text that begins with a sign of a
-// formula for one and runs it, so that an apostrophe stands before it. Numbers stay as they are.
+// A field of CSV, written as by CsvField in report/csv.cc. A spreadsheet runs a text that begins with a formula
+// character, so such a text gets an apostrophe in front. Numbers are written unchanged.
 function csvField(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return "";
   let text = String(value);
@@ -141,7 +141,7 @@ function roundNumber(value) {
   return Number.isNaN(value) ? "" : shortNumber(Number(value.toPrecision(4)));
 }
 
-// A canvas for the screen's pixels; `draw` gets its context and width in CSS pixels.
+// A canvas with the resolution of the screen. `draw` gets its context and its width in CSS pixels.
 function canvasOf(label, width, height) {
   const sharp = Math.min(window.devicePixelRatio || 1, 2);
   const canvas = make("canvas", { role: "img", "aria-label": label, width: Math.round(width * sharp),
@@ -156,7 +156,8 @@ const themeColour = (name) => getComputedStyle(document.documentElement).getProp
 
 const isDark = () => getComputedStyle(document.documentElement).colorScheme === "dark";
 
-// Away from the paper's own light, so that it reads without hue. `kind` "bad" is vermilion, else blue.
+// A colour that differs from the paper in lightness, so that it is readable without hue. `kind` "bad" is vermilion, any
+// other kind blue.
 function shade(share, kind) {
   const bad = kind === "bad";
   const near = isDark() ? (bad ? [48, 42, 40] : [34, 44, 54]) : bad ? [253, 240, 230] : [232, 242, 250];
@@ -165,7 +166,7 @@ function shade(share, kind) {
   return `rgb(${near.map((from, i) => Math.round(from + t * (far[i] - from))).join(",")})`;
 }
 
-// The 24 bytes of a sketch.
+// The 24 bytes of a sparkline.
 const sparklineOf = (text) => (text ? bytesOfBase64(text) : null);
 
 function linePath(bytes, width, height) {
@@ -173,7 +174,7 @@ function linePath(bytes, width, height) {
     `${i ? "L" : "M"}${((i / (bytes.length - 1)) * width).toFixed(1)},${(height * (1 - byte / 255) + 3).toFixed(1)}`).join("");
 }
 
-// A sketch before the median of its group.
+// A sparkline in front of the median of its group.
 function sparklinePicture(sparkline, median, width, height) {
   return makeSvg("svg", { viewBox: `-2 0 ${width + 4} ${height + 6}`, "aria-hidden": "true", class: "sparkline" },
     makeSvg("path", { d: `M0,${height + 3}H${width}`, class: "axis" }),

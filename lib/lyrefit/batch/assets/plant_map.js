@@ -1,4 +1,4 @@
-// The plant's tree, by the '/' of the ids, and its heat map.
+// The plant's tree, from the '/' in the ids, and its heat map.
 
 const tree = { name: "", parent: null, children: null, rows: [], count: 0 };
 const map = { node: tree, colour: null, statistic: "mean", cells: [] };
@@ -48,15 +48,15 @@ function rowsOf(node, into = []) {
   return into;
 }
 
-// The rows that stand where this one does.
+// The rows with the same parent as this id.
 function siblingsOf(id) {
   const names = (id || "").split("/").slice(0, -1);
   const node = names.reduce((at, name) => at?.children?.get(name), tree);
   return node ? node.rows : [];
 }
 
-// Where a line begins: nodes `depth` below this one, or where a branch ends before. Strings that hang
-// on a node in between are a line of their own.
+// Lines of the map: the nodes `depth` below this one, or the end of a shorter branch. Strings directly below an
+// intermediate node form a separate line.
 function nodesAt(node, depth, name = "") {
   if (depth === 0 || !node.children) return [{ name, node, rows: null }];
   const own = node.rows.length ? [{ name, node, rows: node.rows }] : [];
@@ -65,7 +65,7 @@ function nodesAt(node, depth, name = "") {
 
 const singles = (rows) => Array.from(rows, (row) => ({ node: null, rows: [row] }));
 
-// Cells below a line: strings, or nodes `depth` below its own.
+// Cells of a line: strings, or the nodes `depth` below the line's node.
 function cellsOf(line, depth) {
   if (depth === null || line.rows) return singles(line.rows || rowsOf(line.node));
   return nodesAt(line.node, depth).map((cell) => ({ node: cell.node, rows: cell.rows || rowsOf(cell.node) }));
@@ -75,7 +75,7 @@ function deepest(node) {
   return node.children ? 1 + Math.max(...childrenOf(node).map(deepest)) : 0;
 }
 
-// The finest cells that are not too many, in the finest lines that are not too many.
+// The finest cells and lines whose number is not too large.
 function linesOf(node) {
   const depths = Array.from({ length: deepest(node) + 1 }, (_, depth) => depth);
   const few = (depth, most) => depth >= 0 && nodesAt(node, depth).length <= most;
@@ -96,11 +96,11 @@ function blocksOf(node) {
   return cells;
 }
 
-// Where little is bad, and where much is.
+// Columns in which low values are bad, and columns in which high values are bad.
 const worstFirst = (name) => /performance_factor|deviation|Pmax|FF|history_p/.test(name);
 const worstLast = (name) => name === needsWork || /departure|recoverable|wrong_decision/.test(name);
 
-// 1 where a string needs work, as the verdict counts it; not known where it could not be judged.
+// 1 if a string needs work, by the rule of the summary; unknown if it could not be determined.
 async function loadNeedsWork() {
   const { zone, cause, cause_about: about, status } = await loadWhere(["zone", "cause", "cause_about", "status"]);
   return Float64Array.from({ length: rowCount }, (_, row) => {
@@ -119,7 +119,7 @@ function colourChoices() {
   return [...wanted, ...(has("zone") || has("cause") ? [needsWork] : []), ...words, ...numberColumns.filter((name) => !wanted.includes(name))];
 }
 
-// What a cell comes to: a number, or how often each word stands in it.
+// Value of a cell: a number, or the count of each word in it.
 function valueOf(cell, values, shown) {
   const rows = cell.rows.filter((row) => shown[row]);
   cell.shown = rows.length;
@@ -187,8 +187,8 @@ function drawCell(context, cell, look) {
   context.fillText(text, x + w / 2, y + h / 2 + 4);
 }
 
-// The look of numbers, from the middle 96 % of what is drawn; where low is bad, down to the lowest,
-// but for strays.
+// Colour scale of numbers, from the middle 96 % of the drawn values. If low values are bad, it extends to the lowest,
+// except outliers.
 function numberLook(cells) {
   const known = Float64Array.from(cells.map((cell) => cell.value).filter(Number.isFinite)).sort();
   const high = quantile(known, 0.98);
@@ -201,7 +201,7 @@ function numberLook(cells) {
     text: (value) => value.toFixed(Math.max(0, Math.min(4, 2 - Math.floor(Math.log10(high - low || 1))))) };
 }
 
-// Places cells in lines, wrapped, and short lines side by side; returns the height and the room for names.
+// Places cells in wrapped lines, and short lines side by side. Returns the height and the space for names.
 function placeCells(lines, width) {
   const named = lines.length <= mostLines && lines.some((line) => line.name);
   const letters = Math.max(...lines.map((line) => line.name.length));
@@ -299,7 +299,7 @@ function follow(canvas, tip) {
   });
 }
 
-// 1 at the rows that the filters show.
+// 1 at the rows that pass the filters.
 function shownRows() {
   const shown = new Uint8Array(rowCount);
   for (const row of state.rows) shown[row] = 1;

@@ -1,4 +1,4 @@
-// The table inside the page: see plant_table.h. A column is unpacked when it is first asked for.
+// Reads the table inside the page; plant_table.h describes the format. A column is unpacked on first use.
 'use strict';
 
 const index = JSON.parse(document.getElementById("table").textContent);
@@ -26,7 +26,7 @@ async function inflated(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Code r stands in the bytes r, n + r, 2n + r, ... from `from` on.
+// A reader of codes. The bytes of code r are at r, n + r, 2n + r, ... after `from`.
 function codeReader(bytes, from, n, width) {
   if (width === 1) return (r) => bytes[from + r];
   return (r) => {
@@ -72,7 +72,7 @@ async function readPart(group, column, put) {
   JSON.parse(new TextDecoder().decode(bytes.subarray(1))).forEach((text, r) => put(r, text));
 }
 
-// All values of a column: numbers (NaN not known) or texts (null not known); truths are 0 and 1.
+// All values of a column: numbers (NaN: unknown) or texts (null: unknown). Truth values are 0 and 1.
 function load(name) {
   if (!columnCache.has(name)) columnCache.set(name, loadNow(name));
   return columnCache.get(name);
@@ -92,14 +92,14 @@ async function loadNow(name) {
 
 const loadAll = (names) => Promise.all(names.map(load));
 
-// The columns that are there, by name.
+// The existing ones of these columns, by name.
 async function loadWhere(names) {
   const there = names.filter(has);
   const values = await loadAll(there);
   return Object.fromEntries(there.map((name, i) => [name, values[i]]));
 }
 
-// All cells of one row, without unpacking what lies in other groups.
+// All cells of one row. Only the group of the row is unpacked.
 async function loadRow(row) {
   let group = 0;
   let first = 0;

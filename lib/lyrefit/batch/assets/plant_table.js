@@ -1,17 +1,17 @@
-// Which rows are shown, the filters that say so, and the table of them.
+// Selection of the shown rows by filters, and the table of these rows.
 
 const state = {
   text: "",
-  node: null,          // of the tree, whose strings alone are shown
-  picks: new Map(),    // column -> the one value to be shown
+  node: null,          // of the tree; only its strings are shown
+  picks: new Map(),    // column -> the only value shown
   ranges: [],          // { name, low, high }
-  rows: null,          // shown, in the order of the input
+  rows: null,          // the shown rows, in the order of the input
   sort: { name: null, down: false },
   page: 0,
   pageRows: 25,
   visible: [],
 };
-const listeners = [];  // called when other rows are shown
+const listeners = [];  // called when the shown rows change
 
 function defaultColumns() {
   const wanted = ["id", "page", "status", "zone", "cause_title", "performance_factor", "Pmax_stc_W", "Pmax_stc_U_W",
@@ -71,7 +71,7 @@ function drawChips() {
   }
 }
 
-// The values of a column with how often they stand there, the most frequent first.
+// The different values of a column with their counts, by decreasing count.
 async function wordsOf(name, most) {
   const counts = new Map();
   for (const value of await load(name)) counts.set(value ?? "", (counts.get(value ?? "") || 0) + 1);
@@ -119,7 +119,7 @@ async function makeFilters() {
     make("ul", { id: "chips", "aria-label": "Filters" })));
 }
 
-// Unknown values last, either way.
+// Unknown values come last in both directions.
 async function sortedRows() {
   const { name, down } = state.sort;
   if (!name) return state.rows;

@@ -7,8 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The findings as a table, one line a row of the audit, in its order. `changes` and `changed_A`
-// are those of the first explanation; what is not known is empty.
+// The findings as a CSV table, one line for each row of the audit, in its order. `changes` and
+// `changed_A` are those of the first explanation. Unknown values are empty.
 std::string AuditCsv(const AuditReport& report);
 
 }  // namespace lyrefit

@@ -13,7 +13,8 @@ namespace lyrefit {
 namespace {
 
 constexpr int kAuditDigits = 7;
-constexpr std::size_t kLongestAlgorithm = 17;  // in a table; the remarks below it have all of it
+// In a table; the remarks below it have the full name.
+constexpr std::size_t kLongestAlgorithm = 17;
 
 // "Table 10, rtc_france: 33 C, 1 cell in series"
 std::string AuditTitle(const AuditFinding& finding) {
@@ -24,19 +25,19 @@ std::string AuditTitle(const AuditFinding& finding) {
                      Plural(static_cast<std::size_t>(stated.cells), "cell"));
 }
 
-// Whether rows say for themselves what their claims are of.
+// True if any row states its own objective.
 bool ObjectivesVary(const AuditReport& report) {
   return std::any_of(report.findings.begin(), report.findings.end(),
                      [](const AuditFinding& finding) { return finding.row.objective.has_value(); });
 }
 
-// The head of the column that the claims are of has a star.
+// Title of a column. A star marks the objective of all claims.
 std::string Head(const AuditReport& report, Objective objective) {
   const bool all = !ObjectivesVary(report) && report.options.objective == objective;
   return ToText(objective) + (all ? " *" : "");
 }
 
-// Where rows say for themselves, the figure has it.
+// A figure. If rows state their own objective, a star marks the figure of that objective.
 std::string FigureCell(const AuditReport& report, const AuditFinding& finding,
                        Objective objective) {
   std::string text = Scientific(finding.stated.rmse.Of(objective), kAuditDigits);
@@ -49,7 +50,7 @@ std::string Name(const AuditFinding& finding) {
                                        : finding.row.algorithm;
 }
 
-// As it is printed.
+// The claim as printed.
 std::string Claim(const AuditRow& row) {
   return row.rmse.text + (row.sum_of_squares ? " A^2" : "");
 }
@@ -74,14 +75,14 @@ std::string BoundsSentence(const AuditFinding& finding) {
   return changed.left_bounds.empty() ? "" : leaves("So changed", changed);
 }
 
-// What is to be said about a row below its table; nothing about one without fault.
+// Remark on a row below its table; empty for a row without findings.
 std::string Remark(const AuditFinding& finding) {
   const bool plain = finding.verdict == AuditVerdict::kReproduces;
   const std::string text = (plain ? "" : finding.sentence) + BoundsSentence(finding);
   return text.empty() ? "" : Name(finding) + ": " + text;
 }
 
-// One table, from `begin` to `end`.
+// The table of findings begin .. end - 1.
 Section CurveSection(const AuditReport& report, std::size_t begin, std::size_t end) {
   block::Table table = {"llrrrl",
                         {{"row", "model", "claimed", Head(report, Objective::kMeasuredCurrent),
@@ -116,7 +117,7 @@ Section BadRows(const AuditReport& report) {
   return ListSection(heading, std::move(errors));
 }
 
-// How many claims that reproduce do so with each set of constants, where none was stated.
+// Number of reproduced claims for each set of constants, over rows that state none.
 std::string ConstantsSummary(const AuditReport& report) {
   const bool open =
       std::any_of(report.findings.begin(), report.findings.end(), [](const AuditFinding& finding) {

@@ -46,7 +46,7 @@ void to_json(Json& j, const AuditLowest& lowest) {
        {"newton_step_rmse_A", lowest.newton_step_A}};
 }
 
-// A bad row.
+// A row that could not be read.
 void to_json(Json& j, const Error& error) {
   j = {{"message", error.message},
        {"file", error.file},

@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// How far a run is taken, and from where on it counts as a hit.
+// A level of polish and the distance that counts as a hit.
 struct Level {
   const char* title;
   const char* column;
@@ -32,7 +32,7 @@ constexpr Level kLevels[] = {
      &RunSpread::within_1e9},
 };
 
-// The algorithms of one algorithm, by rising budget.
+// The results of one algorithm, by increasing budget.
 struct SearchRow {
   std::string algorithm;
   std::vector<const AlgorithmResult*> cells;
@@ -59,7 +59,8 @@ bool HitsAll(const AlgorithmResult& cell, const Level& level) {
   return (cell.*level.stage).*level.hits == static_cast<int>(cell.runs.size());
 }
 
-// The smallest budget from which on every run hits; none if even the largest leaves some out.
+// The smallest budget from which every run hits at all budgets. Empty: some run misses at the
+// largest budget.
 std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) {
   std::optional<std::int64_t> enough;
   for (auto cell = row.cells.rbegin(); cell != row.cells.rend(); ++cell) {
@@ -81,7 +82,7 @@ block::Table HitTable(const std::vector<SearchRow>& rows, const Level& level, st
       const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
         return other->search.max_evaluations == head_cell->search.max_evaluations;
       });
-      const bool done = cell != row.cells.end();  // not where the study was cut short before it
+      const bool done = cell != row.cells.end();  // false if the study was stopped before
       line.push_back(done ? std::to_string(((*cell)->*level.stage).*level.hits) : "-");
     }
     table.rows.push_back(std::move(line));
@@ -134,7 +135,7 @@ std::string WhoFromWhere(const std::vector<SearchRow>& rows, const Level& level)
   return never.empty() ? text : text + fmt::format("; never with {}", never);
 }
 
-// Whether points drawn at random do as well as the best search, with all starts.
+// A sentence on random points against the best search, at the level of all starts.
 std::string RandomVerdict(const std::vector<SearchRow>& rows) {
   const Level& hybrid = kLevels[3];
   std::optional<std::int64_t> random, best;

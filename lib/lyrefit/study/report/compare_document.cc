@@ -12,9 +12,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kOverviewDigits = 4;  // what fits a terminal; the tables of each curve have more
+// Limit for a terminal's width; the table of each curve has more digits.
+constexpr int kOverviewDigits = 4;
 
-constexpr std::size_t kLongName = 18;  // from here on less fits beside it
+constexpr std::size_t kLongName = 18;  // longer names leave less space for other columns
 
 bool LongNames(const ProblemResult& problem) {
   return std::any_of(problem.algorithms.begin(), problem.algorithms.end(),
@@ -106,8 +107,8 @@ block::Table::Row OverviewRow(const AlgorithmResult& compared, bool polish, bool
   return row;
 }
 
-// Every curve, model and algorithm in one table, so that the columns of all curves stand below each
-// other; nothing where there is only one curve.
+// Every curve, model and algorithm in one table, so that the columns of all curves are aligned.
+// Empty for a single curve.
 Section OverviewSection(const Comparison& comparison) {
   if (!ManyCurves(comparison)) return {};
   const bool polish = comparison.options.polish;
@@ -130,7 +131,7 @@ Section OverviewSection(const Comparison& comparison) {
           {std::move(table)}};
 }
 
-// What the polish left of the ranking, where few problems are compared.
+// Sentences on the ranking after the polish, for comparisons of few problems.
 std::string PolishVerdicts(const Comparison& comparison) {
   constexpr std::size_t kMostProblems = 4;
   const std::vector<ProblemResult>& problems = comparison.problems;

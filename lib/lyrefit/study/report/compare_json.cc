@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// Null where that stage was not asked for.
+// Null if the stage was not requested.
 void to_json(Json& j, const RunSpread& spread) {
   j = nullptr;
   if (std::isnan(spread.min)) return;
@@ -21,7 +21,7 @@ void to_json(Json& j, const RunSpread& spread) {
        {"within_1e6", spread.within_1e6}};
 }
 
-// The settings that tell algorithms apart; seed and run stand elsewhere.
+// The settings in which algorithms differ. Seed and run are written elsewhere.
 void to_json(Json& j, const SearchOptions& search) {
   const bool limited = search.max_evaluations < SearchOptions().max_evaluations;
   j = {{"population", search.population},

@@ -7,10 +7,10 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The comparison as one JSON object, every run included, numbers with as many digits as bring back
-// the same bits; the four stages are named as in the report of a fit. What is not known or not
-// finite is null. Every wall-clock time stands under a key named `seconds`; apart from those the
-// same seed gives the same text on any number of threads.
+// The comparison as one JSON object, every run included. Numbers have enough digits to restore the
+// same bits. The four stages have the same names as in the report of a fit. Unknown and non-finite
+// values are null. Every wall-clock time is under a key named `seconds`. Apart from those the same
+// seed gives the same text on any number of threads.
 std::string CompareJson(const Comparison& comparison);
 
 }  // namespace lyrefit

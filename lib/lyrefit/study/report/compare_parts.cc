@@ -19,7 +19,7 @@ std::string Budget(const SearchOptions& search) {
   return text + fmt::format(": {} evaluations at most", std::min(planned, search.max_evaluations));
 }
 
-// The budget of all algorithms; empty where they differ.
+// The budget of all algorithms; empty if it differs between them.
 std::string CommonBudget(const Comparison& comparison) {
   if (comparison.problems.empty()) return "";
   const auto& algorithms = comparison.problems[0].algorithms;

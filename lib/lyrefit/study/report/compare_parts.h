@@ -6,38 +6,39 @@
 #include "lyrefit/report/document.h"
 #include "lyrefit/study/comparison.h"
 
-// What the documents on comparisons share.
+// Elements shared by the documents on comparisons.
 namespace lyrefit {
 
-// "measured-current", with the effects that every model has.
+// The objective and the effects of all models: "measured-current, ...".
 std::string ObjectiveText(const CompareOptions& options);
 
 // "rtc_france, double-diode model, bounds literature"
 std::string ProblemTitle(const ProblemResult& problem);
 
-// Of how many runs the figures of a problem are: "50", or "12 to 13 of 50" where it was cut short.
+// Number of runs behind the figures of a problem: "50", or "12 to 13 of 50" if it was stopped
+// early.
 std::string RunsText(const Comparison& comparison, const ProblemResult& problem);
 
-// What is doubtful, and whether the study was cut short.
+// Warnings about the readings, and whether the study was stopped early.
 std::vector<std::string> CompareBanners(const Comparison& comparison);
 
-// The fields that hold for every table: objective, budget, seed.
+// Adds the fields that apply to every table: objective, budget, seed.
 void AddSetUp(const Comparison& comparison, Section* section);
 
-// A section under the problem's title, with the field that says what its runs are measured against.
+// A section titled with the problem, with a field that describes the reference.
 Section ProblemSection(const Comparison& comparison, const ProblemResult& problem);
 
-// compare_ranks.cc: Friedman and Wilcoxon of one problem, and what the polish left of the ranking in
-// one sentence; each without blocks where there is nothing to say.
+// Defined in compare_ranks.cc: Friedman's and Wilcoxon's tests of one problem, and one sentence on
+// the ranking after the polish. Each has no blocks if there is no result.
 Section RankSection(const ProblemResult& problem);
 Section PolishVerdict(const ProblemResult& problem);
 
-// The same file: a sentence for each of `names`, as the ranks count them, that is better than others
-// beyond chance.
+// Defined in compare_ranks.cc: a sentence for each algorithm that is significantly better than
+// others. `names` are in the order of the ranks.
 std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
                                          const Ranking& ranking);
 
-// pool_document.cc: problems of many local optima; nothing where there are none.
+// Defined in pool_document.cc: problems with many local optima; empty if there are none.
 std::vector<Section> PoolSections(const Comparison& comparison);
 
 }  // namespace lyrefit

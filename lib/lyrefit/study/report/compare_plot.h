@@ -8,21 +8,22 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Pictures of a comparison, drawn with gnuplot into a .svg or .png file, one panel a problem.
-// Written completely or not at all. Errors: another extension, gnuplot missing, `path` not
-// writable, nothing to draw. CheckPlot() of report/figure.h finds the first two
+// Pictures of a comparison, drawn with gnuplot into a .svg or .png file, one panel for each
+// problem. A file is written completely or not at all. Errors: another extension, missing gnuplot,
+// `path` not writable, nothing to draw. CheckPlot() of report/figure.h finds the first two
 // beforehand.
 
-// How far the runs end above the reference, on a logarithmic scale: a box a compared for the
-// search alone and one after the polish. What is closer than 1e-10 of the reference lies on the
-// lowest line.
+// Box plot of the runs' distance above the reference, on a logarithmic scale. Each algorithm has a
+// box for the search alone and one for the polish. Distances below 1e-10 (relative) are drawn at
+// 1e-10.
 Expected<void> PlotBoxes(const Comparison& comparison, const std::string& path);
 
-// Median over the runs of the best so far, above the reference, over evaluations; both logarithmic.
+// Median over the runs of the best value so far above the reference, against evaluations. Both axes
+// are logarithmic.
 Expected<void> PlotConvergence(const Comparison& comparison, const std::string& path);
 
-// Algorithms of BudgetAlgorithms(): share of runs that hit over evaluations, a row of panels a
-// problem, a column a polish level.
+// Share of runs that hit against evaluations, for algorithms of BudgetAlgorithms(). Each problem is
+// a row of panels and each polish level a column.
 Expected<void> PlotBudget(const Comparison& comparison, const std::string& path);
 
 }  // namespace lyrefit

@@ -17,12 +17,12 @@ std::string PText(double p) { return p < 1e-300 ? "below 1e-300" : fmt::format("
 
 using SignedRank = Ranking::SignedRank;
 
-// Which of the two is the better one of a pair that is told apart: the lower figures.
+// For a significantly different pair: true if the first has the lower values.
 bool FirstIsBetter(const SignedRank& pair) {
   return pair.test.rank_sum_plus < pair.test.rank_sum_minus;
 }
 
-// "mlo 1.20, de 1.80, ...", the best first.
+// "mlo 1.20, de 1.80, ...", in increasing order of mean rank.
 std::string MeanRanks(const std::vector<std::string>& names, const Friedman& friedman) {
   std::vector<int> order(friedman.mean_rank.size());
   std::iota(order.begin(), order.end(), 0);
@@ -38,7 +38,8 @@ std::string MeanRanks(const std::vector<std::string>& names, const Friedman& fri
                             friedman.chi_square, friedman.algorithms - 1, PText(friedman.p_value));
 }
 
-// Differences that are significant and mean nothing: both algorithms always end at the reference.
+// A note on differences that are significant but only due to rounding: both algorithms always end
+// at the reference.
 std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
   const auto always_there = [&](int c) {
     const AlgorithmResult& compared = problem.algorithms[c];
@@ -54,7 +55,7 @@ std::string RoundingNote(const ProblemResult& problem, const Ranking& ranking) {
       count, count == 1 ? "is" : "are");
 }
 
-// "50", or "3 to 50" where pairs of algorithms differ in that.
+// Number of differing runs over pairs of algorithms: "50", or "3 to 50" if pairs disagree.
 struct Differing {
   int fewest = std::numeric_limits<int>::max();
   int most = 0;
@@ -67,7 +68,7 @@ struct Differing {
   }
 };
 
-// The pairs that chance explains, and how many of their runs differ at all.
+// The pairs without a significant difference, and the number of their runs that differ at all.
 std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& ranking) {
   const int runs = ranking.friedman.blocks;
   std::vector<std::string> sentences;
@@ -99,7 +100,7 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
                       PText(smallest_p), differing.Text(), runs)};
 }
 
-// Who is first, and which pairs are told apart; `note` is to be said of the latter.
+// Adds the mean ranks and the significant pairs of a stage. `note` is appended to the pairs.
 void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* stage,
               const std::string& note, Section* section) {
   if (ranking.friedman.algorithms == 0) return;

@@ -8,9 +8,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kFloor = 1e-10;  // of the reference: closer than that is drawn as that
+constexpr double kFloor = 1e-10;  // relative to the reference: smaller distances are drawn at it
 
-// A row of panels a curve, a column a model; curves side by side where there is only one model.
+// Number of panel columns: one for each model, and each row is a curve. With one model the curves
+// are side by side.
 int Columns(const Comparison& comparison) {
   const int models = static_cast<int>(comparison.options.models.size());
   return models > 1 ? models : 3;
@@ -32,7 +33,8 @@ struct LogRange {
   }
 };
 
-// With `air` on both sides, and a number at every decade, or every second where there are many.
+// An axis with the margin `air` at both ends. It has a label at every decade, or at every second
+// one for wide ranges.
 Axis LogAxis(const std::string& label, LogRange range, double air) {
   if (!(range.low <= range.high)) range = {1, 10};
   const double decades = std::log10(range.high / range.low);
@@ -75,7 +77,7 @@ Panel ConvergencePanel(const Comparison& comparison, const ProblemResult& proble
   return panel;
 }
 
-// Two boxes a compared; the data are clipped at the floor before gnuplot takes quartiles.
+// Two boxes for each algorithm. The data are clipped at kFloor before gnuplot computes quartiles.
 Panel BoxPanel(const Comparison& comparison, const ProblemResult& problem) {
   const bool polish = comparison.options.polish;
   Panel panel{PanelTitle(problem)};

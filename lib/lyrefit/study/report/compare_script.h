@@ -5,16 +5,16 @@
 
 namespace lyrefit {
 
-// Pictures of a comparison, one panel a problem, as compare_plot.h describes them. There is at
-// least one problem.
+// Figures of a comparison, one panel for each problem; compare_plot.h describes them. At least one
+// problem is required.
 Figure BoxFigure(const Comparison& comparison);
 Figure ConvergenceFigure(const Comparison& comparison);
 Figure BudgetFigure(const Comparison& comparison);
-// pool_script.cc: the same of pooled problems.
+// Defined in pool_script.cc: the figure for problems that are summarised over their devices.
 Figure PoolFigure(const Comparison& comparison);
 
-// budget_script.cc: what a panel of shares of runs over budgets consists of. Lines that lie on each
-// other are drawn one in the other, the first one widest.
+// Defined in budget_script.cc: the parts of a panel of shares of runs against budgets. Coincident
+// lines stay visible: the first is drawn widest.
 Series ShareLine(const std::string& name, int index, double width);
 Axis BudgetAxis(double low, double high);
 Axis ShareAxis();

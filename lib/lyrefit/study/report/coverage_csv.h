@@ -7,7 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The coverage of the intervals as a table, a row a parameter; what is not known is empty.
+// The coverage of the intervals as a CSV table, one row for each parameter. Unknown values are
+// empty.
 std::string CoverageCsv(const CoverageReport& report);
 
 }  // namespace lyrefit

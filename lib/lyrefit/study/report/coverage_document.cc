@@ -75,7 +75,7 @@ std::string SharesText(int hits, int trials) {
                      PercentText(share.high_95));
 }
 
-// Offsets have half-widths in their own unit.
+// Explanation of the table. Half-widths of offsets are in their own unit.
 std::string HowToRead(const CoverageReport& report) {
   std::string text =
       "Coverage: how often the 95 % interval holds the truth, over the sets where the parameter is "

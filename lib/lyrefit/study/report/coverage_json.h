@@ -7,7 +7,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Everything, with the truth and the interval of every set.
+// The complete report as JSON, with the true value and the interval of every set.
 std::string CoverageJson(const CoverageReport& report);
 
 }  // namespace lyrefit

@@ -5,8 +5,9 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/report/document.h"
 
-// What there is to read of each study: as a document, and drawn for a terminal of 100 columns, which
-// ends with a newline. "-" stands for what is not known; every table of RMSEs names the objective.
+// The readable report of each study, as a document and as text for a terminal of 100 columns. The
+// text ends with a newline. "-" stands for unknown values. Every table of RMSEs names the
+// objective.
 namespace LYREFIT_PUBLIC lyrefit {
 
 struct AuditReport;
@@ -14,20 +15,20 @@ struct Comparison;
 struct CoverageReport;
 struct TruthComparison;
 
-// An audit: a table for every source and curve, below it what is to be said about single rows, at
-// the end a summary. '*' marks the kind of RMSE that the claims are of.
+// An audit: a table for every source and curve, remarks on single rows below it, and a summary at
+// the end. '*' marks the type of RMSE that the claims are of.
 Document AuditDocument(const AuditReport& report);
 std::string AuditText(const AuditReport& report);
-// One line a row, and the summary.
+// One line for each row, and the summary.
 std::string BriefAudit(const AuditReport& report);
 
-// A comparison: for each problem the RMSE of the search alone and after the polish, what they cost,
-// how often they hit, and what the rank tests make of it.
+// A comparison: for each problem the RMSE of the search alone and after the polish, their cost,
+// their hits, and the results of the rank tests.
 Document CompareDocument(const Comparison& comparison);
 std::string CompareText(const Comparison& comparison);
 
-// Algorithms of BudgetAlgorithms(): hits by algorithm and budget, one table a polish level; then
-// problems of many local optima, summed up over their devices.
+// Algorithms of BudgetAlgorithms(): hits by algorithm and budget, one table for each polish level.
+// Problems with many local optima follow, summarised over their devices.
 Document BudgetDocument(const Comparison& comparison);
 std::string BudgetText(const Comparison& comparison);
 
@@ -39,7 +40,7 @@ std::string SensitivityText(const Comparison& comparison);
 Document CoverageDocument(const CoverageReport& report);
 std::string CoverageText(const CoverageReport& report);
 
-// Fits held against known parameters.
+// Fits compared with known parameters.
 Document TruthDocument(const TruthComparison& comparison);
 std::string TruthText(const TruthComparison& comparison);
 

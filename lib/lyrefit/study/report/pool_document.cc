@@ -13,13 +13,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kColumns = 6;  // budgets beside each other
+constexpr std::size_t kColumns = 6;  // number of budgets side by side
 
 std::string InPercent(double share) {
   return std::isnan(share) ? "-" : Significant(100 * share, 3);
 }
 
-// Every budget, 0 first where there are algorithms without one.
+// All budgets in increasing order; 0 comes first if there are algorithms without a budget.
 std::vector<std::int64_t> BudgetsOf(const ProblemSummary& pool) {
   std::set<std::int64_t> budgets;
   for (const AlgorithmSummary& compared : pool.algorithms) budgets.insert(compared.budget);
@@ -45,7 +45,7 @@ const LevelSummary* Cell(const ProblemSummary& pool, const std::string& algorith
   return nullptr;
 }
 
-// Hits and median time of a run, some budgets.
+// Hits and median time of a run for some budgets.
 block::Table HitTable(const ProblemSummary& pool, PolishLevel level,
                       const std::vector<std::int64_t>& budgets) {
   block::Table table = {"l" + std::string(budgets.size(), 'r'), {{"algorithm"}}};
@@ -65,7 +65,7 @@ block::Table HitTable(const ProblemSummary& pool, PolishLevel level,
   return table;
 }
 
-// Under one caption; nothing where no run was taken to this level.
+// Adds the hit tables of a level under one caption; nothing if no run has this level.
 void AddHits(const ProblemSummary& pool, PolishLevel level, Section* section) {
   int runs = 0;
   for (const AlgorithmSummary& compared : pool.algorithms) {
@@ -85,7 +85,7 @@ void AddHits(const ProblemSummary& pool, PolishLevel level, Section* section) {
   }
 }
 
-// Of each algorithm its largest budget.
+// True for the largest budget of each algorithm.
 bool IsLargest(const ProblemSummary& pool, const AlgorithmSummary& compared) {
   return std::none_of(
       pool.algorithms.begin(), pool.algorithms.end(), [&](const AlgorithmSummary& other) {
@@ -160,7 +160,7 @@ Section PoolSection(const ProblemSummary& pool) {
   return section;
 }
 
-// "1.83", "-" where nothing was ranked.
+// "1.83"; "-" if there is no ranking.
 std::string MeanRank(const Ranking& ranking, std::size_t c) {
   return ranking.friedman.algorithms == 0 ? "-"
                                           : fmt::format("{:.2f}", ranking.friedman.mean_rank[c]);
@@ -170,7 +170,7 @@ std::string FriedmanP(const Ranking& ranking) {
   return ranking.friedman.algorithms == 0 ? "-" : fmt::format("{:.1g}", ranking.friedman.p_value);
 }
 
-// Mean ranks, a column a budget.
+// Mean ranks, one column for each budget.
 block::Table RankTable(const std::vector<SummaryRanking>& rankings) {
   block::Table table = {"l" + std::string(rankings.size(), 'r'), {{"algorithm"}}};
   block::Table::Row last = {"p"};
@@ -196,7 +196,7 @@ block::Table RankTable(const std::vector<SummaryRanking>& rankings) {
   return table;
 }
 
-// Which are better than others beyond chance, by the best candidate's polish and by the search alone.
+// Adds the significantly better algorithms, by the best candidate's polish and by the search alone.
 void AddPairs(const SummaryRanking& ranking, Section* section) {
   for (const bool own : {false, true}) {
     std::vector<std::string> winners =
@@ -208,7 +208,7 @@ void AddPairs(const SummaryRanking& ranking, Section* section) {
   }
 }
 
-// The rankings of one problem, or of all, from `first` to `last`.
+// The rankings first .. last of one problem, or of all problems together.
 Section RankingSection(const SummaryRanking* first, const SummaryRanking* last, bool with_pairs) {
   Section section = {fmt::format("{}, {} blocks",
                                  first->problem.empty() ? "All problems" : first->problem,
@@ -240,7 +240,7 @@ std::vector<Section> RankingSections(const std::vector<ProblemSummary>& pools) {
   return sections;
 }
 
-// The default fit against others' searches, a sentence a problem.
+// The default fit against the searches of others, one sentence for each problem.
 Section PeerSection(const std::vector<ProblemSummary>& pools) {
   Section section;
   for (const ProblemSummary& pool : pools) {

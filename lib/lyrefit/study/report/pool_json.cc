@@ -34,7 +34,7 @@ void to_json(Json& j, const LevelSummary& level) {
   if (level.failures.runs > 0) j["failures"] = level.failures;
 }
 
-// Null are the levels a compared does not have.
+// Levels that an algorithm does not have are null.
 void to_json(Json& j, const AlgorithmSummary& compared) {
   j = {{"name", compared.name},
        {"algorithm", compared.algorithm},

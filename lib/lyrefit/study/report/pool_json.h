@@ -5,9 +5,9 @@
 
 namespace lyrefit {
 
-// Problems that are summed up over their devices (study/problem_summary.h), an object each, and the ranks of
-// their searches; an empty object where there are none. What follows from wall-clock times stands
-// under a key named `seconds` too.
+// Problems that are summarised over their devices (study/problem_summary.h), one object each, and
+// the ranks of their searches. Empty object: there are none. Values that depend on wall-clock times
+// are also under a key named `seconds`.
 Json PoolsJson(const Comparison& comparison);
 
 }  // namespace lyrefit

@@ -9,12 +9,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kFewRows = 4;  // more of them are lower each
+constexpr std::size_t kFewRows = 4;  // more rows of panels get less height each
 
 constexpr char kLevelTitles[][24] = {"search alone", "one plain solve", "best candidate's polish",
                                      "all starts"};
 
-// Of all problems, in the order they come: the searches first, then what has no budget.
+// Algorithms of all problems in their order: the searches first, then those without a budget.
 std::vector<std::string> AlgorithmsOf(const std::vector<ProblemSummary>& pools) {
   std::vector<std::string> names;
   for (const bool search : {true, false}) {
@@ -29,7 +29,7 @@ std::vector<std::string> AlgorithmsOf(const std::vector<ProblemSummary>& pools) 
   return names;
 }
 
-// With a tick at every budget.
+// An axis with a tick at every budget.
 Axis AxisOf(const std::vector<ProblemSummary>& pools) {
   std::set<std::int64_t> budgets;
   for (const ProblemSummary& pool : pools) {
@@ -49,7 +49,7 @@ Axis AxisOf(const std::vector<ProblemSummary>& pools) {
   return axis;
 }
 
-// A compared without a budget is a line all across.
+// A panel. An algorithm without a budget is a horizontal line.
 Panel PoolPanel(const ProblemSummary& pool, const std::vector<std::string>& names, std::size_t level,
                 const Axis& budgets) {
   Panel panel{fmt::format("{}: {}", pool.name, kLevelTitles[level]), budgets, ShareAxis()};

@@ -60,7 +60,7 @@ std::string RandomText(const Configuration& random) {
                      HowText(random, "at"));
 }
 
-// "50 (12 ms)", of a search "lo@3000 49 (299 ms)"
+// "50 (12 ms)"; with the name of a search: "lo@3000 49 (299 ms)"
 std::string ConfigurationText(const std::optional<Configuration>& way, bool named) {
   if (!way) return "-";
   const LevelSummary& figures = way->figures();

@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// Friedman's test and every pair of the algorithms with these names. Null where nothing was ranked.
+// Friedman's test and every pair of the algorithms with these names. Null if there are no ranks.
 Json RankingJson(const std::vector<std::string>& names, const Ranking& ranking);
 
 }  // namespace lyrefit

@@ -24,7 +24,7 @@ std::vector<double> ValuesOf(const ProblemResult& problem, double SearchOptions:
 
 using CellText = std::function<std::string(const AlgorithmResult&)>;
 
-// Pm downwards, gamma to the right.
+// A table with Pm in rows and gamma in columns.
 block::Table Grid(const ProblemResult& problem, std::string caption, const CellText& cell) {
   const std::vector<double> rates = ValuesOf(problem, &SearchOptions::memory_rate);
   const std::vector<double> coefficients = ValuesOf(problem, &SearchOptions::distance_coefficient);
@@ -47,7 +47,7 @@ block::Table Grid(const ProblemResult& problem, std::string caption, const CellT
   return table;
 }
 
-// The cell with the lowest mean, and how little the polish cares.
+// A sentence on the cell with the lowest mean, and on the hits after the polish.
 std::string RateVerdict(const ProblemResult& problem) {
   const auto best = std::min_element(
       problem.algorithms.begin(), problem.algorithms.end(),

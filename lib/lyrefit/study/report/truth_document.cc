@@ -42,7 +42,7 @@ block::Table MeanTable(const TruthComparison& comparison) {
   return table;
 }
 
-// "7.998 .. 8.001", with "NO" where the truth lies outside.
+// "7.998 .. 8.001", with "NO" if the true value is outside.
 std::string IntervalText(const Interval& interval, double truth) {
   if (std::isnan(interval.low_95) || std::isnan(interval.high_95)) return "-";
   const bool holds = truth >= interval.low_95 && truth <= interval.high_95;

@@ -9,21 +9,21 @@ namespace lyrefit {
 
 std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& algorithms,
                                        const SearchOptions& search) {
-  std::vector<ComparedAlgorithm> algorithms;
+  std::vector<ComparedAlgorithm> result;
   for (const Algorithm algorithm : algorithms) {
     ComparedAlgorithm compared;
     compared.name = compared.algorithm = ToText(algorithm);
     compared.search = search;
     compared.search.algorithm = algorithm;
-    algorithms.push_back(std::move(compared));
+    result.push_back(std::move(compared));
   }
-  return algorithms;
+  return result;
 }
 
 std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& memory_rates,
                                              const std::vector<double>& distance_coefficients,
                                              const SearchOptions& search) {
-  std::vector<ComparedAlgorithm> algorithms;
+  std::vector<ComparedAlgorithm> result;
   for (const double memory_rate : memory_rates) {
     for (const double distance_coefficient : distance_coefficients) {
       ComparedAlgorithm compared;
@@ -33,16 +33,16 @@ std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& 
       compared.search.algorithm = Algorithm::kMlo;
       compared.search.memory_rate = memory_rate;
       compared.search.distance_coefficient = distance_coefficient;
-      algorithms.push_back(std::move(compared));
+      result.push_back(std::move(compared));
     }
   }
-  return algorithms;
+  return result;
 }
 
 std::vector<ComparedAlgorithm> BudgetAlgorithms(const std::vector<Algorithm>& algorithms,
                                         const std::vector<std::int64_t>& budgets,
                                         const SearchOptions& search) {
-  std::vector<ComparedAlgorithm> algorithms;
+  std::vector<ComparedAlgorithm> result;
   for (const Algorithm algorithm : algorithms) {
     for (const std::int64_t budget : budgets) {
       ComparedAlgorithm compared;
@@ -51,10 +51,10 @@ std::vector<ComparedAlgorithm> BudgetAlgorithms(const std::vector<Algorithm>& al
       compared.search = BudgetSearch(budget, search);
       compared.search.algorithm = algorithm;
       compared.budget = budget;
-      algorithms.push_back(std::move(compared));
+      result.push_back(std::move(compared));
     }
   }
-  return algorithms;
+  return result;
 }
 
 ComparedAlgorithm OwnAlgorithm(AlgorithmKind kind) {

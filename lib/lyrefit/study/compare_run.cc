@@ -76,7 +76,7 @@ RunOutcome OutcomeOf(const FitReport& report, const ProblemResult& problem, int 
   record.searched_A = report.rmse.searched.Of(objective) * candidate;
   record.plain_polished_A = report.rmse.plain_polished.Of(objective) * candidate;
   record.own_polished_A = OwnPolish(report, problem) * candidate;
-  record.polished_A = report.rmse.refined.Of(objective) * report.form_price;
+  record.polished_A = report.rmse.refined.Of(objective) * report.variant_penalty;
   record.polish_seconds = report.refine.seconds;
   record.plain_seconds = report.plain_seconds;
   record.own_seconds = report.refine.best_candidate_seconds;

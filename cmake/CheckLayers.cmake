@@ -1,30 +1,30 @@
-# The order of the layers, as a test: a module includes only modules above it, the command only what is installed, what is
-# installed is what the shared library shows, and no two headers give one name to two types, of which a linker would
-# keep one destructor for both.
+# Test of the module order. A module includes only modules that it is allowed to. The command includes only installed
+# headers. The shared library exports exactly the installed headers. No two headers define types of one name, because a
+# linker would then keep one destructor for both.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckLayers.cmake
-# Lists everything that breaks a rule and fails if there is one.
+# Lists every violation and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
 # module -> the modules of lib/lyrefit that its files may include, besides itself
 set(ALLOWED_base)
 set(ALLOWED_curve base)
 set(ALLOWED_law base curve)
-set(ALLOWED_search base)  # knows no photovoltaics
+set(ALLOWED_search base)  # independent of photovoltaics
 set(ALLOWED_refine base curve law)
 set(ALLOWED_certify base curve law refine)
 set(ALLOWED_fit base curve law search refine certify effects)
 set(ALLOWED_family base curve law search refine fit effects)
-set(ALLOWED_effects base curve law)  # knows no fitting
+set(ALLOWED_effects base curve law)  # independent of fitting
 set(ALLOWED_diagnose base curve law search refine certify fit family effects)
 set(ALLOWED_translate base curve law fit family effects diagnose)
 set(ALLOWED_report base curve law search certify fit family diagnose translate)  # computes nothing
-# A library of its own with its writers in study/report; what the core writes knows nothing of it.
+# A separate library with its own writers in study/report. The core's writers do not depend on it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
-# Another: many curves, their rows and their page.
+# A separate library for many curves, their rows and their page.
 set(ALLOWED_batch base curve law fit effects family diagnose translate report)
 set(MODULES base curve law search refine certify effects fit family diagnose translate report study batch)
 
-set(PUBLIC)  # the headers that are installed
+set(PUBLIC)  # the installed headers
 if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
   file(STRINGS "${ROOT}/cmake/LyrefitInstall.cmake" PUBLIC REGEX "^  [a-z_/]+\\.h\\)?$")
   list(TRANSFORM PUBLIC REPLACE "[ )]" "")
@@ -36,7 +36,7 @@ macro(complain text)
   math(EXPR BROKEN "${BROKEN} + 1")
 endmacro()
 
-# An include among the project's own headers, `quoted` as it stands between the quotation marks.
+# Checks an include in lib/; `quoted` is the text between the quotation marks.
 function(check_own_include module quoted)
   if(NOT quoted MATCHES "^lyrefit/(.+)$")
     complain("includes \"${quoted}\"; inside lib/ includes start with \"lyrefit/\"")
@@ -51,7 +51,7 @@ function(check_own_include module quoted)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-# An include of the command among the project's headers: what LyrefitInstall.cmake lists, and a macro for brevity.
+# Checks an include in apps/. Allowed are the headers listed in LyrefitInstall.cmake, and base/try.h for its macro.
 function(check_public_include header)
   if(header MATCHES "^lyrefit/(.+)$" AND PUBLIC AND NOT header STREQUAL "lyrefit/base/try.h"
      AND NOT CMAKE_MATCH_1 IN_LIST PUBLIC)
@@ -90,7 +90,7 @@ function(check_file module)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-# The types that a header defines outside of any other, each under its namespace: no other header may.
+# Checks that no other header defines a type of the same name in the same namespace. Nested types are not checked.
 function(check_types)
   set(namespace lyrefit)
   file(STRINGS "${ROOT}/${FILE}" lines REGEX "^(namespace (LYREFIT_PUBLIC )?[a-z]|}  // namespace|struct |class |enum class )")
@@ -112,8 +112,8 @@ function(check_types)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-# What is installed is what the shared library shows: the public headers, and no others, open their namespace with
-# LYREFIT_PUBLIC.
+# Checks that the public headers, and no others, open their namespace with LYREFIT_PUBLIC, which exports their
+# declarations from the shared library.
 function(check_shown)
   string(REGEX REPLACE "^lib/lyrefit/" "" header "${FILE}")
   file(STRINGS "${ROOT}/${FILE}" opened REGEX "^namespace .*lyrefit {")
@@ -145,7 +145,7 @@ foreach(FILE IN LISTS files)
     endif()
     check_file(${module})
   else()
-    check_file(top)  # lyrefit.h, study.h and batch.h, the headers of every module
+    check_file(top)  # lyrefit.h, study.h and batch.h, which include every module
   endif()
 endforeach()
 

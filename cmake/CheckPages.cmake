@@ -1,7 +1,7 @@
-# What the pages of lib/lyrefit/*/README.md name in backticks is there: every file, and every word with an underscore,
-# which is a file's name without its ending or stands in the sources.
+# Test of the names in backticks on the pages lib/lyrefit/*/README.md. Every file named must exist. Every word with an
+# underscore must be a file's name without its ending, or occur in the sources.
 #   cmake -DROOT=<folder with lib/, apps/ and tests/> -P CheckPages.cmake
-# Lists every name that is not and fails if there is one.
+# Lists every name that does not exist and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB_RECURSE FILES RELATIVE "${ROOT}" "${ROOT}/lib/*" "${ROOT}/apps/*" "${ROOT}/tests/*" "${ROOT}/cmake/*"
@@ -16,7 +16,7 @@ foreach(file IN LISTS FILES)
   endif()
 endforeach()
 
-# pvlib's functions
+# Functions of pvlib, which are not checked.
 set(FOREIGN ivtools.utils.astm_e1036)
 
 set(STALE "")

@@ -1,11 +1,11 @@
-# What pages embed, as a source file: page.css, page.js and, where it is installed, Plotly, compressed.
+# Writes the assets of pages as a source file: page.css, page.js and, if it is installed, Plotly, compressed.
 #   cmake -DFOLDER=<assets> -DPLOTLY=<plotly-basic.min.js or nothing> -DOUT=<page_assets.cc> -P EmbedPageAssets.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# The bytes of a file as the body of a function that returns them.
+# Appends a function that returns the bytes of a file.
 function(embed function file)
   file(READ "${file}" bytes HEX)
-  if(file MATCHES "\\.gz$")  # without the time of the build: the same file, the same bytes
+  if(file MATCHES "\\.gz$")  # without the time of the build, so that equal files give equal bytes
     string(SUBSTRING "${bytes}" 0 8 before)
     string(SUBSTRING "${bytes}" 16 -1 after)
     set(bytes "${before}00000000${after}")

@@ -1,9 +1,9 @@
-# The style and the scripts of a plant's page, as a source file. The scripts are one, in the order of the list.
+# Writes the style and the scripts of a plant's page as a source file. The scripts are joined in the order of the list.
 #   cmake "-DSCRIPTS=a.js|b.js" -DSTYLE=plant.css -DOUT=plant_assets.cc -P EmbedPlantAssets.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(SOURCE "// Written by cmake/EmbedPlantAssets.cmake.\n#include \"lyrefit/batch/plant_assets.h\"\n\nnamespace lyrefit {\n")
-# Texts of the files one after the other as the body of a function.
+# Appends a function that returns the texts of the files one after the other.
 function(embed function)
   set(text "")
   foreach(file IN LISTS ARGN)

@@ -1,4 +1,4 @@
-# libcsv comes without a package file of its own. Gives the target LibCsv::csv. Installed beside
+# Find module for libcsv, which has no package file of its own. Defines the target LibCsv::csv. It is installed beside
 # lyrefit-config.cmake, which needs it for the static library.
 find_path(LibCsv_INCLUDE_DIR csv.h)
 find_library(LibCsv_LIBRARY csv)

@@ -1,6 +1,6 @@
-# Compiles the sources of a target in batches, one translation unit each: most of the time of a build goes
-# into the headers that neighbours share. A batch never crosses a folder. With LYREFIT_BATCHES=OFF every source
-# is compiled alone, which is faster where one file is edited over and over.
+# Compiles the sources of a target in batches, each one translation unit. Most of the time of a build goes into headers
+# that the sources of a folder share. A batch never crosses a folder. With LYREFIT_BATCHES=OFF every source is compiled
+# alone, which is faster if one file is edited repeatedly.
 #   lyrefit_batches(TARGET SIZE)
 function(lyrefit_batches target size)
   if(NOT LYREFIT_BATCHES)
@@ -25,7 +25,7 @@ function(lyrefit_batches target size)
     math(EXPR count "${count} + 1")
     set_source_files_properties("${source}" TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${folder}_${batch}")
   endforeach()
-  # A local name may be that of a function or a type of a neighbour.
+  # Within a batch, a local name may shadow a function or a type of another source.
   target_compile_options(${target} PRIVATE -Wno-shadow)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

@@ -1,24 +1,24 @@
-# Flags of every target. No contraction of a * b + c: the same seed must give the same bits with and
+# Flags of every target. -ffp-contract=off forbids contraction of a * b + c: equal seeds must give equal bits with and
 # without fused multiply-add.
 add_compile_options(-Wall -Wextra -Wshadow -ffp-contract=off)
-# The same sources give the same bytes wherever they lie: what is checked is named by its place in the tree.
+# Equal sources give equal bytes in any folder: assertions name files relative to the project.
 add_compile_options("$<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>")
 if(LYREFIT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
   add_compile_definitions(LYREFIT_SANITIZED)
-  # The headers of the system are checked by their own assertions: the sanitizers' checks in Eigen's and the
-  # standard library's templates are two thirds of the code and find what an assertion says better.
+  # System headers are checked by their own assertions instead of sanitizers. Sanitizer checks in the templates of Eigen
+  # and the standard library would be two thirds of the code, and assertions report their errors better.
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     add_compile_options(-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitize.ignore)
   endif()
-  # Eigen changes its own allocation under the address sanitizer; libraries built without it, which hand
-  # matrices over, do not.
+  # Eigen changes its allocation under the address sanitizer. Libraries built without the sanitizer, which pass matrices
+  # to lyrefit, do not.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
-# A compiler cache where there is one, shared by all checkouts: paths inside the project count as relative.
+# Uses a compiler cache if there is one. Checkouts share it, since paths inside the project count as relative.
 find_program(LYREFIT_CCACHE ccache)
 mark_as_advanced(LYREFIT_CCACHE)
 if(LYREFIT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

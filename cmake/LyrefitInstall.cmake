@@ -1,11 +1,11 @@
-# What `cmake --install` lays down: the public headers, the library, the command (by its own folder) and
-# the package that find_package(lyrefit) finds.
+# Installation by `cmake --install`: the public headers, the library, the command (by its own folder) and the package
+# for find_package(lyrefit).
 include(CMakePackageConfigHelpers)
 set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 
-# Public is what stands in these lists; the other headers are closed and may change at any time. Whatever a header
-# here includes must stand here too: the test `package` compiles each one alone from the installed tree, where the
-# others are not.
+# Headers in these lists are public; all others are internal and may change at any time. A header that a public header
+# includes must be listed too. The test `package` compiles each one alone from the installed tree, which lacks the
+# internal headers.
 set(LYREFIT_PUBLIC_HEADERS
   # public headers
   lyrefit.h
@@ -30,7 +30,7 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/procedures.h
   translate/translate.h
   translate/uncertainty.h
-  # their options
+  # options of these functions
   certify/certify_options.h
   diagnose/diagnose_options.h
   diagnose/reference_options.h
@@ -45,7 +45,7 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/field_test_options.h
   translate/translate_options.h
   translate/uncertainty_options.h
-  # their records
+  # records that these functions return
   curve/curve_set.h
   curve/iv_curve.h
   diagnose/diagnosis.h
@@ -69,7 +69,7 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/read_curve.h
   curve/write_curve.h
   family/read_pvlib.h
-  # writers of records
+  # writers of the records
   report/csv.h
   report/document.h
   report/documents.h
@@ -79,7 +79,7 @@ set(LYREFIT_PUBLIC_HEADERS
   report/plots.h
   report/readable.h
   report/text_layout.h
-  # laws, and what an effect of one's own is written with
+  # laws, and the headers for a user's own effect
   law/curve_shape.h
   law/device.h
   law/effect.h
@@ -96,7 +96,7 @@ set(LYREFIT_PUBLIC_HEADERS
   law/term.h
   law/translation.h
   curve/key_points.h
-  # what all of them speak
+  # headers that all others share
   base/constants.h
   base/dual.h
   base/enum_text.h
@@ -155,9 +155,9 @@ foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYRE
           COMPONENT dev)
 endforeach()
 
-# Components are for packages: `runtime` is the shared library, `dev` what others compile with, `command` the program
-# on the shared library (LyrefitPackages.cmake). `cmake --install` without one lays down the kind of library that
-# BUILD_SHARED_LIBS says; the other is made and installed when its component asks for it.
+# Components of packages: `runtime` is the shared library, `dev` the files for compiling, `command` the program on the
+# shared library (LyrefitPackages.cmake). `cmake --install` without a component installs the library type that
+# BUILD_SHARED_LIBS selects. The other type is built and installed if its component is requested.
 foreach(kind static shared)
   if(NOT TARGET lyrefit_${kind})
     continue()
@@ -183,11 +183,11 @@ install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
               "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindLibCsv.cmake"
         DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT dev)
-# Without Requires.private: pkg-config would ask for files of theirs even to use the shared library.
-# The file of pkg-config says where it lies relative to itself, so that a tree may be moved.
+# Requires.private is omitted, because pkg-config would then require the dependencies' files even for the shared
+# library. The file of pkg-config states its prefix relative to itself, so that an installed tree may be moved.
 file(RELATIVE_PATH LYREFIT_PREFIX_FROM_PC "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit.pc.in" "${PROJECT_BINARY_DIR}/lyrefit.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/lyrefit.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
-# What the records look like that are written as JSON.
+# Schemas of the JSON records.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/schema" DESTINATION ${CMAKE_INSTALL_DATADIR}/lyrefit COMPONENT dev
         FILES_MATCHING PATTERN "*.json")

@@ -1,10 +1,10 @@
-# Debian packages, by `cmake/packages.sh`: the target package_parts makes what they hold beyond what a build has anyway,
-# and `cpack` writes
-#   liblyrefitX.Y      the shared library, named by its interface as Debian's policy has it
+# Debian packages, built by `cmake/packages.sh`. The target package_parts builds their contents that an ordinary build
+# lacks, and `cpack` writes
+#   liblyrefitX.Y      the shared library; its name has the interface version, as Debian's policy requires
 #   liblyrefit-dev     headers, static archive, package files of CMake and pkg-config, schemas
 #   lyrefit            the command on the shared library, its manual and completion, lyrefit-slurm
-#   python3-lyrefit    the Python module, where it is built
-# The same sources give the same bytes: the time in them is SOURCE_DATE_EPOCH.
+#   python3-lyrefit    the Python module, if it is built
+# Equal sources give equal bytes: the packages' time stamp is SOURCE_DATE_EPOCH.
 set(LYREFIT_SHARED_PACKAGE "liblyrefit${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lyrefit)
@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${LYREFIT_SHARED_PACKAGE})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/triggers")
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # they name the package that a user of the library depends on
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # these name the package that users of the library depend on
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "diode models fitted to photovoltaic I-V curves (library)
 lyrefit finds the parameters of one-, two- and three-diode models in measured
@@ -77,7 +77,7 @@ if(TARGET lyrefit_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${LYREFIT_SHARED_PACKAGE} (= ${PROJECT_VERSION}), python3 (>= \
 ${LYREFIT_PYTHON_VERSION}~), python3 (<< 3.${next_python}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas")
-  # The module again, on the shared library.
+  # The Python module linked to the shared library.
   find_package(fmt REQUIRED)
   find_package(glog REQUIRED)
   add_library(lyrefit_module MODULE EXCLUDE_FROM_ALL $<TARGET_OBJECTS:lyrefit_python>)
@@ -95,8 +95,8 @@ This is the Python module: NumPy arrays and pandas frames in, the same digits
 as the command's out, under the names that pvlib has.")
 endif()
 
-# What a Debian package has beside what is installed: its licences and its changes; the manual and completion are what
-# the command says of itself.
+# Files of a Debian package beyond the installed ones: licences, changelog, manual and completion. The command itself
+# prints its manual and its completion.
 set(parts "${PROJECT_BINARY_DIR}/packages/parts")
 string(TIMESTAMP CHANGED "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE" LICENSE_TEXT)
@@ -118,7 +118,7 @@ add_custom_command(OUTPUT "${parts}/changelog.gz" "${parts}/lyrefit-slurm.1.gz"
   COMMAND ${compress} "${PROJECT_SOURCE_DIR}/apps/slurm/lyrefit-slurm.1" > "${parts}/lyrefit-slurm.1.gz"
   DEPENDS "${parts}/changelog" "${PROJECT_SOURCE_DIR}/apps/slurm/lyrefit-slurm.1" VERBATIM)
 set(all)
-if(LYREFIT_BUILD_TESTS)  # which try what packages hold
+if(LYREFIT_BUILD_TESTS)  # tests check the contents of packages
   set(all ALL)
 endif()
 add_custom_target(package_parts ${all} DEPENDS lyrefit_shared lyrefit_static lyrefit_command
@@ -142,7 +142,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   lyrefit_package_file(${component} "${parts}/copyright" doc/${${name}})
   lyrefit_package_file(${component} "${parts}/changelog.gz" doc/${${name}})
 endforeach()
-# lyrefit-slurm looks for its parts where the link leads to.
+# lyrefit-slurm finds its parts through this link's target.
 file(CREATE_LINK ../share/lyrefit/slurm/lyrefit-slurm "${parts}/lyrefit-slurm" SYMBOLIC)
 install(FILES "${parts}/lyrefit-slurm" DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command EXCLUDE_FROM_ALL)
 

@@ -1,7 +1,7 @@
-# The target `reference`: pages of everything that is installed for programs (cmake/reference). Needs doxygen and
-# Python 3; the test of this name fails where a public header says nothing of something, or says it wrongly.
+# The target `reference`: reference pages of all installed headers (cmake/reference). It needs doxygen and Python 3. The
+# test of this name fails if a public header leaves a declaration undocumented or documents it wrongly.
 find_program(DOXYGEN doxygen)
-find_program(LYREFIT_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's before any other
+find_program(LYREFIT_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)  # prefers Debian's Python
 find_program(LYREFIT_PYTHON NAMES python3)
 mark_as_advanced(DOXYGEN LYREFIT_PYTHON)
 if(NOT DOXYGEN OR NOT LYREFIT_PYTHON)

@@ -1,5 +1,5 @@
-# The tests that run under Node.js: of modules whose arithmetic decides a result, one program for all, since each would
-# be linked for seconds. They read the files of the machine. Not among them: what starts threads and processes.
+# Tests that run under Node.js, of the modules whose arithmetic decides a result. They are one program, since linking
+# one for each would take seconds. They read files of the host. Tests that start threads or processes are excluded.
 set(WEB_TEST_MODULES base law search refine)
 set(WEB_TEST_SOURCES)
 foreach(module IN LISTS WEB_TEST_MODULES)
@@ -7,7 +7,7 @@ foreach(module IN LISTS WEB_TEST_MODULES)
   list(FILTER sources EXCLUDE REGEX "_(rate|field)_test\\.cc$")
   list(APPEND WEB_TEST_SOURCES ${sources})
 endforeach()
-list(APPEND WEB_TEST_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/curve/number_text_test.cc")  # which has a way of its own here
+list(APPEND WEB_TEST_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/curve/number_text_test.cc")  # has its own code in this build
 foreach(source IN LISTS WEB_TEST_SOURCES)
   file(STRINGS "${source}" beyond REGEX "_DEATH\\(|_EXIT\\(|std::thread|std::async|fork\\(|float128")
   if(beyond)
@@ -24,18 +24,18 @@ target_link_options(web_tests PRIVATE -sNODERAWFS=1 -sALLOW_MEMORY_GROWTH=1 -sEX
 add_test(NAME web/modules COMMAND web_tests)
 set_tests_properties(web/modules PROPERTIES TIMEOUT 600)
 
-# The rest needs the native command to compare with.
+# The other tests compare with the native command.
 if(NOT EXISTS "${LYREFIT_NATIVE}")
   message(STATUS "Neither the page nor its digits are tested: there is no command ${LYREFIT_NATIVE} to compare with")
   return()
 endif()
 
-# What the page's engine and the native command say of every measurement under data/.
+# Compares the results of the page's engine and of the native command for every measurement under data/.
 add_test(NAME web/digits COMMAND node --no-experimental-fetch "${PROJECT_SOURCE_DIR}/cmake/web/digits.mjs"
          "ENGINE=$<TARGET_FILE:lyrefit_web>" "APP=${LYREFIT_NATIVE}" "DATA=${PROJECT_SOURCE_DIR}/data")
 set_tests_properties(web/digits PROPERTIES TIMEOUT 900)
 
-# The page in a browser, by what setup.sh installs of tests/pages.
+# Tests the page in a browser, with the packages of tests/pages that setup.sh installs.
 find_program(LYREFIT_CHROMIUM NAMES chromium chromium-browser google-chrome NO_CMAKE_FIND_ROOT_PATH)
 set(PAGES "${CMAKE_CURRENT_BINARY_DIR}/pages")
 if(LYREFIT_CHROMIUM AND LYREFIT_PLOTLY AND EXISTS "${PAGES}/node_modules/playwright-core")

@@ -1,8 +1,8 @@
 #pragma once
 
-// The public header for many curves: lyrefit::batch. OpenBatch reads them one by one from a plant's folder or
-// a table, RunBatch fits or diagnoses each and writes a row of it, MergeShards puts together what
-// several machines did. As in lyrefit.h nothing throws or prints.
+// Public header of lyrefit::batch, a library for many curves. OpenBatch reads the curves one by one
+// from a plant's folder or a table. RunBatch fits or diagnoses each curve and writes one row for
+// it. MergeShards merges the results of several machines. As in lyrefit.h nothing throws or prints.
 //
 //   #include <iostream>
 //   #include "lyrefit/batch.h"

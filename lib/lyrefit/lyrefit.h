@@ -1,7 +1,7 @@
 #pragma once
 
-// The public header of lyrefit: what reading, fitting, simulating, certifying and diagnosing I-V
-// curves takes, and how to write what came out.
+// Public header of lyrefit: reads, fits, simulates, certifies and diagnoses I-V curves, and writes
+// the results.
 //
 //   #include <iostream>
 //   #include "lyrefit/lyrefit.h"
@@ -14,19 +14,21 @@
 //     std::cout << lyrefit::FullReport(*report);
 //   }
 //
-// Nothing here throws or prints: a mistake in a file or an option comes back as an Error with one
-// sentence, a search or polish that ended badly is part of the report. FitOptions says what can be
-// chosen, FitReport what is known afterwards. FitAuto chooses among one, two and three diodes.
-// FitFamily fits one device to curves under different irradiance and temperature. Certify proves
-// how low a curve's RMSE can go. FitDataSheet finds a device from a data sheet alone, and the family
-// that it is one of. Diagnose says what the model gets wrong in a measurement and why.
-// TranslateCurve carries a curve to standard or any conditions, with its uncertainty. FitDocument,
-// FamilyDocument and their kin are the reports as data, for DrawText, DrawMarkdown and DrawHtml.
+// No function here throws or prints. A mistake in a file or an option returns an Error with one
+// sentence; an unsuccessful search or polish is reported in the result. FitOptions lists the
+// options of a fit, FitReport its results. FitAuto selects one, two or three diodes. FitFamily fits
+// one device to curves under different irradiance and temperature. Certify proves lower bounds of a
+// curve's RMSE. FitDataSheet finds a device from a data sheet alone, and the family of all devices
+// through the sheet's three points. Diagnose finds the deviations of a measurement from the model
+// and their causes. TranslateCurve translates a curve to standard or other conditions, with its
+// uncertainty. FitDocument, FamilyDocument and similar functions return reports as data for
+// DrawText, DrawMarkdown and DrawHtml.
 //
-// Beside it: family/pvlib_parameters.h hands a device to pvlib, family/fit_individually.h fits every curve
-// of a set on its own, certify/cause_floor.h and certify/concave_floor.h prove how low a cause can
-// bring it, diagnose/reference.h holds a sweep against reference sweeps of the same module,
-// and study.h (another library, lyrefit::study) compares searches and checks publications.
+// Further public headers: family/pvlib_parameters.h exports a device to pvlib.
+// family/fit_individually.h fits every curve of a set separately. certify/cause_floor.h and
+// certify/concave_floor.h prove lower bounds of the RMSE for given causes and for devices of
+// passive parts. diagnose/reference.h compares a sweep with reference sweeps of its module.
+// study.h, of the separate library lyrefit::study, compares searches and checks publications.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/read_curve.h"

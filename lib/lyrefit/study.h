@@ -1,10 +1,10 @@
 #pragma once
 
-// The public header of the studies, lyrefit::study, a library on top of lyrefit::lyrefit: what repeated fits
-// say together. Compare runs searches, yours as well, against each other on measured curves or on
-// made ones with many local optima (MakeLandscape). Audit checks published parameters. Coverage counts
-// how often the intervals of joint fits hold the truth, and CompareTruth holds a fit against
-// parameters that are known. As in lyrefit.h nothing throws or prints.
+// Public header of lyrefit::study, a library on top of lyrefit::lyrefit that evaluates repeated
+// fits. Compare runs search algorithms, including a caller's own, on measured curves or on
+// simulated ones with many local optima (MakeLandscape). Audit checks published parameters.
+// Coverage counts how often the confidence intervals of joint fits contain the true values.
+// CompareTruth compares a fit with known parameters. As in lyrefit.h nothing throws or prints.
 
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"

@@ -10,7 +10,7 @@ namespace lyrefit {
 namespace {
 
 struct Place {
-  double irradiance;   // decades of about a factor 3
+  double irradiance;   // ln of the ratio to the reference
   double temperature;  // steps of 25 K
 };
 

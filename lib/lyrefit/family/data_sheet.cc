@@ -18,12 +18,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kSolvedValues = 5;  // alpha_sc is taken over as it is
+constexpr int kSolvedValues = 5;  // alpha_sc is copied from the sheet, not solved for
 constexpr std::size_t kRangeOfIdeality = 2;
 constexpr double kLowestUsualIdeality = 0.5;
 constexpr double kHighestUsualIdeality = 2.5;
 
-// What the found device gives, beside what was asked for.
+// Adds the printed values beside the values of the fitted device.
 void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
   const auto points = [&](double temperature_K) {
     const TranslatedDevice at =
@@ -54,8 +54,8 @@ void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
   }
 }
 
-// Solves again at every corner of the values' rounding. False if no device has the values of some
-// corner; the nearest device then counts.
+// Solves again at every corner of the values' rounding intervals. Returns false if no device has
+// the values of some corner; the nearest device is then used.
 bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit) {
   const Translation& at = fit->translation;
   std::vector<DataSheetValues> corners = {sheet.values};

@@ -16,17 +16,17 @@
 namespace lyrefit {
 namespace {
 
-// Of Voc / (n Ns Vt): beyond it the law of a diode cuts its exponents. n = 1 has about 25.
+// Of Voc / (n Ns Vt): the diode law clips larger exponents. n = 1 has about 25.
 constexpr double kLargestExponent = 200;
-// No sheet's points have a member with a smaller one.
+// Of Voc / (n Ns Vt): no sheet has a member with a smaller one.
 constexpr double kSmallestExponent = 0.01;
 constexpr double kExponentStep = 1.05;
 constexpr int kMembers = 32;
-constexpr std::size_t kVoltages = 400;  // steps from 0 V to Voc where curves are compared
+constexpr std::size_t kVoltages = 400;  // steps from 0 V to Voc at which curves are compared
 constexpr MemberConditions kConditions[] = {{200, 25}, {1000, 50}, {1000, 75}};
 
-// Where the last member would stand if all between `inside` and `outside` were known to the last
-// bit; what ends there is exactly nothing.
+// The last member, from n bisected between `inside` and `outside` to the last bit. The quantity
+// that ends the family (`bound`) is set to exactly 0.
 KeyPointCurve LastCurve(const KeyPointSheet& sheet, double inside, double outside,
                         FamilyBound* bound) {
   const auto member = [&](double n) { return PhysicalCurve(sheet, n) ? 1.0 : -1.0; };
@@ -51,7 +51,7 @@ KeyPointCurve LastCurve(const KeyPointSheet& sheet, double inside, double outsid
   return curve;
 }
 
-// A broken line through the points falls by (Isc - Imp) / Vmp and then by Imp / (Voc - Vmp).
+// The broken line has the slopes (Isc - Imp) / Vmp and then Imp / (Voc - Vmp).
 SharpKnee KneeOf(const DataSheetValues& v) {
   const double rs = (v.open_circuit_voltage_V - v.max_power_voltage_V) / v.max_power_current_A;
   const double fall = (v.short_circuit_current_A - v.max_power_current_A) / v.max_power_voltage_V;
@@ -113,7 +113,7 @@ MemberSpread SpreadOf(const SheetSolver& solver, const std::vector<DataSheetMemb
   return spread;
 }
 
-// What De Soto's law makes of its parameters.
+// Adds the coefficients and powers that De Soto's law predicts from the member's parameters.
 void AddPredictions(const SheetSolver& solver, DataSheetMember* member) {
   const std::vector<double> shared = SharedOf(solver, *member);
   const auto points = [&](double irradiance_W_m2, double temperature_K) {
@@ -150,7 +150,7 @@ DataSheetMember MemberOf(const SheetSolver& solver, const KeyPointCurve& curve) 
   return MemberOf(solver, ToDevice(solver.points, curve));
 }
 
-// The member for n, the last one beyond it.
+// The member for n, or the last member if n is beyond it.
 DataSheetMember MemberAt(const SheetSolver& solver, const DataSheetFamily& family, double n) {
   if (n >= family.members.back().n) return family.members.back();
   const auto curve = PhysicalCurve(solver.points, n);

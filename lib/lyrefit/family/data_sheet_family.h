@@ -13,7 +13,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 struct DataSheet;
 
-// Where the members end towards larger n: beyond it this would be negative.
+// The quantity that bounds the family towards larger n: it would be negative beyond the last
+// member.
 enum class FamilyBound { kSeriesResistance, kShuntConductance };
 
 template <>
@@ -23,71 +24,73 @@ struct EnumTable<FamilyBound> {
       {FamilyBound::kShuntConductance, "shunt_conductance"}};
 };
 
-// Light and cell temperature that members are carried to by De Soto's law.
+// Irradiance and cell temperature for which the power of each member is computed by De Soto's law.
 struct MemberConditions {
   double irradiance_W_m2 = 0;
   double temperature_C = 0;
 };
 
-// A single diode whose curve passes through a sheet's three points, with its largest power at the
-// third. Parameters at 1000 W/m2 and 25 C.
+// A single diode whose curve passes through a sheet's three points, with its maximum power at the
+// third. Parameters are at 1000 W/m2 and 25 C.
 struct DataSheetMember {
   double n = 0;                          // ideality, per cell
   double photocurrent_A = 0;             // Iph
   double saturation_current_A = 0;       // Is
   double resistance_series_ohm = 0;      // Rs
   double resistance_shunt_ohm = 0;       // Rsh, infinite at the bound of the shunt
-  double beta_oc_V_K = 0;                // of Voc from 25 to 27 C, by De Soto's law
-  double gamma_pmp_percent_K = 0;        // of Pmp at 25 C, by the same
+  double beta_oc_V_K = 0;                // secant of Voc from 25 to 27 C, by De Soto's law
+  double gamma_pmp_percent_K = 0;        // of Pmp at 25 C, by De Soto's law
   std::vector<double> max_power_W = {};  // under each of the family's conditions
-  // Largest distance of its curve, from 0 V to Voc, from that of the member that beta_oc picks; NaN
-  // where none is picked.
+  // Largest current difference, between 0 V and Voc, from the member that beta_oc selects; NaN if
+  // none is selected.
   double difference_A = kUnknown;
 };
 
-// How far members are apart that share three points.
+// Largest differences among members that share three points.
 struct MemberSpread {
-  double difference_A = 0;                  // largest distance of two curves between 0 V and Voc
-  double difference_percent = 0;            // of Isc
-  double at_V = 0;                          // where that is
-  std::vector<double> lowest_power_W = {};  // of the members, under each of the conditions
+  double difference_A = 0;                  // largest current difference between 0 V and Voc
+  double difference_percent = 0;            // `difference_A` in percent of Isc
+  double at_V = 0;                          // voltage of `difference_A`
+  std::vector<double> lowest_power_W = {};  // over the members, under each condition
   std::vector<double> highest_power_W = {};
 };
 
-// What members come to as n goes to 0: a broken line through the three points, of a diode that
-// conducts nothing below Voc and everything above.
+// Limit of the members as n goes to 0: a broken line through the three points. Its diode conducts
+// no current below Voc and any current above.
 struct SharpKnee {
   double photocurrent_A = 0;         // Iph
   double resistance_series_ohm = 0;  // Rs = (Voc - Vmp) / Imp
   double resistance_shunt_ohm = 0;   // Rsh
 };
 
-// All single diodes through the three points of a sheet: one for every n above 0 and up to that of
-// the last member, where `bound` ends them.
+// All single diodes through the three points of a sheet. There is one for every n above 0 up to the
+// last member, where `bound` ends the family.
 struct DataSheetFamily {
   FamilyBound bound = FamilyBound::kSeriesResistance;
   SharpKnee sharp_knee;
   std::vector<MemberConditions> conditions;
-  std::vector<DataSheetMember> members;  // by rising n in even steps; of the last Rs or 1/Rsh is 0
-  MemberSpread spread;                   // curves: sharp knee and members; powers: members
-  // What beta_oc makes of them, in a DataSheetFit: the member that it picks, and those at the ends
-  // of the n that the rounding of the sheet allows, where a rounding is stated.
+  std::vector<DataSheetMember> members;  // by rising n in even steps; the last has Rs or 1/Rsh = 0
+  MemberSpread spread;                   // difference: sharp knee and members; powers: members
+  // Filled in a DataSheetFit only: the member that beta_oc selects. If the sheet states its
+  // rounding, also the members at both ends of the range of n that the rounding allows.
   std::optional<DataSheetMember> picked;
   std::optional<DataSheetMember> rounding_low;
   std::optional<DataSheetMember> rounding_high;
-  std::optional<MemberSpread> rounding_spread;  // of these two and the picked one
+  std::optional<MemberSpread> rounding_spread;  // of these two and the selected member
 };
 
-// The family of a sheet, by its three points, cells and alpha_sc; beta_oc is not needed. Three
-// points with a flat power at the third are four equations for five parameters: for given n and
-// Rs three of them are linear in Iph, Is and 1/Rsh, the fourth gives Rs, and n is left over
-// (Cardenas-Bravo, Dutykh and Lespinats 2024, arXiv:2407.07108, whose inequalities Voc < 2 Vmp and
-// Isc < 2 Imp are those of CheckDataSheetPoints). Errors: values that no illuminated diode has; a
-// knee so sharp that n would have to be below that of Voc = 200 n Ns k T / q.
+// Finds the family of a sheet from its three points, number of cells and alpha_sc; beta_oc is not
+// needed. Three points and zero slope of the power at the third are four equations for five
+// parameters. For given n and Rs three of them are linear in Iph, Is and 1/Rsh; the fourth gives
+// Rs, and n remains free (Cardenas-Bravo, Dutykh and Lespinats 2024, arXiv:2407.07108).
+// CheckDataSheetPoints uses that paper's inequalities Voc < 2 Vmp and Isc < 2 Imp. Errors: values
+// that no illuminated diode has; a knee so sharp that n would have to be below the n of Voc = 200 n
+// Ns k T / q.
 Expected<DataSheetFamily> FindDataSheetFamily(const DataSheet& sheet,
                                               ConstantSet constants = ConstantSet::kCodata);
 
-// The member with this n. Errors: those of the family; an n that no member has, with the largest.
+// Finds the member with the given n. Errors: those of FindDataSheetFamily; an n that no member has;
+// the message states the largest n.
 Expected<DataSheetMember> FindDataSheetMember(const DataSheet& sheet, double n,
                                               ConstantSet constants = ConstantSet::kCodata);
 

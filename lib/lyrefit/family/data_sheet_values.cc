@@ -53,7 +53,8 @@ Expected<void> CheckDataSheetPoints(const DataSheetValues& v) {
     return Fail(fmt::format("expected a fill factor between {} and {}, found {:.4g}",
                             kLowestFillFactor, kHighestFillFactor, fill_factor));
   }
-  // Below the tangent at the maximum power point, which meets the axes at 2 Imp and 2 Vmp.
+  // A concave curve lies below its tangent at the maximum power point, which meets the axes at 2
+  // Imp and 2 Vmp.
   if (!(2 * imp > isc && 2 * vmp > voc)) {
     return Fail("no falling, concave curve has its maximum power below half of Isc or Voc");
   }

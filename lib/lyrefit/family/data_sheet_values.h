@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// The values of a data sheet, those that are solved for first.
+// Names, units and fields of the values of a data sheet. The first five are solved for.
 struct DataSheetRow {
   const char* name;
   const char* unit;
@@ -20,15 +20,15 @@ constexpr DataSheetRow kDataSheetRows[] = {
     {"alpha_sc", "A/K", &DataSheetValues::alpha_sc_A_K},
 };
 
-// Whether some falling, concave curve may pass through the three points. Errors: one sentence that
-// names the value.
+// Checks that some falling, concave curve can pass through the three points. Errors: one sentence
+// that names the value.
 Expected<void> CheckDataSheetPoints(const DataSheetValues& v);
 
-// The same, and alpha_sc and the number of cells: what the family of a sheet takes.
+// Checks the values that FindDataSheetFamily needs: CheckDataSheetPoints, alpha_sc and the number
+// of cells.
 Expected<void> CheckDataSheetForFamily(const DataSheet& sheet);
 
-// The same, and beta_oc and the roundings: whether they are what they are said to be, in size and
-// sign.
+// Checks all values: CheckDataSheetForFamily, and the size and sign of beta_oc and the roundings.
 Expected<void> CheckDataSheet(const DataSheet& sheet);
 
 }  // namespace lyrefit

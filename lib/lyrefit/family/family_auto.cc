@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSame = 1e-6;  // relative difference of mean squares that is none
+constexpr double kSame = 1e-6;  // relative difference of mean squares that counts as 0
 
 FamilyCandidate Describe(const FamilyReport& report) {
   FamilyCandidate candidate;
@@ -24,7 +24,7 @@ FamilyCandidate Describe(const FamilyReport& report) {
   return candidate;
 }
 
-// By how many standard errors the mean square of `one` exceeds that of `best` on the same curves.
+// Excess of the mean square of `one` over that of `best` on the same curves, in standard errors.
 double Behind(const HeldOut& one, const HeldOut& best) {
   const std::size_t count = one.curve_rmse_A.size();
   if (count != best.curve_rmse_A.size() || count < 2) return kUnknown;
@@ -43,7 +43,7 @@ double Behind(const HeldOut& one, const HeldOut& best) {
   return error > 0 ? mean / error : 0;
 }
 
-// The position of the law to report; fills `behind_best` and `chosen`.
+// Returns the position of the law to report; fills `behind_best` and `chosen`.
 std::size_t Choose(const std::vector<FamilyReport>& reports,
                    std::vector<FamilyCandidate>* candidates) {
   const auto lower = [](const FamilyCandidate& a, const FamilyCandidate& b) {
@@ -84,7 +84,7 @@ Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& o
       trial.law = law;
       trial.model = model;
       Expected<FamilyReport> report = FitFamily(set, trial, observer);
-      if (!report) {  // an option that this law does not have
+      if (!report) {  // the law does not support some option
         if (!first_error) first_error = report.error();
         refusals.push_back(fmt::format("{} {} was not tried: {}", ToText(law), ToText(model),
                                        report.error().message));

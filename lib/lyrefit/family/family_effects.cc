@@ -51,7 +51,7 @@ Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& 
   return {};
 }
 
-// The curves that are not left out, at the conditions the fit takes them at.
+// The curves that are not left out, with the irradiance and temperature that the fit uses.
 Expected<CurveSet> Kept(const CurveSet& set, const FamilyMembers& members) {
   CurveSet kept;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
@@ -152,7 +152,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
 
 namespace {
 
-// Bounds of shared parameter i as reported, where the others are as in `own`.
+// Bounds of shared parameter i in reporting units, with the other parameters as in `own`.
 ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> own, int i) {
   const auto reported = [&](double value) {
     own[i] = value;

@@ -6,15 +6,17 @@
 
 namespace lyrefit {
 
-// Puts the effects of the options beside the diodes: translation, bounds, and of every curve that
-// is not left out its measurement. Errors: a law, an objective or unknowns of single curves that do
-// not go with effects, and those of Extend.
+// Adds the effects of the options to the diodes of a family problem: extends the translation and
+// the bounds, and gives every curve that is not left out its extended device. Errors: a law, an
+// objective or per-curve unknowns that cannot be combined with effects, and those of
+// ExtendTranslation.
 Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& options,
                                 FamilyProblem* family);
 
-// Starts of a joint fit with effects: the best candidate and further elites as they are, then the best
-// fit that leaves the effects at what is usual, found from all `starts`, with each of their probes
-// beside it, the best by their error on the curves of the search.
+// Returns the starts of a joint fit with effects. The first are the best candidate and further
+// elites of the search. The others take the best fit without effects from all `starts` (effects
+// fixed at their usual values) and combine it with the points of EffectStarts. Of these only the
+// best by RMSE on the search curves are kept.
 std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            const FamilyOptions& options,
                                            const std::vector<int>& search_curves,
@@ -22,20 +24,20 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer);
 
-// The starts of a joint fit: of `starts`, the first so many of which are the search's elites, those
-// that the options let in; with effects as FamilyEffectStarts has them.
+// Selects the starts of a joint fit by `options.starts`. The first `elites` of `starts` are the
+// search's elites. With effects the selection passes through FamilyEffectStarts.
 std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOptions& options,
                                      const std::vector<int>& search_curves,
                                      std::vector<JointPoint> starts, std::ptrdiff_t elites,
                                      const Observer& observer);
 
-// A joint fit as it is judged: with the effects' parameters in the units of reports, and beside
-// other optima where intervals are asked for. Without effects as it is.
+// A joint fit in reporting units, from which the report is filled. With effects it includes other
+// local optima if intervals are requested. Without effects it is a copy of the fit.
 struct QuotedFit {
   FamilyProblem family;
   JointProblem problem;
   JointEnd end;
-  std::vector<FitPoint> local_optima;  // other optima, which the data allow as well
+  std::vector<FitPoint> local_optima;  // other optima that the data allow
 };
 QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
                 const JointProblem& problem, const JointEnd& end, const Observer& observer);

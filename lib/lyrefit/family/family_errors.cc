@@ -13,16 +13,16 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMostCurves = 60;  // that sizes are found from
+constexpr int kMostCurves = 60;  // largest number of curves used to find error sizes
 
-// Residuals of some curves, and how their errors show.
+// Residuals of some curves, with the shape of their errors.
 struct Rows {
-  FamilyErrorShape shape;     // with a path in proportion to each curve's light
-  std::vector<double> light;  // of each curve, W/m2
+  FamilyErrorShape shape;     // with a path proportional to each curve's irradiance
+  std::vector<double> light;  // irradiance of each curve, W/m2
   Eigen::VectorXd residual;
 };
 
-// Evenly among all of them.
+// Selects at most kMostCurves curves, evenly over all.
 std::vector<int> SomeOf(int curves) {
   std::vector<int> some;
   const int count = std::min(curves, kMostCurves);
@@ -46,34 +46,34 @@ void AppendCurve(const JointProblem& problem, const JointPoint& point, int c, Ro
   AppendErrorShape({device, problem.objective, curve.voltage_V, curve.current_A, curve.weight,
                     voc > 0 ? voc : problem.voltage_scale_V, p},
                    c, &rows->shape.readings);
-  // What each reading has by itself is of the size that its weight says: that of a point of weight 1
-  // over the root of its own.
+  // The independent error of a reading is that of a point of weight 1, divided by the root of the
+  // reading's weight.
   std::vector<double>& current = rows->shape.readings.current;
   for (std::size_t k = before; k < current.size(); ++k) {
     current[k] /= std::sqrt(curve.weight[k - before]);
   }
   rows->light.push_back(curve.irradiance_W_m2);
   if (!problem.translation.extended) return;
-  // The photocurrent of such a device is that at the reference.
+  // The photocurrent of a device with effects is that at the reference irradiance.
   const double suns = curve.irradiance_W_m2 / kReferenceIrradiance_W_m2;
   std::vector<double>& path = rows->shape.readings.path;
   for (std::size_t k = before; k < path.size(); ++k) path[k] *= suns;
 }
 
-// The same with a path in proportion to that power of the light, as it is at `brightest`.
+// The shape with a path proportional to that power of the irradiance, and unchanged at `brightest`.
 FamilyErrorShape WithPower(const Rows& rows, double brightest, double power) {
   FamilyErrorShape shape = rows.shape;
   for (std::size_t c = 0; c + 1 < shape.first.size(); ++c) {
     const double light = rows.light[c] / brightest;
-    if (!(light > 0)) continue;  // in the dark there is no path
+    if (!(light > 0)) continue;  // a dark curve has no path
     const double factor = std::pow(light, power - 1);
     for (int k = shape.first[c]; k < shape.first[c + 1]; ++k) shape.readings.path[k] *= factor;
   }
   return shape;
 }
 
-// Of the wanted curves. A curve's error that the fit has as an unknown is no error of its rows any
-// more, and priors are rows of the problem but not of readings.
+// Rows of the given curves. An error of a curve that the fit has as an unknown is not an error of
+// its rows. Priors are rows of the problem but not of readings, and are dropped.
 Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<bool>& held) {
   Rows rows;
   std::vector<bool> has_light, has_temperature;
@@ -113,8 +113,8 @@ JointPoint Only(const JointPoint& point, const std::vector<int>& curves) {
   return some;
 }
 
-// How well sizes say the residuals; those found from the same ones, each taken for one thing less
-// known.
+// Log likelihood of the residuals under the error sizes. If the sizes were found from the same
+// residuals (`same`), it is penalised by 1 for each size used.
 double Score(const FamilyErrorShape& shape, const FamilyErrorSizes& sizes,
              const Eigen::VectorXd& residual, bool same) {
   const double used[] = {sizes.readings.voltage_V, sizes.readings.path, sizes.irradiance,
@@ -130,14 +130,15 @@ FamilyErrorSizes SizesOf(FamilyErrorKind kind, double power, const Rows& rows, d
                           problem.voltage_scale_V, rows.residual);
 }
 
-// Errors found from the one are tried on the other, whose curves they have not seen, or are the
-// same.
+// Error sizes are found from the rows `found` and tested on the rows `tried`. Both are the same
+// object or are of different curves.
 struct Trial {
   const Rows& found;
   const Rows& tried;
 };
 
-// Of all kinds and powers of the light the best by all trials together; without sizes.
+// Selects the kind of errors and the power of the irradiance with the largest total score over all
+// trials. Leaves the sizes unset.
 FamilyErrors ChooseErrors(const std::vector<Trial>& trials, double brightest,
                           const JointProblem& problem) {
   FamilyErrors best;
@@ -153,8 +154,8 @@ FamilyErrors ChooseErrors(const std::vector<Trial>& trials, double brightest,
                        &trial.found == &trial.tried);
       }
       if (kind == FamilyErrorKind::kIndependent) independent = score;
-      constexpr double kClear = 3;        // of a richer kind, in ln likelihood
-      constexpr double kOneLight = 1e-6;  // curves of one light
+      constexpr double kClear = 3;        // gain in ln likelihood required of a richer kind
+      constexpr double kOneLight = 1e-6;  // of powers, which are equal at one irradiance
       if (!(score > highest + (kind == best.kind ? kOneLight : kClear))) continue;
       highest = score;
       best = {kind, {}, power, FamilyErrorJudge::kFitted, 0, 2 * (score - independent)};
@@ -163,8 +164,8 @@ FamilyErrors ChooseErrors(const std::vector<Trial>& trials, double brightest,
   return best;
 }
 
-// The covariance of all rows of a joint model: its readings' and, of each prior, that of one of
-// them.
+// Returns the product with the covariance of all rows of a joint model: that of its readings, and a
+// diagonal for priors.
 CovarianceProduct ProductOf(const JointProblem& problem, const FamilyModel& model, const Rows& rows,
                             const FamilyErrorSizes& sizes) {
   return [&](const RowMatrix& all) {
@@ -211,8 +212,8 @@ std::vector<Interval> IntervalsOf(const QuotedFit& fit, const Spread& spread, do
 }  // namespace
 
 void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report) {
-  constexpr int kFewest = 3;        // curves that say something of what curves share
-  constexpr double kExact = 1e-11;  // of the currents: nothing but rounding
+  constexpr int kFewest = 3;        // fewest curves that show an error common to a curve
+  constexpr double kExact = 1e-11;  // relative to the currents: rounding errors only
   const JointProblem& problem = fit.problem;
   const JointPoint& point = fit.end.point;
   const int curves = static_cast<int>(problem.curves.size());

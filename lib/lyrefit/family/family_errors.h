@@ -6,12 +6,14 @@
 
 namespace lyrefit {
 
-// Fills the report's errors and its intervals under them: the joint fit is that of least squares,
-// but points of one curve share the light's path and the errors of the curve's stated light and
-// temperature. Which of that there is, and with which power of the light the path grows, is decided
-// by the likelihood of curves that were not fitted, where there are some (`rest`, at the joint
-// parameters); else of each half of the curves under the sizes of the other half; of fewer than six
-// by their own. A richer kind must be clearly better.
+// Fills the report's errors and its intervals under correlated errors. The joint fit is a
+// least-squares fit, but points of one curve share the path error of the irradiance during the
+// sweep and the errors of the curve's stated irradiance and temperature. The kind of errors, and
+// the power of the irradiance with which the path error grows, are selected by likelihood. The
+// likelihood is that of curves that were not fitted (`rest`, at the joint parameters) if there are
+// at least three. Otherwise each half of the curves is tested with the error sizes of the other
+// half; fewer than six curves are tested with their own sizes. A richer kind must be clearly
+// better.
 void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report);
 
 }  // namespace lyrefit

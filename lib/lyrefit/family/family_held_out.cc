@@ -15,7 +15,7 @@
 namespace lyrefit {
 namespace {
 
-// One curve (a position in the set) and how well it was predicted.
+// One curve (a position in the set) and its prediction error.
 struct Tested {
   int curve = 0;
   double points = 0;
@@ -66,7 +66,7 @@ HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
   return result;
 }
 
-// With both sensor errors behind the shared parameters.
+// `shared` includes both sensor errors at its end.
 HeldOut TestOn(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
                const std::vector<double>& shared, const std::vector<int>& curves) {
   HeldOut result = Summarise(Predict(family, options, family.translation, shared, curves), set);
@@ -74,19 +74,19 @@ HeldOut TestOn(const CurveSet& set, const FamilyProblem& family, const FamilyOpt
   return result;
 }
 
-// What others found knows of no sensor errors.
+// Parameters from another source include no sensor errors, which are therefore 0.
 Against TestAgainst(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
                     const NamedParameters& elsewhere, const std::vector<int>& curves) {
   std::vector<double> shared = elsewhere.shared;
-  shared.insert(shared.end(), {0, 0});  // the sensors' errors
+  shared.insert(shared.end(), {0, 0});  // both sensor errors
   const bool pvsyst = elsewhere.translation.spec.law == TranslationLaw::kPvsyst;
   Against against{elsewhere.name, pvsyst ? "PVsyst" : "De Soto", {}};
   against.result = Summarise(Predict(family, options, elsewhere.translation, shared, curves), set);
   return against;
 }
 
-// Leaves whole curves out in turn, fits the others anew from the joint optimum and tests on those
-// left out. Nothing where it was stopped.
+// Cross-validation: leaves whole curves out in turn, refits the others from the joint optimum and
+// tests on the curves left out. None if the observer stopped it.
 std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& family,
                                    const FamilyOptions& options, const JointProblem& problem,
                                    const JointEnd& end, const Observer& observer) {
@@ -119,7 +119,7 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
   return result;
 }
 
-// Of the curves on their own: the floor.
+// Median RMSE of the individual fits of the curves: the floor.
 double IndividualMedian(const FamilyReport& report, const std::vector<int>& curves) {
   std::vector<double> rmse;
   for (const int c : curves) {

@@ -7,13 +7,14 @@
 
 namespace lyrefit {
 
-// Errors: parameters from elsewhere that are of another number of cells than the set.
+// Error: parameters to test (`options.against`) whose number of cells differs from that of the set.
 Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& options);
 
-// Tests the joint fit on whole curves at their stated conditions, those held out or else by folds,
-// and parameters from elsewhere on the same curves: fills held_out, against and in_sample. Curves
-// whose conditions nobody stated cannot be tested; the fits of single curves are in the report
-// already. Stopped by the observer, it marks the report as interrupted and fills nothing.
+// Tests the joint fit on whole curves at their stated conditions: on the held-out curves, or by
+// cross-validation over folds. Tests the parameters of `options.against` on the same curves. Fills
+// held_out, against and in_sample. Curves without stated conditions are not tested. The report must
+// already contain the individual fits. If the observer stops it, it marks the report as interrupted
+// and fills nothing.
 void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
                 const JointProblem& problem, const JointEnd& end, const Observer& observer,
                 FamilyReport* report);

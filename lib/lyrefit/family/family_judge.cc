@@ -17,7 +17,7 @@ namespace lyrefit {
 namespace {
 
 constexpr double kStrongCorrelation = 0.9;
-constexpr double kLinearReach = 0.3;       // of a symmetric interval, in parts of the value
+constexpr double kLinearReach = 0.3;       // of a symmetric interval, relative to the value
 constexpr double kNearPerfectShunt = 1e6;  // x V0 / I0
 
 Interval Symmetric(double value, double standard_error, double t) {
@@ -39,11 +39,11 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
   return ModelKeyPoints(at.device, at.parameters.data());
 }
 
-// A joint fit that is being judged, in the units of reports.
+// A joint fit that is being reported, in reporting units.
 struct Judged {
   const QuotedFit& fit;
   const FamilyOptions& options;
-  double variance = 0;  // of the noise
+  double variance = 0;  // of the noise, at weight 1
   double t = 2;         // Student's, for 95 %
   JointSpread spread;
 };
@@ -71,7 +71,7 @@ void MarkHeld(const Judged& judged, int i, Estimate* e) {
     e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
     if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
   } else if (e->info.kind == ParameterKind::kDarkShunt) {
-    // Its range is relative to the other shunt.
+    // The range of a dark shunt is relative to the shunt at the reference.
     const double ratio = e->refined / judged.fit.end.point.shared[e->info.with[0]];
     e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
   } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
@@ -126,7 +126,7 @@ bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {
   return judged.t * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
 }
 
-// False where the observer wants no more.
+// Returns false if the observer stopped it.
 bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
                         std::vector<Estimate>* estimates) {
   std::vector<ProfileQuery> queries;
@@ -164,16 +164,17 @@ bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
   return true;
 }
 
-// Gradient of a function of the shared parameters by central differences, and the spread that
-// follows; none where the function changes along a direction that the data leave open.
+// Value and symmetric interval of a function of the shared parameters, from a gradient by central
+// differences. The interval is unknown if the function changes along a direction that the data do
+// not determine.
 Interval Derived(const Judged& judged, const std::vector<double>& refined,
                  const std::function<double(const std::vector<double>&)>& value) {
   const JointSpread& spread = judged.spread;
-  constexpr double kOpen = 1e-3;  // smaller changes are rounding
+  constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
   for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
     if (judged.fit.end.held[i]) continue;
-    // A step that shows: a thousandth of what is not known, be it little or everything.
+    // The step is a thousandth of the standard error, or of the undetermined direction.
     const bool open = std::isnan(spread.standard_error[i]);
     const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
     const double step = std::max(1e-3 * size, 1e-5 * std::fabs(refined[i]));
@@ -193,7 +194,7 @@ Interval Derived(const Judged& judged, const std::vector<double>& refined,
   return Symmetric(now, std::sqrt(std::max(variance, 0.0)), judged.t);
 }
 
-// Of the short-circuit current, the open-circuit voltage and the power.
+// Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.
 std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<double>& refined) {
   const auto derived = [&](double TemperatureCoefficients::*field) {
     return Derived(judged, refined, [&, field](const std::vector<double>& shared) {
@@ -205,7 +206,7 @@ std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<do
           {"gamma_pmp", "%/K", derived(&TemperatureCoefficients::gamma_pmp_percent_K)}};
 }
 
-// The strong ones, the strongest first.
+// Correlations above kStrongCorrelation, the strongest first.
 std::vector<Correlation> StrongCorrelations(const Judged& judged) {
   const JointProblem& problem = judged.fit.problem;
   std::vector<Correlation> strong;

@@ -18,7 +18,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSameLight = 0.02;  // relative difference of Isc under one irradiance
+constexpr double kSameLight = 0.02;  // relative difference of Isc at equal irradiance
 
 double Isc(const IvCurve& curve) {
   const double isc = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
@@ -37,7 +37,8 @@ int UsualCells(const CurveSet& set) {
   return cells.empty() ? 0 : static_cast<int>(UpperMedian(cells));
 }
 
-// Members that no law can place. `refusal` gets the first one's whose readings cannot be.
+// Leaves out the curves that cannot be fitted. `refusal` receives the first error of implausible
+// readings.
 void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
                      std::vector<FamilyMember>* members, std::optional<Error>* refusal) {
   const int cells = UsualCells(set);
@@ -59,7 +60,7 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       if (!refusal->has_value()) *refusal = judged.error();
     } else if (member.irradiance_known && !(irradiance > 0)) {
       const bool lit = !IsDark(curve);
-      if (!lit && !options.with.empty()) {  // effects know the dark
+      if (!lit && !options.with.empty()) {  // models with effects include dark curves
         member.joint.irradiance_W_m2 = 0;
         continue;
       }
@@ -76,7 +77,7 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
   }
 }
 
-// Where no curve states an irradiance, the brightest counts as 1000 W/m2.
+// If no curve states an irradiance, the brightest is taken as 1000 W/m2.
 void GuessIrradiances(std::vector<FamilyMember>* members, std::vector<std::string>* notes) {
   std::vector<double> per_sun;
   double brightest = 0;
@@ -131,7 +132,8 @@ Expected<void> GuessTemperatures(std::vector<FamilyMember>* members,
   return {};
 }
 
-// Standard deviations of single points, where every curve has them; false: not every one has.
+// Sets the weights from the standard deviations of single points. Returns false if some curve has
+// none.
 bool UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
   std::vector<double> sigmas;
   for (const IvCurve& curve : set.curves) {
@@ -216,7 +218,7 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   GuessIrradiances(&result.members, &result.notes);
   TRY(GuessTemperatures(&result.members, &result.notes));
   std::vector<int> usable;
-  std::vector<double> per_sun;  // of lit curves
+  std::vector<double> per_sun;  // of light curves
   for (std::size_t c = 0; c < result.members.size(); ++c) {
     const FamilyMember& member = result.members[c];
     if (member.role == CurveRole::kLeftOut) continue;

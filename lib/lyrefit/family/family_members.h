@@ -9,11 +9,11 @@
 
 namespace lyrefit {
 
-// What a curve is to a family fit.
+// Role and data of one curve in a family fit.
 struct FamilyMember {
   CurveRole role = CurveRole::kFitted;
   std::string reason;
-  JointCurve joint;  // with the conditions as stated, or guessed where nobody stated them
+  JointCurve joint;  // conditions as stated, or guessed if not stated
   double short_circuit_current_A = kUnknown;
   bool irradiance_known = true;
   bool temperature_known = true;
@@ -24,19 +24,20 @@ struct FamilyMembers {
   std::vector<FamilyMember> members;  // one for each curve of the set
   std::vector<int> fitted;            // positions in the set
   std::vector<int> held_out;
-  double reference_current_A = 0;  // Isc at 1000 W/m2, from the data
-  bool stated_errors = false;      // every curve states sigma_A, which decides the weights
-  std::vector<std::string> notes;  // what had to be assumed
+  double reference_current_A = 0;  // Isc at 1000 W/m2, estimated from the curves
+  bool stated_errors = false;      // every curve states sigma_A, which sets the weights
+  std::vector<std::string> notes;  // assumptions that had to be made
 };
 
-// Of every curve: as stated, or guessed where nobody stated them.
+// Conditions of every curve, as stated or, if not stated, as guessed.
 std::vector<Conditions> ConditionsOf(const FamilyMembers& members);
 
-// The weights of all points; kAuto: equal ones, until residuals decide (SettleWeights).
+// Sets the weights of all points. kAuto sets equal weights until SettleWeights selects them.
 void WeighMembers(FamilyWeights weights, FamilyMembers* members);
 
-// Errors: fewer than two light curves (with effects dark ones count, beside a light one), ids that
-// occur twice or not at all, unusable curves.
+// Selects the curves of a family fit. Errors: fewer than two light curves (with effects, dark
+// curves count if there is a light one); duplicate ids, or ids to leave out that the set lacks;
+// unusable curves.
 Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options);
 
 }  // namespace lyrefit

@@ -10,7 +10,8 @@
 
 namespace lyrefit {
 
-// A sheet with what its members are solved and carried to other conditions with.
+// A sheet with the translation and the equations that find its members and translate them to other
+// conditions.
 struct SheetSolver {
   const DataSheet& sheet;
   Translation translation;  // De Soto, one diode
@@ -19,8 +20,9 @@ struct SheetSolver {
 
 ReferenceDevice DeviceOf(const DataSheetMember& member);
 
-// The family with the member that beta_oc picks, which is `device`, and those at the ends of the n
-// that the rounding allows, as far as they are members: none if the ends are the same.
+// The family of a sheet, with the member `device` that beta_oc selects. Adds the members at
+// `lowest_n` and `highest_n`, the range of n that the rounding allows, clipped to the family. Adds
+// none if both ends are equal.
 Expected<DataSheetFamily> FamilyOfSheet(const DataSheet& sheet, ConstantSet constants,
                                         const ReferenceDevice& device, double lowest_n,
                                         double highest_n);

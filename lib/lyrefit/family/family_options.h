@@ -21,12 +21,12 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How the curves of a set count in the sum of squares. Where every curve states a standard
-// deviation of each current, that counts instead.
+// Weights of the curves of a set in the sum of squares. If every curve states a standard deviation
+// of each current, those standard deviations set the weights instead.
 enum class FamilyWeights {
-  kAuto,   // of the two below the one that the residuals of a joint fit speak for
-  kEqual,  // every point alike, in ampere
-  kIsc,    // relative to the short-circuit current of its own curve
+  kAuto,   // kEqual or kIsc, selected by the residuals of a joint fit
+  kEqual,  // all points equal, in ampere
+  kIsc,    // relative to the short-circuit current of each curve
 };
 
 template <>
@@ -36,7 +36,7 @@ struct EnumTable<FamilyWeights> {
                                                       {FamilyWeights::kIsc, "isc"}};
 };
 
-// Which law is fitted to the curves of a set, what is known of sensors, and what is tested.
+// Options of FitFamily: the law, the known accuracy of the sensors, and the tests of the result.
 struct FamilyOptions {
   TranslationLaw law = TranslationLaw::kDeSoto;
   Model model = Model::kSingleDiode;  // sd or dd
@@ -44,44 +44,45 @@ struct FamilyOptions {
   bool recombination = false;         // pvsyst only
   Objective objective = Objective::kSolvedCurrent;
   ConstantSet constants = ConstantSet::kCodata;
-  // By symbol or name: "EgRef" -> 1.121. Held where nothing is said: dEgdT -0.0002677, PVsyst's
-  // EgRef 1.121, R_sh_exp 5.5, NsVbi 0.9 V a cell, n2 = 2; and alpha_sc, EgRef and mu_gamma
-  // where the temperature hardly varies over the set.
+  // Fixed parameters by symbol or name: "EgRef" -> 1.121. Fixed by default: dEgdT -0.0002677,
+  // PVsyst's EgRef 1.121, R_sh_exp 5.5, NsVbi 0.9 V a cell, n2 = 2. Also fixed by default are
+  // alpha_sc, EgRef and mu_gamma if the temperature hardly varies over the set.
   std::map<std::string, double> fixed;
-  std::vector<std::string> freed;  // parameters of that list to be fitted after all
-  BoundsSpec::Table bounds;        // of single shared parameters
-  // Effects beside the diodes, shared by all curves, as in FitOptions; with De Soto's law alone,
-  // and fitted to the solved current. Dark curves are then fitted as well.
+  std::vector<std::string> freed;  // parameters fixed by default that are fitted
+  BoundsSpec::Table bounds;        // ranges of single shared parameters
+  // Effects added to the diodes, shared by all curves, as in FitOptions. They require De Soto's law
+  // and the solved-current objective. Dark curves are then fitted as well.
   std::vector<EffectUse> with;
-  bool force_effects = false;  // also those that data of this kind cannot show
-  ErrorSpec errors;            // of curves fitted one by one, as in FitOptions
+  bool force_effects = false;  // also effects that these data cannot show
+  ErrorSpec errors;            // of curves fitted individually, as in FitOptions
   FamilyWeights weights = FamilyWeights::kAuto;
   SearchOptions search = FamilySearch();
-  SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
-  // Where the joint fit begins: kShape leaves out the search's candidates, kSearch all but these.
+  SearchFunction searcher;  // a search to use instead of Search(); empty: Search()
+  // Starts of the joint fit. kShape omits the search's candidates, kSearch uses only these.
   StartsFrom starts = StartsFrom::kAll;
-  bool plain_polish = false;  // what becomes of the best candidate by itself, as in FitOptions
-  int search_curves = 6;      // the search sees so many well-spread curves
-  int fit_curves = 0;  // the joint fit sees so many well-spread curves, the others are held out
-                       // and tested; 0: all
-  // One common error of each sensor, as shared unknowns: true = reading + offset.
+  bool plain_polish = false;  // also polish the best candidate alone, as in FitOptions
+  int search_curves = 6;      // number of well-spread curves in the search
+  int fit_curves = 0;  // number of well-spread curves in the joint fit; the others are held out and
+                       // tested; 0: all
+  // One common error of each sensor as a shared unknown: true value = reading + offset.
   bool irradiance_offset = false;
   bool temperature_offset = false;
-  // Stated accuracy of the sensors, one standard deviation: every curve gets an offset of its own
-  // with that prior. 0: the readings are taken as they are.
+  // Stated accuracy of the sensors as one standard deviation. Every curve gets its own offset with
+  // that prior. 0: readings are taken as exact.
   double irradiance_accuracy = 0;  // relative, 0.02 = 2 %
   double temperature_accuracy_K = 0;
   bool random_baseline = true;
   bool intervals = true;
-  bool individual_fits = true;  // also fit every curve on its own: the floor
-  int folds = 5;          // whole curves left out in turn; 0: none. Not used with fit_curves.
-  std::vector<std::string> leave_out;  // ids
-  // Parameters from elsewhere that are tested beside the joint fit. Error where they are of another
-  // number of cells than the set.
+  bool individual_fits = true;  // also fit every curve individually: the floor of the RMSE
+  int folds = 5;          // folds of cross-validation over curves; 0: none. Not used with
+                          // fit_curves.
+  std::vector<std::string> leave_out;  // ids of curves to leave out
+  // Published or other parameters to test beside the joint fit. Error if their number of cells
+  // differs from that of the set.
   std::vector<NamedParameters> against;
-  int threads = 0;  // 0: all cores; never changes a result
+  int threads = 0;  // 0: all cores; results do not depend on it
 
-  // The search's own defaults for a family.
+  // Default search options of a family fit.
   static SearchOptions FamilySearch() {
     SearchOptions search;
     search.population = 30;
@@ -90,9 +91,9 @@ struct FamilyOptions {
   }
 };
 
-// "2" or "2%".
+// Reads a percentage, "2" or "2%". Error: not a percentage from 0 to 50.
 Expected<void> ReadIrradianceAccuracy(const std::string& text, FamilyOptions* options);
-// "17,18": several ids, or one.
+// Reads one id or several, "17,18".
 Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options);
 
 inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {

@@ -15,8 +15,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSameTemperature_K = 5;  // a smaller spread says nothing about coefficients
-constexpr double kSameIrradiance = 1.5;   // ratio; a smaller one says nothing about the shunt
+constexpr double kSameTemperature_K = 5;  // too small a range to fit temperature coefficients
+constexpr double kSameIrradiance = 1.5;   // ratio; a smaller one does not determine the shunt law
 
 struct Spread {
   double low = HUGE_VAL;
@@ -27,13 +27,13 @@ struct Spread {
   }
 };
 
-// Of the curves fitted.
+// Ranges over the fitted curves.
 struct Spreads {
   Spread irradiance;
   Spread temperature;
 };
 
-using Reasons = std::map<int, std::string>;  // why a parameter is held
+using Reasons = std::map<int, std::string>;  // parameter index -> reason why it is fixed
 
 Spreads SpreadsOf(const FamilyMembers& curves) {
   Spreads spreads;
@@ -45,7 +45,7 @@ Spreads SpreadsOf(const FamilyMembers& curves) {
   return spreads;
 }
 
-// Of the curve nearest to the reference.
+// Largest voltage of the fitted curve with the largest Isc.
 double OpenCircuitVoltage(const FamilyMembers& curves) {
   double voltage = 0;
   double current = 0;
@@ -97,7 +97,7 @@ void HoldAt(int i, double value, FamilyProblem* family) {
   if (i >= 0) family->fixed[i] = value;
 }
 
-// What nobody fits unless asked to.
+// Fixes the parameters that are fitted only on request.
 void HoldTheUsual(FamilyProblem* family) {
   const Translation& at = family->translation;
   const double built_in = kHeldBuiltIn_V * at.spec.cells_in_series;
@@ -188,7 +188,8 @@ Expected<void> Bound(const std::string& name, const std::pair<double, double>& r
   return {};
 }
 
-// What is asked for is no news: its reasons go.
+// Applies the user's fixed values and bounds. Parameters that the user sets need no note, so their
+// reasons are erased.
 Expected<void> ApplyWishes(const FamilyOptions& options, FamilyProblem* family, Reasons* reasons) {
   const Translation& at = family->translation;
   for (const std::string& name : options.freed) {
@@ -238,7 +239,7 @@ Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spr
   return {};
 }
 
-// Bounds, what is held and why.
+// Sets bounds, fixed values and their reasons.
 Expected<void> Bind(const CurveSet& set, const FamilyOptions& options, FamilyProblem* family) {
   const Spreads spreads = SpreadsOf(family->curves);
   SetRanges(family);

@@ -7,22 +7,23 @@
 
 namespace lyrefit {
 
-// A family fit before the first number is crunched.
+// A family fit before its search: law, curves, bounds and fixed values.
 struct FamilyProblem {
   Translation translation;
   FamilyMembers curves;
-  // Of the shared parameters and of both sensor errors behind them; NaN in `fixed`: free.
+  // Bounds and fixed values of the shared parameters, then of both sensor errors. NaN in `fixed`:
+  // free.
   std::vector<ParameterBounds> bounds;
   std::vector<double> fixed;
-  std::vector<std::string> notes;  // what is held, and why
-  int free_parameters = 0;         // shared
+  std::vector<std::string> notes;  // parameters fixed by default, with reasons
+  int free_parameters = 0;         // number of free shared parameters
 };
 
-// Errors: fewer than two light curves, unknown names, ranges that make no sense, an offset that the
-// conditions of the set cannot show.
+// Builds the problem. Errors: fewer than two light curves, unknown names, empty or invalid ranges,
+// a sensor offset that the conditions of the set cannot determine.
 Expected<FamilyProblem> MakeFamilyProblem(const CurveSet& set, const FamilyOptions& options);
 
-// The joint problem on some of the curves.
+// Builds the joint problem on the given curves (positions in the set).
 JointProblem JointProblemOn(const FamilyProblem& family, const FamilyOptions& options,
                             const std::vector<int>& curves);
 

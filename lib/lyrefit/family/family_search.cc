@@ -13,7 +13,7 @@
 namespace lyrefit {
 namespace {
 
-// The weighted mean square of a shared vector over the curves of the search.
+// Weighted RMSE of a vector of shared parameters over the search curves.
 class SharedObjective {
  public:
   SharedObjective(const FamilyProblem& family, const JointProblem& problem)
@@ -34,7 +34,7 @@ class SharedObjective {
     point.shared.resize(problem_.shared());
     space_.ToParameters(x, point.shared.data());
     point.local.assign(problem_.curves.size(), {0, 0});
-    // The dark shunt lies between the one at the reference and what the exponent allows.
+    // The dark shunt is between the shunt at the reference and exp(exponent) times that.
     const Translation& at = problem_.translation;
     if (at.resistance_shunt_dark >= 0) {
       const double shunt = point.shared[at.resistance_shunt];

@@ -26,7 +26,7 @@ void WarnOfParameters(const FamilyReport& report, std::vector<std::string>* warn
   }
 }
 
-// Residuals that hang together within curves make intervals from points too narrow.
+// Correlated residuals within curves make intervals that take points as independent too narrow.
 void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings) {
   double joint = 0, free = 0, points = 0, largest = 0;
   for (const FamilyCurve& curve : report.curves) {
@@ -39,7 +39,7 @@ void WarnOfMisfit(const FamilyReport& report, std::vector<std::string>* warnings
     largest = std::max(largest, curve.short_circuit_current_A);
   }
   constexpr double kVisible = 1.5;
-  constexpr double kRounding = 1e-9;  // of the current: made curves fit that well
+  constexpr double kRounding = 1e-9;  // relative to the current; fits of simulated curves reach it
   if (std::sqrt(joint / std::max(points, 1.0)) < kRounding * largest) return;
   if (!(points > 0) || !(joint > kVisible * kVisible * free)) return;
   warnings->push_back(fmt::format(

@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// What a reader of the report should not overlook, in plain sentences.
+// Warnings that the reader of a report needs, as plain sentences.
 std::vector<std::string> FamilyWarnings(const FamilyReport& report, const FamilyOptions& options);
 
 }  // namespace lyrefit

@@ -14,9 +14,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kExact = 1e-11;  // of the currents: nothing but rounding
+constexpr double kExact = 1e-11;  // relative to the currents: rounding errors only
 
-// ln L at the size of the noise that suits it best, up to a constant.
+// ln L at the most likely noise level, up to a constant.
 double LogLikelihoodOf(const JointProblem& problem, const JointEnd& end) {
   double count = 0, weights = 0;
   for (const JointCurve& curve : problem.curves) {
@@ -26,8 +26,9 @@ double LogLikelihoodOf(const JointProblem& problem, const JointEnd& end) {
   return 0.5 * (weights - count * std::log(end.squares / count));
 }
 
-// Whether neighbouring residuals differ by what they are large: noise, and no shape that the law
-// misses. Of white noise the ratio of both variances is 1.
+// Whether the residuals are noise and not a misfit of the law: their variance is at most kMost
+// times the variance that differences of neighbouring residuals imply. For white noise the ratio is
+// 1.
 bool IsNoise(const JointProblem& problem, const JointEnd& end) {
   constexpr double kMost = 2;
   double squares = 0, noise = 0;

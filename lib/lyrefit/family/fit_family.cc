@@ -29,9 +29,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kMostJackknifed = 60;  // curves; beyond that it says little new and takes long
+constexpr int kMostJackknifed = 60;  // curves; a jackknife of more adds little and takes long
 
-// What the stages of one family fit hand to each other.
+// Data passed between the stages of one family fit.
 struct Job {
   const CurveSet& set;
   const FamilyOptions& options;
@@ -39,7 +39,7 @@ struct Job {
   FamilyProblem family;
   std::vector<int> search_curves;
   IndividualFits free;
-  std::vector<JointPoint> starts;  // the search's elites, then others
+  std::vector<JointPoint> starts;  // the search's elites first, then others
   std::ptrdiff_t elites = 0;
   JointPoint searched;
   bool stopped = false;
@@ -48,7 +48,7 @@ struct Job {
 FitOptions SingleFitOptions(const FamilyOptions& options) {
   FitOptions fit = OwnFitOptions(options);
   fit.search.seed = options.search.seed;
-  // Two idealities of one curve say little; the law holds the second one too.
+  // One curve hardly determines two idealities; the law fixes the second one as well.
   if (options.model == Model::kDoubleDiode) fit.fixed["n2"] = 2;
   return fit;
 }
@@ -71,7 +71,8 @@ void DescribeCurves(const Job& job, FamilyReport* report) {
 void FitFreely(Job* job, FamilyReport* report) {
   std::vector<const IvCurve*> curves;
   std::vector<int> rows;
-  // One start for the joint fit is worth a fit even where the floor is not asked for.
+  // The individual fits of the search curves run even if the floor is not requested, since they
+  // give starts of the joint fit.
   std::vector<int> wanted = job->search_curves;
   if (job->options.individual_fits) {
     wanted = job->family.curves.fitted;
@@ -117,7 +118,7 @@ Expected<void> SearchShared(Job* job, FamilyReport* report) {
   return {};
 }
 
-// What becomes of the best candidate by itself.
+// Polishes the best candidate alone and reports both results.
 void FollowCandidate(Job* job, const JointProblem& problem, FamilyReport* report) {
   const CandidateEnds ends = PolishCandidate(job->family, job->options, job->search_curves, job->searched,
                                    job->observer, problem);
@@ -132,7 +133,7 @@ void FollowCandidate(Job* job, const JointProblem& problem, FamilyReport* report
   job->stopped = job->stopped || ends.plain.stopped || ends.own.stopped;
 }
 
-// What the curve's own fit gives beyond the shared parameters.
+// Fills the differences of the individual fit from the shared parameters.
 void FillExcess(const TranslatedDevice& shared, FamilyCurve* row) {
   if (row->free_parameters.size() != shared.parameters.size()) return;
   const KeyPoints model = ModelKeyPoints(shared.device, shared.parameters.data());
@@ -180,7 +181,8 @@ void FillCurves(const Job& job, const JointProblem& problem, const JointEnd& end
 }
 
 void FindOutlier(Job* job, const JointProblem& problem, const JointEnd& end, FamilyReport* report) {
-  // Whether its sensors excuse a curve is asked with unknowns that no curve with effects has.
+  // The test frees the irradiance and temperature of a curve, which a curve with effects does not
+  // have as unknowns.
   if (job->family.translation.extended) return;
   SharedObserver watch(job->observer, "outlier curves", 0);
   watch.Begin();
@@ -231,7 +233,7 @@ FamilyReport Head(const Job& job) {
   return report;
 }
 
-// What is a whole number was settled by the starts: from here on it is held.
+// Fixes the integer-valued parameters at the values that the starts selected.
 void SettleWhole(const std::vector<double>& shared, FamilyProblem* family) {
   for (std::size_t i = 0; i < family->bounds.size(); ++i) {
     if (family->bounds[i].whole == 0) continue;
@@ -282,7 +284,7 @@ void Refine(Job* job, FamilyReport* report) {
   }
 }
 
-// The problem, if it can be fitted.
+// Builds the problem and checks that it can be fitted.
 Expected<FamilyProblem> CheckedProblem(const CurveSet& set, const FamilyOptions& options) {
   TRY(ValidateThreads(options.threads));
   TRY(FamilyProblem family, MakeFamilyProblem(set, options));

@@ -10,20 +10,21 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Fits one set of reference parameters to all light curves of a set: MLO over the shared parameters
-// on a few well-spread curves, then one bounded least-squares problem with shared and per-curve
-// unknowns on all of them. A curve whose irradiance or temperature nobody stated gets it as an
-// unknown of its own. Errors: fewer than two light curves, options outside their ranges, unknown
-// names.
+// Fits one set of reference parameters to all light curves of a set. MLO searches the shared
+// parameters on a few well-spread curves. One bounded least-squares problem then fits shared and
+// per-curve unknowns to all curves. An irradiance or temperature that a curve does not state
+// becomes an unknown of that curve. Errors: fewer than two light curves, options outside their
+// ranges, unknown names.
 Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& options = {},
                                  const Observer& observer = {});
 
-// What FitFamily() would object to before its search, and else the law that it would fit.
+// Checks the set and the options as FitFamily() does before its search. Returns the law to be
+// fitted.
 Expected<Translation> CheckFamily(const CurveSet& set, const FamilyOptions& options);
 
-// De Soto and PVsyst with one and two diodes on the same curves, with `candidates` filled in. Of
-// the laws whose error on held-out curves is within one standard error of the lowest, the one with
-// the fewest free parameters is reported.
+// Fits De Soto and PVsyst with one and two diodes to the same curves and fills `candidates`.
+// Reports the law with the fewest free parameters among those whose error on held-out curves is
+// within one standard error of the lowest.
 Expected<FamilyReport> FitFamilyAuto(const CurveSet& set, const FamilyOptions& options = {},
                                      const Observer& observer = {});
 

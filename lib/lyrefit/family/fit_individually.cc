@@ -82,7 +82,7 @@ CurveSet KeptCurves(const CurveSet& set, const FamilyReport& report) {
 
 std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report) {
   const auto doubts = JudgeReadings(KeptCurves(set, report).curves);
-  return doubts ? *doubts : std::vector<std::string>();  // what is refused is left out
+  return doubts ? *doubts : std::vector<std::string>();  // refused curves are left out
 }
 
 namespace {
@@ -103,7 +103,7 @@ FamilyReport FreeHead(const CurveSet& set, const FamilyOptions& options) {
   return report;
 }
 
-// Of every curve by itself.
+// Options of the individual fit of every curve.
 FitOptions FreeOptions(const FamilyOptions& options) {
   FitOptions fit = OwnFitOptions(options);
   fit.fixed = options.fixed;
@@ -116,7 +116,7 @@ FitOptions FreeOptions(const FamilyOptions& options) {
   return fit;
 }
 
-// The curves to be fitted; all of them are described.
+// The curves to be fitted. All curves of the set are described in the report.
 Expected<std::vector<const IvCurve*>> WantedCurves(const CurveSet& set,
                                                    const FamilyOptions& options,
                                                    FamilyReport* report) {
@@ -140,14 +140,14 @@ Expected<std::vector<const IvCurve*>> WantedCurves(const CurveSet& set,
   return curves;
 }
 
-// How the single fits went.
+// Counts of the outcomes of individual fits.
 struct FreeCounts {
   int fitted = 0;
   int failed = 0;      // fits that are not usable
-  int correlated = 0;  // fits whose residuals keep their sign too long
+  int correlated = 0;  // fits with fewer sign changes of the residuals than expected
   int refused = 0;
-  const Error* first = nullptr;         // of those refused
-  const FitReport* unusable = nullptr;  // the first
+  const Error* first = nullptr;         // first error of a refused curve
+  const FitReport* unusable = nullptr;  // first fit that is not usable
 };
 
 // Fills the curves of the report; those that cannot be fitted are left out with a warning.
@@ -207,7 +207,7 @@ Expected<FamilyReport> FitIndividually(const CurveSet& set, const FamilyOptions&
   report.individual_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
   const FreeCounts counts = TakeFits(fits, &report);
-  // What no curve can be fitted with is an error of the options, or of the set.
+  // If no curve can be fitted, the options or the set are at fault.
   if (counts.first != nullptr && counts.refused == static_cast<int>(curves.size())) {
     return tl::unexpected(*counts.first);
   }

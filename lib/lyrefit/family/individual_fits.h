@@ -10,26 +10,27 @@
 
 namespace lyrefit {
 
-// Curves fitted one by one.
+// Results of fitting curves individually.
 struct IndividualFits {
-  std::vector<std::optional<Expected<FitReport>>> reports;  // empty: interrupted before
+  std::vector<std::optional<Expected<FitReport>>> reports;  // empty: interrupted before its fit
   double seconds = 0;
   bool interrupted = false;
 };
 
-// How a curve of the family is fitted by itself, with the diodes alone and without intervals.
+// Options of an individual fit of a family curve: diodes only, without intervals.
 FitOptions OwnFitOptions(const FamilyOptions& options);
 
 IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
                        int threads, const Observer& observer);
 
-// What of a fit of its own goes into the family report, effects in the units of people.
+// Copies the parts of an individual fit that the family report contains; effects in reporting
+// units.
 void FillIndividualFit(const FitReport& fit, FamilyCurve* curve);
 
-// Id, points and conditions as stated.
+// Describes a curve: id, number of points, and conditions as stated.
 FamilyCurve DescribeCurve(const IvCurve& curve);
 
-// The curves that are not left out, and what is doubtful about their readings.
+// The curves of `set` that are not left out, and the doubts about their readings.
 CurveSet KeptCurves(const CurveSet& set, const FamilyReport& report);
 std::vector<std::string> DoubtsOfKept(const CurveSet& set, const FamilyReport& report);
 

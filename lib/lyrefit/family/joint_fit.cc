@@ -20,14 +20,14 @@ bool HasPriors(const JointProblem& problem) {
   });
 }
 
-// The noise of a point of weight 1 that a fit leaves.
+// Estimates the noise of a point of weight 1 from the residuals of a fit.
 double NoiseOf(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end) {
   const JointSpread spread = FindJointSpread(problem, end, problem.noise_A * problem.noise_A);
   const double degrees = JointDegrees(problem, family.free_parameters, spread.local_degrees);
   return std::sqrt(end.squares / degrees);
 }
 
-// The problem with what is a whole number held at what `shared` says of it.
+// The problem with its integer-valued parameters fixed at the values of `shared`.
 JointProblem HoldingWhole(JointProblem problem, const FamilyProblem& family,
                           const std::vector<double>& shared) {
   for (std::size_t i = 0; i < family.bounds.size(); ++i) {
@@ -47,7 +47,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   JointOptions thorough;
   thorough.proceed = watch.Proceed();
   JointProblem small = JointProblemOn(family, options, search_curves);
-  // Priors count from the start; a wide guess of the noise lets the data speak first.
+  // Priors count from the start. The first guess of the noise is 0.1 % of the current scale.
   small.noise_A = problem->noise_A = 1e-3 * problem->current_scale_A;
   std::vector<JointEnd> ends(starts.size());
   ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
@@ -134,7 +134,7 @@ std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const Jo
   set(at.resistance_shunt, at.spec.shunt == ShuntLaw::kConstant ? shunt : shunt * g);
   if (at.resistance_shunt_dark >= 0) set(at.resistance_shunt_dark, 4 * shared[at.resistance_shunt]);
   if (at.recombination >= 0) set(at.recombination, 0);
-  // What Io_ref has to be for the law to lead to this curve's saturation current.
+  // Io_ref follows from this curve's saturation current and the factor by which the law changes it.
   shared[at.saturation_current] = 1;
   if (at.n_2 >= 0) shared[at.saturation_current_2] = 0;
   std::vector<double> device(at.device.size());

@@ -8,22 +8,22 @@
 
 namespace lyrefit {
 
-// The joint fit of some curves from several starts: every start is refined on the curves of the
-// search, the best two on all. With priors the noise that they are weighed against is found on the
-// way. `problem` (on `curves`) gets that noise, and
-// holds what is a whole number where the best fit has it. Stopped by the observer, it is the best
-// so far.
+// Fits the given curves jointly from several starts. Every start is refined on the search curves,
+// the best two then on all curves. If there are priors, the noise that scales them is estimated as
+// well. `problem` (on all fitted curves) receives that noise, and its integer-valued parameters are
+// fixed at the values of the best fit. If the observer stops the fit, the result is the best so
+// far.
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
                     const Observer& observer, JointProblem* problem);
 
-// Finds the noise that priors are weighed against at the end of a fit, and refines from there, until
-// both agree. Nothing without priors.
+// Estimates the noise that scales priors at the end of a fit and refines again, until both agree.
+// Does nothing without priors.
 void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProblem* problem,
                  JointEnd* end);
 
-// What becomes of the search's best candidate by itself: after one bounded solve of all curves, and
-// after a joint fit that begins at it alone.
+// The search's best candidate after one bounded solve on all curves, and after a joint fit that
+// starts from it alone.
 struct CandidateEnds {
   JointEnd plain;
   JointEnd own;
@@ -34,8 +34,8 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
                     const std::vector<int>& search_curves, const JointPoint& candidate,
                     const Observer& observer, JointProblem problem);
 
-// A start from a curve's own fit: its parameters brought to the reference by the usual
-// coefficients. Empty where they do not go there.
+// Builds a start from a curve's individual fit: its parameters translated to the reference with
+// usual coefficients. Empty if no saturation current at the reference gives that of the curve.
 std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
                                      const std::vector<double>& free_parameters);
 

@@ -9,7 +9,7 @@ constexpr int kResistances = 32;
 
 }  // namespace
 
-// The exponentials are relative to that at Voc.
+// All exponentials are relative to that at Voc.
 KeyPointCurve CurveThrough(const KeyPointSheet& sheet, double n, double rs) {
   const double a = n * sheet.thermal_V;
   const double isc = sheet.values.short_circuit_current_A;
@@ -19,7 +19,7 @@ KeyPointCurve CurveThrough(const KeyPointSheet& sheet, double n, double rs) {
   const double power_V = sheet.values.max_power_voltage_V + imp * rs;
   const double at_short = std::exp((short_V - voc) / a);
   const double at_power = std::exp((power_V - voc) / a);
-  // Differences to the short circuit rid the equations of Iph.
+  // Differences to the short circuit eliminate Iph from the equations.
   const double open_e = 1 - at_short, open_v = voc - short_V;
   const double power_e = at_power - at_short, power_v = power_V - short_V;
   const double determinant = open_e * power_v - power_e * open_v;
@@ -40,7 +40,7 @@ double LargestResistance(const KeyPointSheet& sheet) {
 std::optional<KeyPointCurve> PhysicalCurve(const KeyPointSheet& sheet, double n) {
   const auto conductance = [&](double rs) { return CurveThrough(sheet, n, rs).conductance; };
   if (!(conductance(0) >= 0)) return std::nullopt;
-  // The shunt is perfect before the largest Rs, where 1/Rsh goes to minus infinity.
+  // 1/Rsh falls to 0 at some Rs below the largest one, and tends to minus infinity at the largest.
   const double largest = SignChange(conductance, 0, LargestResistance(sheet));
   const auto slope_error = [&](double rs) { return CurveThrough(sheet, n, rs).slope_error; };
   const bool positive = slope_error(0) > 0;
@@ -66,7 +66,7 @@ std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& devic
   shared[at.saturation_current] = device.saturation_current_A;
   shared[at.n] = device.n;
   shared[at.resistance_series] = device.resistance_series_ohm;
-  shared[at.resistance_shunt] = 1 / device.shunt_conductance_S;  // infinite for none
+  shared[at.resistance_shunt] = 1 / device.shunt_conductance_S;  // infinite without a shunt
   shared[at.alpha_sc] = alpha;
   shared[at.bandgap] = kSiliconBandGap_eV;
   shared[at.bandgap_slope] = kSiliconBandGapSlope_1_K;

@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// A place where f changes its sign between a and b, to the last bit.
+// Bisects to a sign change of f between a and b, to the last bit.
 template <class F>
 double SignChange(const F& f, double a, double b) {
   const bool positive = f(a) > 0;
@@ -22,38 +22,39 @@ double SignChange(const F& f, double a, double b) {
   return 0.5 * (a + b);
 }
 
-// The curve through the three points for given n and Rs. `diode_A` is Is exp(Voc / (n Ns Vt)): Is
-// itself may be too small for a double.
+// The curve through the three points for given n and Rs. `diode_A` is Is exp(Voc / (n Ns Vt)),
+// since Is itself may underflow a double.
 struct KeyPointCurve {
   double n;
   double rs;
   double photocurrent;
   double diode_A;
   double conductance;
-  double slope_error;  // of dP/dV = 0 at the maximum power point, in A
+  double slope_error;  // residual of dP/dV = 0 at the maximum power point, in A
 };
 
-// What a data sheet says, and of how many cells at which temperature.
+// Values of a data sheet, with the thermal voltage of the module.
 struct KeyPointSheet {
   const DataSheetValues& values;
-  double thermal_V;  // of the module
+  double thermal_V;  // Ns k T / q of the module
   ConstantSet constants;
 };
 
-// Points on the curve: Isc, Voc, (Vmp, Imp).
+// The curve through Isc, Voc and (Vmp, Imp).
 KeyPointCurve CurveThrough(const KeyPointSheet& sheet, double n, double rs);
 
-// No series resistance is larger: beyond it the voltages at the junction change their order.
+// Upper bound of Rs. Beyond it the junction voltages of the points change their order.
 double LargestResistance(const KeyPointSheet& sheet);
 
-// The curve for n whose power is largest where it should be; nothing if that takes a negative
-// Rs, 1/Rsh or Is.
+// The curve for n whose power is largest at (Vmp, Imp). None if that requires a negative Rs, 1/Rsh
+// or Is.
 std::optional<KeyPointCurve> PhysicalCurve(const KeyPointSheet& sheet, double n);
 
-// Is of a curve is 0 where it is too small for a double.
+// Converts a curve to device parameters. Is is 0 if it underflows a double.
 ReferenceDevice ToDevice(const KeyPointSheet& sheet, const KeyPointCurve& c);
 
-// A device as shared parameters of De Soto's law, of silicon; Rsh is infinite for no shunt.
+// A device as shared parameters of De Soto's law with silicon's band gap; Rsh is infinite without a
+// shunt.
 std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha);
 
 }  // namespace lyrefit

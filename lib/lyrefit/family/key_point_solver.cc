@@ -11,14 +11,14 @@
 namespace lyrefit {
 namespace {
 
-// Range of n, as exponents Voc / (n Ns Vt) that no device leaves. n = 1 has about 25.
+// Range of n, as exponents Voc / (n Ns Vt) that no device exceeds. n = 1 has about 25.
 constexpr double kLargestExponentAtVoc = 600;
 constexpr double kSmallestExponentAtVoc = 2;
 constexpr int kIdealities = 120;
 constexpr double kUsualIdeality = 1.2;
-constexpr double kNothing = 1e-9;  // V over Rs, or 1/V through the shunt, at the border
+constexpr double kNothing = 1e-9;  // V across Rs, or 1/V through the shunt: counts as 0
 
-// The current at Voc + 2 K beta_oc and 27 C, which should be 0.
+// Residual current at Voc + 2 K beta_oc and 27 C, which is 0 for an exact solution.
 double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   const double k_eV = ThermalVoltage(1.0, sheet.constants);
   const double warm_K = kReferenceTemperature_K + kVocStep_K;
@@ -35,7 +35,8 @@ double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   return c.photocurrent + sheet.values.alpha_sc_A_K * kVocStep_K - diode - c.conductance * warm_V;
 }
 
-// Physical curves by rising n: a fine grid, and the last n on either side of every gap.
+// Physical curves by rising n: those on a fine grid, and the outermost n on either side of every
+// gap.
 std::vector<KeyPointCurve> PhysicalCurves(const KeyPointSheet& sheet, double lowest,
                                           double highest) {
   const auto border = [&](double inside, double outside) {
@@ -61,7 +62,8 @@ std::vector<KeyPointCurve> PhysicalCurves(const KeyPointSheet& sheet, double low
   return curves;
 }
 
-// The physical curve that misses beta_oc the least, with what ends there set to exactly nothing.
+// The physical curve with the smallest error of beta_oc. The quantity that bounds it is set to
+// exactly 0.
 KeyPointSolution Nearest(const KeyPointSheet& sheet, const std::vector<KeyPointCurve>& curves) {
   const KeyPointCurve* best = &curves.front();
   for (const KeyPointCurve& curve : curves) {
@@ -100,7 +102,7 @@ std::optional<KeyPointSolution> SolveKeyPoints(const DataSheetValues& values, in
     const double right = WarmError(sheet, curves[k + 1]);
     if ((left > 0) == (right > 0)) continue;
     const auto curve = PhysicalCurve(sheet, SignChange(warm_error, curves[k].n, curves[k + 1].n));
-    // Across a gap between physical curves the sign may change without a root.
+    // The sign may change across a gap between physical curves without a root.
     if (curve && std::fabs(WarmError(sheet, *curve)) < 1e-9 * curve->photocurrent) {
       found.push_back(*curve);
     }

@@ -16,8 +16,8 @@ double CurveSquare(const JointProblem& problem, const JointPoint& point, int c) 
   return one * one * problem.curves[c].weight[0];
 }
 
-// Whether ordinary errors of its own readings explain a curve under these shared parameters: the
-// sensors of a good set differ by a few percent, and such a curve is no other device's.
+// Whether ordinary errors of its readings explain a curve under these shared parameters. Sensors of
+// a good set differ by a few percent, and such a curve does not belong to another device.
 bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c, double noise_A,
                      double limit_A, const std::function<bool()>& proceed) {
   constexpr double kIrradianceSd = 0.02;
@@ -85,7 +85,7 @@ std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& 
     const bool far = rmse[c] > limit;
     if (far && !ReadingsExplain(problem, point, c, noise, limit, proceed)) outlier.push_back(c);
   }
-  // More than a third cannot be the exception.
+  // Outliers cannot be more than a third of the curves.
   if (3 * static_cast<int>(outlier.size()) > curves) outlier.clear();
   return outlier;
 }

@@ -7,10 +7,10 @@
 
 namespace lyrefit {
 
-// Positions among the problem's curves of those that do not belong to the device of the others: a
-// fit that hardly listens to them misses them by far more than it misses the rest, and visibly, and
-// more than an ordinary error of their readings explains. `proceed` is asked as in JointOptions;
-// what comes back after it said no says nothing.
+// Finds curves that do not belong to the device of the others (positions among the problem's
+// curves). A robust fit misses such a curve by far more than the other curves, by a visible amount,
+// and by more than ordinary errors of its irradiance and temperature explain. `proceed` is called
+// as in JointOptions; the result is meaningless after it returned false.
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
                                const std::function<bool()>& proceed = {});
 

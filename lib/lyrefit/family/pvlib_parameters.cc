@@ -11,7 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// k of the fit over k of pvlib: a voltage n Ns k T / q or an energy Eg / k restated in pvlib's k.
+// k of the fit divided by k of pvlib. Converts a voltage n Ns k T / q or an energy Eg / k to
+// pvlib's k.
 double ConstantRatio(const Translation& translation) {
   return ThermalVoltage(1.0, translation.spec.constants) / ThermalVoltage(1.0);
 }
@@ -54,7 +55,7 @@ std::vector<NamedValue> DeSotoParameters(const Translation& at, const std::vecto
 }
 
 std::vector<NamedValue> PvsystParameters(const Translation& at, const std::vector<double>& p) {
-  // A constant shunt is an exponential one with nothing to follow.
+  // A constant shunt is an exponential one with R_sh_0 = R_sh_ref.
   const bool constant = at.spec.shunt == ShuntLaw::kConstant;
   const int dark = constant ? at.resistance_shunt : at.resistance_shunt_dark;
   const double ratio = ConstantRatio(at);
@@ -69,7 +70,7 @@ std::vector<NamedValue> PvsystParameters(const Translation& at, const std::vecto
       {"R_s", p[at.resistance_series]},
       {"cells_in_series", static_cast<double>(at.spec.cells_in_series)},
       {"R_sh_exp", constant ? kPvlibShuntExponent : p[at.shunt_exponent]},
-      // Only EgRef / (k gamma) counts, and gamma is restated already.
+      // Only EgRef / (k gamma) matters, and gamma is converted already.
       {"EgRef", p[at.bandgap]},
       {"irrad_ref", kReferenceIrradiance_W_m2},
       {"temp_ref", kReferenceTemperature_C},

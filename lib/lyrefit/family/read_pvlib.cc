@@ -21,15 +21,15 @@ using nlohmann::json;
 constexpr std::uintmax_t kLargestFile = 1U << 20;
 constexpr int kMostCells = 100000;
 
-// One keyword of pvlib: which values make sense and what stands for a missing one.
+// One keyword of pvlib: its allowed values and its default.
 struct Keyword {
   const char* name;
   double least;
-  bool above_least = false;  // least itself is out
-  double usual = kUnknown;   // NaN: must be given
+  bool above_least = false;  // `least` itself is not allowed
+  double usual = kUnknown;   // default; NaN: the keyword is required
 };
 
-// Takes the keywords out of the dictionary and remembers the first thing that is wrong.
+// Reads keywords from the dictionary and stores the first error.
 class Reader {
  public:
   Reader(const json& dictionary, const std::string& text, const std::string& path)
@@ -50,14 +50,14 @@ class Reader {
         fields_.Refuse(keyword.name, fmt::format("a number {} {:g}", range, least)).value());
   }
 
-  // Infinite where it is null, as PvlibJson writes it.
+  // Infinite if the value is null, as PvlibJson writes it.
   double TakeShunt() {
     const auto found = dictionary_.find("R_sh_ref");
     if (found != dictionary_.end() && found->is_null()) return kInfinity;
     return Take({"R_sh_ref", 0, true});
   }
 
-  // 0 where it is missing.
+  // Returns 0 if the keyword is missing.
   int TakeCells() {
     if (error_) return 0;
     const Expected<std::optional<int>> cells = fields_.WholeNumber({"cells_in_series"});
@@ -71,7 +71,7 @@ class Reader {
     return 0;
   }
 
-  // Other references would need other parameters: nobody has them.
+  // Parameters at other reference conditions are not supported.
   void CheckReference(const char* name, double ours) {
     const double value = Take({name, -kInfinity, true, ours});
     if (error_ || std::fabs(value - ours) <= 1e-9 * std::fabs(ours)) return;
@@ -96,8 +96,8 @@ class Reader {
   std::optional<Error> error_;
 };
 
-// The keywords of all functions. PvlibJson writes some beside "parameters"; files written before
-// it did so, and pvlib's own, have all in one place.
+// Collects the keywords of all functions. PvlibJson writes some beside "parameters"; its older
+// files, and pvlib's own dictionaries, have all in one object.
 Expected<json> KeywordsIn(const json& document, const std::string& text, const std::string& path) {
   if (!document.contains("parameters")) return document;
   const JsonFields fields(document, text, path);
@@ -130,8 +130,8 @@ Expected<TranslationLaw> LawOf(const json& document, const json& dictionary,
               path);
 }
 
-// The translation and the values that both laws have, in its order; whatever else there is comes
-// behind them.
+// Reads the translation and the parameters that both laws have, in the translation's order. The
+// caller reads further keywords after it.
 Expected<void> TakeShared(const TranslationSpec& spec, const char* ideality, Reader* reader,
                           NamedParameters* module) {
   TRY(module->translation, MakeTranslation(spec));
@@ -200,7 +200,7 @@ Expected<NamedParameters> ReadPvlibParameters(const std::string& path) {
       law == TranslationLaw::kPvsyst ? TakePvsyst(&reader, &module) : TakeDeSoto(&reader, &module);
   if (!taken) return Fail(taken.error().message, path);
   if (reader.error()) return tl::unexpected(*reader.error());
-  // What pvlib itself would compute otherwise, such as a shunt cut off at 0 ohm.
+  // Rejects parameters that pvlib would compute differently, such as a shunt clipped at 0 ohm.
   if (const auto same = PvlibParameters(module.translation, module.shared); !same) {
     return Fail(same.error().message, path);
   }

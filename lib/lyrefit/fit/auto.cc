@@ -18,7 +18,7 @@ std::string Capital(Model model) {
   return model == Model::kSingleDiode ? "SD" : model == Model::kDoubleDiode ? "DD" : "TD";
 }
 
-// Why the data do not support `rich` over `simple`, empty if they do.
+// Reasons why the data do not support `rich` over `simple`; empty if they do.
 std::string Objection(const CandidateReport& simple, const CandidateReport& rich) {
   std::vector<std::string> reasons;
   if (!(rich.aicc < simple.aicc)) {
@@ -41,7 +41,7 @@ std::string Objection(const CandidateReport& simple, const CandidateReport& rich
   return text;
 }
 
-// Whether every diode is needed: the best fit with one diode less must lie outside the 95 % limit
+// Whether every diode is needed. The best fit with one diode less must be outside the 95 % limit
 // that also bounds the profile of a saturation current.
 bool DiodesIdentifiable(double simple_rmse, double rich_rmse, int degrees_of_freedom) {
   if (degrees_of_freedom < 1) return false;
@@ -68,7 +68,7 @@ CandidateReport Judge(const FitReport& report, const FitOptions& options, const 
   return candidate;
 }
 
-// A model's own share of options that speak of diodes it does not have.
+// The options without those for diodes that the model lacks.
 FitOptions ForModel(FitOptions options, Model model, const IvCurve& curve) {
   options.model = model;
   const Device device = MakeDevice(model, curve.conditions);

@@ -11,13 +11,14 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kWidest = 0.01;  // of a group, in parts of Voc
+constexpr double kWidest = 0.01;  // largest width of a group, in units of Voc
 
 using Values = std::vector<double>;
 
 int GroupCount(const std::vector<int>& first) { return static_cast<int>(first.size()) - 1; }
 
-// Along the path, of groups whose means lie there: to the nearer of the next ones.
+// Width of each group along the path, at most kWidest: the distance of its mean to the nearer
+// neighbouring mean. `position` has the means.
 Values WidthsOf(const Values& position) {
   Values widths(position.size(), kWidest);
   for (std::size_t g = 0; g < position.size(); ++g) {
@@ -27,9 +28,9 @@ Values WidthsOf(const Values& position) {
   return widths;
 }
 
-// Readings at even distances d about x: the variance of their mean part in a path of length l is
-// the mean of exp(-|x - x'| / l) over all pairs, 1 - d (m^2 - 1) / (3 m l) where d m is much less
-// than l.
+// Relative loss of path variance by averaging within each group, times the path length l. For m
+// readings at equal distances d, averaging multiplies the variance by the mean of exp(-|x - x'| /
+// l) over all pairs. That is 1 - d (m^2 - 1) / (3 m l) where d m is much less than l.
 Values AveragedAway(const std::vector<int>& first, const Values& position) {
   Values parts = WidthsOf(position);
   for (std::size_t g = 0; g < parts.size(); ++g) {
@@ -115,7 +116,7 @@ Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& s
                               const Eigen::VectorXd& residual) {
   Differences differences;
   const Values widths = WidthsOf(Means(first, shape.position));
-  // Of a difference the root of two of the typical reading's.
+  // The standard deviation of a difference is sqrt(2) times that of a typical reading.
   const auto append = [](const Values& errors, int begin, int end, Values* to) {
     double squares = 0;
     for (int k = begin; k < end && !errors.empty(); ++k) squares += errors[k] * errors[k];

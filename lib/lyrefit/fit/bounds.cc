@@ -14,12 +14,13 @@
 namespace lyrefit {
 namespace {
 
-// "Is" for "Is2", "n" for "n1", the symbol itself for the rest.
+// Symbol without its diode number: "Is" for "Is2", "n" for "n1".
 std::string Group(const std::string& symbol) {
   return symbol.substr(0, symbol.find_last_not_of("0123456789") + 1);
 }
 
-// The range a table gives a parameter: under its own symbol or name, else under its group.
+// Range of a parameter in a table, by its symbol or name, else by its symbol without number. Null:
+// none.
 const std::pair<double, double>* Lookup(const BoundsSpec::Table& table, const ParameterInfo& info) {
   for (const std::string& key : {info.symbol, info.name, Group(info.symbol)}) {
     if (const auto found = table.find(key); found != table.end()) return &found->second;
@@ -64,7 +65,7 @@ ParameterBounds Linear(double lower, double upper) {
   return {lower, upper, lower, upper, SearchScale::kLinear};
 }
 
-// A curve's own scales, from which the physical box is built.
+// Current and voltage scales of a curve for the physical bounds.
 struct CurveScales {
   double current_A;  // largest |current|
   double voltage_V;  // Voc, or the largest voltage
@@ -76,7 +77,7 @@ CurveScales ScalesOf(const IvCurve& curve) {
     scales.current_A = std::max(scales.current_A, std::fabs(curve.current_A[k]));
     scales.voltage_V = std::max(scales.voltage_V, curve.voltage_V[k]);
   }
-  // A dark curve crosses zero current at zero voltage; that is no open circuit to go by.
+  // A dark curve crosses zero current at zero voltage, which is not an open-circuit voltage.
   const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
   const bool lit = key.short_circuit_current_A > 0.01 * scales.current_A;
   if (lit && key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
@@ -92,8 +93,8 @@ std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve&
                                             double n_lower, double n_upper) {
   const CurveScales scales = ScalesOf(curve);
   const double resistance = scales.voltage_V / scales.current_A;
-  // No junction of a single cell gives 1.5 V: the number of cells was not told, n is that of all of
-  // them together, and each gives somewhere between 0.5 and 1.25 V.
+  // No single junction reaches 1.5 V. Above it the number of cells was not given and n is that of
+  // all cells together. The range assumes 0.5 to 1.25 V per cell.
   const double per_cell_V = scales.voltage_V / curve.conditions.cells_in_series;
   if (per_cell_V > 1.5) {
     n_lower *= per_cell_V / 1.25;
@@ -127,7 +128,7 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
   } else if (spec.name == "wide") {
     bounds = PhysicalBounds(device, curve, 0.5, 10);
   } else {
-    // A table may speak of diodes that this model lacks: one file serves every model.
+    // A table may have bounds of diodes that this model lacks, so that one file serves every model.
     const Device largest = MakeDevice(Model::kTripleDiode, curve.conditions);
     TRY(CheckTable(spec.table, largest, true));
     for (const ParameterInfo& info : device.parameters) {

@@ -10,7 +10,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a side: a candidate so little outside is moved inside
+constexpr double kRounding = 1e-9;  // of a side: candidates outside by less are clamped
 
 Expected<void> CheckCandidate(const std::string& name, const Box& box, Candidate* candidate) {
   if (candidate->x.size() != box.lower.size()) {

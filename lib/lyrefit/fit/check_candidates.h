@@ -5,10 +5,10 @@
 
 namespace lyrefit {
 
-// Makes what a search of the user's own came back with fit for the polish: `best` stands in for
-// missing elites and the first elite for a missing `best`, objective values are computed anew.
-// Error: no candidate at all, a candidate with another number of coordinates than the box has sides, one that
-// is not finite or outside the box.
+// Checks and completes the result of a user's own search before the polish. `best` replaces missing
+// elites, the first elite replaces a missing `best`, and objective values are recomputed. Error: no
+// candidate, or one that is not finite, is outside the box or has another number of coordinates
+// than the box.
 Expected<void> CheckCandidates(const ObjectiveFunction& objective, const Box& box,
                           SearchSummary* summary);
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kDrawn = 40;
 constexpr std::size_t kKept = 4;
-constexpr double kBeside = 0.1;      // of a side, in all of them
-constexpr int kNext = 3;             // settings on either side
-constexpr std::size_t kSpread = 16;  // settings over all there are
+constexpr double kBeside = 0.1;      // of a side: points closer than this in all sides are close
+constexpr int kNext = 3;             // next settings on either side
+constexpr std::size_t kSpread = 16;  // most settings spread over the range
 
 struct Draw {
   double mean_square = 0;
@@ -63,7 +63,7 @@ void AddWholeNumbers(const FitJob& job, const DescentEnd& at, std::vector<Polish
   }
 }
 
-// A parameter that is settled by trying and no whole number, and what it is tried at.
+// A parameter that is enumerated but no integer, and its trial values.
 struct Setting {
   int parameter = 0;
   std::set<double> values;
@@ -103,7 +103,8 @@ void AddNextSettings(const FitJob& job, const DescentEnd& at, std::vector<Polish
   }
 }
 
-// The same place in every other variant, as far as that has it.
+// The end in every other variant. A parameter that only the other variant has free starts at its
+// usual value.
 void AddOtherVariants(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
   const int first = job.base_size();
   for (std::size_t f = 0; f < job.variants.size(); ++f) {
@@ -121,8 +122,8 @@ void AddOtherVariants(const FitJob& job, const DescentEnd& at, std::vector<Polis
   }
 }
 
-// One parameter elsewhere in its range, of those that say how something acts (a bypass diode's
-// drop, a reverse law's exponent) and not how strong it is.
+// Moves one parameter within its range: those that describe how an effect acts (forward voltage of
+// a bypass diode, exponent of a reverse characteristic), not its strength.
 void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
   constexpr double kFar = 0.15;  // of the range
   const Variant& variant = job.variants[at.start.variant];

@@ -11,28 +11,31 @@
 
 namespace lyrefit {
 
-// Places for descents over the local optima of a device with effects.
+// Starts for descents among the local optima of a device with effects.
 
-// Where the shape of the curve suggests, in every variant, on a typical device: "shape 1", ...
+// Starts from the shape of the curve, in every variant, on a typical device. Their origins are
+// "shape 1", ...
 constexpr char kShapeOrigin[] = "shape ";
 std::vector<PolishStart> ShapeStarts(const FitJob& job);
 
-// The best of many random places, none of them beside another; every second one has the diodes of
-// `best`, so that the effects alone are drawn.
+// The best of many random points, none close to another. Every second one has the base parameters
+// of `best`, so that only the effects are random.
 std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
                                       const std::vector<double>& best, RandomStream* random);
 
-// One more or less of each whole number of an end, one less of one for one more of another, the
-// next settings of what is settled by trying as well, and the same place in the other variants.
+// Starts near an end: with one integer parameter a step up or down, with one integer up and another
+// down, or with the next settings of each enumerated parameter. The end transferred to the other
+// variants is added.
 std::vector<PolishStart> Neighbours(const FitJob& job, const DescentEnd& at);
 
-// An end with one parameter elsewhere in its range, of those that say how something acts.
+// Starts from an end with one parameter moved within its range. Parameters that describe how an
+// effect acts are moved, not its strength.
 std::vector<PolishStart> Elsewhere(const FitJob& job, const DescentEnd& at);
 
-// A place with what is settled by trying at values spread over all there are.
+// Starts with each enumerated parameter at values spread over its settings.
 std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at);
 
-// "probe 1", ... in one of the variants.
+// Starts at `places` in one variant, with the origins "ORIGIN 1", "ORIGIN 2", ...
 std::vector<PolishStart> Named(const std::string& origin, int variant,
                                std::vector<std::vector<double>> places);
 

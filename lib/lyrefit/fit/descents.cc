@@ -11,13 +11,14 @@ namespace {
 
 constexpr int kFirst = 5, kMore = 9, kOn = 20, kToTheEnd = 100;  // steps
 constexpr std::size_t kOnwards = 12, kAhead = 6;
-constexpr int kOfEachVariant = 2;       // go on whatever the others do
-constexpr double kClose = 1.02;      // of the lowest RMSE: what may be the best after so many steps
-constexpr double kNear = 3;          // of the lowest RMSE: what may still become the best
+constexpr int kOfEachVariant = 2;       // descents of a variant that always continue
+constexpr double kClose = 1.02;      // of the lowest RMSE: ends below it are run to convergence
+constexpr double kNear = 3;          // of the lowest RMSE: descents above it are stopped
 constexpr int kEnough = 3;           // ends in the best local optimum
 constexpr double kSameOptimum = 1e-6;  // relative, of the mean square
 
-// A variant that another one holds in it comes to the same curve.
+// Ends are compared across variants, since a variant that is a special case of another one can
+// reach its curve.
 bool SameOptimum(const DescentEnd& a, const DescentEnd& b) {
   return std::fabs(a.end.mean_square - b.end.mean_square) <= kSameOptimum * b.end.mean_square;
 }
@@ -47,7 +48,8 @@ void Descents::Descend(std::vector<PolishStart> starts) {
   Finish(ways);
 }
 
-// All go on by so many steps; the `most` best of them are left, the best first.
+// Continues all descents by `steps` steps, then keeps the `most` best, best first. The first
+// kOfEachVariant of each variant are always kept.
 void Descents::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   RefineOptions briefly;
   briefly.small = true;
@@ -74,7 +76,7 @@ void Descents::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   *ways = std::move(left);
 }
 
-// Far above what has been reached already.
+// Whether an end is too far above the best one to become the best.
 bool Descents::IsHopeless(const DescentEnd& end) const {
   return end.penalised > kNear * kNear * ends_[best_].penalised;
 }
@@ -88,7 +90,7 @@ void Descents::Finish(const std::vector<int>& ways) {
     const bool known = best.finished && best.start.variant == at.start.variant && visits() >= kEnough;
     if (watch_->stopped()) break;
     if (known || at.penalised > kClose * kClose * best.penalised) continue;
-    // On its way it came to where another one ended.
+    // This descent has already reached the optimum of a finished one.
     at.finished = best.finished && best.start.variant == at.start.variant && SameOptimum(at, best);
     if (at.finished) continue;
     const RefineProblem own = InVariant(problem_, variants_[at.start.variant], at.end.p);
@@ -97,12 +99,12 @@ void Descents::Finish(const std::vector<int>& ways) {
   }
 }
 
-// Where a way has come to, unless it was lower before; and whether it is the best.
+// Stores the new end of a descent unless it was lower before, and updates the best one.
 void Descents::Take(int way, RefineEnd end) {
   DescentEnd& at = ends_[way];
   const double factor = VariantPenalty(problem_, variants_[at.start.variant]);
   const double penalised = end.mean_square * factor * factor;
-  constexpr double kSame = 1e-12;  // relative: rounding of one evaluation or another
+  constexpr double kSame = 1e-12;  // relative: rounding of repeated evaluations
   if (!at.end.p.empty() && !(penalised <= at.penalised * (1 + kSame))) return;
   at.end = std::move(end);
   at.penalised = std::isfinite(penalised) ? penalised : HUGE_VAL;

@@ -10,29 +10,29 @@
 
 namespace lyrefit {
 
-// Where the descent from a start has come to. `penalised`: its mean square with what the variant pays for
-// its free parameters (VariantPenalty), which decides between variants.
+// Current end of the descent from one start. `penalised` is its mean square times the squared
+// penalty factor of the variant (VariantPenalty); it ranks ends of different variants.
 struct DescentEnd {
   PolishStart start;
   RefineEnd end;
   double penalised = 0;
-  bool finished = false;  // false: given up, out of reach of the best
+  bool finished = false;  // false: not yet run to convergence, or stopped early
 };
 
-// Descents of a device with effects, whose landscape has many local optima: from many starts a few steps
-// each, from the better ones some more, and to the end from those that are then near the best,
-// until that has been reached often enough.
+// Multi-start descent for a device with effects, which has many local optima. Many starts take a
+// few steps each and the better ones take more. Those near the best are then run to convergence,
+// until enough of them have reached the best optimum.
 class Descents {
  public:
   Descents(const RefineProblem& problem, const std::vector<Variant>& variants, FitWatch* watch)
       : problem_(problem), variants_(variants), watch_(watch) {}
 
-  // At least one start in all before anything is asked.
+  // Descends from `starts`. The other members need at least one start before their first call.
   void Descend(std::vector<PolishStart> starts);
 
   const std::vector<DescentEnd>& ends() const { return ends_; }  // in the order of the starts
   int best() const { return best_; }                           // index into ends()
-  int visits() const;                                          // finished ends in the best local optimum
+  int visits() const;                                          // finished ends in the best optimum
   OptimumCount Count() const;
 
  private:

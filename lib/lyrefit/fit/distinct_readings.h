@@ -6,14 +6,15 @@
 
 namespace lyrefit {
 
-// A curve with each reading once. An exact copy of a reading says nothing new about the device.
+// A curve without duplicate readings. An exact copy of a reading adds no information about the
+// device.
 struct DistinctReadings {
-  IvCurve curve;               // in the order of the first of each
-  std::vector<double> copies;  // how often each is in the file; empty: every reading is there once
+  IvCurve curve;               // in order of first occurrence
+  std::vector<double> copies;  // multiplicity of each reading; empty: all 1
 };
 
-// Copies have the same voltage, current, sigma and time. Repeated measurements of one point differ
-// in their noise and all count.
+// Copies have equal voltage, current, sigma and time. Repeated measurements of one point differ in
+// their noise and are all kept.
 DistinctReadings FindDistinctReadings(const IvCurve& curve);
 
 }  // namespace lyrefit

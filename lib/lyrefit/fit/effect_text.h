@@ -10,11 +10,11 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// "shading:d=0.3,w=0.2:0.4" as an effect of the catalogue and what is said of its parameters;
-// DescribeUse() is the other way round.
+// Parses "shading:d=0.3,w=0.2:0.4" into an effect of the catalogue and the values or ranges of its
+// parameters. DescribeUse() is the inverse.
 Expected<EffectUse> ReadEffectUse(const std::string& text);
 
-// Effects that are given one by one: see base/option.h.
+// Option for a list of effects, one flag per effect: see base/option.h.
 template <auto First, auto... Rest>
 constexpr auto EffectsOption() {
   using Options = ClassOf<First>;
@@ -34,7 +34,7 @@ constexpr auto EffectsOption() {
                              nullptr, true};
 }
 
-// What --help says of them, wherever they may be given.
+// Unit and help text of every option that takes effects.
 inline constexpr char kEffectsUnit[] = "EFFECT[:P=VALUE|LOW:HIGH,...]";
 inline constexpr char kEffectsDoc[] =
     "an effect beside the diodes, as diagnose --explain names it: alone, with what the shape of "

@@ -6,11 +6,11 @@
 namespace lyrefit {
 
 std::vector<int> FindDegrees(const FoundErrors& found, const ErrorsAt& standard_errors, int most) {
-  constexpr double kStep = 0.1;  // of ln size
+  constexpr double kStep = 0.1;  // step of ln size
   constexpr int kFewest = 3;
   constexpr double ErrorSizes::*kSizes[] = {&ErrorSizes::current_A, &ErrorSizes::voltage_V,
                                             &ErrorSizes::path, &ErrorSizes::length};
-  std::vector<Eigen::Vector4d> slopes;  // of each estimate, of ln variance by ln sizes
+  std::vector<Eigen::Vector4d> slopes;  // d ln variance / d ln sizes, per estimate
   for (int j = 0; j < 4; ++j) {
     const auto beside = [&](double step) {
       ErrorSizes there = found.sizes;
@@ -23,7 +23,7 @@ std::vector<int> FindDegrees(const FoundErrors& found, const ErrorsAt& standard_
   }
   std::vector<int> degrees;
   for (const Eigen::Vector4d& slope : slopes) {
-    const double variance = slope.dot(found.uncertainty * slope);  // of ln variance
+    const double variance = slope.dot(found.uncertainty * slope);  // variance of ln variance
     const bool well_known = !std::isfinite(variance) || variance * most < 2;
     const int few = std::min(kFewest, most);
     degrees.push_back(well_known ? most : std::max(static_cast<int>(2 / variance), few));

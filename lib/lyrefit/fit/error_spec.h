@@ -11,29 +11,30 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What a fit takes the errors of the readings for.
+// Error model that a fit assumes for the readings.
 enum class ErrorKind {
-  kWhite,   // of one size (or as stated in sigma_A), and knowing nothing of each other
-  kField,   // the error model, its three sizes found from the residuals
-  kStated,  // the error model with sizes that somebody knows
+  kWhite,   // independent, of one size or as stated in sigma_A
+  kField,   // the error model with sizes estimated from the residuals
+  kStated,  // the error model with stated sizes
 };
 
-// The errors that a fit is to reckon with.
+// Error model of a fit and its sizes.
 struct ErrorSpec {
   ErrorKind kind = ErrorKind::kWhite;
-  ErrorSizes sizes;            // where they are stated
+  ErrorSizes sizes;            // used with kStated
   std::string name = "white";  // "white", "field" or the name of the file
 };
 
-// {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}: all three, none below
-// 0, the first or the last above; "path_length_of_voc", above 0, is 1 where it is not there. Errors
-// carry file, line and column.
+// Reads a file like {"current_noise_A": 0.001, "voltage_noise_V": 0.01, "path_of_isc": 0.0012}. All
+// three keys are required, none below 0, and the first or the last above 0. "path_length_of_voc",
+// above 0, is optional and defaults to 1. Errors carry file, line and column.
 Expected<ErrorSpec> ReadErrorFile(const std::string& path);
 
-// "white", "field", or such a file. Errors: those of the file.
+// Error model by name ("white" or "field"), or from a file of ReadErrorFile(). Errors: those of the
+// file.
 Expected<ErrorSpec> ErrorsNamed(const std::string& name);
 
-// What the readings' errors are, by name or file: see base/option.h.
+// Option for the error model, by name or file: see base/option.h.
 template <auto Member>
 constexpr auto NoiseOption() {
   using Options = ClassOf<Member>;

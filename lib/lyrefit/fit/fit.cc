@@ -34,7 +34,7 @@ namespace {
 
 constexpr int kGridStarts = 4;
 
-// The best of as many random points as the search evaluated.
+// Evaluates as many random points as the search did and reports the best one.
 void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, SearchCandidates* places,
                        FitReport* report) {
   SearchOptions random = job->options.search;
@@ -80,7 +80,7 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   return elites;
 }
 
-// Of the residuals of the distinct readings, where there are fewer of them.
+// Statistics of the residuals of the distinct readings, without duplicates.
 ResidualStatistics StatisticsOfDistinct(const FitJob& job, const std::vector<double>& p) {
   std::vector<double> residual =
       SolveCurrents(job.problem.device, p.data(), job.problem.points, *job.problem.kernel);
@@ -88,7 +88,7 @@ ResidualStatistics StatisticsOfDistinct(const FitJob& job, const std::vector<dou
   return FindResidualStatistics(job.distinct.voltage_V, residual);
 }
 
-// Everything that follows from the parameters.
+// Fills the results that follow from the parameters: RMSEs, key points, residuals, criteria.
 void FillResults(const FitJob& job, FitReport* report) {
   const IvCurve& curve = job.curve;
   const Device& device = report->device;
@@ -121,7 +121,7 @@ void FillResults(const FitJob& job, FitReport* report) {
   report->usable = report->not_usable_because.empty();
 }
 
-// How far the answer lies above what any number of diodes could reach.
+// Proves the floor: the lowest RMSE that any number of diodes can reach.
 void FindFloor(FitJob* job, FitReport* report) {
   if (!job->options.floor || job->watch.Stop()) return;
   if (!report->usable) {
@@ -147,7 +147,7 @@ void FindFloor(FitJob* job, FitReport* report) {
   report->floor = *floor;
 }
 
-// What one bounded solve makes of the best candidate, and what its own polish does.
+// Runs one bounded solve from the best candidate, and separately its full polish.
 void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report) {
   const bool extended = !job->variants.empty();
   const RefineProblem problem =
@@ -171,7 +171,7 @@ std::string TooFewReadings(const FitJob& job) {
                      job.free_parameters);
 }
 
-// Polishes, finds intervals around what is usable, and says where the polish ended.
+// Polishes, finds intervals if the fit is usable, and reports how the polish ended.
 void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const SearchSpace& space,
                     FitReport* report) {
   const FitOptions& options = job->options;

@@ -9,14 +9,16 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The hybrid estimator: search the bounds, polish the best candidate, further elites and a separable
-// grid by bounded least squares, and say what is known and how well. Errors: an unusable curve,
-// options outside their ranges, reversed or impossible bounds, fewer points than free parameters.
+// Fits one curve by the hybrid estimator. It searches the bounds, then polishes the best candidate,
+// further elites and a separable grid by bounded least squares. The report has estimates, intervals
+// and diagnostics. Errors: an unusable curve, options outside their ranges, reversed or impossible
+// bounds, fewer points than free parameters.
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options = {},
                         const Observer& observer = {});
 
-// Fits SD, DD and TD and returns the one the data support, with `choice` filled in: more diodes
-// must earn their place by AICc, the F-test, identifiability and held-out error together.
+// Fits the single-, double- and triple-diode model and returns the one that the data support, with
+// `choice` filled in. Another diode must improve AICc, the F-test and the held-out error, and must
+// be identifiable. Errors: those of Fit().
 Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options = {},
                             const Observer& observer = {});
 

@@ -25,7 +25,7 @@ class Watch {
   bool Stop() { return Report(0); }
   void FileDone() { Report(1); }
 
-  // For the fit of one file: its own progress is not shown, the files' is.
+  // Observer for the fit of one file: ignores its progress and forwards a stop request.
   Observer ForOneFile() {
     return [this](const Progress&) {
       return Stop() ? ObserverAction::kStop : ObserverAction::kContinue;
@@ -64,7 +64,7 @@ std::vector<FittedFile> FitFiles(
     if (watch.stopped()) return;
     const StoppableReads reads([&watch] { return watch.Stop(); });
     reports[i] = fit(i, watch.ForOneFile());
-    if (watch.stopped() && !*reports[i]) reports[i].reset();  // it may have been at reading
+    if (watch.stopped() && !*reports[i]) reports[i].reset();  // its error may come from the stop
     watch.FileDone();
   });
   std::vector<FittedFile> fits;

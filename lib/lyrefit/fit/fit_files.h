@@ -10,9 +10,10 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Calls fit(i, observer) for the i-th of the files, on up to `threads` threads (0: all cores), and
-// returns what came of them in the order of the files. `observer` sees how many are done; after it
-// asks to stop none is begun, and those that were not are left out.
+// Calls fit(i, observer) for the i-th file, on up to `threads` threads (0: all cores), and returns
+// the results in the order of the files. `observer` receives the number of finished files. After it
+// requests a stop no further file is started; files that were not fitted are omitted from the
+// result.
 std::vector<FittedFile> FitFiles(
     const std::vector<std::string>& files, int threads, const Observer& observer,
     const std::function<Expected<FitReport>(int i, const Observer& observer)>& fit);

@@ -38,7 +38,7 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
   TRY(CheckFitRanges(*device.extension));
   report->device = std::move(device);
   job->variants = VariantsOf(*report->device.extension);
-  // The freest variant asks for the most points.
+  // The variant with most free parameters needs the most points.
   const Variant& freest =
       *std::max_element(job->variants.begin(), job->variants.end(),
                         [](const Variant& a, const Variant& b) { return a.free < b.free; });
@@ -50,7 +50,7 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
   return {};
 }
 
-// Bounds of parameter i in the units of reports, where the others are as at `p`.
+// Bounds of parameter i in reporting units, with the other parameters at `p`.
 ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
                                std::vector<double> p, int i) {
   if (device.extension == nullptr || i < device.extension->law.base_size()) return own;
@@ -63,7 +63,7 @@ ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
   return {lower, upper, lower, upper, own.scale, own.whole};
 }
 
-// Refuses options that do not go with weighing by errors.
+// Error for options that do not support weighting by an error model.
 Expected<void> CheckErrorSpec(const FitOptions& options) {
   if (options.errors.kind == ErrorKind::kWhite) return {};
   if (options.objective == Objective::kMeasuredCurrent) {
@@ -76,7 +76,7 @@ Expected<void> CheckErrorSpec(const FitOptions& options) {
   return {};
 }
 
-// Smallest n at which no exponent is cut (law/term.h), at any reading and any Rs of the range.
+// Smallest n at which no exponent is cut off (law/term.h), at any reading and any Rs in its range.
 double SteepestIdeality(const IvCurve& curve, const Device& device, const ParameterBounds& rs) {
   double voltage = 0, current = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -93,7 +93,8 @@ double SteepestIdeality(const IvCurve& curve, const Device& device, const Parame
   return junction_V / (kLargestExponent * device.module_thermal_voltage_V);
 }
 
-// A diode whose exponent is cut is a step in the current: it would fit anything, and be no diode.
+// Raises the lower bounds of n to the smallest value without a cut-off. A diode whose exponent is
+// cut off is a step in the current, which could fit any data and is no diode.
 void LeaveOutSteps(FitJob* job, FitReport* report) {
   const double steepest = SteepestIdeality(job->curve, report->device, job->bounds[kRs]);
   for (int d = 0; d < DiodeCount(report->device); ++d) {
@@ -144,7 +145,7 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
         curve.source);
   }
   if (job->free_parameters == 0) return Fail("every parameter is fixed: nothing is left to fit");
-  // Effects know their readings by their places in the curve.
+  // Effects refer to readings by their index in the curve, so duplicates stay.
   const IvCurve& fitted = job->fitted();
   std::vector<double> weights;
   for (const double sigma : fitted.sigma_A) weights.push_back(1 / (sigma * sigma));
@@ -177,7 +178,7 @@ void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitRe
     const bool held = bounds.lower == bounds.upper;
     job->bounds[first + k] = bounds;
     job->fixed[first + k] = held ? bounds.lower : kUnknown;
-    // Where a whole number was settled the fit goes on as if it were held there.
+    // A selected integer parameter is fixed from here on.
     const double at = p[first + k];
     extension->bounds[k] = bounds.whole > 0 ? ParameterBounds{at, at, at, at, {}, 0} : bounds;
   }

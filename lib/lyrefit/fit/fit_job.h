@@ -11,7 +11,7 @@
 
 namespace lyrefit {
 
-// What the stages of one fit hand to each other.
+// Data shared by the stages of one fit.
 struct FitJob {
   const IvCurve& curve;
   const FitOptions& options;
@@ -19,38 +19,39 @@ struct FitJob {
   std::vector<ParameterBounds> bounds;
   std::vector<double> fixed;
   int free_parameters = 0;
-  RefineProblem problem;  // on the distinct readings, or on all of a device with effects
-  RefineProblem coarse;      // the same problem or, of many points, what stands for it in the search
+  RefineProblem problem;  // of the distinct readings; with effects of all
+  RefineProblem coarse;      // Coarsen(problem)
   FitWatch watch;
-  std::vector<Variant> variants = {};  // of a device with effects
-  IvCurve distinct = {};         // the curve with each reading once: what counts as evidence
+  std::vector<Variant> variants = {};  // only with effects
+  IvCurve distinct = {};         // the curve without duplicate readings
 
   int readings() const { return static_cast<int>(distinct.size()); }
 
-  // The rows of `problem`.
+  // Readings that are the rows of `problem`.
   const IvCurve& fitted() const { return variants.empty() ? distinct : curve; }
 
-  // Of its base, which come first.
+  // Number of base parameters, which precede those of the effects.
   int base_size() const { return problem.device.size() - effects(); }
   int effects() const { return variants.empty() ? 0 : static_cast<int>(variants[0].bounds.size()); }
 };
 
-// Beside effects the measured current is refused.
+// Error for the measured current, which is not supported with effects.
 Expected<void> CheckObjectiveOfEffects(Objective objective);
 
-// Checks the curve and the options; the device, bounds and the problem to solve.
+// Checks the curve and the options. Sets the device, the bounds and the problem. Errors: those of
+// Fit().
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
 
-// See FitReport::variant_penalty.
+// Penalty factor on the RMSE; see FitReport::variant_penalty.
 double VariantPenaltyOf(const FitJob& job, int variant);
 
-// Settles for one of the variants, what is a whole number at what `p` says: bounds, problem and the
-// effects of the device that is reported.
+// Selects one variant, with integer parameters fixed at their values in `p`. Sets bounds, problem
+// and the effects of the reported device.
 void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitReport* report);
 
 RmsePair BothRmse(const Device& device, const std::vector<double>& p, const IvCurve& curve);
 
-// One for each parameter, in the units of reports, as searched and as refined; no intervals.
+// Searched and refined value of each parameter, in reporting units, without intervals.
 std::vector<Estimate> EstimatesOf(const FitJob& job, const FitReport& report);
 
 }  // namespace lyrefit

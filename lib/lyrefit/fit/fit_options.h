@@ -21,8 +21,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How the polish weighs large residuals. The robust ones are fitted by reweighting: r and k are the
-// residual and `loss_scale`, both in units of the noise.
+// Loss function of the polish. The robust losses are fitted by iterative reweighting; r is the
+// residual and k is `loss_scale`, both in units of the noise.
 enum class Loss {
   kSquared,
   kHuber,   // weight min(1, k / |r|)
@@ -35,11 +35,11 @@ struct EnumTable<Loss> {
       {Loss::kSquared, "squared"}, {Loss::kHuber, "huber"}, {Loss::kCauchy, "cauchy"}};
 };
 
-// Where the polish of a model with effects begins.
+// Starts of the polish of a model with effects.
 enum class StartsFrom {
   kAll,
-  kSearch,  // the candidates of the search alone
-  kShape,   // places that the shape of the curve suggests (plateaus, shoulders), without the search
+  kSearch,  // candidates of the search only
+  kShape,   // starts from plateaus and shoulders of the curve, without the search
 };
 
 template <>
@@ -48,10 +48,10 @@ struct EnumTable<StartsFrom> {
       {StartsFrom::kAll, "all"}, {StartsFrom::kSearch, "search"}, {StartsFrom::kShape, "shape"}};
 };
 
-// What a candidate of the search stands for.
+// Variables of a search candidate.
 enum class SearchVariables {
   kAll,   // a complete device
-  kHard,  // its hard parameters alone: Rs, the n and the effects; see fit/candidates.h
+  kHard,  // only Rs, the n and the effects; see fit/search_candidates.h
 };
 
 template <>
@@ -59,12 +59,12 @@ struct EnumTable<SearchVariables> {
   static constexpr EnumText<SearchVariables> kRows[] = {{SearchVariables::kAll, "all"}, {SearchVariables::kHard, "hard"}};
 };
 
-// What --help says of them.
+// Help text of `candidates`.
 inline constexpr char kSearchVariablesDoc[] =
     "a candidate is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
     "Is and Rsh are solved for";
 
-enum class Intervals { kNone, kSymmetric, kProfile };  // Which intervals a fit works out.
+enum class Intervals { kNone, kSymmetric, kProfile };  // Intervals of a fit.
 
 template <>
 struct EnumTable<Intervals> {
@@ -73,43 +73,44 @@ struct EnumTable<Intervals> {
                                                   {Intervals::kProfile, "profile"}};
 };
 
-// How a curve is fitted; the defaults serve.
+// Options of a fit of one curve. The defaults suit a single-diode fit.
 struct FitOptions {
   Model model = Model::kSingleDiode;
   Objective objective = Objective::kSolvedCurrent;
   ConstantSet constants = ConstantSet::kCodata;
-  BoundsSpec bounds;                    // physical ones derived from the curve unless said
-  std::map<std::string, double> fixed;  // by symbol or name: "n2" -> 2
-  // Effects beside the diodes (FindEffect, or your own), searched, polished and reported like them;
-  // see law/extension.h. The objective is then the solved current.
+  BoundsSpec bounds;                    // default: physical bounds derived from the curve
+  std::map<std::string, double> fixed;  // symbol or name -> value: "n2" -> 2
+  // Effects in addition to the diodes (FindEffect, or effects of your own). They are searched,
+  // polished and reported like the diode parameters; see law/extension.h. The objective must then
+  // be the solved current.
   std::vector<EffectUse> with;
-  bool force_effects = false;  // also those that data of this kind cannot show
+  bool force_effects = false;  // also effects that the data cannot show
   SearchOptions search;
   SearchVariables candidates = SearchVariables::kAll;
-  SearchFunction searcher;  // a search of your own in the place of Search(); empty: Search()
+  SearchFunction searcher;  // replaces Search(); empty: Search()
   bool random_baseline =
-      true;  // print the best of as many random points beside the search's figure
+      true;  // also evaluate as many random points as the search did and report the best
   bool polish = true;
-  bool plain_polish = false;  // also try one bounded least-squares solve from the best candidate, and
-                              // nothing more, and polish that candidate by itself to its end
+  bool plain_polish = false;  // also run one bounded least-squares solve from the best candidate,
+                              // and a full polish of that candidate alone
   StartsFrom starts = StartsFrom::kAll;
-  bool floor = false;  // also prove how low the RMSE of the objective can go within the bounds
-  // What the polish and the intervals take the errors of the readings for. kWhite: the estimates
-  // are those of least squares, and where the residuals ask for it intervals under the error model
-  // stand beside theirs. The others need the solved current and squared residuals.
+  bool floor = false;  // also prove a lower bound of the RMSE within the bounds (floor.h)
+  // Error model of the readings for polish and intervals. With kWhite the estimates are those of
+  // least squares. If the residuals show shared errors, the report has a second set of intervals
+  // under the error model. The other kinds need the solved current and squared residuals.
   ErrorSpec errors;
-  // Whether kWhite looks for an error model in the residuals and for intervals under it, a sixth of
-  // the time of a fit.
+  // Whether kWhite also looks for an error model in the residuals and computes intervals under it.
+  // This takes a sixth of the time of a fit.
   bool find_errors = true;
-  Loss loss = Loss::kSquared;  // of the polish; the search always ranks candidates by squares
-  double loss_scale = 3;       // residual in noise units beyond which the robust losses bend
+  Loss loss = Loss::kSquared;  // of the polish; the search always minimises squares
+  double loss_scale = 3;       // k of the robust losses, in noise units
   Intervals intervals =
-      Intervals::kProfile;         // kProfile: profile only where symmetric would be false
+      Intervals::kProfile;         // kProfile: only where a symmetric one is invalid
   int threads = 0;                 // 0: all cores; never changes a result
   const Kernel* kernel = nullptr;  // nullptr: the fastest
 
-  // For a model with effects: a small population, as the shape of the curve and the local optima that its
-  // polish comes to say more about where to look.
+  // Search options for a model with effects. The population is small, because the shape of the
+  // curve and the local optima of the polish give better starts.
   static SearchOptions SearchBesideShapes() {
     SearchOptions search;
     search.population = 10;

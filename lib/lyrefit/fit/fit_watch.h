@@ -10,13 +10,13 @@
 
 namespace lyrefit {
 
-// Tells the observer where the stages of one fit stand and remembers that it asked to stop. Safe
-// to ask from several threads: the observer is called by one at a time.
+// Reports the progress of the stages of one fit to the observer and stores its request to stop.
+// Thread-safe: calls of the observer are serialised.
 class FitWatch {
  public:
   explicit FitWatch(const Observer& observer) : observer_(observer) {}
 
-  // `stage` must outlive the watch. `planned`: steps of it, 0 when open.
+  // Begins a stage of `planned` steps (0: unknown). `stage` must outlive the watch.
   void Begin(std::string_view stage, std::int64_t planned) {
     const std::lock_guard<std::mutex> lock(asking_);
     progress_ = {};
@@ -25,7 +25,7 @@ class FitWatch {
     begin_ = Now();
   }
 
-  // One more step begins. True: stop.
+  // Counts one more step. True: stop.
   bool Next() { return Ask(1); }
   // True: stop.
   bool Stop() { return Ask(0); }

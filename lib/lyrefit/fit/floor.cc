@@ -42,10 +42,10 @@ CertifyOptions RangesOf(const std::vector<ParameterBounds>& bounds, ConstantSet 
   for (int d = 0; IdealityIndex(d) < static_cast<int>(bounds.size()); ++d) {
     const ParameterBounds& is = bounds[SaturationCurrentIndex(d)];
     const ParameterBounds& n = bounds[IdealityIndex(d)];
-    // A diode that is held at nothing is one that hardly conducts.
+    // A diode fixed at Is = 0 is represented by one that hardly conducts.
     options.diodes.push_back({n.lower, n.upper, is.lower, std::max(is.upper, kLeastSaturation_A)});
   }
-  // A single value of n is a narrow range.
+  // A single value of n becomes a narrow range.
   if (!(options.n_lower < options.n_upper)) options.n_upper = options.n_lower * (1 + 1e-9);
   return options;
 }

@@ -10,14 +10,13 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// What Certify() is to prove about fits within these bounds of a device: the range of every
-// parameter. Every model within the bounds lies within the ranges, so a lower bound for the ranges
-// holds for the fits.
+// Options of Certify() for fits of a device within `bounds`: the range of every parameter. Every
+// model within the bounds is within the ranges, so a lower bound for the ranges holds for the fits.
 CertifyOptions RangesOf(const std::vector<ParameterBounds>& bounds, ConstantSet constants,
                         std::vector<Model> models);
 
-// The same options with the ranges of these bounds, for the largest of their models. Errors: bounds
-// that MakeBounds() refuses; options with ranges of their own.
+// `options` with the ranges of these bounds, for the largest of their models. Errors: bounds that
+// MakeBounds() refuses; options that already have ranges.
 Expected<CertifyOptions> CertifyWithin(const BoundsSpec& spec, const IvCurve& curve,
                                        const CertifyOptions& options);
 

@@ -16,8 +16,8 @@ namespace {
 constexpr int kMostBlocks = 10;
 constexpr int kSmallestBlock = 2;
 
-// Of one refit: diodes that take each other's place leave local optima along which a solve creeps
-// without end, and without a figure of the error changing.
+// Limits of one refit. Nearly equal diodes give flat local optima along which a solver progresses
+// slowly without a visible change of the error.
 constexpr double kTolerance = 1e-10;
 constexpr int kMaxIterations = 100;
 

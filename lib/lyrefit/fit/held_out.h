@@ -6,13 +6,12 @@
 
 namespace lyrefit {
 
-// Cross-validated RMSE of a polished fit, in ampere and of the objective that was fitted: the
-// points, in order of voltage, are cut into ten contiguous blocks (fewer for short curves); each is
-// left out in turn, the model is refitted to the rest, and its residuals on the block are counted.
-// NaN where too few points are left to refit. Contiguous blocks, since residuals of neighbours are
-// alike and single points would be too easy; the first and the last point always stay in, since
-// beyond them every model is guessing. Refits see Coarsen() of the rest. NaN, too, once `watch` asks
-// to stop.
+// Cross-validated RMSE of a polished fit, in ampere, for the fitted objective. The points, in order
+// of voltage, are cut into ten contiguous blocks (fewer for short curves). Each block is left out
+// in turn, the model is refitted to the rest, and the residuals on the block are counted. Blocks
+// are contiguous because residuals of neighbours are correlated and single points would be too easy
+// to predict. The first and the last point are never left out, since models extrapolate poorly.
+// Refits use Coarsen() of the rest. NaN: too few points for a refit, or `watch` requested a stop.
 double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch = nullptr);
 
 }  // namespace lyrefit

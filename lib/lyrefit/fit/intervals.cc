@@ -21,11 +21,12 @@ namespace {
 
 constexpr double kStrongCorrelation = 0.9;
 
-// How far a symmetric interval may reach, in parts of the value (of a saturation current, in its
-// logarithm), before the curve of the model makes it false.
+// Largest half-width of a symmetric interval, relative to the value (of a saturation current, of
+// its logarithm). Beyond it the nonlinearity of the model makes the interval invalid.
 constexpr double kLinearReach = 0.3;
 
-// `p` with every effect's parameters where they start or the effect is not there.
+// `p` with the parameters of all effects at their neutral values: absence of the effect for its
+// strength, the start value for the others.
 std::vector<double> Neutral(const Device& device, std::vector<double> p) {
   if (device.extension == nullptr) return p;
   auto next = p.begin() + device.extension->law.base_size();
@@ -35,19 +36,19 @@ std::vector<double> Neutral(const Device& device, std::vector<double> p) {
   return p;
 }
 
-// What is known while intervals are found.
+// Data shared by the steps of interval estimation.
 struct IntervalWork {
   const IntervalInput& input;
   std::vector<Estimate>& estimates;
   const int size;
-  const std::vector<double> quoted;   // the end, as it is reported
-  const std::vector<double> neutral;  // of effects' parameters, likewise
+  const std::vector<double> quoted;   // the end, in reporting units
+  const std::vector<double> neutral;  // neutral values of effects, in reporting units
   int degrees = 1;
-  std::vector<double> t = {};        // Student's, of each estimate
-  std::vector<double> stretch = {};  // of t, by the errors
+  std::vector<double> t = {};        // Student's t of each estimate
+  std::vector<double> stretch = {};  // factor on t by the errors
   RefineProblem coarse = {};
   RefineEnd coarse_end = {};
-  std::vector<FitPoint> local_optima = {};  // what fits as well
+  std::vector<FitPoint> local_optima = {};  // other optima that fit as well
   std::vector<double> better = {};
 };
 
@@ -65,15 +66,14 @@ IntervalWork WorkOn(const IntervalInput& input, std::vector<Estimate>* estimates
   return work;
 }
 
-// A profile measures residuals against residuals: with none but rounding it has nothing to
-// measure.
+// A profile compares sums of squares, which has no meaning if the residuals are only rounding.
 bool ResidualsAreNoise(const IntervalInput& input) {
   return std::sqrt(input.end.mean_square) > 1e-11 * input.problem.current_scale_A;
 }
 
-// Of a residual of weight 1; few points stand for many, and count as them.
+// Variance of a residual of weight 1. `degrees` counts all readings, also on coarsened data.
 double VarianceOf(int degrees, const RefineProblem& problem, const RefineEnd& end) {
-  if (problem.errors != nullptr) return problem.noise_A * problem.noise_A;  // as it is believed
+  if (problem.errors != nullptr) return problem.noise_A * problem.noise_A;  // of the error model
   return end.mean_square * static_cast<double>(problem.voltage_V.size()) / degrees;
 }
 
@@ -97,8 +97,8 @@ Spread SpreadOfQuoted(const IntervalWork& work, std::vector<bool> held) {
                        held);
 }
 
-// By how much the errors stretch what the fit itself would say; of a parameter at its bound by
-// how much they would if it were not there, or at most stretch the others.
+// Ratio of the standard errors under `errors` to those of the fit itself. The parameters at bounds
+// are freed for it. A parameter without a finite ratio gets the largest of the others.
 void FindStretch(IntervalWork* work) {
   work->stretch.assign(work->size, 1);
   if (work->input.errors == nullptr) return;
@@ -152,7 +152,7 @@ RefineOptions HowToRefine(const IntervalInput& input) {
   return how;
 }
 
-// What is better on few points must be better on all.
+// An optimum that is better on coarsened data is accepted only if it is better on all points.
 void TakeIfBetter(IntervalWork* work, const std::vector<double>& p) {
   if (p.empty()) return;
   constexpr double kLower = 1e-7;  // relative
@@ -225,7 +225,7 @@ ProfileSide SideOf(IntervalWork* work, const ProfileQuery& query) {
              : FindProfileSide(work->coarse, work->coarse_end, query, stop);
 }
 
-// The few points that stand for many, and the optimum on them.
+// Coarsens the data and finds the optimum on them.
 void PrepareCoarse(IntervalWork* work) {
   if (!work->coarse_end.p.empty()) return;
   work->coarse = Coarsen(work->input.problem);
@@ -258,7 +258,8 @@ void ProfileWhereNeeded(IntervalWork* work, bool saturation_currents) {
   }
 }
 
-// A diode that the data allow to be absent says nothing about its n.
+// Marks diodes that the data allow to be absent as not identifiable; their n may then have any
+// value.
 void MarkAbsentDiodes(IntervalWork* work) {
   for (int d = 0; d < DiodeCount(work->input.problem.device); ++d) {
     Estimate& is = work->estimates[SaturationCurrentIndex(d)];
@@ -280,8 +281,8 @@ void MarkAbsentDiodes(IntervalWork* work) {
   }
 }
 
-// An effect's parameter may lie as far out as it is allowed to. Where that is where the effect is
-// not there, it is an answer.
+// Whether the interval of a parameter of an effect ends at a bound. The neutral value as a bound
+// does not count: there the effect is absent, which is a valid result.
 bool LeavesAnEndOpen(const IntervalWork& work, int i) {
   const Estimate& e = work.estimates[i];
   if (!OfEffect(work.input, i)) return false;
@@ -333,7 +334,8 @@ std::vector<double> FindAll(IntervalWork* work, std::vector<Correlation>* correl
   MarkBounds(work);
   if (work->input.method == Intervals::kNone) return {};
   Spread spread = SpreadOfQuoted(*work, work->input.end.held);
-  // Where a direction is open, one curve's straight lines say little of the others: profiles do.
+  // If a direction is undetermined, linear standard errors are unreliable for all parameters;
+  // profiles are used.
   if (spread.open.cols() > 0) spread = UnknownSpread(work->size);
   *condition = spread.condition;
   for (int i = 0; i < work->size; ++i) {

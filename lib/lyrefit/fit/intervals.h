@@ -13,26 +13,26 @@ namespace lyrefit {
 struct IntervalInput {
   const RefineProblem& problem;
   const RefineEnd& end;
-  const std::vector<FitPoint>& ends;  // of other fits, of a device with effects
+  const std::vector<FitPoint>& ends;  // other local optima, only with effects
   Intervals method = Intervals::kProfile;
   int free_parameters = 0;
-  int readings = 0;  // that are no copies of others
+  int readings = 0;  // distinct readings
   int threads = 0;
   FitWatch* watch;
-  bool final = false;  // true: the profiles go on where one comes upon a lower optimum
-  // The errors that the residuals have, in A, where they are others than the fit took them for: a
-  // profile then goes as much further as the standard error is larger.
+  bool final = false;  // true: profiles continue past a lower optimum
+  // Errors of the residuals, in A, if they differ from those that the fit assumed. Each profile is
+  // then extended by the ratio of the standard errors.
   const ErrorModel* errors = nullptr;
   std::vector<int> degrees =
-      {};  // of each estimate's standard error; empty: what is left of points
+      {};  // of each standard error; empty: readings minus free parameters
 };
 
-// Those of every estimate alone; NaN where there is none.
+// Standard errors of all estimates; NaN where there is none.
 std::vector<double> StandardErrors(const IntervalInput& input);
 
-// Fills standard errors, intervals, marks and reasons of `estimates`, and correlations and
-// condition. The profiles are those of Thin(problem). Returns parameters of a lower optimum if a
-// profile came upon one, else an empty vector.
+// Sets standard errors, intervals, active bounds, identifiability and reasons of `estimates`, and
+// the correlations and the condition number. Profiles use Coarsen(problem). Returns the parameters
+// of a lower optimum if a profile found one, else an empty vector.
 std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
                                   std::vector<Correlation>* correlations, double* condition);
 

@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-// Takes `better` as the end of the polish.
+// Records the restart from `better` as the end of the polish.
 void StartOver(const RefineProblem& problem, const RefineEnd& end,
                const std::vector<double>& better, RefineReport* report) {
   for (StartReport& start : report->starts) start.agrees = false;
@@ -30,7 +30,7 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
                      const std::vector<int>& degrees, RefineEnd* end, FitReport* report) {
   const FitOptions& options = job->options;
   const bool wanted = report->no_intervals_because.empty();
-  // Of many readings that hang together and are not averaged, profiles would take minutes.
+  // With many correlated readings that are not averaged, profiles would take minutes.
   constexpr std::size_t kMostProfiled = 2000;
   const bool many = problem.errors != nullptr && problem.voltage_V.size() > kMostProfiled;
   const Intervals method =

@@ -7,16 +7,18 @@
 
 namespace lyrefit {
 
-// Intervals around `end`, and from a lower optimum once more if a profile comes upon one. `ends`:
-// of other fits; `degrees`: of each estimate's standard error, empty: what is left of points.
+// Finds intervals around `end`. If a profile finds a lower optimum, the polish restarts there and
+// the intervals are found again. `ends`: other local optima. `degrees`: degrees of freedom of each
+// standard error; empty: readings minus free parameters.
 void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
                      const std::vector<int>& degrees, RefineEnd* end, FitReport* report);
 
-// What the errors of a plain fit are, and intervals under them where they are believed.
+// Estimates the errors of a least-squares fit, and finds intervals under them if they are believed
+// (kGainToBelieve).
 void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
                               FitReport* report);
 
-// Of the standard errors of a fit that was weighed by found errors.
+// Degrees of freedom of the standard errors of a fit that is weighted by estimated errors.
 std::vector<int> DegreesOfWeighed(FitJob* job, const FoundErrors& found, const RefineEnd& end);
 
 }  // namespace lyrefit

@@ -17,7 +17,7 @@ bool SkyChanges(const Device& device) {
                      [](const Effect* effect) { return static_cast<bool>(effect->sky); });
 }
 
-// Parameters that change places together with those of another set.
+// Indices of parameters that are exchanged together with those of another set.
 using AlikeSet = std::vector<int>;
 
 struct Ordering {
@@ -25,7 +25,7 @@ struct Ordering {
   std::vector<double>* p;
   std::vector<bool>* held;
 
-  // `wrong`: whether the first of two neighbours belongs behind the second.
+  // Sorts the sets. `wrong`: whether two neighbours are in the wrong order.
   void Sort(const std::vector<AlikeSet>& sets,
             const std::function<bool(const AlikeSet&, const AlikeSet&)>& wrong) const {
     for (std::size_t pass = 0; pass < sets.size(); ++pass) {

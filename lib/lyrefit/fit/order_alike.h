@@ -7,11 +7,11 @@
 
 namespace lyrefit {
 
-// Puts what may change places without changing the curve in order, where the bounds are equal:
-// diodes by rising n, vanished ones last; of effects the groups of cells (Effect::alike) by the
-// first parameter of each, rising, absent ones last. `held` follows if it is not null. Where
-// effects change what the cells stand under no two diodes are alike: the first follows the
-// temperature otherwise than the others.
+// Sorts interchangeable parameter sets with equal bounds, whose exchange leaves the curve
+// unchanged. Diodes are sorted by rising n, absent ones last. Cell groups of effects
+// (Effect::alike) are sorted by rising first parameter, absent ones last. `held` is permuted too if
+// it is not null. Diodes are not interchangeable if effects change the operating conditions of
+// cells, since the temperature dependence of the first diode then differs from that of the others.
 void OrderAlike(const Device& device, const std::vector<ParameterBounds>& bounds,
                 std::vector<double>* p, std::vector<bool>* held);
 

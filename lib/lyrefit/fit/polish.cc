@@ -9,11 +9,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents have come to the same curve
-// Of the RMSE: ends on few points so close to the best may be the best on all points.
+constexpr double kSameCurve = 1e-3;  // of the RMSE: two descents reached the same curve
+// Relative to the RMSE: ends on coarsened data within this of the best are solved on all points.
 constexpr double kMayBeBest = 1e-3;
-// On many points: far below what their noise leaves undecided, and what is left of a solve that
-// started from the optimum of the few is creeping.
+// Tolerance on all points. It is far below the noise; a solve that starts at the optimum of the
+// coarsened data would otherwise only creep.
 constexpr double kToleranceOnMany = 1e-12;
 
 std::vector<double> ExplicitCurve(const RefineProblem& problem, const std::vector<double>& p) {
@@ -31,7 +31,7 @@ double RmsDistance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-// Descents sorted into groups that came to the same curve.
+// Groups of descents that reached the same curve.
 class Groups {
  public:
   explicit Groups(const RefineProblem& problem) : problem_(problem) {}
@@ -53,7 +53,8 @@ class Groups {
 
   int Leader(int s) const { return leader_[s]; }
 
-  // Start s leads a group of its own from now on; who followed it follow the next of them.
+  // Makes start s the leader of its own group. The next member of its old group becomes the leader
+  // of the others and gets the end of s.
   void LeaveGroup(int s, std::vector<RefineEnd>* ends) {
     int heir = -1;
     for (int other = s + 1; other < static_cast<int>(leader_.size()); ++other) {
@@ -65,7 +66,7 @@ class Groups {
     leader_[s] = s;
   }
 
-  // Members of the group with the lowest error.
+  // Number of members of the group with the lowest RMSE.
   int BestGroupSize() const {
     const auto best = std::min_element(rmse_.begin(), rmse_.end()) - rmse_.begin();
     return static_cast<int>(std::count(leader_.begin(), leader_.end(), leader_[best]));
@@ -78,8 +79,8 @@ class Groups {
   std::vector<double> rmse_;
 };
 
-// The best single-diode answer with the other diodes absent, so that a richer model never ends
-// above a poorer one.
+// The best single-diode curve with the other diodes absent, so that a richer model never ends above
+// a simpler one.
 std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   RefineProblem single = problem;
   single.device.parameters.resize(5);
@@ -101,8 +102,8 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
   return p;
 }
 
-// A local optimum of nearly equal diodes can outlast the solver's patience: try the end again, and with
-// each diode taken out, as long as that helps.
+// A solve near nearly equal diodes may not converge. Restarts from the end, and with each diode
+// removed, as long as the solve has not converged.
 RefineEnd Restart(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
   constexpr int kAttempts = 3;
   for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
@@ -124,11 +125,11 @@ RefineEnd Restart(const RefineProblem& problem, const RefineOptions& how, Refine
   return end;
 }
 
-// So many starts at the same best curve end the polish: one diode leaves hardly a choice.
+// Number of starts at the same best curve that ends the polish. One diode has few local optima.
 int Enough(const RefineProblem& problem) { return DiodeCount(problem.device) == 1 ? 2 : 3; }
 
-// Solves the ends on a few points that may be the best, and the first one, on all points; the
-// others are counted there as they are.
+// Solves those ends on coarsened data that may be the best, and the first one, again on all points.
+// The others are only evaluated there.
 void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& groups,
                  std::vector<RefineEnd>* ends) {
   how.function_tolerance = kToleranceOnMany;
@@ -219,7 +220,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
   std::vector<RefineEnd> ends(count);
   for (int s = 0; s < count; ++s) {
     if (groups.Leader(s) == s) ends[s] = Restart(coarse, how, Refine(coarse, descended[s], how));
-    // Where the descent led astray: the start itself.
+    // If the descent ended above its start, polish the start itself.
     if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree)) continue;
     RefineEnd own = Restart(coarse, how, Refine(coarse, starts[s].p, how));
     if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;

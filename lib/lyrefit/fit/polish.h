@@ -10,40 +10,41 @@
 
 namespace lyrefit {
 
-// A place to begin.
+// A start of the polish.
 struct PolishStart {
   std::string origin;
   std::vector<double> p;
-  int variant = 0;         // which of the variants its effects have
-  bool beside = false;  // begins at an earlier end, changed a little
+  int variant = 0;         // index of the model variant of the effects
+  bool beside = false;  // a modified earlier end
 };
 
-// All starts polished: the first start is the best candidate, whose own end is kept apart.
+// Result of polishing all starts. The first start is the best candidate, whose own end is `first`.
 struct PolishResult {
   RefineEnd best;
   RefineEnd first;
-  std::vector<FitPoint> ends;  // of all starts, of a device with effects
+  std::vector<FitPoint> ends;  // of all starts, only with effects
   RefineReport report;
 };
 
 constexpr double kAgree = 1e-9;    // relative, of RMSE: two ends are the same
 constexpr double kBetter = 1e-12;  // relative, of RMSE: one end is better than another
 
-// What came of the first so many starts, each with its end. `winner`: index of the best end; below
-// 0: the lowest.
+// Result for the first ends.size() starts. `winner`: index of the best end; negative: the end with
+// the lowest mean square.
 PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishStart>& starts,
                         std::vector<RefineEnd> ends, int winner, bool stopped, Instant begin);
 
-// Separable descent from one start after the other, until three (of a single diode: two) have come
-// to the same best curve or no start is left; then one bounded least-squares solve for each curve
-// that was found, so starts that came to the same curve share an end. All this on `coarse`, which is
-// Thin(problem); where that stands for more points, the ends that may be the best are solved once
-// more on all of them. Starts after the first are skipped when `watch` asks to stop.
+// Runs a separable descent from each start in turn, until three (single diode: two) have reached
+// the same best curve or no start is left. Then one bounded least-squares solve is run for each
+// distinct curve; starts with the same curve share an end. All this uses `coarse`, which is
+// Coarsen(problem). If it has fewer points than `problem`, the ends that may be the best are solved
+// again on all points. Starts after the first are skipped when `watch` requests a stop.
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coarse,
                           const std::vector<PolishStart>& starts, FitWatch* watch);
 
-// The best candidate first, then by turns the separable grid and further elites; for more than one diode
-// also the best single-diode curve, so that a richer model never ends above a poorer one.
+// Starts: the best candidate, then the separable grid and further elites in alternation. For more
+// than one diode the best single-diode curve is included, so that a richer model never ends above a
+// simpler one.
 std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
                                        const std::vector<PolishStart>& candidates, int grid);
 

@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kCandidates = 3;
 constexpr std::size_t kShapes = 3;
-constexpr int kFurther = 3;  // of random places, and of probes beside the best
-constexpr int kAgain = 2;    // ends in the best local optimum that make further rounds needless
-constexpr int kSteps = 6;    // of whole numbers and settings
+constexpr int kFurther = 3;  // rounds of random points, and of probes near the best end
+constexpr int kAgain = 2;    // ends in the best optimum that make further rounds unnecessary
+constexpr int kSteps = 6;    // rounds of neighbours of the best end
 
-// Of each effect whether no shape of the curve shows where it is.
+// For each effect whether the shape of the curve gives no start for it.
 std::vector<bool> Shapeless(const FitJob& job) {
   std::vector<bool> shapeless;
   for (const EffectUse& use : job.problem.device.extension->uses) {
@@ -30,9 +30,9 @@ std::vector<bool> Shapeless(const FitJob& job) {
 }
 
 // Whether the residuals of the best end are like noise (Durbin and Watson 1950,
-// doi:10.1093/biomet/37.3-4.409): a better local optimum has nothing left to explain.
+// doi:10.1093/biomet/37.3-4.409). Then no better local optimum is expected.
 bool LeavesNoise(const FitJob& job, const Descents& descents) {
-  constexpr double kLeast = 1.2;  // 2: each is independent of the next; 0: all are alike
+  constexpr double kLeast = 1.2;  // 2: independent residuals; 0: all equal
   std::vector<double> residuals(job.problem.voltage_V.size());
   Residuals(job.problem, descents.ends()[descents.best()].end.p.data(), residuals.data(), nullptr);
   return FindResidualStatistics(job.problem.voltage_V, residuals).durbin_watson > kLeast;
@@ -42,7 +42,7 @@ void AscentSettings(const FitJob& job, Descents* descents) {
   for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
     const int before = descents->best();
     std::vector<PolishStart> neighbours = Neighbours(job, descents->ends()[before]);
-    // Forms are told apart by less than noise.
+    // Variants can differ by less than the noise.
     if (job.variants.size() > 1 || !LeavesNoise(job, *descents)) {
       std::vector<PolishStart> elsewhere = Elsewhere(job, descents->ends()[before]);
       std::move(elsewhere.begin(), elsewhere.end(), std::back_inserter(neighbours));
@@ -53,7 +53,7 @@ void AscentSettings(const FitJob& job, Descents* descents) {
   }
 }
 
-// The best end of each variant that has one.
+// Reports the best end of each variant that has one.
 std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& descents) {
   std::vector<VariantReport> reports;
   if (job.variants.size() < 2) return reports;
@@ -66,7 +66,7 @@ std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& des
       if (own && (lowest == nullptr || end.penalised < lowest->penalised)) lowest = &end;
     }
     if (lowest == nullptr) continue;
-    // Two ends of one local optimum may differ by the rounding of one evaluation or another.
+    // Two ends in one local optimum may differ by rounding of repeated evaluations.
     const bool chosen = best.start.variant == static_cast<int>(f);
     if (chosen) lowest = &best;
     reports.push_back({DescribeVariant(*job.problem.device.extension, job.variants[f]), job.variants[f].free,
@@ -77,7 +77,7 @@ std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& des
   return reports;
 }
 
-// Where the best ends began that a shape suggested.
+// Starts of the best ends among those from the shape of the curve.
 std::vector<PolishStart> BestShapes(const Descents& descents) {
   std::vector<const DescentEnd*> shapes;
   for (const DescentEnd& end : descents.ends()) {
@@ -92,8 +92,8 @@ std::vector<PolishStart> BestShapes(const Descents& descents) {
   return starts;
 }
 
-// Effects that no shape shows: at settings spread over the places that a shape suggests, then
-// beside the best fit so far, again and again as that gets better.
+// Finds effects that the shape of the curve does not show. Starts first from settings spread over
+// the best shape starts, then from probes near the best fit, repeatedly while it improves.
 void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents* descents) {
   for (const PolishStart& shape : BestShapes(*descents)) {
     descents->Descend(SpreadSettings(job, shape));

@@ -9,11 +9,11 @@
 
 namespace lyrefit {
 
-// The hybrid over the local optima of a device with effects. It begins where the shape of the curve
-// suggests, at the best candidate and at probes of what shows in no shape; goes on from further elites
-// where the best local optimum was reached once, and from random places where that is still so or where
-// its residuals are no noise; and last tries what is next to the best end: other whole numbers,
-// other settings, single parameters elsewhere. Settles for the variant of the best end.
+// Polish of a device with effects, which has many local optima, in three stages. (1) Starts are the
+// best candidate and the shape of the curve, and probes for effects without a shape. (2) If the
+// best optimum was reached only once, further elites follow. Random points follow if that is still
+// so or its residuals are not noise. (3) Neighbours of the best end: other integers, other
+// settings, single parameters moved. Selects the variant of the best end.
 PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const SearchSpace& space,
                             FitJob* job, FitReport* report);
 

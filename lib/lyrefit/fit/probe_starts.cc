@@ -21,8 +21,8 @@ constexpr std::size_t kFewSettings = 8;
 
 struct Trial {
   std::vector<double> p;
-  std::vector<double> setting;  // of the effects' parameters that do not descend
-  double left = HUGE_VAL;       // of the squared residuals, as far as straight lines tell
+  std::vector<double> setting;  // values of the enumerated parameters of effects
+  double left = HUGE_VAL;       // remaining sum of squares, by linear approximation
 };
 
 RefineProblem BaseAlone(const RefineProblem& problem) {
@@ -36,11 +36,11 @@ RefineProblem BaseAlone(const RefineProblem& problem) {
       std::vector<double>(problem.upper.begin(), problem.upper.begin() + size));
 }
 
-// What of the residuals the polished base device cannot take over.
+// Residuals that a fitted device cannot explain.
 class Unexplained {
  public:
-  // The residuals of `problem` at `without`, of which `fitted` explains what lies along its
-  // parameters that are not held.
+  // Residuals of `problem` at `without`, minus their projection on the parameters of `fitted` at
+  // `end` that are not held.
   Unexplained(const RefineProblem& problem, const RefineProblem& fitted, const FitPoint& end,
               const std::vector<bool>& held, const std::vector<double>& without)
       : problem_(problem),
@@ -64,17 +64,17 @@ class Unexplained {
  private:
   const RefineProblem& problem_;
   Eigen::MatrixXd explained_;
-  Eigen::VectorXd residual_;  // of the base device with the effects as usual
+  Eigen::VectorXd residual_;  // at `without`
 };
 
-// Whether the effect acts about in proportion to its strength: a shade moves its knee instead.
+// Whether the effect is about proportional to its strength. Shading is not: its knee moves.
 bool ActsInProportion(const Effect& effect) {
   if (effect.parameters.front().neutral != 0) return false;
   return std::none_of(effect.parameters.begin(), effect.parameters.end(),
                       [&](const EffectParameter& p) { return p.searched && effect.cell; });
 }
 
-// What a probe would leave of the residuals, at the strength they ask for.
+// Remaining sum of squares with a probe, at the strength that fits the residuals best.
 void AskStrength(const Unexplained& unexplained, const Effect& effect,
                  const ParameterBounds& strength, int first, Trial* trial) {
   const Eigen::VectorXd& residual = unexplained.residual();
@@ -91,15 +91,15 @@ void AskStrength(const Unexplained& unexplained, const Effect& effect,
   trial->left = left;
 }
 
-// All probes of one effect, the others as at `p`. What they leave is counted as it stands where
-// nothing is said to be explained.
+// Tries all probes of one effect, with the other effects as in `p`. Without `unexplained`, probes
+// are ranked by the mean square of the whole problem.
 void TryProbes(const RefineProblem& problem, const Variant& variant, const Unexplained* unexplained,
                const std::vector<double>& p, std::size_t use, std::vector<Trial>* trials) {
   const Extension& extension = *problem.device.extension;
   const Effect& effect = *extension.uses[use].effect;
   const int first = extension.law.Offset(static_cast<int>(use));
   const ParameterBounds* const bounds = &variant.bounds[first - extension.law.base_size()];
-  std::vector<Probe> probes = {{}};  // as usual
+  std::vector<Probe> probes = {{}};  // at the usual values
   if (effect.probes != nullptr) probes = effect.probes(extension.readings.traits);
   for (const Probe& probe : probes) {
     Trial trial{p, {static_cast<double>(use)}, HUGE_VAL};
@@ -122,7 +122,8 @@ void BestFirst(std::vector<Trial>* trials) {
                    [](const Trial& a, const Trial& b) { return a.left < b.left; });
 }
 
-// All probes of all effects at a base device, one effect at a time, the others at what is usual.
+// Tries all probes of all effects at a base device, one effect at a time, with the others at their
+// usual values.
 std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Variant& variant,
                                 const Unexplained* unexplained, const std::vector<double>& p) {
   std::vector<Trial> trials;
@@ -133,7 +134,8 @@ std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Variant& var
   return trials;
 }
 
-// The first of each setting where these are few, then the others, so many in all.
+// Keeps the best `count` trials. If there are few settings, the best of each setting comes first
+// and all settings are kept.
 void KeepBest(std::size_t count, std::vector<Trial>* trials) {
   std::set<std::vector<double>> settings;
   for (const Trial& trial : *trials) settings.insert(trial.setting);

@@ -8,26 +8,28 @@
 
 namespace lyrefit {
 
-// Where fits of a device with effects begin besides the candidates of a search, in one of its variants.
+// Starts of fits of a device with effects, in one of its variants, in addition to candidates of the
+// search.
 
-// The base device polished by itself, with the effects' probes that tell most of what it leaves. Of
-// an effect with few settings of what does not descend, one start each. Best first, `count` at most
-// or as many as there are settings. Of effects that divide the cells also their probes at a typical
-// base.
+// Starts at the base device polished without effects, combined with those probes of the effects
+// that explain most of its residuals. An effect with few settings of its enumerated parameters gets
+// one start per setting. Best first, at most `count` or the number of settings. If an effect has
+// cell groups, its probes at a typical base device are added.
 std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Variant& variant,
                                              std::size_t count);
 
-// The same beside a fit that has some of the effects already: probes of the others in the place of
-// what the fit has of them, the `count` that tell most of what the fit would leave without them.
+// Probe starts from a fit that includes some of the effects. Probes of the `others` replace their
+// fitted values. The result is the `count` probes that explain most of the residuals of the fit
+// without those effects.
 std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Variant& variant,
                                               const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count);
 
-// A crystalline device with the largest current and the open-circuit voltage of the readings (of
-// plain devices: the largest forward voltage), and
-// its effects at `place`: where cells stand under unlike light, no base device by itself is like
-// the one behind the curve. `idealities`: of each diode, which then have equal shares of the
-// current; empty: a usual one, and the first diode has all.
+// A typical crystalline device with the largest current and the open-circuit voltage of the
+// readings (without effects: the largest forward voltage), and its effects at `place`. Such a start
+// is needed if cells are under unlike irradiance, since no base device alone then resembles the one
+// behind the curve. `idealities`: n of each diode, which then share the current equally; empty: a
+// typical n, with all current in the first diode.
 std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
                                   const std::vector<double>& idealities = {});
 

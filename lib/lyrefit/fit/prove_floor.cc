@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// Of the solved current. Where a floor closes at all it does so within this many problems; each of
-// them takes its time in proportion to the readings.
+// Limits for the solved current. A proof that reaches the tolerance does so within this number of
+// problems; the time of each is proportional to the number of readings.
 constexpr double kSolvedTolerance = 1e-6;
 constexpr std::int64_t kSolvedEffort = 1500;
 constexpr std::size_t kMostReadings = 2000;

@@ -8,10 +8,11 @@
 
 namespace lyrefit {
 
-// The floor within these ranges, below a fit within them whose RMSE of the same objective is
-// `refined_A`. Of the solved current it is closed to 1e-6 only, in few convex problems, and not asked
-// for of long sweeps: some seconds of 1000 readings. Sets `interrupted` where the observer ended it;
-// the bound holds all the same. Errors: those of Certify(), and too many readings.
+// Proves the floor within `ranges`, below a fit within them that has the RMSE `refined_A` in the
+// same objective. For the solved current the gap is closed to 1e-6 only, with a limited number of
+// convex problems. That takes some seconds for 1000 readings; long sweeps are refused. Sets
+// `interrupted` if the observer stopped the proof; the bound remains valid. Errors: those of
+// Certify(), and too many readings.
 Expected<FloorReport> ProveFloor(const IvCurve& curve, CertifyOptions ranges, double refined_A,
                                  const Observer& observer, bool* interrupted);
 

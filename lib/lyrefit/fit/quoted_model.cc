@@ -28,7 +28,7 @@ ModelShape QuotedShape(const RefineProblem& problem, ModelShape shape) {
   return shape;
 }
 
-// Of refits by the hundred.
+// Cheap solver options for hundreds of refits.
 RefineOptions BrieflySmall(const std::function<bool()>& stop) {
   RefineOptions how;
   how.small = true;

@@ -8,12 +8,13 @@
 
 namespace lyrefit {
 
-// The problem of one curve with the effects' parameters in the units of reports. What is reported
-// of one may depend on others (the strength k of k |V|^m on m), so intervals of what is reported
-// are found in these numbers; fits are not, since there such parameters hang together.
+// The problem of one curve with the parameters of effects in reporting units. A reporting value may
+// depend on other parameters (the strength k of k |V|^m depends on m), so intervals are found in
+// these units. Fits use internal units, since such parameters are strongly correlated in reporting
+// units.
 class QuotedModel : public FitModel {
  public:
-  // `problem`, of a device with effects, must outlive the model.
+  // `problem` is of a device with effects and must outlive the model.
   explicit QuotedModel(const RefineProblem& problem);
 
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
@@ -25,17 +26,18 @@ class QuotedModel : public FitModel {
   CurveModel own_;
 };
 
-// FindProfileSide of an effect's parameter, all in these numbers but `best` and the local optima.
+// FindProfileSide() for a parameter of an effect. Values of `query` and result are in reporting
+// units; `best`, the local optima and `better` of the result are in internal units.
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
                            const ProfileQuery& query, const std::function<bool()>& stop);
 
-// FindOtherOptima of one curve. None of it is in these numbers.
+// FindOtherOptima() for one curve, all in internal units.
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                   std::vector<FitPoint> ends, double highest,
                                   const std::function<bool()>& stop);
 
-// Which parameters of effects are settled by trying and not by descent, since at `quoted` no
-// current follows them: the moment of a step between two readings.
+// Marks the enumerated parameters of effects that cannot be found by descent, since no current
+// depends on them locally at `quoted`. An example is the moment of a step between two readings.
 std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<double>& quoted);
 
 }  // namespace lyrefit

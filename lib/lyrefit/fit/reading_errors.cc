@@ -13,17 +13,17 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kSpare = 3;  // readings beyond the parameters, to find three sizes from
+constexpr int kSpare = 3;  // least excess of readings over parameters, for three sizes
 constexpr double kExactReadings = 1e-11;
 
-// Of the curve; of one that does not reach it, its largest forward voltage.
+// Open-circuit voltage of the curve; if it is not reached, the largest forward voltage.
 double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
   const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
   return voc > 0 ? voc : problem.voltage_scale_V;
 }
 
-// The way along a sweep up to every reading, in Voc. Noise of voltages that lie close would
-// lengthen it from reading to reading, so it goes through the means of neighbours.
+// Path length along the sweep up to each reading, in units of Voc. It is computed from means of
+// neighbours, since noise of close voltages would lengthen it at each reading.
 std::vector<double> PositionsOf(const std::vector<double>& voltage_V, double open_circuit_V) {
   const std::vector<int> first = GroupNeighbours(voltage_V, open_circuit_V);
   std::vector<double> positions;
@@ -39,7 +39,7 @@ std::vector<double> PositionsOf(const std::vector<double>& voltage_V, double ope
   return positions;
 }
 
-// The problem with independent errors: whose residuals are not whitened.
+// The problem with independent errors, whose residuals are not whitened.
 RefineProblem Plain(RefineProblem problem) {
   problem.errors = nullptr;
   return problem;
@@ -57,11 +57,11 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
     const double voltage = at.voltage_V[k];
     const OperatingPoint point = KnownOperatingPoint(at.device, at.p.data(), voltage, current[k]);
     const double factor = ImplicitFactor(at.device, at.p.data(), point);
-    // An error of the current by 1 is one of the measured-current residual by 1 - Rs F'.
+    // An error of 1 A of the current is an error of 1 - Rs F' of the measured-current residual.
     const double unit = std::sqrt(at.weight[k]) / (measured ? factor : 1);
     const double slope = std::fabs(point.conductance_S) * factor;
     shape->current.push_back(unit);
-    // Instruments read voltages to a part of what they read.
+    // The error of a voltage is proportional to the voltage.
     shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
     shape->path.push_back(unit * at.p[kIph] * factor);
     shape->chain.push_back(chain);
@@ -105,7 +105,7 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
 
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p) {
-  // Effects act on single readings.
+  // Effects act on single readings, which must not be averaged.
   const std::vector<int> groups = plain.device.extension == nullptr
                                       ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
                                       : EachAlone(plain.voltage_V.size());

@@ -11,38 +11,38 @@
 
 namespace lyrefit {
 
-// A curve's readings and its device at parameters `p`.
+// Readings of a curve and its device at parameters `p`.
 struct ReadingsAt {
   const Device& device;
   Objective objective;
   const std::vector<double>& voltage_V;
   const std::vector<double>& current_A;
-  const std::vector<double>& weight;  // of the squared residuals
+  const std::vector<double>& weight;  // of the squared residuals, one per reading
   double open_circuit_V;
   const std::vector<double>& p;
 };
 
-// A gain (FoundErrors) above this is believed: independent errors reach it in some 3 % of all
-// curves.
+// Error models with a gain (FoundErrors) above this are believed. Independent errors exceed it in
+// some 3 % of curves.
 constexpr double kGainToBelieve = 5;
 
-// How errors of the readings show in the weighted residuals. The noise of a voltage has its size at
-// Voc and is in proportion to the voltage elsewhere. The path goes along the readings as they were
-// taken, in Voc. Effects beside the diodes change what light and voltages do too
-// little to matter here.
+// Appends the effect of reading errors on the weighted residuals. The noise of a voltage has its
+// nominal size at Voc and is proportional to the voltage elsewhere. The path runs along the
+// readings in the order of measurement, in units of Voc. Effects in addition to the diodes are
+// neglected here, since their influence is small.
 void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape);
 
-// The same of one curve, with what its readings state.
+// Error shape of one curve, including the sigma_A of its readings.
 ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p);
 
-// The sizes that the residuals at the end of a fit speak for; none where there are too few readings
-// or nothing but rounding.
+// Error sizes estimated from the residuals at the end of a fit. None if there are too few readings
+// or the residuals are only rounding.
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
                                       const RefineEnd& end);
 
-// The same problem weighed by errors of the sizes of `spec` about the parameters `p`; of a long
-// curve without effects, on averages of neighbours. Stated sizes take the place of sigma_A, too.
+// The problem weighted by errors of the sizes of `spec` at parameters `p`. A long curve without
+// effects is replaced by averages of neighbours. Stated sizes replace sigma_A, too.
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p);
 

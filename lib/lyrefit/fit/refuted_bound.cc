@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kRefutedAt = 0.05;
 
-// Positions of the idealities that sit at a bound with room beyond it. Below `steepest_n` a diode
-// is a step (law/term.h).
+// Indices of the idealities at a bound that can be widened. Below `steepest_n` a diode is a step in
+// the current (law/term.h), so that bound is excluded.
 std::vector<int> AtBound(const FitJob& job, const RefineEnd& end, const FitReport& report) {
   std::vector<int> found;
   for (int d = 0; d < DiodeCount(report.device); ++d) {
@@ -40,7 +40,7 @@ RefineProblem WithRoom(RefineProblem problem, const std::vector<int>& at_bound, 
   return problem;
 }
 
-// p-value of as large a fall from `bound` to `free`, mean squares of one problem.
+// p-value of a decrease of the mean square from `bound` to `free` in one problem.
 double PValue(const RefineProblem& problem, double bound, double free, int extra, int spare) {
   if (problem.errors == nullptr) return FTestPValue(bound, free, extra, spare);
   const double squares =
@@ -48,7 +48,8 @@ double PValue(const RefineProblem& problem, double bound, double free, int extra
   return FisherTail(squares / extra, extra, spare);
 }
 
-// Both ends under the errors that the residuals of the wider fit show; `p` where they show none.
+// p-value with both ends refitted under the errors estimated from the wider fit; `p` if these show
+// no correlated errors.
 double UnderTheirErrors(FitJob* job, const RefineProblem& wide, const RefineEnd& free,
                         const RefineEnd& end, int extra, int spare, double p) {
   const std::optional<FoundErrors> found = FindErrors(wide, job->fitted(), free);

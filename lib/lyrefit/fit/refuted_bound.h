@@ -6,11 +6,11 @@
 
 namespace lyrefit {
 
-// Whether the readings refute a bound that an ideality factor sits at: `problem` is fitted again
-// with more room there, and the F-test says, at 5 %, that this describes them better; where their
-// errors hang together, their likelihood must say so as well. Every interval of such a fit would
-// hold under a condition that is false. The reason in plain words; empty: no bound is refuted. `end`
-// is the best end within the bounds.
+// Tests whether the readings refute a bound at which an ideality factor is active. `problem` is
+// fitted again with a wider range, and the F-test decides at 5 % whether that describes the
+// readings better. If their errors are correlated, the likelihood under those errors must agree.
+// Every interval of a refuted fit would be conditional on a false assumption. Returns the reason as
+// a sentence; empty: no bound is refuted. `end` is the best end within the bounds.
 std::string RefutedBound(FitJob* job, const RefineProblem& problem, const RefineEnd& end,
                          const FitReport& report);
 

@@ -7,10 +7,9 @@
 
 namespace lyrefit {
 
-// Reweights for the robust loss of `options` until the weights stand still (at most 50 rounds).
-// `problem` comes back as the weighted problem whose least-squares solution, `end`, is the robust
-// estimate, so that everything that follows needs to know of weights alone. Ends where it stands
-// once `stop` says so.
+// Reweights iteratively for the robust loss of `options` until the parameters are stationary (at
+// most 50 rounds). On return `problem` is the weighted problem whose least-squares solution, `end`,
+// is the robust estimate, so later stages only need the weights. Returns early if `stop` is true.
 void Robustify(const FitOptions& options, const std::function<bool()>& stop, RefineProblem* problem,
                RefineEnd* end);
 

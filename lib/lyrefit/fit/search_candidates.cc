@@ -49,7 +49,7 @@ SearchSpace SpaceOf(const FitJob& job, std::vector<double> fixed) {
           job.variants};
 }
 
-// Those that are solved for are no sides; what stands in their place is never read.
+// Search space without the parameters that are solved for; their fixed value is never read.
 SearchSpace SpaceOfCandidates(const FitJob& job) {
   std::vector<double> fixed = job.fixed;
   if (job.options.candidates == SearchVariables::kHard) {
@@ -84,7 +84,7 @@ void SearchCandidates::Suggest(const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
     double mean_square;
-    int rank;  // in its variant
+    int rank;  // within its variant
   };
   std::vector<Place> places;
   for (const PolishStart& start : starts) {
@@ -121,7 +121,8 @@ double SearchCandidates::RmseAt(const double* x) {
   return std::sqrt(MeanSquare(problem_, p_));
 }
 
-// Mean square with the best values of what is solved for at the rest of `p_`.
+// Mean square with the best values of the easy parameters (Iph, Is, Rsh) at the other parameters of
+// `p_`.
 double SearchCandidates::SolveEasy() {
   std::vector<double> idealities;
   idealities.reserve(DiodeCount(problem_.device));
@@ -150,7 +151,7 @@ double SearchCandidates::SolveEasy() {
   ++evaluations_;
   if (!(linear < MeanSquare(problem_, typical))) {
     p_ = std::move(typical);
-  } else {  // a logarithm does not tell the way back from 0
+  } else {  // the logarithm of Is has no gradient at 0
     for (int d = 0; d < DiodeCount(problem_.device); ++d) {
       const int is = SaturationCurrentIndex(d);
       if (!(p_[is] > 0)) p_[is] = typical[is];
@@ -159,7 +160,7 @@ double SearchCandidates::SolveEasy() {
   return Descend();
 }
 
-// From `p_`, in what is solved for.
+// Descends from `p_` in the easy parameters and returns the mean square.
 double SearchCandidates::Descend() {
   const CountedCurve curve(easy_, &evaluations_);
   std::vector<bool> held;
@@ -177,7 +178,7 @@ double SearchCandidates::Descend() {
     const SolveEnd end = SolveModel(curve, coordinates, {}, how);
     coordinates.ToParameters(end.theta.data(), p_.data());
   }
-  for (const int i : EasyParameters(problem_.device)) {  // rounding
+  for (const int i : EasyParameters(problem_.device)) {  // removes rounding
     p_[i] = std::min(std::max(p_[i], problem_.lower[i]), problem_.upper[i]);
   }
   return curve.MeanSquare({p_, {}});

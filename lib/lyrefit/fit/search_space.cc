@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kMiddle = 0.5;  // of a stretch
+constexpr double kMiddle = 0.5;  // of the interval of one value
 
 int Stretch(double x, int count) { return std::clamp(static_cast<int>(x), 0, count - 1); }
 

@@ -25,7 +25,7 @@ std::string Symbols(const Device& device) {
   return list;
 }
 
-// Outside these ranges the device is no passive diode in the light.
+// Error for values at which the device is no passive illuminated diode.
 Expected<void> CheckValue(const ParameterInfo& info, double value) {
   if (info.symbol == "alpha" && std::isfinite(value)) return {};
   const bool perfect_shunt = info.symbol == "Rsh" && std::isinf(value) && value > 0;
@@ -103,7 +103,7 @@ void AddNoise(const SimulateOptions& options, IvCurve* curve) {
   curve->notes.current_noise_relative = options.noise_relative;
 }
 
-// Every parameter of every effect at one value.
+// Effects with one value for each of their parameters.
 Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
   std::vector<EffectUse> uses = options.with;
   for (EffectUse& use : uses) {
@@ -125,7 +125,7 @@ Expected<std::vector<EffectUse>> SettledUses(const SimulateOptions& options) {
   return uses;
 }
 
-// The device with its effects, and the parameters of both.
+// Adds the effects to `device` and returns the parameters of both.
 Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const IvCurve& taken,
                                          std::vector<double> p, Device* device) {
   TRY(auto uses, SettledUses(options));
@@ -143,7 +143,7 @@ Expected<void> CheckCurrents(const IvCurve& curve) {
   return {};
 }
 
-// One of the curves of a law behind many.
+// Simulates one curve of a law of many curves.
 Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
   if (options.layout != nullptr) {
     return Fail("a law behind many curves has its own cells: strings are laid out of parameters");

@@ -19,40 +19,39 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// One law behind many curves (extended_set.h) and the one of them to be simulated; at conditions of
-// one's own choice where the options' differ from those it was taken under.
+// One law of many curves (extended_set.h), and the curve of the set to simulate. Where the
+// conditions in SimulateOptions differ from those of the measured curve, they replace them.
 struct SharedLaw {
-  Law law;  // of the whole set
+  Law law;  // law of the whole set
   double reference_K = 298.15;
   CurveSet set;
-  int curve = 0;  // position in the set
+  int curve = 0;  // index of the curve in the set
 };
 
-// The device that is simulated, the sky above it, and the noise.
+// Simulated device, operating conditions and noise.
 struct SimulateOptions {
   Model model = Model::kSingleDiode;
-  std::map<std::string, double> parameters;  // by symbol or name: all of the model, n per cell
+  std::map<std::string, double> parameters;  // by symbol or name, n per cell
   Conditions conditions;
   ConstantSet constants = ConstantSet::kCodata;
-  std::vector<double> voltage_V;  // empty: `points` even steps from 0 to 2 % beyond open circuit
+  std::vector<double> voltage_V;  // empty: `points` even steps from 0 to 1.02 Voc
   int points = 100;
-  // Effects beside the diodes; every parameter of them is held at one value, those not given at the
-  // effect's usual one, but its strength, the first, must be given. They act as in `taken`, a
-  // measurement with its order and times, whose readings are simulated where no voltages are given;
-  // without it, as in the simulated sweep itself.
+  // Effects in addition to the diodes. Each of their parameters has one value. The first one, the
+  // strength, must be given; the others default to the effect's usual values. Effects act as in
+  // `taken`, a measurement with the order and times of its readings. Without voltages, the readings
+  // of `taken` are simulated. Without `taken`, effects act as in the simulated sweep itself.
   std::vector<EffectUse> with;
   std::optional<IvCurve> taken;
-  // In the place of `taken`: the parameters are then those at the reference, alpha and EgRef among
-  // them.
+  // Replaces `taken`. `parameters` are then those at the reference, including alpha and EgRef.
   std::optional<SharedLaw> shared;
-  bool force_effects = false;  // also those that such data cannot show
-  // Cells that are not alike (law/string_layout.h); none: all have the parameters above.
+  bool force_effects = false;  // also effects that the readings cannot show
+  // Layout of unlike cells (law/string_layout.h); none: all cells have the parameters above.
   std::shared_ptr<const StringLayout> layout;
-  // Independent Gaussian noise on every current, of the two parts' root of the sum of squares.
+  // Independent Gaussian noise of every current; the variances of the two parts add.
   double noise_A = 0;              // standard deviation, constant part
-  double noise_relative = 0;       // standard deviation, part of |current|
-  std::uint64_t seed = 0;          // of the noise
-  std::string name = "simulated";  // of the curve made
+  double noise_relative = 0;       // standard deviation, relative to |current|
+  std::uint64_t seed = 0;          // seed of the noise
+  std::string name = "simulated";  // name of the simulated curve
 };
 
 inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
@@ -75,19 +74,19 @@ inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
     {"seed", "S", "seed of the noise", &SimulateOptions::seed, OptionTrait::kUnchecked},
 };
 
-// The curve of a device under the given conditions: I(V) solved to rounding, then noise. Same
-// options, same bits. Errors: a parameter missing, unknown or outside its physical range, no
-// open-circuit voltage to end at, options outside their ranges.
+// Simulates the curve of a device under the given conditions: I(V) is solved to rounding, then
+// noise is added. Equal options give equal bits. Errors: a parameter missing, unknown or outside
+// its physical range; no open-circuit voltage to end at; options outside their ranges.
 Expected<IvCurve> Simulate(const SimulateOptions& options);
 
-// Model, parameters, conditions, constants and effects of a JSON fit report, ready to be simulated:
-// with effects its own readings, to 1e-9 of their currents. Of a report of many curves, a family's
-// or a diagnosis', `curve` is the id of one. An infinite shunt resistance, null in JSON, is read
-// back as infinite. Errors besides: an effect nobody knows, effects in a report of another version
-// of lyrefit, no such curve.
+// Reads model, parameters, conditions, constants and effects from a JSON fit report, ready for
+// Simulate(). With effects, the readings of the report are reproduced to 1e-9 of their currents.
+// `curve` is the id of one curve in a report of many, such as those of a family or a diagnosis. An
+// infinite shunt resistance, null in JSON, is read back as infinite. Errors: an unreadable report,
+// an unknown effect, effects in a report of another version of lyrefit, no such curve.
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path,
                                                const std::string& curve = "");
-// The same from the text of a report, which errors call `path`.
+// ReadFitForSimulation() for the text of a report; errors name it `path`.
 Expected<SimulateOptions> ReadFitTextForSimulation(const std::string& text, const std::string& path,
                                                    const std::string& curve = "");
 

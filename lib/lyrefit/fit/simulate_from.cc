@@ -23,10 +23,10 @@ struct Report {
   json fit;
   std::string text;
   std::string path;
-  std::string curve;  // id of the one that is asked for; empty: the only one
+  std::string curve;  // id of the requested curve; empty: the only one
 };
 
-// What stands at `pointer`, null where nothing does.
+// Value at `pointer`, null if there is none.
 json At(const json& document, const std::string& pointer) {
   const json::json_pointer place(pointer);
   return document.contains(place) ? document.at(place) : json();
@@ -50,7 +50,7 @@ std::vector<double> NumbersAt(const json& document, const std::string& pointer) 
   return values;
 }
 
-// A shunt may be perfect, which JSON has no number for.
+// Number at `pointer`; null is read as an infinite shunt resistance, which JSON cannot represent.
 Expected<double> ValueAt(const json& document, const std::string& pointer, const std::string& name,
                          const std::string& path) {
   const json value = At(document, pointer);
@@ -61,7 +61,7 @@ Expected<double> ValueAt(const json& document, const std::string& pointer, const
   return Fail("expected a number in " + pointer.substr(1), path);
 }
 
-// The value a fit answers with: refined, or searched where there was no polish.
+// Value of a parameter in a fit: refined, or searched if there was no polish.
 Expected<double> AnsweredValue(const Report& report, const std::string& name) {
   const bool polished = At(report.fit, "/rmse/refined/solved_current_A").is_number();
   return ValueAt(report.fit, "/parameters/" + name + (polished ? "/refined" : "/searched"), name,
@@ -86,7 +86,7 @@ Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
   return {};
 }
 
-// Effects with their values: `value` finds that of a parameter by its name.
+// Effects with their values; `value` returns the value of a parameter by name.
 template <class F>
 Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) {
   std::vector<EffectUse> uses;
@@ -121,7 +121,7 @@ void TakeBypassDiodes(const Report& report, IvCurve* curve) {
   if (bypass.is_number_integer()) curve->notes.bypass_diodes = bypass.get<int>();
 }
 
-// A report of one curve.
+// Reads a report of one curve.
 Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
   const json curves = At(report.fit, "/curves");
   if (curves.is_number() && curves.get<double>() > 1) {
@@ -154,11 +154,11 @@ Expected<void> ReadOne(const Report& report, SimulateOptions* options) {
   TakeBypassDiodes(report, &taken);
   if (auto valid = Validate(taken); !valid) return Fail(valid.error().message, report.path);
   options->taken = std::move(taken);
-  options->force_effects = true;  // they were fitted to it
+  options->force_effects = true;  // they were fitted to these readings
   return {};
 }
 
-// The position of the curve that is asked for among those of a report.
+// Index of the requested curve among those of a report.
 Expected<int> Chosen(const Report& report, const json& curves) {
   constexpr std::size_t kNamed = 12;
   std::string ids;
@@ -200,14 +200,14 @@ Expected<CurveSet> ReadTaken(const Report& report) {
   return set;
 }
 
-// One law behind many curves, with effects.
+// Reads one law of many curves, with effects.
 Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
   TRY(const auto chosen, Chosen(report, At(report.fit, "/law/curves")));
   TRY(auto set, ReadTaken(report));
   const json parameters = At(report.fit, "/parameters");
   for (const auto& [name, parameter] : parameters.items()) {
     const std::string symbol = TextAt(parameter, "/symbol");
-    if (parameter.contains("effect") || symbol == "dEg") continue;  // the law's own
+    if (parameter.contains("effect") || symbol == "dEg") continue;  // base parameters only
     TRY(const auto value, AnsweredValue(report, name));
     options->parameters[symbol] = value;
   }
@@ -228,7 +228,8 @@ Expected<void> ReadShared(const Report& report, SimulateOptions* options) {
   return {};
 }
 
-// One curve of a family by its own parameters: those the law leads to, or of a fit of its own.
+// Reads one curve of a family by its own parameters: those from the law, or those of an individual
+// fit.
 Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   const json curves = At(report.fit, "/curves");
   TRY(const auto chosen, Chosen(report, curves));
@@ -237,7 +238,7 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
     return Fail(fmt::format("curve {} was left out: {}", report.curve, TextAt(curve, "/reason")),
                 report.path);
   }
-  const std::string stretch = At(curve, "/parameters").is_object() ? "/parameters/"  // by the law
+  const std::string stretch = At(curve, "/parameters").is_object() ? "/parameters/"  // from the law
                                                                    : "/free_parameters/";
   const auto value = [&](const std::string& name) {
     return ValueAt(curve, stretch + name, name, report.path);
@@ -263,7 +264,7 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   for (IvCurve& one : set.curves) {
     if (one.name == TextAt(curve, "/id")) options->taken = std::move(one);
   }
-  options->force_effects = true;  // they were fitted to it
+  options->force_effects = true;  // they were fitted to these readings
   return {};
 }
 

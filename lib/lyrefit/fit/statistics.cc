@@ -10,7 +10,8 @@
 
 namespace lyrefit {
 
-// Asked for every parameter of every curve, mostly with the degrees of the last time.
+// Caches the last value: it is computed for every parameter of every curve, mostly with equal
+// degrees.
 double StudentT95(int degrees_of_freedom) {
   thread_local int known_for = 0;
   thread_local double known = 0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLargestMisfit = 0.03;  // of Isc
 
-// Residuals of the straight line through the points: what a fit must at least beat.
+// Residuals of the least-squares line through the points, the baseline of any fit.
 std::vector<double> StraightLineResiduals(const IvCurve& curve) {
   const double n = static_cast<double>(curve.size());
   const auto mean = [&](const std::vector<double>& x) {
@@ -42,11 +42,11 @@ double Typical(const std::vector<double>& residuals, bool robust) {
   return std::sqrt(squares / static_cast<double>(residuals.size()));
 }
 
-// Whether a line describes the curve as well as parameters that leave `misfit`: by AICc, or by BIC
-// where the readings are too few for AICc. A search that was cut short says nothing of the model,
-// so it must be worse than the line.
+// Whether a line describes the curve as well as parameters with `misfit`: by AICc, or by BIC if the
+// readings are too few for AICc. An interrupted or unpolished fit does not show what the model can
+// reach, so only its misfit is compared with that of the line.
 bool LineDoesAsWell(const FitReport& report, double misfit, bool robust, bool at_its_end) {
-  constexpr double kRounding = 1e-11;  // of the largest current: no residual is told from 0
+  constexpr double kRounding = 1e-11;  // of the largest current: smaller residuals are rounding
   constexpr int kLineParameters = 2;
   const double line = Typical(StraightLineResiduals(report.curve), robust);
   if (!at_its_end) return misfit >= line;
@@ -61,8 +61,8 @@ bool LineDoesAsWell(const FitReport& report, double misfit, bool robust, bool at
   return of_line.aicc <= of_fit.aicc;
 }
 
-// What a misfit is measured by: Isc, or the largest current of a curve that has none to speak of,
-// in the dark or taken far beyond open circuit.
+// Scale of the misfit: Isc, or the largest current of a curve with negligible Isc (dark, or taken
+// far beyond open circuit).
 struct Scale {
   double current_A = 0;
   const char* name = "Isc";

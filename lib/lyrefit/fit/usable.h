@@ -6,13 +6,13 @@
 
 namespace lyrefit {
 
-// Why nobody should work with this fit; empty where it can be used. A fit is of no use
+// Reason why a fit is not usable; empty: it is. A fit is not usable
 //   - if its solved-current RMSE is not finite,
 //   - if a straight line describes the readings as well: its AICc is no higher,
-//   - if it was polished to its end and still misses the readings by more than 3 % of Isc. Diodes
-//     miss healthy cells and modules by 0.05 to 0.3 %, noisy and drifting ones by up to some 2 %; a
-//     conducting bypass diode, a limit of the instrument or what is no curve at all costs 5 % and
-//     more. `robust` fits are judged by the median of their residuals instead.
+//   - if it was polished to convergence and its misfit is above 3 % of Isc. The misfit of diode
+//     models is 0.05 to 0.3 % for healthy cells and modules, up to some 2 % for noisy or drifting
+//     ones. A conducting bypass diode, a limit of the instrument or readings that are no I-V curve
+//     give 5 % and more. The misfit is the RMSE, or RobustScale() of the residuals if `robust`.
 std::string WhyNotUsable(const FitReport& report, bool interrupted, bool robust);
 
 }  // namespace lyrefit

@@ -7,12 +7,11 @@
 
 namespace lyrefit {
 
-// The problem with its effects in one of their variants, and what is a whole number held at what `p`
-// says.
+// The problem with its effects in one variant and integer parameters fixed at their values in `p`.
 RefineProblem InVariant(const RefineProblem& problem, const Variant& variant, const std::vector<double>& p);
 
-// By what a root mean square error grows for each free parameter when variants are compared: so that
-// the logarithms of its square are in the order of the Bayesian information criterion.
+// Penalty factor on the RMSE for the free parameters of a variant. The logarithms of the squared
+// penalised RMSEs rank variants as BIC does.
 double VariantPenalty(const RefineProblem& problem, const Variant& variant);
 
 }  // namespace lyrefit

@@ -108,7 +108,8 @@ void WarnOfData(const FitReport& report, Sentences* out) {
   }
 }
 
-// Current that rises with voltage beyond what noise explains: impossible for a passive device.
+// Warns of a current that rises with voltage by more than the noise, which is impossible for a
+// passive device.
 void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
   constexpr double kNoises = 6;
   constexpr double kVisible = 2e-3;  // of the largest current

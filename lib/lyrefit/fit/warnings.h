@@ -7,7 +7,7 @@
 
 namespace lyrefit {
 
-// What a careful colleague would say on seeing this report, in plain words, most serious first.
+// Warnings about a report, as sentences, most serious first.
 std::vector<std::string> FindWarnings(const FitReport& report);
 
 }  // namespace lyrefit

@@ -7,7 +7,7 @@ namespace lyrefit {
 std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
                                          RefineProblem* problem, RefineEnd* end) {
   constexpr int kRounds = 5;
-  constexpr double kSettled = 0.01;  // relative, of every size
+  constexpr double kSettled = 0.01;  // relative change of every size
   WeighedFit weighed;
   ErrorReport& errors = weighed.errors;
   errors.weighed = errors.believed = true;

@@ -10,12 +10,13 @@ namespace lyrefit {
 
 struct WeighedFit {
   ErrorReport errors;
-  std::optional<FoundErrors> found;  // unless the sizes are stated
+  std::optional<FoundErrors> found;  // none if the sizes are stated
 };
 
-// Weighs the fit of `problem` that ended at `end` by the errors of its own residuals, or by those
-// that are stated, and goes on from there until both stand still. `problem` and `end` come back as
-// the weighed ones. None, and nothing is changed, where there are too few readings to find errors.
+// Weights the fit of `problem`, which ended at `end`, by the errors estimated from its residuals or
+// by the stated ones, and refits until both are stationary. On return `problem` and `end` are the
+// weighted ones. Returns none, and changes nothing, if there are too few readings to estimate
+// errors.
 std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
                                          RefineProblem* problem, RefineEnd* end);
 

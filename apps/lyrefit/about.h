@@ -7,12 +7,13 @@
 
 namespace lyrefit {
 
-// What lyrefit prints of itself. Manual and completion are of the verbs as they are declared.
+// Texts about lyrefit itself. The manual and the completion script use the declarations of the
+// verbs.
 
-// The page of `lyrefit` alone: which verb answers which question.
+// The page printed by `lyrefit` without a verb: a question and its verb on each line.
 std::string FirstPage();
 
-// The terms of the field, and the columns of the tables, in a few sentences each.
+// The terms of the field and the columns of the tables, each explained in a few sentences.
 std::string Glossary();
 
 // The manual as a man page, in roff.

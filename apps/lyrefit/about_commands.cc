@@ -3,7 +3,7 @@
 #include "lyrefit/base/try.h"
 #include "verbs.h"
 
-// The verbs about lyrefit itself: help, completion, man.
+// The verbs about lyrefit itself: help, completion and man.
 namespace lyrefit {
 namespace {
 

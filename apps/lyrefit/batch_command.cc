@@ -89,7 +89,7 @@ const BatchTask* FindTask(const std::string& name) {
   return nullptr;
 }
 
-// Results among the curves would be read as curves, now or the next time.
+// Results in an input folder would be read as curves, now or in the next run.
 Expected<void> CheckOutside(const BatchRequest& request) {
   std::error_code error;
   const fs::path out = fs::weakly_canonical(request.options.folder, error);
@@ -144,7 +144,7 @@ Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& reque
   BatchReadOptions reading = request.reading;
   reading.shard = {};
   TRY(const auto source, OpenBatch(request.reference_inputs, reading));
-  ConditionOptions module = request.conditions;  // light and temperature are today's
+  ConditionOptions module = request.conditions;  // without the conditions of today's sweep
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
   TRY(auto sweeps, ReadReferences(source.get(), [module](IvCurve* curve) {
@@ -153,7 +153,7 @@ Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& reque
   return WithHistory(std::move(task), std::move(sweeps), request.reference);
 }
 
-// As it was said, else what the input is called.
+// The name of --plant, else that of the input.
 std::string PlantName(const BatchRequest& request) {
   if (!request.plant.empty()) return request.plant;
   fs::path input = request.inputs.front();

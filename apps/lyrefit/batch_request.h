@@ -9,7 +9,7 @@
 
 namespace lyrefit {
 
-// What was said to `lyrefit batch`.
+// Values of the flags of `lyrefit batch`.
 struct BatchRequest {
   std::vector<std::string> inputs;
   std::string task = "fit";
@@ -22,29 +22,29 @@ struct BatchRequest {
   FitOptions fit = BatchFitOptions();
   bool auto_model = false;
   std::string bounds = "physical";
-  DiagnoseOptions diagnose;  // of a field test too
+  DiagnoseOptions diagnose;  // also for a field test
   TranslateOptions translate = BatchTranslateOptions();
   std::string coefficients_file;
   std::string html_file;
-  std::string plant;  // its name
+  std::string plant;  // name of the plant
   std::string module_file;
 };
 
-// What can be done with each curve, as data: its name for --task, the flags that only it has, and
-// how it is made of them.
+// A task for each curve, as data: its name for --task, its flags, and the function that creates it
+// from them.
 struct BatchTask {
   const char* name;
   void (*declare)(VerbLine* verb, BatchRequest* request);
-  // The first flag on the line that is of this task and no other; empty: none was given.
+  // The first given flag that belongs to this task only; empty: none was given.
   std::string (*given)(const VerbLine& verb);
   Expected<BatchTaskType> (*make)(const VerbLine& verb, const BatchRequest& request);
-  const char* takes = "";  // another task, whose flags it understands too
+  const char* takes = "";  // name of another task, whose flags are accepted too
 };
 
-// batch_tasks.cc: all there are.
+// All tasks; defined in batch_tasks.cc.
 const std::vector<BatchTask>& BatchTasks();
 std::string BatchTaskNames();  // "fit, diagnose"
-// Flags that mean the same for several of them.
+// Declares the flags that several tasks share.
 void AddSharedTaskFlags(VerbLine* verb, BatchRequest* request);
 
 }  // namespace lyrefit

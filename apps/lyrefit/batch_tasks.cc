@@ -8,21 +8,22 @@
 namespace lyrefit {
 namespace {
 
-// Of the diagnosis' options those that a row can show: no gain on held-out readings, no plan.
+// Options of the diagnosis that a row can report: without the gain on held-out readings and without
+// a plan.
 const std::vector<std::string> kDiagnoseRows = {
     "base", "effects", "level", "floor-current", "floor-power", "draws", "largest-causes"};
 
-// Flags that AddSharedTaskFlags and the options of a batch declare.
+// Flags declared by AddSharedTaskFlags and by the options of a batch.
 bool IsShared(const std::string& flag) {
   return flag == "--seed" || flag == "--threads" || flag == "--noise";
 }
 
-// The first flag of a table that was given.
+// The first given flag of a table.
 template <class Options, class Table>
 std::string GivenOf(const VerbLine& verb, const Table& table, const Options& usual) {
   std::string given;
   ForRows(table, [&](const OptionRow<Options>& row, const std::string&) {
-    if (row.Is(OptionTrait::kNoFlag)) return;  // a verb's own, such as --force
+    if (row.Is(OptionTrait::kNoFlag)) return;  // declared by the verb itself, such as --force
     const std::string flag = FlagName(row, usual);
     if (given.empty() && !IsShared(flag) && verb.Has(flag) && verb.Given(flag)) given = flag;
   });
@@ -76,10 +77,10 @@ Expected<BatchTaskType> MakeDiagnose(const VerbLine& /*verb*/, const BatchReques
   return DiagnoseTask(request.diagnose);
 }
 
-// Draws of the propagation; --draws are those of the diagnosis.
+// Draws of the propagation of uncertainty; --draws belongs to the diagnosis.
 constexpr char kUncertaintyDraws[] = "--uncertainty-draws";
 
-// All but the target, which is standard conditions.
+// All rows except the target, which is standard conditions.
 const std::vector<std::string> kTranslateRows = {"procedures",      "key-points",
                                                  "lead-resistance", "rear-irradiance-Wm2",
                                                  "bifaciality",     "technology"};
@@ -108,7 +109,7 @@ std::string GivenFieldTestFlag(const VerbLine& verb) {
     if (!flag.empty()) return flag;
   }
   if (verb.Given(kUncertaintyDraws)) return kUncertaintyDraws;
-  // --draws is the diagnosis'.
+  // --draws belongs to the diagnosis.
   const std::string flag = GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
   return flag == "--draws" ? "" : flag;
 }

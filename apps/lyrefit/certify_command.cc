@@ -25,7 +25,7 @@ constexpr char kCertifyFooter[] =
 struct CertifyRequest {
   CurveFlags curve;
   CertifyOptions options;
-  std::string bounds;  // the name or file of --bounds; empty: the single ranges hold
+  std::string bounds;  // value of --bounds; empty: use the single ranges
   ReportFlags output;
 };
 

@@ -12,10 +12,10 @@
 namespace lyrefit {
 namespace {
 
-constexpr char kOutput[] = "Output";  // the heading of the files in --help
+constexpr char kOutput[] = "Output";  // heading of the output files in --help
 constexpr char kAbout[] = "About lyrefit";
 
-// What CLI11 found wrong, in our words where its own say little.
+// The parser's error, in own words where CLI11's message is not sufficient.
 Error CommandLineError(const CLI::ParseError& error) {
   std::string message = error.what();
   const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
@@ -37,11 +37,11 @@ std::string NotNegative(const std::string& text) {
 
 struct Flag::Impl {
   CLI::Option* option = nullptr;
-  FlagTarget target;  // none: a null pointer
+  FlagTarget target;  // empty: a null pointer
   bool reads = false;
   bool curves = false;
   bool writes = false;
-  bool folder = false;  // that is written into
+  bool folder = false;  // an output folder
   bool draws = false;
   std::vector<std::string> choices;
 };
@@ -51,9 +51,9 @@ struct VerbLine::Impl {
   const Verb* verb;
   CLI::App* app;
   std::function<Expected<int>()> run;
-  std::deque<Flag::Impl> flags;  // addresses stay
+  std::deque<Flag::Impl> flags;  // deque: addresses stay valid
   std::vector<OutputFile> more_outputs;
-  std::deque<std::pair<bool, std::function<void()>>> switches;  // given, and what it sets
+  std::deque<std::pair<bool, std::function<void()>>> switches;  // whether given, and its function
   bool force = false;
   bool quiet = false;
 };
@@ -162,7 +162,7 @@ Flag VerbLine::Declare(void* option, FlagTarget target) {
 Flag VerbLine::AddOption(const std::string& name, FlagTarget target, const std::string& doc) {
   CLI::Option* const option =
       std::visit([&](auto* value) { return impl_->app->add_option(name, *value, doc); }, target);
-  // The parser would take -1 for the largest number there is.
+  // The parser would convert -1 to the largest unsigned number.
   if (std::holds_alternative<std::uint64_t*>(target)) option->check(NotNegative, "");
   return Declare(option, target);
 }

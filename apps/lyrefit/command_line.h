@@ -19,15 +19,16 @@ class VerbLine;
 // A verb, as data.
 struct Verb {
   const char* name;
-  const char* line;    // what it does
+  const char* line;    // its purpose
   const char* footer;  // below the flags in --help
-  const char* writes;  // what comes of it, for who asks for something else
-  // Declares its flags; what comes back does the work with what they hold, and says the exit code.
+  const char* writes;  // its output; for errors about unsupported output flags
+  // Declares its flags. The returned function does the work with their values and returns the exit
+  // code.
   std::function<Expected<int>()> (*declare)(VerbLine* line);
   bool work = true;  // on measurements; false: about lyrefit itself
 };
 
-// The `declare` of a verb whose flags fill a struct of its own.
+// `Verb::declare` for a verb whose flags fill its own `Request`.
 template <class Request, void (*kDeclare)(VerbLine*, Request*),
           Expected<int> (*kRun)(VerbLine&, Request&)>
 std::function<Expected<int>()> Declare(VerbLine* line) {
@@ -36,40 +37,40 @@ std::function<Expected<int>()> Declare(VerbLine* line) {
   return [line, request] { return kRun(*line, *request); };
 }
 
-// The command line as the verbs see it. The parser itself is known to command_line.cc alone: its
-// header is most of what a file that includes it costs to compile.
+// Interface of the command line for the verbs. Only command_line.cc includes the parser, whose
+// header takes most of the compile time of a file.
 
-// Where the value of a flag goes. What it holds before stays if the flag is not given.
+// Destination of a flag's value. It keeps its previous value if the flag is not given.
 using FlagTarget =
     std::variant<int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::optional<int>*,
                  std::optional<double>*, std::vector<std::string>*>;
 
-// What a value of text means; an error is a sentence without the flag's name.
+// Parses the text of a value. Error messages do not contain the flag's name.
 using FlagReader = std::function<Expected<void>(const std::string& text)>;
 
-// A flag just declared, to say more of it: AddOption(...).Type("N").Group("Search").
+// A declared flag, for setting further properties: AddOption(...).Type("N").Group("Search").
 class Flag {
  public:
-  Flag& Group(const std::string& heading);  // under which --help lists it
-  Flag& Type(const std::string& name);      // what --help shows for the value
+  Flag& Group(const std::string& heading);  // its heading in --help
+  Flag& Type(const std::string& name);      // name of the value in --help
   Flag& Required();
-  Flag& Excludes(const std::string& other);  // a flag declared before
+  Flag& Excludes(const std::string& other);  // a flag declared earlier
   Flag& OneEach();                           // a list gets one value each time the flag is given
-  // Its value is a file that the run reads, or a list of them; or one or more measurements, which
-  // are read with what lies beside them.
+  // Reads(): the value is an input file or a list of them. ReadsCurves(): one or more measurements,
+  // which are read with the files beside them.
   Flag& Reads();
   Flag& ReadsCurves();
-  // Its value is a file that the run writes: a table, a report, a picture.
+  // The value is an output file: a table or report for Writes(), a picture for Draws().
   Flag& Writes();
   Flag& Draws();
-  // Its value is a folder that the run writes into, which it looks after itself.
+  // The value is an output folder. The run checks it itself.
   Flag& WritesFolder();
-  // The texts that it takes, for completion: "sd, dd, td".
+  // Allowed texts, for completion: "sd, dd, td".
   Flag& OneOf(const std::string& texts);
-  // Values allowed, both ends included.
+  // Allowed values, both ends included.
   Flag& Between(int least, int most);
   Flag& Between(double least, double most);
-  // The same in the words of an option table.
+  // Allowed values in the notation of an option table.
   Flag& Within(double lower, double upper);
 
  private:
@@ -79,24 +80,24 @@ class Flag {
   Impl* impl_;  // owned by the verb
 };
 
-// What stands about a flag and a verb in manual and completion.
+// Texts on a flag and a verb for manual and completion.
 struct FlagText {
-  std::string name;  // "--flag", or "CURVE" for what stands without a flag
-  std::string type;  // of its value; empty: takes none
+  std::string name;  // "--flag", or "CURVE" for a positional argument
+  std::string type;  // of its value; empty: it has no value
   std::string doc;
   std::string group;
   bool file = false;                 // its value is a file or folder
-  std::vector<std::string> choices;  // or one of these; empty: anything
+  std::vector<std::string> choices;  // allowed values; empty: any
 };
 struct VerbText {
   std::string name;
   std::string line;
   std::string footer;
-  bool work = true;  // a verb on measurements, not one about lyrefit
+  bool work = true;  // works on measurements; false: about lyrefit itself
   std::vector<FlagText> flags;
 };
 
-// A verb's part of the command line: its flags, and what was said of them.
+// The command line of one verb: its flags and their given values.
 class VerbLine {
  public:
   struct Impl;
@@ -105,34 +106,34 @@ class VerbLine {
   VerbLine(const VerbLine&) = delete;
   VerbLine& operator=(const VerbLine&) = delete;
 
-  // `name` is "--flag", or "CURVE" for what stands without a flag.
+  // `name` is "--flag", or "CURVE" for a positional argument.
   Flag AddOption(const std::string& name, FlagTarget target, const std::string& doc);
   // `read` is called with the value as soon as the line is parsed.
   Flag AddReader(const std::string& name, FlagReader read, const std::string& doc);
-  // The same for a flag that may be given several times, one value each.
+  // AddReader for a flag that may be given several times, with one value each.
   Flag AddListReader(const std::string& name, FlagReader read, const std::string& doc);
   // A flag without a value.
   Flag AddSwitch(const std::string& name, bool* target, const std::string& doc);
-  // The same where `set` is called if it is given.
+  // Calls `set` if the switch is given.
   Flag AddSwitch(const std::string& name, std::function<void()> set, const std::string& doc);
 
-  // A file that is written too, because of that flag, though no flag names it.
+  // A further output file that depends on `flag` and is not named by a flag.
   void AlsoWrites(const std::string& flag, const std::string& path);
 
-  // Whether the files of this run can be written and nothing that is read would be lost; to be
-  // asked before the work. --force, which every verb that writes has, allows to replace inputs.
+  // Whether all output files can be written without replacing an input. Call it before the work.
+  // --force, which every verb with outputs has, allows replacing inputs.
   Expected<void> CheckFiles() const;
-  // --quiet: no text on standard output, no progress on the other.
+  // --quiet: no text on standard output, no progress on standard error.
   void AddQuietSwitch();
-  // Whether text may be printed: not with --quiet, nor where an output has standard output.
+  // Whether text may be printed: not with --quiet, nor if an output file is standard output.
   bool TextWanted() const;
   bool StandardOutputTaken() const;
   bool Forced() const;
 
-  bool Given(const std::string& name) const;  // on the line, whatever its value
-  bool Has(const std::string& name) const;    // was declared
+  bool Given(const std::string& name) const;  // whether the flag is on the command line
+  bool Has(const std::string& name) const;    // whether the flag was declared
 
-  const CommandLine& line() const;  // the whole of it
+  const CommandLine& line() const;  // the whole command line
 
  private:
   Flag Declare(void* option, FlagTarget target);
@@ -146,7 +147,7 @@ class VerbLine {
   std::unique_ptr<Impl> impl_;
 };
 
-// The whole line: lyrefit [-v] VERB ...
+// The whole command line: lyrefit [-v] VERB ...
 class CommandLine {
  public:
   explicit CommandLine(const std::string& footer);
@@ -156,20 +157,20 @@ class CommandLine {
 
   void Add(const Verb& verb);
 
-  // Sets all targets. The text that --help or --version asks for; empty if there is a verb to run.
+  // Sets all targets. Returns the text of --help or --version; empty if there is a verb to run.
   Expected<std::string> Parse(int argc, char** argv);
 
-  // Does what the verb on the line does; the exit code.
+  // Runs the verb on the command line; returns its exit code.
   Expected<int> Run() const;
 
-  // What `lyrefit VERB --help` prints.
+  // Text of `lyrefit VERB --help`.
   Expected<std::string> Help(const std::string& verb) const;
   std::vector<VerbText> Verbs() const;
   int verbosity() const;
-  bool quiet() const;  // --quiet of the verb that was asked for
+  bool quiet() const;  // --quiet of the given verb
 
  private:
-  const VerbLine* Chosen() const;  // none where there was no verb on the line
+  const VerbLine* Chosen() const;  // null if the command line has no verb
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -9,7 +9,8 @@ std::string JoinWords(const std::vector<std::string>& words) {
   return text;
 }
 
-// In quotes for a shell. zsh and bash end them to say a quote, fish has it escaped.
+// Quotes a text for a shell. zsh and bash need the quotes closed around a quote, fish needs it
+// escaped.
 std::string ShellQuoted(const std::string& text, const char* quote, bool escape_backslash) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -34,7 +35,7 @@ std::string VerbNames(const std::vector<VerbText>& verbs) {
   return JoinWords(names);
 }
 
-// What stands without a flag and takes one of some words, as help's topic does.
+// Allowed words of a positional argument, such as the topic of help.
 std::vector<std::string> OwnWords(const VerbText& verb) {
   for (const FlagText& flag : verb.flags) {
     if (!IsFlag(flag) && !flag.choices.empty()) return flag.choices;
@@ -76,7 +77,7 @@ std::string BashScript(const std::vector<VerbText>& verbs) {
          "complete -o default -F _lyrefit lyrefit\n";
 }
 
-// A doc line inside the brackets of zsh's _arguments.
+// Escapes a help text for the brackets of zsh's _arguments.
 std::string ZshDoc(const std::string& text) {
   std::string doc;
   for (const char c : text) {

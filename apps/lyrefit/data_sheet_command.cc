@@ -23,7 +23,8 @@ constexpr char kDataSheetFooter[] =
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 no device gives all that the sheet prints.";
 
-// `text` given to `flag`; in percent of `whole` where a sign says so and `whole` is given.
+// Parses `text` given to `flag`. A value with a percent sign is relative to `whole`, if that is
+// given.
 Expected<PrintedValue> ParsePrinted(const char* flag, const std::string& text, double whole = 0) {
   Expected<PrintedValue> printed = ReadPrintedValue(text, whole);
   if (!printed) return Fail(fmt::format("{}: {}", flag, printed.error().message));
@@ -31,7 +32,7 @@ Expected<PrintedValue> ParsePrinted(const char* flag, const std::string& text, d
 }
 
 struct DataSheetRequest {
-  // As printed: the digits say how far each value is rounded.
+  // As printed: the digits give the rounding of each value.
   std::string isc;
   std::string voc;
   std::string imp;
@@ -100,7 +101,7 @@ Expected<DataSheet> Sheet(const DataSheetRequest& request) {
     const char* flag;
     const std::string& text;
     double DataSheetValues::*field;
-    double DataSheetValues::*whole;  // of what it may be a part
+    double DataSheetValues::*whole;  // base of a percentage; null: none
   } rows[] = {{"--isc", request.isc, &DataSheetValues::short_circuit_current_A, nullptr},
               {"--voc", request.voc, &DataSheetValues::open_circuit_voltage_V, nullptr},
               {"--imp", request.imp, &DataSheetValues::max_power_current_A, nullptr},

@@ -33,13 +33,13 @@ constexpr char kDiagnoseFooter[] =
     "Exit codes: 0 fine, found or not; 1 bad input or options, of several files some could not be\n"
     "diagnosed; 2 a fit is not usable.";
 
-// As the answers name it: "data/roof/sweep.csv" is "sweep".
+// Name of a file in the answers: "data/roof/sweep.csv" is "sweep".
 std::string Stem(const std::string& file) {
   const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).stem().string();
 }
 
-// The measurements of a run: their files, as the answers name them, and what came of them.
+// The measurements of a run: names of their files in the answers, and their diagnoses.
 struct Diagnoses {
   std::vector<std::string> names;
   std::vector<Diagnosis> found;
@@ -74,7 +74,7 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
            "the bare answers by file as JSON, each cause with what it could be too");
 }
 
-// Answers are told apart by their names.
+// Answers are identified by their names, so these must differ.
 Expected<void> CheckNames(const DiagnoseRequest& request) {
   if (request.answers_file.empty()) return {};
   std::set<std::string> names;
@@ -123,8 +123,8 @@ Expected<Diagnosis> DiagnoseSet(const DiagnoseRequest& request, const CurveSet& 
   return diagnosis;
 }
 
-// A measurement that cannot be diagnosed keeps no other from it. `guard` begins with the first that
-// was read.
+// A failed measurement does not stop the others. Sets `guard` at the first measurement that was
+// read.
 Diagnoses DiagnoseAll(const DiagnoseRequest& request, std::optional<InterruptGuard>* guard) {
   Diagnoses all;
   std::vector<std::vector<std::string>> measurements;

@@ -93,7 +93,7 @@ Expected<int> RunReferences(const VerbLine& verb, const DiagnoseRequest& request
         fmt::format("--reference compares one sweep, this measurement has {} curves", sweep.size()),
         request.files.front());
   }
-  ConditionOptions module = request.conditions;  // light and temperature are this sweep's
+  ConditionOptions module = request.conditions;  // without the conditions of this sweep
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
   TRY(const auto reference, ReadSweeps(request, request.reference_files, module));

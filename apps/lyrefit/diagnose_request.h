@@ -9,7 +9,7 @@
 
 namespace lyrefit {
 
-// What was said to `lyrefit diagnose`.
+// Values of the flags of `lyrefit diagnose`.
 struct DiagnoseRequest {
   std::vector<std::string> files;
   bool together = false;
@@ -26,10 +26,10 @@ struct DiagnoseRequest {
   std::string extend_file;
   std::string answers_file;
 
-  bool Several() const { return files.size() > 1 && !together; }  // measurements
+  bool Several() const { return files.size() > 1 && !together; }  // several measurements
 };
 
-// diagnose_reference.cc: against the history of the module.
+// Comparison with the reference sweeps of the module; defined in diagnose_reference.cc.
 void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request);
 Expected<void> CheckReferenceFlags(const DiagnoseRequest& request);
 Expected<int> RunReferences(const VerbLine& verb, const DiagnoseRequest& request);

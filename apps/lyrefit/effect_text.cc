@@ -14,7 +14,8 @@ std::string ParameterText(const EffectParameter& parameter) {
   return fmt::format("{}, {}{}", parameter.name, parameter.doc, unit);
 }
 
-// Voltages per cell and currents in parts of the measurement's scale, as the equation has them.
+// Range of a parameter in the units of the effect's equation: voltages per cell, currents relative
+// to the measurement's scale.
 std::string BoundsText(const EffectParameter& parameter) {
   return fmt::format("{:g} to {:g}", parameter.lower, parameter.upper);
 }

@@ -7,17 +7,17 @@
 
 namespace lyrefit {
 
-// Everything the catalogue says of one effect. An unknown id is an error that lists those there
-// are.
+// The full description of one effect of the catalogue. An unknown id is an error that lists the
+// known ones.
 Expected<std::string> ExplainEffect(const std::string& id);
 
-// "shading, substrings, ...": their ids.
+// Ids of all effects: "shading, substrings, ...".
 std::string EffectIds();
 
 // All effects as a table.
 std::string EffectList();
 
-// Refuses ids that are not in the catalogue, in the name of `flag`.
+// Fails for ids that are not in the catalogue; the error names `flag`.
 Expected<void> CheckEffects(const std::string& flag, const std::vector<std::string>& ids);
 
 }  // namespace lyrefit

@@ -11,12 +11,12 @@
 
 namespace lyrefit {
 
-// How the curves of a set hang together.
+// Relation between the curves of a set.
 enum class Family {
   kDeSoto,
   kPvsyst,
-  kFree,  // not at all: every curve on its own
-  kAuto,  // by the law that errs least on curves it did not see
+  kFree,  // none: every curve is fitted individually
+  kAuto,  // the law with the least error on held-out curves
 };
 
 template <>
@@ -27,22 +27,22 @@ struct EnumTable<Family> {
                                                {Family::kAuto, "auto"}};
 };
 
-// The flags of `lyrefit fit` that are about sets of curves.
+// The flags of `lyrefit fit` for sets of curves.
 struct FamilyFlags {
   std::optional<Family> family;
-  FamilyOptions options;  // where the flags write
+  FamilyOptions options;  // targets of the flags
   std::vector<std::string> against_files;
   std::string pvlib_file;
   std::string truth_file;
 };
 
-// With --csv, which families have in common with curves fitted one by one.
+// Declares the flags of a set, and --csv, which curves fitted individually have too.
 void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output);
 
-// Whether the flags given to the verb go together: those of one curve with those of a set.
+// Whether the given flags are compatible: those of one curve with those of a set.
 Expected<void> CheckFamilyFlags(const VerbLine& verb, const FamilyFlags& flags);
 
-// The options of the joint fit: family flags, and those that the verb has for one curve as well.
+// Options of the joint fit: the flags of a set and the shared ones of a fit of one curve.
 Expected<FamilyOptions> FamilyOptionsFromFlags(const VerbLine& verb, const FamilyFlags& flags,
                                                const FitOptions& fit);
 

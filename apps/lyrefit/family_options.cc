@@ -7,13 +7,13 @@
 namespace lyrefit {
 namespace {
 
-// Of a set, but not of what its curves share.
+// Flags about a set of curves, but not about their common device.
 constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
-// Flags that a joint fit does not have.
+// Flags of a fit of one curve that a joint fit does not have.
 constexpr const char* kOneCurve[] = {
     "--floor", "--bounds", "--loss",      "--loss-scale",    "--kernel",
     "--curve", "--candidates",  "--no-polish", "--temperature-C", "--irradiance-Wm2"};
-// Flags about what the curves share.
+// Flags about the parameters that the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",
                                    "--weights",
@@ -28,10 +28,10 @@ constexpr const char* kShared[] = {"--shunt",
                                    "--no-free-fits",
                                    "--against",
                                    "--pvlib"};
-// Choices that auto makes.
+// Options that --family auto selects.
 constexpr const char* kChosenByAuto[] = {"--model", "--shunt", "--recombination"};
 
-// Refuses the first of `names` that was given, in a sentence about it.
+// Rejects the first given flag of `names`, with a sentence about it.
 template <class Names>
 Expected<void> RefuseGiven(const VerbLine& verb, const Names& names, const std::string& sentence) {
   for (const char* const name : names) {
@@ -40,7 +40,7 @@ Expected<void> RefuseGiven(const VerbLine& verb, const Names& names, const std::
   return {};
 }
 
-// What no law knows is refused before anything is read.
+// Rejects options that the law does not have, before any file is read.
 Expected<void> CheckLaw(const FamilyFlags& flags, const FamilyOptions& options) {
   if (flags.family != Family::kDeSoto && flags.family != Family::kPvsyst) return {};
   TranslationSpec spec;

@@ -23,7 +23,7 @@
 namespace lyrefit {
 namespace {
 
-// The set with what the flags say of every curve.
+// Reads the set and applies the flags to every curve.
 Expected<CurveSet> ReadFlaggedSet(const CurveFlags& flags) {
   TRY(CurveSet set, ReadMeasurementOrInput(flags.file, flags.reading));
   TRY(ApplyConditionFlags(flags.conditions, &set));
@@ -60,7 +60,7 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
                       CecRow(report.translation, report.refined, report.name, technology)));
 }
 
-// What pvlib cannot take is known last: all else is written by then.
+// Writes the output for pvlib last: it may fail, and all other files are then complete.
 Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const CurveSet& set,
                      const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
                      const ReportFlags& output) {

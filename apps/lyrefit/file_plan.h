@@ -7,29 +7,29 @@
 
 namespace lyrefit {
 
-// A file that a run is to write; "" is not wanted, "-" is standard output.
+// An output file of a run; "" means none, "-" standard output.
 struct OutputFile {
   std::string flag;
   std::string path;
-  bool is_picture = false;  // "-" is none, and gnuplot has to be there
+  bool is_picture = false;  // needs gnuplot, and a path other than "-"
 };
 
-// A file or folder that a run reads; what is not there does not matter.
+// An input file or folder of a run; it may be missing.
 struct InputFile {
   std::string path;
-  bool is_measurement = false;  // read with what lies beside it
+  bool is_measurement = false;  // read together with the files beside it
 };
 
 // All files of one run.
 struct FilePlan {
   std::vector<InputFile> inputs;
   std::vector<OutputFile> outputs;
-  bool force = false;  // replaces what is read
+  bool force = false;  // allows replacing inputs
 };
 
-// Whether the plan can be carried out without loss, to be asked before the work: no output is an
-// input or something read along with one, no two outputs are one file, standard output belongs to
-// one at most, and all can be written. Leaves nothing behind.
+// Whether the run can write its files without loss; call it before the work. No output may be an
+// input or a file read along with one, no two outputs may be one file, at most one may be standard
+// output, and all must be writable. Leaves no files behind.
 Expected<void> CheckFilePlan(const FilePlan& plan);
 
 }  // namespace lyrefit

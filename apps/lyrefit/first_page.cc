@@ -4,7 +4,7 @@
 namespace lyrefit {
 namespace {
 
-// A question that people come with, and the verbs that answer it.
+// A user's question and the verbs that answer it.
 struct Answer {
   const char* verb;
   const char* does;

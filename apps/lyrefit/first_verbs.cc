@@ -1,7 +1,7 @@
 #include "verbs.h"
 
-// The verbs of the program that cmake/quickstart.sh builds: what a first fit needs, which is half of
-// the whole to compile.
+// The verbs of the program built by cmake/quickstart.sh: those needed for a first fit, which take
+// half of the full compile time.
 namespace lyrefit {
 
 std::vector<const Verb*> ProgramVerbs() {

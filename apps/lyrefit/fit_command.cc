@@ -37,9 +37,9 @@ constexpr char kFitFooter[] =
 
 struct FitRequest {
   std::vector<std::string> files;
-  CurveFlags curve;  // of one file, or of each
+  CurveFlags curve;  // of one file, or of each file
   bool auto_model = false;
-  std::string bounds = "physical";  // the name or file of --bounds
+  std::string bounds = "physical";  // value of --bounds
   FitOptions options;
   FamilyFlags family;
   ReportFlags output;
@@ -69,7 +69,7 @@ void DeclareFit(VerbLine* verb, FitRequest* fit) {
   AddFullSwitches(verb, &fit->output);
 }
 
-// What one flag says of the options of another.
+// Sets options that depend on other flags, and rejects contradictions.
 Expected<void> Settle(const VerbLine& verb, FitRequest* fit) {
   FitOptions& options = fit->options;
   if (options.with.empty()) return {};
@@ -81,7 +81,7 @@ Expected<void> Settle(const VerbLine& verb, FitRequest* fit) {
   return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
 }
 
-// A curve and how it is to be fitted.
+// A curve and the options of its fit.
 struct FitJob {
   IvCurve curve;
   FitOptions options;
@@ -156,7 +156,7 @@ Expected<int> RunOne(const VerbLine& verb, const FitRequest& fit) {
   return exit_code;
 }
 
-// A file that cannot be fitted keeps no other from it.
+// A failed file does not stop the others.
 Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
   for (const char* flag : {"--plot", "--curve"}) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");

@@ -59,7 +59,7 @@ Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::str
 
 namespace {
 
-// The library names an option, the command its flag.
+// Converts the option name at the start of a library error to the flag's name.
 Expected<void> AsFlags(Expected<void> applied) {
   if (!applied) applied.error().message = "--" + applied.error().message;
   return applied;

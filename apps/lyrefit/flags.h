@@ -23,8 +23,8 @@
 
 namespace lyrefit {
 
-// What --help says of a row: "doc: texts allowed [lower, upper] (default value)". `defaults` holds
-// the values from before the line is read. A range that is hardly a limit is left out.
+// Help text of a row: "doc: texts allowed [lower, upper] (default value)". `defaults` holds the
+// values before parsing. Very wide ranges are left out.
 template <class Options>
 std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
   std::string help = row.doc;
@@ -44,7 +44,7 @@ std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
             help += " [" + NumberText(row.lower) + ", " + NumberText(row.upper) + "]";
           }
           const auto value = defaults.*field;
-          // Infinity, or the largest whole number, stands for "no limit".
+          // Infinity and the largest integer mean "no limit".
           const bool none = std::fabs(static_cast<double>(value)) > 1e18;
           help += none ? " (default: none)" : " (default " + NumberText(value) + ")";
         }
@@ -53,7 +53,7 @@ std::string RowHelp(const OptionRow<Options>& row, const Options& defaults) {
   return help;
 }
 
-// The flag of one row.
+// The name of a row's flag.
 template <class Options>
 std::string FlagName(const OptionRow<Options>& row, const Options& defaults) {
   const auto* const member = std::get_if<bool Options::*>(&row.field);
@@ -61,7 +61,8 @@ std::string FlagName(const OptionRow<Options>& row, const Options& defaults) {
   return std::string(off ? "--no-" : "--") + row.name;
 }
 
-// One flag for one row: name, help, unit and range come from it, the group too unless it is empty.
+// Declares the flag of one row, with its name, help, unit and range; also its group, unless that is
+// empty.
 template <class Options>
 Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string& group,
                 Options* options) {
@@ -105,7 +106,7 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
   return group.empty() ? flag : flag.Group(group);
 }
 
-// Calls see(row, heading it stands below) for every row that is one.
+// Calls see(row, its heading) for every row that is not a heading.
 template <class Table, class See>
 void ForRows(const Table& table, const See& see) {
   std::string heading;
@@ -118,7 +119,7 @@ void ForRows(const Table& table, const See& see) {
   }
 }
 
-// The row with this name; nullptr where there is none.
+// The row of this name; nullptr if there is none.
 template <class Table>
 auto* FindRow(const Table& table, const std::string& name) {
   decltype(&table[0]) found = nullptr;
@@ -128,7 +129,7 @@ auto* FindRow(const Table& table, const std::string& name) {
   return found;
 }
 
-// The flags of these rows, in this order, each under its heading.
+// Declares the flags of these rows in this order, each under its heading.
 template <class Options, class Table>
 void AddNamedFlags(VerbLine* verb, const Table& table, const std::vector<std::string>& names,
                    Options* options) {
@@ -139,8 +140,8 @@ void AddNamedFlags(VerbLine* verb, const Table& table, const std::vector<std::st
   }
 }
 
-// The flags of all rows of an option table, or of those below one heading, that the verb has not
-// declared yet.
+// Declares the flags of all rows of an option table, or of those under one heading, that the verb
+// has not declared yet.
 template <class Options, class Table>
 void AddTableFlags(VerbLine* verb, const Table& table, Options* options,
                    const std::string& only = "") {
@@ -151,41 +152,42 @@ void AddTableFlags(VerbLine* verb, const Table& table, Options* options,
   });
 }
 
-// --resume FILE: where a study is written to run by run (or set by set), and taken up from.
+// --resume FILE: the file to which a study appends each run (or set), and from which it resumes.
 Flag AddResumeFlag(VerbLine* verb, const std::string& unit, std::string* target);
 
-// "0:0.6:50" given to `flag`: that many even steps, both ends included.
+// Parses "0:0.6:50", given to `flag`: 50 even steps, both ends included.
 Expected<std::vector<double>> ParseSteps(const std::string& flag, const std::string& text);
 
-// ApplyConditions(), whose errors name the flag.
+// ApplyConditions(), with errors that name the flag.
 Expected<void> ApplyConditionFlags(const ConditionOptions& flags, IvCurve* curve);
-// The same for every curve of a set.
+// ApplyConditionFlags for every curve of a set.
 Expected<void> ApplyConditionFlags(const ConditionOptions& flags, CurveSet* set);
 
-// One curve and what is said about it.
+// Flags of one curve.
 struct CurveFlags {
   std::string file;
   std::optional<int> index;
-  ReadOptions reading;  // without the index
+  ReadOptions reading;  // except the index
   bool list_columns = false;
   ConditionOptions conditions;
 };
 
-// Which columns of a table are read, and the area that makes currents of densities; and
-// --list-columns.
+// Declares --list-columns and the flags that select columns of a table and the area that converts
+// current densities to currents.
 void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns);
 
-// The columns of every file and what each is read as, on standard output; the exit code.
+// Prints the columns of every file and their interpretation to standard output; returns the exit
+// code.
 Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOptions& options);
 
-// A curve from a file or folder, or from standard input where `file` is "-".
+// A curve from a file or folder, or from standard input if `file` is "-".
 Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options);
 
-// A measurement, as ReadMeasurement reads it, or the one curve of standard input.
+// A measurement by ReadMeasurement, or the one curve of standard input.
 Expected<CurveSet> ReadMeasurementOrInput(const std::string& file, const ReadOptions& options);
 
 void AddCurveFlags(VerbLine* verb, CurveFlags* flags);
-// The same without the file.
+// Declares the flags of one curve without the file.
 void AddReadingFlags(VerbLine* verb, CurveFlags* flags);
 Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
@@ -193,7 +195,7 @@ inline constexpr char kModuleHelp[] =
     "JSON with what the sheet of a module says: rated_power_W, gamma_pmp_percent_K, "
     "technology and coefficients; flags go before it";
 
-// What a verb with a report writes.
+// Output flags of a verb with a report.
 struct ReportFlags {
   std::string json_file;
   std::string csv_file;
@@ -206,16 +208,17 @@ struct ReportFlags {
   PlotPoints marks() const { return full_plot ? PlotPoints::kAll : PlotPoints::kThinned; }
 };
 
-// --full-json and --full-plot, where JSON repeats the readings of a fit and pictures show them.
+// --full-json and --full-plot, for a verb whose JSON repeats the readings and whose pictures show
+// them.
 void AddFullSwitches(VerbLine* verb, ReportFlags* flags);
-// --json, --csv where `table` says what it holds, --plot, --html, --brief and --quiet. `what` names the
-// report in the help, `picture` the plot.
+// --json, --csv (`table` describes its content), --plot, --html, --brief and --quiet. `what` names
+// the report in the help, `picture` the plot.
 void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& table,
                     const std::string& picture, ReportFlags* flags);
 void AddCsvFlag(VerbLine* verb, const std::string& table, ReportFlags* flags);
 void AddHtmlFlag(VerbLine* verb, const std::string& what, ReportFlags* flags);
 
-// Writes what is wanted: `make` is called if there is a file to write it into.
+// Writes a requested file; `make` is called only if `file` is not empty.
 template <class Make>
 Expected<void> WriteWanted(const std::string& file, const Make& make) {
   return file.empty() ? Expected<void>() : WriteOutput(file, make());
@@ -224,7 +227,7 @@ template <class Draw>
 Expected<void> DrawWanted(const std::string& file, const Draw& draw) {
   return file.empty() ? Expected<void>() : draw(file);
 }
-// The text on standard output, unless something else has it or --quiet is said.
+// Writes the text to standard output, unless an output file uses it or --quiet is given.
 template <class Make>
 Expected<void> WriteText(const VerbLine& verb, const Make& make) {
   return verb.TextWanted() ? WriteOutput("-", make()) : Expected<void>();

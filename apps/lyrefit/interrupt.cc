@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kPeriod(200);  // between two lines
+constexpr std::chrono::milliseconds kPeriod(200);  // between two updates of the line
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -29,7 +29,7 @@ std::atomic<bool> silent{false};
 
 void EndNow(int /*signal*/) { _exit(kExitInterrupted); }
 
-// What the caller had set to be ignored stays so.
+// Signals that the parent process ignores stay ignored.
 void Catch(void (*handler)(int)) {
   for (const int signal : kSignals) {
     struct sigaction before = {};
@@ -47,7 +47,7 @@ bool OnTerminal() { return isatty(STDERR_FILENO) != 0; }
 
 void WipeLine() { TellError(fmt::format("\r{:<79}\r", "")); }
 
-// Draws the line from a thread of its own, so that stages which tell nothing are seen to live.
+// Draws the line from a separate thread, so that it moves in stages without progress reports too.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(ProgressStyle style) : style_(std::move(style)), text_(style_.whole) {
@@ -91,13 +91,13 @@ class ProgressDisplay {
         drawn_ = true;
       }
     }
-    // Where a run ends at once it is said all the same.
+    // Prints "stopping" also if the run ends before the next update.
     if (terminal && drawn_ && interrupted != 0) TellError(fmt::format("\r{:<79.79}", "stopping"));
   }
 
   const ProgressStyle style_;
   const Clock::time_point begin_ = Clock::now();
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   ProgressText text_;
   bool over_ = false;
   bool drawn_ = false;

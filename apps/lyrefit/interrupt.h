@@ -7,9 +7,9 @@
 
 namespace lyrefit {
 
-// While it lives, the first Ctrl-C (or SIGTERM, or SIGHUP) asks the computation, and what this
-// thread reads, to stop cleanly; a second one ends the program. What the caller had set to be
-// ignored stays so. It begins where there is something to keep: what is read before needs none.
+// During its lifetime the first Ctrl-C (or SIGTERM, or SIGHUP) stops the computation and this
+// thread's reading cleanly; a second one ends the program. Signals that the parent process ignores
+// stay ignored. Create it when there are results to keep; reading before that needs none.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -21,25 +21,25 @@ class InterruptGuard {
   StoppableReads reads_;
 };
 
-// Lets those signals end the program with exit code 130 from here on: where nothing is to be kept.
+// From here on these signals end the program with exit code 130: there are no results to keep.
 void EndOnSignals();
 
-// Whether a signal has come while a guard lived.
+// Whether a signal arrived during the lifetime of a guard.
 bool Interrupted();
 
 struct ProgressStyle {
-  // The stage that is the whole run: what is left of it is left of all. Empty: none is.
+  // Name of the stage that is the whole run: its remaining time is that of the run. Empty: none.
   std::string whole;
-  // What Ctrl-C does, for runs that take more than a minute.
+  // Effect of Ctrl-C, for runs of more than a minute.
   std::string on_interrupt = "Ctrl-C keeps what is done";
 };
 
-// Stops on those signals and, while a copy of it lives, tells on standard error what is going on:
-// on a terminal one changing line from the first second on, elsewhere nothing; on both one plain
+// Observer that stops on those signals and, until its last copy is destroyed, reports progress on
+// standard error. On a terminal: one changing line from the first second on. In any case one plain
 // line as soon as the run is known to exceed a minute.
 Observer TerminalObserver(ProgressStyle style = {});
 
-// No such lines from here on.
+// Switches off these lines.
 void SilenceProgress();
 
 }  // namespace lyrefit

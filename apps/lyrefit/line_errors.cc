@@ -5,7 +5,8 @@
 namespace lyrefit {
 namespace {
 
-// Letters to insert, delete, replace or exchange with their neighbour to make `b` of `a`.
+// Number of letters to insert, delete, replace or exchange with their neighbour to turn `a` into
+// `b`.
 std::size_t Distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -34,7 +35,7 @@ std::string FirstWord(int argc, char** argv) {
 
 Error NoSuchVerb(const std::string& word, const std::vector<const Verb*>& verbs) {
   std::string near, all;
-  std::size_t nearest = 3;  // more than two letters off is another word
+  std::size_t nearest = 3;  // words that differ by more than two letters are not suggested
   for (const Verb* verb : verbs) {
     const std::string name = verb->name;
     if (verb->work) all += (all.empty() ? "" : ", ") + name;

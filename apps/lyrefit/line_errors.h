@@ -8,16 +8,16 @@
 
 namespace lyrefit {
 
-// Command lines that cannot be meant as they stand, in sentences that lead on.
+// Error messages with suggestions for wrong command lines.
 
-// The first word of the line that is no flag; empty if there is none.
+// The first word of the line that is not a flag; empty if there is none.
 std::string FirstWord(int argc, char** argv);
 
-// What was meant by a word that is no verb, or which verbs there are.
+// Error for an unknown verb: the most similar verb, or the list of all verbs.
 Error NoSuchVerb(const std::string& word, const std::vector<const Verb*>& verbs);
 
-// Flags that many verbs have alike: if one of them is among the words that `verb` does not know,
-// what it writes instead.
+// Error for a common output flag that `verb` does not have, if one is among `words`: names the
+// flags that it has instead.
 std::optional<Error> OtherTarget(const Verb& verb, const std::vector<std::string>& words);
 
 }  // namespace lyrefit

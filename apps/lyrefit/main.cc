@@ -28,13 +28,13 @@ constexpr char kFooter[] =
 
 void StartLogging(const char* program, int verbosity) {
   FLAGS_logtostderr = true;
-  // The solver logs every step it had to take back as an error; the report says what came of it.
+  // The solver logs every rejected step as an error; the report states the outcome.
   FLAGS_minloglevel = verbosity > 0 ? google::GLOG_INFO : google::GLOG_FATAL;
   FLAGS_v = verbosity;
   google::InitGoogleLogging(program);
 }
 
-// The text itself as the answer.
+// Prints a text to standard output.
 int Print(const std::string& text) {
   const auto written = WriteOutput("-", text);
   return written ? kExitFine : Refuse(written.error());
@@ -43,7 +43,7 @@ int Print(const std::string& text) {
 int Main(int argc, char** argv) {
   EndOnSignals();
   if (argc == 1) return Print(FirstPage());
-  char topic_follows[] = "help";  // lyrefit --help terms
+  char topic_follows[] = "help";  // topic of `lyrefit --help terms`
   if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
   CommandLine line(kFooter);
   for (const Verb* verb : ProgramVerbs()) line.Add(*verb);
@@ -66,10 +66,10 @@ int Main(int argc, char** argv) {
 }  // namespace lyrefit
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is an error of the write
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file-size limit becomes a write error
   try {
     return lyrefit::Main(argc, argv);
-  } catch (const std::exception& error) {  // out of memory, and the like
+  } catch (const std::exception& error) {  // such as out of memory
     return lyrefit::Refuse({error.what(), {}});
   }
 }

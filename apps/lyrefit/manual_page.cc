@@ -4,7 +4,7 @@
 namespace lyrefit {
 namespace {
 
-// Text as roff takes it: its backslashes and hyphens are meant, and no line is a request.
+// Escapes a text for roff: backslashes and hyphens stay literal, and no line starts a request.
 std::string Roff(const std::string& text) {
   std::string roff;
   bool at_begin = true;
@@ -28,7 +28,7 @@ std::string FlagEntry(const FlagText& flag) {
   return entry + "\n" + Roff(flag.doc) + "\n";
 }
 
-// The groups in the order in which --help has them.
+// The groups in the order of --help.
 std::vector<std::string> GroupsOf(const VerbText& verb) {
   std::vector<std::string> groups;
   for (const FlagText& flag : verb.flags) {

@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// --model, as the verbs understand it that may leave the number of diodes to the data.
+// Declares --model for a verb that can select the number of diodes from the data.
 void AddModelFlag(VerbLine* verb, Model* model, bool* automatic);
 
 }  // namespace lyrefit

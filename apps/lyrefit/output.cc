@@ -47,7 +47,8 @@ Expected<void> CheckWritable(const std::string& path) {
     if (access(path.c_str(), W_OK) != 0) return CannotWrite(path, errno);
     if (!fs::is_regular_file(status)) return {};
   }
-  // A file beside it, as the writer will use one: without a name where the file system can.
+  // Opens a temporary file in the folder, as the writer does: without a name if the file system
+  // supports it.
 #ifdef O_TMPFILE
   const fs::path folder = fs::path(path).parent_path();
   const int nameless =

@@ -11,21 +11,22 @@ namespace lyrefit {
 constexpr int kExitFine = 0;
 constexpr int kExitBadInput = 1;
 constexpr int kExitNotUsable = 2;
-constexpr int kExitInterrupted = 130;  // also where a report of what was done was written
+constexpr int kExitInterrupted = 130;  // also if a report of the finished part was written
 
-// Writes onto standard error, what is no UTF-8 as U+FFFD. Where that cannot be written, nobody is told.
+// Writes to standard error; invalid UTF-8 becomes U+FFFD. Failures are ignored.
 void TellError(const std::string& text);
 
 // Prints "lyrefit: sentence" on standard error; returns kExitBadInput.
 int Refuse(const Error& error);
 
-// One line each on standard error.
+// Prints one line for each remark to standard error.
 void PrintRemarks(const std::vector<std::string>& remarks);
 
-// Whether a file can be created or replaced at `path`; leaves nothing behind. "-" and "" pass.
+// Whether a file can be created or replaced at `path`; leaves no file behind. "-" and "" are
+// accepted.
 Expected<void> CheckWritable(const std::string& path);
 
-// Writes into a file, or onto standard output if `path` is "-", where what is no UTF-8 becomes U+FFFD.
+// Writes to a file, or to standard output if `path` is "-"; there invalid UTF-8 becomes U+FFFD.
 Expected<void> WriteOutput(const std::string& path, const std::string& text);
 
 }  // namespace lyrefit

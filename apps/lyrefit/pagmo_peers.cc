@@ -24,8 +24,8 @@ namespace {
 
 constexpr unsigned kNever = std::numeric_limits<unsigned>::max();
 
-// The temperature falls from the level of the first candidates by four decades in ten steps; ten changes
-// of range in each; the rest of the budget goes into the length of a step.
+// The temperature falls from the objective of the first candidates by four decades in ten steps,
+// with ten range adjustments in each. The rest of the budget goes into the length of a step.
 pagmo::algorithm MakeAnnealing(const PagmoPlan& plan) {
   constexpr std::int64_t kSteps = 10, kRanges = 10;
   const std::int64_t bin = plan.evaluations / (kSteps * kRanges * plan.dimensions);

@@ -23,7 +23,7 @@ struct UnitBox {
   Recorder* recorder = nullptr;
 
   pagmo::vector_double fitness(const pagmo::vector_double& x) const {
-    // Finite, so that sums over a population stay sound.
+    // Finite, so that sums over a population stay finite.
     return {std::min(recorder->Evaluate(x.data()), 1e100)};
   }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
@@ -32,7 +32,7 @@ struct UnitBox {
   }
 };
 
-// The sentence in the middle of pagmo's message.
+// The sentence in the middle of pagmo's error message.
 std::string Complaint(const std::exception& error) {
   std::string text = error.what();
   const std::size_t what = text.find("what: ");
@@ -40,7 +40,7 @@ std::string Complaint(const std::exception& error) {
   return text.substr(0, text.find('\n'));
 }
 
-// Draws the first candidates as our own searches do and lets them evolve until the budget is used up.
+// Draws the first candidates as lyrefit's searches do and evolves them until the budget is used up.
 void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recorder) {
   RandomStream random(options.seed, options.run);
   std::vector<pagmo::vector_double> candidates;
@@ -59,7 +59,7 @@ void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recor
   for (std::size_t i = 0; i < candidates.size(); ++i) population.push_back(candidates[i], {values[i]});
   const std::int64_t cost =
       static_cast<std::int64_t>(peer.per_candidate) * options.population + peer.fixed;
-  // Once is enough for most; an algorithm that ends early goes on with what it has.
+  // One call suffices for most algorithms; one that ends early continues from its population.
   for (std::int64_t before = -1; recorder->evaluations() > before;) {
     before = recorder->evaluations();
     plan.evaluations = recorder->budget() - before;
@@ -76,7 +76,7 @@ SearchSummary RunPeer(const PagmoPeer& peer, const ObjectiveFunction& objective,
   std::string message = "the budget is used up";
   try {
     Evolve(peer, options, &recorder);
-  } catch (const SearchOver&) {  // as it should be
+  } catch (const SearchOver&) {  // normal end
   } catch (const std::exception& error) {
     message = "pagmo2 gave up: " + Complaint(error);
   }
@@ -85,7 +85,7 @@ SearchSummary RunPeer(const PagmoPeer& peer, const ObjectiveFunction& objective,
   return summary;
 }
 
-// What pagmo has against such a population; empty if nothing.
+// pagmo's error for this population; empty if it is accepted.
 std::string Objection(const PagmoPeer& peer, const SearchOptions& search) {
   const Box box = {{0, 0}, {1, 1}};
   const ObjectiveFunction sphere = [](const double* x) { return x[0] * x[0] + x[1] * x[1]; };

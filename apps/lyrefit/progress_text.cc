@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSoonest_s = 1;  // of a stage before anything is said of its end
+constexpr double kSoonest_s = 1;  // shortest time of a stage before its end is estimated
 constexpr double kLong_s = 60;
 
 std::string Bar(double part) {
@@ -69,7 +69,7 @@ std::string ProgressText::Line(double seconds) const {
     if (last_.iteration <= 0) return fmt::format("{}, {}", stage_, elapsed);
     return fmt::format("{}: {} done{}, {}", stage_, last_.iteration, note, elapsed);
   }
-  // How many there are may be known by their work alone.
+  // The number of iterations may be unknown although the finished part is known.
   const std::string of =
       last_.iterations > 0 ? fmt::format("of {}", last_.iterations) : std::string("done");
   const std::string line =

@@ -7,34 +7,34 @@
 
 namespace lyrefit {
 
-// Where a run stands, from what its observer heard, and how long it will take. Seconds count from
-// the beginning of the run.
+// Progress of a run and its remaining time, from the calls of its observer. Seconds count from the
+// start of the run.
 class ProgressText {
  public:
-  // `whole`: the stage that is the whole run; empty: none is.
+  // `whole`: name of the stage that is the whole run; empty: none.
   explicit ProgressText(std::string whole) : whole_(std::move(whole)) {}
 
   void Hear(const Progress& progress, double seconds);
 
-  // "compare [#########...........] 405 of 900, about 25 s left", "outlier curves, 12 s"; empty as long
-  // as there is nothing to say.
+  // "compare [#########...........] 405 of 900, about 25 s left", "outlier curves, 12 s"; empty
+  // before the first progress.
   std::string Line(double seconds) const;
 
-  // Once: how long the run will take, as soon as that is known to exceed a minute, or that it has
-  // taken a minute, in words; else empty.
+  // Returned once: the expected duration as soon as it is known to exceed a minute, or that the run
+  // has taken a minute. Otherwise empty.
   std::string LongRun(double seconds);
 
  private:
-  double Part() const;                       // of the stage; 0: not known
-  double SecondsLeft(double seconds) const;  // of the stage; negative: not known
+  double Part() const;                       // finished part of the stage; 0: not known
+  double SecondsLeft(double seconds) const;  // for the stage; negative: not known
 
   std::string whole_;
   std::string stage_;
   Progress last_;
   std::string note_;
-  double begin_s_ = 0;     // of the stage
-  double begin_part_ = 0;  // of the stage that an earlier process did
-  double heard_s_ = 0;     // when the part last changed
+  double begin_s_ = 0;     // start of the stage
+  double begin_part_ = 0;  // part of the stage finished by an earlier process
+  double heard_s_ = 0;     // time of the last change of the part
   double heard_part_ = 0;
   bool said_ = false;
 };

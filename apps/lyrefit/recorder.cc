@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kDistinct = 0.01;  // in a coordinate of the unit box, as in our own searches
+constexpr double kDistinct = 0.01;  // in a coordinate of the unit box, as in lyrefit's searches
 
 bool Near(const std::vector<double>& a, const double* b) {
   for (std::size_t j = 0; j < a.size(); ++j) {

@@ -8,17 +8,17 @@
 
 namespace lyrefit {
 
-// Thrown out of a foreign search when its budget is used up or the observer asks to stop.
+// Thrown from an external search when its budget is used up or the observer requests a stop.
 struct SearchOver {};
 
-// The objective as a foreign search sees it, on the unit box: counts, keeps the best distinct
-// points and the trace, and ends the search at the very evaluation.
+// The objective for an external search, on the unit box. Counts evaluations, keeps the best
+// distinct points and the trace, and ends the search exactly at its budget.
 class Recorder {
  public:
   Recorder(ObjectiveFunction objective, Box box, const SearchOptions& options, Observer observer);
 
-  // Objective at a point of the unit box; what lies outside is clamped, NaN is infinity. Throws
-  // SearchOver instead of a call beyond the budget.
+  // Objective at a point of the unit box; points outside are clamped, NaN becomes infinity. Throws
+  // SearchOver instead of exceeding the budget.
   double Evaluate(const double* unit);
 
   int dimensions() const { return static_cast<int>(box_.lower.size()); }

@@ -23,13 +23,13 @@ constexpr char kSimulateFooter[] =
     "\n"
     "Beside NAME.csv a file NAME.json holds the conditions; lyrefit fit NAME.csv reads both.";
 
-// NAME.json beside NAME.csv; empty for standard output.
+// Path of the sidecar NAME.json of NAME.csv; empty for standard output.
 std::string SidecarOf(const std::string& table) {
   if (table == "-") return "";
   return std::filesystem::path(table).replace_extension(".json").string();
 }
 
-// Whether the table and its sidecar are to the byte what this verb writes of such a curve.
+// Whether table and sidecar equal, byte for byte, the output of this verb for their curve.
 bool IsOwnWork(const std::string& table) {
   const Expected<IvCurve> curve = ReadCurve(table);
   if (!curve) return false;
@@ -95,7 +95,7 @@ Expected<void> CheckTargets(VerbLine* verb, const std::string& out_file) {
   return {};
 }
 
-// What the report of --from says, where no flag says otherwise.
+// Options from the report of --from, unless a flag sets them.
 Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
                         SimulateOptions* options) {
   if (request.from_file.empty() && !request.from_curve.empty()) {

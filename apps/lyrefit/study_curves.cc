@@ -23,7 +23,7 @@ Expected<StudyCondition> ParseStudyCondition(const std::string& text) {
                           Quoted(text)));
 }
 
-// Takes a curve of the set once.
+// Adds a curve of the set to `chosen`, once.
 Expected<void> Choose(const CurveSet& set, std::size_t curve, const std::string& flag,
                       std::vector<std::size_t>* chosen) {
   if (std::find(chosen->begin(), chosen->end(), curve) != chosen->end()) {
@@ -34,7 +34,7 @@ Expected<void> Choose(const CurveSet& set, std::size_t curve, const std::string&
   return {};
 }
 
-// Positions of the curves that the flags name, in their order.
+// Indices of the curves selected by the flags, in the order of the flags.
 Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const StudyFlags& flags) {
   std::vector<std::size_t> chosen;
   if (!flags.curve_ids.empty()) {
@@ -104,7 +104,7 @@ Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags) {
   const bool choosing = !flags.at.empty() || !flags.curve_ids.empty();
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {
-    // A file that does not look like a set, with curves asked of it: the set's reader says why not.
+    // Curves selected from a file that is not a set: the set's reader gives the error.
     TRY(choosing ? AddFromSet(file, flags, &curves) : AddCurve(file, flags, &curves));
   }
   return curves;

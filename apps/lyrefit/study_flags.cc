@@ -47,7 +47,7 @@ void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {
 void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags) {
   for (OptionRow<SearchOptions> row : kSearchOptionTable) {
     if (std::find(names.begin(), names.end(), row.name) == names.end()) continue;
-    row.traits = row.traits | OptionTrait::kUnchecked;  // the study names the compared as well
+    row.traits = row.traits | OptionTrait::kUnchecked;  // checked by the study
     AddRowFlag(verb, row, "Search", &flags->search);
   }
 }

@@ -12,21 +12,21 @@
 
 namespace lyrefit {
 
-// The flags of the verbs that run searches many times: compare, budget, sensitivity. Lists are one
-// text with commas.
+// Flags of the verbs that run searches many times: compare, budget, sensitivity. Lists are texts
+// separated by commas.
 struct StudyFlags {
   std::vector<std::string> curve_files;  // curves, or sets of curves
-  std::string at;                        // of sets: the curves nearest to these conditions
-  std::string curve_ids;                 // of sets: the curves with these ids
+  std::string at;                        // of sets: selects the curves nearest to these conditions
+  std::string curve_ids;                 // of sets: selects the curves with these ids
   std::string algorithms = "lo,lo+mblss,lo+dmlss,mlo,de,random";
   std::string bounds = "physical";
   BoundsSpec::Table ranges;  // of single parameters
   ConditionOptions conditions;
   CompareOptions options;
   SearchOptions search;
-  SearchVariables candidates = SearchVariables::kAll;  // of --algorithms that are searches
-  std::string landscape;      // made problems instead of curves: "strings_2,strings_3", "all"
-  int devices = 50;           // of each
+  SearchVariables candidates = SearchVariables::kAll;  // for --algorithms that are searches
+  std::string landscape;      // synthetic problems, not curves: "strings_2,strings_3", "all"
+  int devices = 50;           // for each problem
   ReportFlags output;
 };
 
@@ -45,49 +45,50 @@ inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
     {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&StudyFlags::candidates>(), OptionTrait::kNoFlag},
 };
 
-// Curves, models, objective, bounds, runs, seed, threads, JSON and CSV. The flag of the curves
-// comes back: whether it is required is the verb's to say.
+// Declares the flags of curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
+// Returns the flag of the curves: the verb decides whether it is required.
 Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags);
-// --landscape, --devices and --multistart. What goes without them is refused by CheckLandscape().
+// --landscape, --devices and --multistart. CheckLandscape() rejects invalid combinations.
 void AddLandscapeFlags(VerbLine* verb, StudyFlags* flags);
-// Either curves or made problems, and nothing said of these that they say themselves. Of a study of
-// problems with effects the defaults of runs and multistart.
+// Checks that either curves or synthetic problems are given, without flags that the problems define
+// themselves. Sets the defaults of runs and multistart for problems with effects.
 Expected<void> CheckLandscape(const VerbLine& verb, StudyFlags* flags);
 void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags);
-// The rows of the search's option table with these names; `flags->search` holds the defaults.
+// Declares the rows of these names of the search's option table; `flags->search` holds the
+// defaults.
 void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags);
 
-// "a,b" as its parts; empty parts are refused in the name of `flag`.
+// Splits "a,b" at commas; an empty part is an error that names `flag`.
 Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text);
 Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::string& text);
 
-// One point of irradiance and temperature.
+// One pair of irradiance and temperature.
 struct StudyCondition {
   double irradiance_W_m2 = 0;
   double temperature_C = 0;
 };
-// "1000x25,200x25" given to --at.
+// Parses "1000x25,200x25", given to --at.
 Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text);
 
-// The made problems of --landscape, or the curves of all files, with their bounds; of sets those
-// that --curves and --at name.
+// The synthetic problems of --landscape, or the curves of all files, with their bounds. --curves
+// and --at select the curves of sets.
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 
-// The devices of --landscape.
+// The synthetic devices of --landscape.
 Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
-// One algorithm by its name, and those of --algorithms, with these settings.
+// An algorithm by its name, and all those of --algorithms, with these settings.
 Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
                                    SearchVariables candidates);
 Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags);
 
-// One file to write when all is done.
+// A picture that is written at the end.
 struct StudyPicture {
   std::string path;  // empty: not wanted
   Expected<void> (*draw)(const Comparison&, const std::string& path);
 };
 
-// Reads the curves, compares, writes what is wanted; returns the exit code.
+// Reads the curves, compares the algorithms, writes the requested outputs; returns the exit code.
 Expected<int> RunStudy(const VerbLine& verb, const StudyFlags& flags,
                        const std::vector<ComparedAlgorithm>& algorithms,
                        Document (*document)(const Comparison&),

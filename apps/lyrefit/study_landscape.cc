@@ -41,7 +41,7 @@ Expected<void> CheckLandscape(const VerbLine& verb, StudyFlags* flags) {
     if (!verb.Given(flag)) continue;
     return Fail(fmt::format("{}: every problem of --landscape has its own", flag));
   }
-  flags->options.models = {Model::kSingleDiode};  // of none: every device has its own
+  flags->options.models = {Model::kSingleDiode};  // placeholder: every device has its own model
   if (!verb.Given("--runs")) flags->options.runs = 1;
   if (!verb.Given("--algorithms")) {
     flags->algorithms = "shape,default,mlo,lo,de,random";

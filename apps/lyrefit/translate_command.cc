@@ -57,7 +57,8 @@ void DeclareTranslate(VerbLine* verb, TranslateRequest* request) {
                  "curve as measured and as translated", &request->output);
 }
 
-// The further curves are read as the first one is; conditions that were said are the first one's.
+// Reads the further curves with the options of the first one; given conditions apply only to the
+// first.
 Expected<void> ReadFurther(const TranslateRequest& request, TranslateOptions* options) {
   constexpr std::size_t kMost = 2;
   if (request.further_files.size() > kMost) {

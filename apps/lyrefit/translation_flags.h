@@ -7,8 +7,8 @@
 
 namespace lyrefit {
 
-// What a translation and its field test are told of a device and its measurement; `whose` ends the sentence
-// about the file of coefficients.
+// Flags of a translation and its field test on the device and its measurement. `whose` ends the
+// help text of the file of coefficients.
 inline void AddTranslationFlags(VerbLine* verb, const std::string& whose,
                                 std::string* coefficients_file, std::string* module_file,
                                 TranslateOptions* options) {

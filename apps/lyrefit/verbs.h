@@ -6,7 +6,7 @@
 
 namespace lyrefit {
 
-// The verbs, each in a file of its own: NAME_command.cc.
+// The verbs, each defined in its own file NAME_command.cc.
 extern const Verb kFitVerb;
 extern const Verb kSimulateVerb;
 extern const Verb kCertifyVerb;
@@ -21,15 +21,15 @@ extern const Verb kTranslateVerb;
 extern const Verb kPackVerb;
 extern const Verb kBatchVerb;
 extern const Verb kMergeVerb;
-// About lyrefit itself.
+// Verbs about lyrefit itself.
 extern const Verb kHelpVerb;
 extern const Verb kCompletionVerb;
 extern const Verb kManVerb;
 
-// The verbs of this program, in the order of --help: all of them (verbs.cc), or those of the program
-// that cmake/quickstart.sh builds (first_verbs.cc).
+// The verbs of this program, in the order of --help: all of them (verbs.cc), or those of the
+// program built by cmake/quickstart.sh (first_verbs.cc).
 std::vector<const Verb*> ProgramVerbs();
-// What this program leaves out and how to get it; empty where it has every verb.
+// The verbs that this program lacks and how to get them; empty if it has every verb.
 extern const char kLeftOut[];
 
 }  // namespace lyrefit

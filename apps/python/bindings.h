@@ -2,8 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
-// What the module offers, module by module: each of these adds the functions and types of one module of
-// the library to the module, and stands in ROOM_bindings.cc.
+// Each function adds the functions and types of one library module to the Python module, and is
+// defined in MODULE_bindings.cc.
 namespace lyrefit::python {
 
 namespace py = pybind11;

@@ -46,7 +46,7 @@ bool AllCertified(const CertifyResult& result) {
                      [](const ModelCertificate& model) { return model.certified; });
 }
 
-// A name, a file, or {"Iph": (0, 2), ...}.
+// Converts a name, a file, or {"Iph": (0, 2), ...} to bounds.
 BoundsSpec BoxAsked(py::handle asked, const std::string& curve_file) {
   if (!py::isinstance<py::dict>(asked)) {
     return Must(NamedBounds(TextOf("bounds", asked), curve_file));

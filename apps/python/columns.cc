@@ -16,7 +16,7 @@ namespace {
 
 struct ColumnNames {
   Column column;
-  std::array<std::string_view, 4> spellings;  // in lower case; the first is what errors call it
+  std::array<std::string_view, 4> spellings;  // in lower case; errors use the first
 };
 constexpr ColumnNames kColumns[] = {
     {Column::kVoltage, {"voltage", "v", "voltage_v", "volts"}},
@@ -51,7 +51,7 @@ std::vector<double> Needed(py::handle table, Column column) {
          {}});
 }
 
-// The column if there is one; a single number stands for all rows.
+// The column if it exists; a single number applies to all rows.
 std::vector<double> Beside(py::handle table, Column column, std::size_t rows) {
   const py::object values = ColumnOf(table, column);
   if (values.is_none()) return {};

@@ -61,7 +61,7 @@ IvCurve ReadOne(py::handle path, const py::kwargs& given) {
   return CurveOf(path, py::none(), said);
 }
 
-// A column that is there, else None.
+// An array of the values; None if there are none.
 py::object Optional(const std::vector<double>& values, py::handle owner) {
   return values.empty() ? py::object(py::none()) : ViewOf(values, owner);
 }

@@ -11,7 +11,7 @@
 namespace lyrefit::python {
 namespace {
 
-// Readings without a voltage or a current leave, with all that stands beside them.
+// Removes readings without a voltage or a current from all columns.
 void LeaveOutMissing(IvCurve* curve) {
   const auto missing = [curve](std::size_t i) {
     const auto none = [](double value) {
@@ -37,7 +37,7 @@ IvCurve FromReadings(py::handle voltage, py::handle current, const CurveKeywords
   return FromColumns(std::move(columns), said);
 }
 
-// Two rows, two columns, or a pair of arrays.
+// A curve from two rows, two columns, or a pair of arrays.
 IvCurve FromPair(py::handle pair, const CurveKeywords& said) {
   const auto sequence = py::isinstance<py::sequence>(pair) && !py::isinstance<py::array>(pair);
   if (sequence && py::len(pair) == 2) {

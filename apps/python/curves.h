@@ -15,17 +15,16 @@
 
 namespace lyrefit::python {
 
-// What verbs take for one measured curve, and keywords of theirs say about it:
-//   - voltage and current as two arguments, one-dimensional, of anything that is a NumPy array of
-//     numbers or becomes one (lists, pandas Series),
-//   - a Curve; a path or, with a line break in it, the text of a table or JSON, as ReadCurve has
-//     them,
+// Accepted arguments of verbs for one measured curve:
+//   - voltage and current as two arguments, one-dimensional: NumPy arrays of numbers or values that
+//     convert to one (lists, pandas Series),
+//   - a Curve; a path or, if it has a line break, the text of a table or JSON, as for ReadCurve,
 //   - a mapping or frame with the columns v or voltage, i or current (any case, with or without
-//     _V and _A), and sigma, time, sweep, irradiance and temperature if it has them (columns.h),
-//   - what fit() gave, whose curve it is,
+//     _V and _A), and optionally sigma, time, sweep, irradiance and temperature (columns.h),
+//   - a result of fit(), for its curve,
 //   - an array of two rows or two columns, or a pair of arrays.
-// Reads the keywords cells_in_series, temperature_C, irradiance_Wm2, as_is, name, and those of
-// kReadOptionTable, which are about files.
+// The keywords are cells_in_series, temperature_C, irradiance_Wm2, as_is, name, and those of
+// kReadOptionTable, which apply to files.
 struct CurveKeywords {
   ConditionOptions told;
   ReadOptions reading;
@@ -34,19 +33,19 @@ struct CurveKeywords {
 CurveKeywords ReadCurveKeywords(Keywords* keywords);
 
 IvCurve CurveOf(py::handle curve, py::handle current, const CurveKeywords& said);
-// A curve of readings as a table has them, each with what the columns beside it say.
+// A curve from the readings of a table, each with the values of its other columns.
 IvCurve FromColumns(IvCurve columns, const CurveKeywords& said);
 inline IvCurve TakeCurve(py::handle curve, py::handle current, Keywords* keywords) {
   return CurveOf(curve, current, ReadCurveKeywords(keywords));
 }
 
-// A path or text as read_curve takes it.
+// Whether `value` is a path or text for read_curve.
 bool IsPath(py::handle value);
 
-// What was told about a curve; errors name the keyword.
+// Applies the given conditions to a curve; errors name the keyword.
 void ApplyTold(const ConditionOptions& told, IvCurve* curve);
 
-// The notes of what ReadCurveKeywords reads.
+// Notes of the keywords of ReadCurveKeywords.
 void AppendCurveNotes(std::vector<KeywordNote>* notes);
 
 }  // namespace lyrefit::python

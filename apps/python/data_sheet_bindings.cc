@@ -60,7 +60,7 @@ class DataSheetResult : public Result {
   SheetOptions options_;
 };
 
-// A number is exact, a text rounded to the digits it has.
+// A number is exact; a text is rounded to its digits.
 PrintedValue Printed(const char* keyword, py::handle value, double whole = 0) {
   if (!py::isinstance<py::str>(value)) return {NumberOf(keyword, value), 0};
   const auto printed = ReadPrintedValue(value.cast<std::string>(), whole);

@@ -16,7 +16,7 @@
 namespace lyrefit::python {
 namespace {
 
-// A diagnosis, and beside it, where reference sweeps were given, the comparison with them.
+// A diagnosis and, if reference sweeps were given, the comparison with them.
 struct Diagnosed {
   Diagnosis diagnosis;
   std::optional<ReferenceComparison> reference;
@@ -76,7 +76,7 @@ class DiagnoseResult : public Result {
  private:
   Found found_;
   OwnEffects own_;
-  bool extended_;  // it was asked for
+  bool extended_;  // whether the extended fit was requested
 };
 
 class OutlierSweepsResult : public Result {
@@ -95,7 +95,7 @@ class OutlierSweepsResult : public Result {
   }
 };
 
-// "effects" may name one's own as well: they are tried then, beside the others that it names.
+// Custom effects in "effects" are tried in addition to the other effects of the list.
 void ReadEffects(py::handle value, DiagnoseAsked* asked) {
   const bool list = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
   py::list members;
@@ -152,7 +152,7 @@ py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle ref
                std::to_string(sweep.curves.size()) + " curves",
            sweep.source});
   }
-  CurveKeywords module = said;  // light, temperature and name are this sweep's
+  CurveKeywords module = said;  // without the conditions and the name of this sweep
   module.told.irradiance_W_m2.reset();
   module.told.temperature_C.reset();
   module.name.clear();
@@ -229,7 +229,7 @@ constexpr char kDiagnoseEnd[] =
 std::vector<KeywordNote> DiagnoseNotes() {
   std::vector<KeywordNote> notes;
   notes.push_back({"reference", "Any", "None", "", ""});
-  notes.push_back({"module", "Literal[False]", "False", "", ""});  // True gives another result
+  notes.push_back({"module", "Literal[False]", "False", "", ""});  // True has another result type
   notes.push_back({"own_effects", "Effect | Sequence[Effect]", "None", "", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kDiagnoseOptionTable, DiagnoseOptions(), &notes);

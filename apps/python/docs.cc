@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kWidth = 88;
 
-// Words in lines that fit, each indented by four.
+// Wraps a text into lines, each indented by four.
 std::string Wrapped(const std::string& text) {
   std::string wrapped = "   ";
   std::size_t column = 3;

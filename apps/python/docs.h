@@ -10,23 +10,23 @@
 
 namespace lyrefit::python {
 
-// A verb as help() and the stubs show it: the signature and the list of its keywords come from the
-// option tables.
+// Documentation of a verb for help() and the stubs. The signature and the list of its keywords come
+// from the option tables.
 struct VerbText {
   std::string name;
   std::string arguments;  // "curve, current=None"
-  std::string head;       // what it does, and its arguments, as numpydoc has it
-  std::string end;        // what it returns and raises
+  std::string head;       // its purpose and its arguments, in numpydoc format
+  std::string end;        // its return value and exceptions
   std::vector<KeywordNote> keywords;
 };
 
-// Of notes with the same name, which several tables share, the first.
+// Keeps the first of several notes with the same name, since tables share options.
 std::vector<KeywordNote> EachOnce(const std::vector<KeywordNote>& notes);
 
-// The docstring, with the signature in the form that inspect understands.
+// The docstring, with the signature in the format of inspect.
 std::string DocOf(const VerbText& verb);
 
-// Keeps the keywords for the stubs: _keywords() of the module.
+// Stores the keywords for the stubs: _keywords() of the module.
 void Note(pybind11::module_* module, const VerbText& verb);
 
 // Adds the function of a verb to the module. `extra` are its py::arg.

@@ -13,7 +13,7 @@
 
 namespace lyrefit::python {
 
-// An effect whose stages are functions of Python's, and the texts that it points to.
+// An effect with Python functions as stages, and its texts.
 class OwnEffect {
  public:
   struct Texts {
@@ -38,26 +38,26 @@ using OwnEffects = std::vector<std::shared_ptr<const OwnEffect>>;
 
 Faults FaultsOf(const OwnEffects& own);
 
-// The effects that one call names, and those of its own among them, which have to outlive what
-// comes of it.
+// The effects of one call. Custom ones among them are kept in `own`, since they must outlive the
+// result.
 struct EffectsAsked {
   std::vector<EffectUse> uses;
   OwnEffects own;
 };
 
-// What the keyword with_ says: effects of the catalogue as the command names them
-// ("shading:d=0.3"), or as a mapping {"shading": {"d": 0.3, "w": (0.1, 0.4)}}; an Effect of one's
-// own, a pair of it and such a mapping of its parameters, or it as a key; or a list of all these.
+// Converts the keyword with_. Effects of the catalogue: text in the command's notation
+// ("shading:d=0.3") or a mapping {"shading": {"d": 0.3, "w": (0.1, 0.4)}}. Custom ones: an Effect,
+// a pair of it and such a mapping of its parameters, or an Effect as a key. Or a list of all these.
 EffectsAsked EffectsOf(pybind11::handle value);
 
-// Effects of one's own: one, or a list of them.
+// Custom effects: one, or a list of them.
 OwnEffects OwnEffectsOf(const std::string& keyword, pybind11::handle value);
 
-// `record` as it is, kept alive with effects that it points to.
+// Shares `record` and keeps the effects alive that it points to.
 template <class T>
 std::shared_ptr<const T> HoldWith(T record, OwnEffects own) {
   struct Held {
-    OwnEffects own;  // goes last
+    OwnEffects own;  // destroyed last
     T record;
   };
   auto held = std::make_shared<Held>(Held{std::move(own), std::move(record)});

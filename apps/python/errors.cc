@@ -17,7 +17,7 @@ constexpr char kErrorDoc[] =
     "line, column : int\n"
     "    Where in the file, from 1; 0 where it is tied to no line.\n";
 
-py::handle error_type;  // lives as long as the module, which holds it too
+py::handle error_type;  // owned by the module as well; never destroyed
 
 }  // namespace
 

@@ -8,14 +8,14 @@
 
 namespace lyrefit::python {
 
-// Raises lyrefit.Error, a ValueError with the sentence that the command prints and the attributes
-// file, line and column.
+// Raises lyrefit.Error, a ValueError with the command's message and the attributes file, line and
+// column.
 [[noreturn]] void Raise(const Error& error);
 
-// The error that Raise raised; raises again whatever else was.
+// The error raised by Raise; raises any other exception again.
 Error ErrorOf(pybind11::error_already_set& raised);
 
-// The value, or its error raised. The interpreter's lock has to be held.
+// Returns the value or raises its error. The caller must hold the interpreter's lock.
 template <class T>
 T Must(Expected<T> expected) {
   if (!expected) Raise(expected.error());

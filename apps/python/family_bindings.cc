@@ -55,7 +55,7 @@ struct FamilyAsked {
   OwnEffects own;
 };
 
-// Keywords about what curves share, which fits one by one do not have, and what auto chooses.
+// Keywords about shared parameters, which individual fits do not have, and those that auto selects.
 constexpr const char* kShared[] = {"shunt",         "recombination",        "weights",
                                    "search_curves", "fit_curves",           "irradiance_offset",
                                    "folds",         "temperature_offset",   "irradiance_accuracy",
@@ -87,7 +87,7 @@ void SettleFamily(Keywords* keywords, FamilyAsked* asked) {
   }
 }
 
-// Of the options of one curve those that a set has as well.
+// Reads those options of a fit of one curve that a set has too.
 void ReadNoise(Keywords* keywords, FamilyAsked* asked) {
   static const auto* const table = [] {
     auto* rows = new std::vector<OptionRow<FitOptions>>();
@@ -151,7 +151,7 @@ FamilyResult FitOneFamily(py::handle curves, const py::kwargs& given) {
   return FamilyResult(HoldWith(FittedFamily{Must(std::move(report)), std::move(set)}, asked.own));
 }
 
-// "photocurrent": {...}: a row each.
+// Rows of "photocurrent": {...} and so on, one for each parameter.
 py::object ParameterFrame(const FamilyResult& result) {
   py::list rows;
   for (const auto& [name, estimate] :

@@ -12,23 +12,23 @@
 
 namespace lyrefit::python {
 
-// What fit and fit_many are asked beside the curve: everything in kFitOptionTable and
-// kSearchOptionTable, bounds, and model='auto'.
+// Keywords of fit and fit_many besides the curve: all of kFitOptionTable and kSearchOptionTable,
+// bounds, and model='auto'.
 struct FitKeywords {
   FitOptions options;
   bool auto_model = false;
-  std::string bounds = "physical";  // a name or file, where `box` has none
+  std::string bounds = "physical";  // a name or file; unused if `box`
   bool box = false;                 // options.bounds holds a table of ranges
-  OwnEffects own;                   // of options.with
-  Faults faults;                    // of these and a searcher; with any, one thread is used
+  OwnEffects own;                   // custom effects of options.with
+  Faults faults;                    // of `own` and of a searcher; if not empty, one thread is used
 };
 FitKeywords ReadFitKeywords(Keywords* keywords, const FitOptions& usual = {});
 void AppendFitNotes(const FitOptions& usual, std::vector<KeywordNote>* notes);
 
-// The same for a curve read from `file`, beside which published bounds lie.
+// Fit options for a curve read from `file`; published bounds are in a file beside it.
 Expected<FitOptions> OptionsFor(const FitKeywords& asked, const std::string& file);
 
-// A fit, as the verb gives it.
+// Result of the verb fit.
 class FitResult : public Result {
  public:
   explicit FitResult(std::shared_ptr<const FitReport> report);

@@ -37,7 +37,7 @@ void ReadModel(py::handle value, FitKeywords* asked) {
   asked->options.model = model.value_or(Model::kSingleDiode);
 }
 
-// {"Iph": (0, 2), ...}: a range for each parameter, as a bounds file has them.
+// Reads {"Iph": (0, 2), ...}: a range for each parameter, as in a bounds file.
 void ReadBox(py::handle value, FitKeywords* asked) {
   for (const std::string& text : TextsOf("bounds", value)) {
     const auto range = ReadRange(text);
@@ -128,7 +128,7 @@ constexpr char kFitEnd[] =
     ">>> result['rmse']['refined']['solved_current_A']\n"
     ">>> lyrefit.fit('module.csv', model='dd', fix={'n2': 2}, bound={'Rs': (0, 0.5)})\n";
 
-// What fit takes, in the order of its documentation.
+// Keywords of fit in the order of its documentation.
 std::vector<KeywordNote> FitNotes() {
   std::vector<KeywordNote> notes;
   AppendNotes(kConditionOptionTable, ConditionOptions(), &notes);

@@ -13,7 +13,7 @@ namespace {
 
 namespace py = pybind11;
 
-// The columns of numbers that every frame has, before and behind those of the parameters.
+// The numeric columns of every frame, before and after those of the parameters.
 constexpr const char* kConditionColumns[] = {"points", "cells_in_series", "temperature_C",
                                              "irradiance_Wm2"};
 constexpr const char* kAnswerColumns[] = {"nNsVth",
@@ -35,12 +35,12 @@ void AddKeyPoints(const KeyPoints& points, std::map<std::string, double>* number
                    {"ff", points.fill_factor}});
 }
 
-// Those of effects have no name of pvlib's.
+// Parameters of effects have no pvlib name and use their symbol.
 std::string NameOf(const ParameterInfo& info) {
   return info.name.empty() ? info.symbol : info.name;
 }
 
-// The parameters of all rows, in the order in which the largest model has them.
+// The parameters of all rows, in the order of the largest model.
 std::vector<std::string> ParameterColumns(const std::vector<FitRow>& rows) {
   std::vector<std::string> names;
   for (const FitRow& row : rows) {

@@ -6,10 +6,10 @@
 
 #include "lyrefit/report/csv.h"
 
-// pandas frames of what was found; pandas is asked for when one is wanted, and not before.
+// pandas frames of results; pandas is imported at the first call.
 namespace lyrefit::python {
 
-// A table in the text of CSV, with all digits and texts as they are; what is empty is NaN.
+// A frame from CSV text, with all digits and texts unchanged; empty fields become NaN.
 inline pybind11::object FrameOfCsv(const std::string& csv) {
   const pybind11::object text = pybind11::module_::import("io").attr("StringIO")(csv);
   const pybind11::object frame = pybind11::module_::import("pandas").attr("read_csv")(
@@ -28,7 +28,7 @@ inline pybind11::object FrameOfCsv(const std::string& csv) {
   return frame;
 }
 
-// A list of dicts, a row each.
+// A frame from a list of dicts, one for each row.
 inline pybind11::object FrameOfRows(const pybind11::handle& rows) {
   return pybind11::module_::import("pandas").attr("DataFrame")(rows);
 }

@@ -10,8 +10,8 @@
 namespace lyrefit::python {
 namespace {
 
-// Rows whose keyword is another word: pvlib's, one that does not clash with an argument, and what
-// is a word of Python's own.
+// Rows with a different keyword: pvlib's name, one that does not clash with an argument, and one
+// that is not a Python keyword.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOtherWords = {
     {{"cells", "cells_in_series"}, {"curve", "curve_index"}, {"with", "with_"}}};
 
@@ -32,7 +32,7 @@ bool IsText(py::handle value) {
   return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
 }
 
-// A number with all of its digits, as Python writes it.
+// A number with all of its digits, in Python notation.
 std::string DigitsOf(const std::string& keyword, py::handle value) {
   if (PyIndex_Check(value.ptr()) != 0) return std::to_string(WholeOf(keyword, value));
   return py::repr(py::float_(NumberOf(keyword, value))).cast<std::string>();
@@ -43,14 +43,15 @@ bool IsPair(py::handle value) {
          py::len(value) == 2;
 }
 
-// "0.3" or "0:0.5".
+// A number as "0.3", a pair as "0:0.5".
 std::string RangeOrNumber(const std::string& keyword, py::handle value) {
   if (!IsPair(value)) return IsText(value) ? TextOf(keyword, value) : DigitsOf(keyword, value);
   const py::sequence ends = py::reinterpret_borrow<py::sequence>(value);
   return DigitsOf(keyword, ends[0]) + ":" + DigitsOf(keyword, ends[1]);
 }
 
-// "Rs=0:0.5", "n2=2", "shading:d=0.3,w=0.1:0.2", "shading".
+// A named value in the command's notation: "Rs=0:0.5", "n2=2", "shading:d=0.3,w=0.1:0.2",
+// "shading".
 std::string NamedText(const std::string& keyword, const std::string& name, py::handle value) {
   if (value.is_none() || IsTruth(value)) return name;
   if (!py::isinstance<py::dict>(value)) return name + "=" + RangeOrNumber(keyword, value);
@@ -80,7 +81,7 @@ bool IsKeywordOf(std::string_view row, std::string_view keyword) {
   const auto same = [](char a, char b) { return a == b || (a == '-' && b == '_'); };
   const bool spelt =
       row.size() == keyword.size() && std::equal(row.begin(), row.end(), keyword.begin(), same);
-  return spelt && KeywordOf(row) == keyword;  // and not one that has another word
+  return spelt && KeywordOf(row) == keyword;  // false for rows with a different keyword
 }
 
 double NumberOf(const std::string& keyword, py::handle value) {
@@ -195,7 +196,7 @@ void Keywords::Finish() const {
   for (const auto& know : knowers_) know(&names);
   const bool flag = std::any_of(kOtherWords.begin(), kOtherWords.end(),
                                 [&](const auto& words) { return words.first == left->name; });
-  const std::string sought = flag ? KeywordOf(left->name) : left->name;  // --cells, say
+  const std::string sought = flag ? KeywordOf(left->name) : left->name;  // a flag, as --cells
   const py::list near =
       py::module_::import("difflib").attr("get_close_matches")(sought, names, 1, 0.5);
   std::string sentence = std::string(verb_) + "() has no keyword '" + left->name + "'";

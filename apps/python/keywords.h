@@ -13,38 +13,38 @@
 #include "errors.h"
 #include "lyrefit/base/option.h"
 
-// Keyword arguments from the option tables: what the command has as --memory-rate is memory_rate
-// here, with the same range and the same words where it is wrong.
+// Keyword arguments from the option tables: the command's --memory-rate is memory_rate here, with
+// the same range and error messages.
 namespace lyrefit::python {
 
 namespace py = pybind11;
 
-// The keyword of a row: '-' becomes '_'. A few have pvlib's name, or one that is no word of
-// Python's.
+// The keyword of a row: '-' becomes '_'. A few differ: they have pvlib's name, or avoid a Python
+// keyword.
 std::string KeywordOf(std::string_view row);
-// Whether `keyword` is that of the row, without making it.
+// Whether KeywordOf(row) == keyword, without an allocation.
 bool IsKeywordOf(std::string_view row, std::string_view keyword);
 
-// What a value says, or ValueError "memory_rate: expected a number, found 'much'".
+// Converts a value, or raises ValueError "memory_rate: expected a number, found 'much'".
 double NumberOf(const std::string& keyword, py::handle value);
 std::int64_t WholeOf(const std::string& keyword, py::handle value);
 std::uint64_t UnsignedOf(const std::string& keyword, py::handle value);
 bool TruthOf(const std::string& keyword, py::handle value);
 std::string TextOf(const std::string& keyword, py::handle value);  // a str, a path, a number
-// The texts that a command line would have: {"Rs": (0, 0.5)} is "Rs=0:0.5", {"shading": {"d": 0.3}}
-// "shading:d=0.3", a list the texts of its members.
+// Converts a value to the texts of the command line: {"Rs": (0, 0.5)} to "Rs=0:0.5", {"shading":
+// {"d": 0.3}} to "shading:d=0.3", a list to the texts of its members.
 std::vector<std::string> TextsOf(const std::string& keyword, py::handle value);
 
-// A keyword as docstrings and stubs have it.
+// Documentation of a keyword for docstrings and stubs.
 struct KeywordNote {
   std::string name;
-  std::string type;     // of Python's: "int", "bool", "str | Mapping[str, float]"
-  std::string usual;    // default, as Python writes it
-  std::string heading;  // of the table
-  std::string doc;      // empty: the head of the docstring has it
+  std::string type;     // Python type: "int", "bool", "str | Mapping[str, float]"
+  std::string usual;    // default, in Python notation
+  std::string heading;  // of the option table
+  std::string doc;      // empty: described in the head of the docstring
 };
 
-// A range that was missed, as the command says it.
+// Raises the command's error if the value is outside the range.
 void CheckRange(const std::string& keyword, double value, double lower, double upper);
 
 // Sets the field of a row.
@@ -94,8 +94,8 @@ void SetField(const OptionRow<Options>& row, py::handle value, Options* options)
   std::visit(set, row.field);
 }
 
-// Whether a row can be set by a keyword: headings, nests and what code alone can say cannot, nor
-// `set`, whose parameters are arguments here.
+// Whether a keyword can set a row. Excluded are headings, nested tables, rows that cannot be
+// parsed, and `set`, whose parameters are arguments of their own here.
 template <class Options>
 bool HasKeyword(const OptionRow<Options>& row) {
   if (row.IsHeading() || std::holds_alternative<OptionNest<Options>>(row.field)) return false;
@@ -103,15 +103,15 @@ bool HasKeyword(const OptionRow<Options>& row) {
   return (text == nullptr || text->read != nullptr) && std::string_view(row.name) != "set";
 }
 
-// The keyword arguments of one call. Each is taken by who knows it; at the end none may be left.
+// The keyword arguments of one call. Each reader takes its own; Finish() rejects the rest.
 class Keywords {
  public:
   Keywords(const char* verb, const py::kwargs& given);
 
-  // What was given for `name`, if it was and is not None.
+  // The value of `name`, if given and not None; marks it as taken.
   std::optional<py::object> Take(const char* name);
 
-  // Sets the fields of all rows that a keyword names; None leaves the default.
+  // Sets the fields of all rows with a given keyword; None leaves the default.
   template <class Table, class Options>
   void Read(const Table& table, Options* options) {
     knowers_.push_back([&table](std::vector<std::string>* names) {
@@ -130,7 +130,7 @@ class Keywords {
     }
   }
 
-  // Whether `name` was given (and not None), taken or not.
+  // Whether `name` was given (and is not None), taken or not.
   bool Given(std::string_view name) const;
 
   // TypeError: fit() has no keyword 'memory'; did you mean 'memory_rate'?
@@ -150,7 +150,7 @@ class Keywords {
 
 bool IsNoted(const std::string& keyword, const std::vector<KeywordNote>& notes);
 
-// The notes of a table's rows that stand in none yet, for docstrings and stubs.
+// Appends notes for those rows of a table that have none yet, for docstrings and stubs.
 template <class Options, class Table>
 void AppendNotes(const Table& table, const Options& defaults, std::vector<KeywordNote>* notes) {
   std::string heading;
@@ -184,7 +184,7 @@ void AppendNotes(const Table& table, const Options& defaults, std::vector<Keywor
       } else if constexpr (std::is_same_v<Field, bool Options::*>) {
         note.type = "bool";
         note.usual = defaults.*field ? "True" : "False";
-        // The line is on the flag --no-NAME.
+        // The help text of the row describes the flag --no-NAME.
         if (defaults.*field && !row.Is(OptionTrait::kNoFlag)) note.doc = "False: " + note.doc;
       } else if constexpr (std::is_same_v<Field, double Options::*> ||
                            std::is_same_v<Field, std::optional<double> Options::*>) {

@@ -109,7 +109,7 @@ class FitResults {
   Document Page() const { return FitsDocument(*fits_); }
 
  private:
-  std::shared_ptr<const std::vector<FittedFile>> fits_;  // their names are the ids
+  std::shared_ptr<const std::vector<FittedFile>> fits_;  // the ids are the file names
 };
 
 Expected<FitReport> FitOneOf(const CurveToFit& curve, const FitKeywords& asked,

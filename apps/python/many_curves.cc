@@ -26,7 +26,7 @@ constexpr Condition kConditions[] = {{"cells_in_series", Column::kCells},
                                      {"temperature_C", Column::kTemperature},
                                      {"irradiance_Wm2", Column::kIrradiance}};
 
-// A condition of each curve, or one of all.
+// Values of a condition: one for each curve, or one for all.
 struct Told {
   const char* keyword;
   std::optional<double> common;
@@ -34,7 +34,7 @@ struct Told {
 };
 
 struct Said {
-  CurveKeywords common;  // without what is told of each
+  CurveKeywords common;  // without the values given for each curve
   std::vector<Told> told;
   std::vector<std::string> ids;
   py::object group = py::none();
@@ -47,7 +47,7 @@ struct Said {
 
 void Tell(const char* keyword, double value, ConditionOptions* told) {
   const std::string_view name(keyword);
-  if (!std::isfinite(value)) return;  // not known of this one
+  if (!std::isfinite(value)) return;  // unknown for this curve
   if (name == "cells_in_series") told->cells = static_cast<int>(value);
   if (name == "temperature_C") told->temperature_C = value;
   if (name == "irradiance_Wm2") told->irradiance_W_m2 = value;
@@ -99,7 +99,7 @@ Said ReadSaid(Keywords* keywords) {
   return said;
 }
 
-// What is raised of lyrefit's own, as a value: one bad curve keeps no other from its fit.
+// Converts lyrefit errors to a value, so that one bad curve does not stop the others.
 template <class Function>
 auto Caught(Function&& function) -> Expected<decltype(function())> {
   try {
@@ -167,7 +167,7 @@ py::array_t<double, py::array::c_style | py::array::forcecast> Rows(const char* 
   Raise({std::string(name) + ": expected an array of shape (m, n), a curve a row", {}});
 }
 
-// Readings as they are, or without the NaNs that pad them.
+// A curve from readings, optionally without the NaNs that pad them.
 CurveToFit FromValues(std::vector<double> voltage_V, std::vector<double> current_A,
                       bool without_nan, const Said& said, std::size_t i) {
   if (without_nan) {
@@ -217,7 +217,7 @@ std::vector<CurveToFit> FromArrays(py::handle voltages, py::handle currents, con
   return list;
 }
 
-// The column that names the curve of each row, or those that do together.
+// The column, or list of columns, that names the curve of each row.
 py::object GroupColumn(py::handle frame, const Said& said) {
   const py::object columns = frame.attr("columns");
   if (said.group.is_none()) {
@@ -235,7 +235,7 @@ py::object GroupColumn(py::handle frame, const Said& said) {
          {}});
 }
 
-// Which rows of a long frame belong together, in the order in which the curves appear.
+// Rows of each curve in a long frame, in the order in which the curves appear.
 struct Groups {
   std::vector<std::string> ids;
   std::vector<std::vector<std::size_t>> rows;
@@ -249,7 +249,7 @@ Groups GroupsOf(py::handle frame, const py::object& group) {
   const py::object named = frame[group];
   const bool several = py::hasattr(named, "columns");
   Groups groups;
-  std::unordered_map<std::int64_t, std::size_t> curve_at;  // its number, by first appearance
+  std::unordered_map<std::int64_t, std::size_t> curve_at;  // index by first appearance
   std::size_t row = 0;
   for (const std::int64_t place : place_of.cast<std::vector<std::int64_t>>()) {
     if (place < 0) Raise({"group: row " + std::to_string(row) + " names no curve", {}});
@@ -269,7 +269,7 @@ Groups GroupsOf(py::handle frame, const py::object& group) {
   return groups;
 }
 
-// The mean of each curve's rows, exact where all say the same.
+// The mean of each curve's rows; exact if all are equal.
 std::vector<double> MeanOfEach(const Groups& groups, const std::vector<double>& values) {
   std::vector<double> means;
   for (const std::vector<std::size_t>& rows : groups.rows) {
@@ -308,7 +308,7 @@ std::vector<CurveToFit> FromFrame(py::handle frame, Said said) {
   return list;
 }
 
-// A folder or file with many, as the command's batch reads them.
+// Reads a folder or file with many curves, as the command's batch does.
 std::vector<CurveToFit> FromBatch(py::handle path, const Said& said) {
   BatchReadOptions options;
   options.reading = said.common.reading;

@@ -6,10 +6,10 @@
 namespace lyrefit::python {
 
 PYBIND11_MODULE(_lyrefit, module) {
-  // The solver logs every step it had to take back as an error; the report says what came of it.
+  // The solver logs every rejected step as an error; the report states the outcome.
   FLAGS_minloglevel = google::GLOG_FATAL;
   FLAGS_logtostderr = true;
-  // Docstrings begin with signatures of their own.
+  // The docstrings already start with signatures.
   py::options options;
   options.disable_function_signatures();
   module.doc() = "The compiled part of lyrefit.";

@@ -11,17 +11,17 @@
 #include "lyrefit/base/observer.h"
 #include "work.h"
 
-// Functions of the user's own that the library calls while it works.
+// Support for Python functions that the library calls during its work.
 namespace lyrefit::python {
 
-// Where what such a function raised waits until the work is over: the library throws nothing. The
-// first one counts; from then on none is called, and the observer says stop.
+// Stores the exception of such a function until the work is over, since the library throws none.
+// Only the first one is kept. After it no function is called, and the observer requests a stop.
 class Fault {
  public:
   bool Happened() const { return happened_; }
-  // Inside a catch block.
+  // Stores the current exception; call it inside a catch block.
   void Keep();
-  // Raises it, once; the interpreter's lock has to be held.
+  // Raises the exception, once. The caller must hold the interpreter's lock.
   void Raise();
 
  private:
@@ -30,12 +30,12 @@ class Fault {
   std::exception_ptr first_;
 };
 
-// The faults of all that one call of a verb was given.
+// The faults of all functions passed to one call of a verb.
 class Faults {
  public:
   void Add(std::shared_ptr<Fault> fault) { faults_.push_back(std::move(fault)); }
   bool empty() const { return faults_.empty(); }
-  // `observer`, which says stop when something was raised.
+  // Wraps `observer`; requests a stop after an exception.
   Observer Watched(const Observer& observer) const;
   void Raise() const;
 
@@ -43,8 +43,8 @@ class Faults {
   std::vector<std::shared_ptr<Fault>> faults_;
 };
 
-// Work() that may call such functions; what one of them raised is raised, in the place of what was
-// found. The working thread keeps its state of the interpreter from one call to the next.
+// Work() for functions that may call Python. Raises their exception instead of returning the
+// result. The working thread keeps its interpreter state between calls.
 template <class Function>
 auto WorkWith(const Faults& faults, pybind11::handle progress, Function&& work, int threads = 0) {
   const auto watched = [&](const Observer& observer) {

@@ -19,15 +19,15 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// One function of Python's as a stage: x, then the parameters one by one, then what it asks for by
-// keyword.
+// A Python function as a stage. Arguments: x, then the parameters one by one, then the requested
+// context by keyword.
 struct StageFunction {
   std::string where;  // for errors: "Effect 'x': junction"
   py::object function;
-  std::vector<std::string> context;  // of kContext, those it takes
+  std::vector<std::string> context;  // requested names of kContext
 };
 
-// What a function takes by keyword; errors where it cannot be called as a stage.
+// Determines the keywords of a function; raises an error if it cannot be called as a stage.
 StageFunction Inspect(const std::string& where, const py::object& function, int parameters) {
   StageFunction stage{where, function, {}};
   if (PyCallable_Check(function.ptr()) == 0) Raise({where + ": expected a function", {}});
@@ -80,7 +80,7 @@ py::object Called(const StageFunction& stage, const StageInput& input) {
   return stage.function(*arguments, **context);
 }
 
-// One number for all, or one for each.
+// Copies one number for all, or one for each.
 void Fill(const std::string& where, py::handle given, int count, double* to) {
   const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
   const bool complex =
@@ -97,7 +97,7 @@ void Fill(const std::string& where, py::handle given, int count, double* to) {
   }
 }
 
-// Runs `call` with the interpreter's lock, unless something was raised before.
+// Runs `call` with the interpreter's lock, unless an exception was raised before.
 template <class Call>
 bool Guarded(const std::shared_ptr<Fault>& fault, const Call& call) {
   if (fault->Happened()) return false;
@@ -111,7 +111,7 @@ bool Guarded(const std::shared_ptr<Fault>& fault, const Call& call) {
   }
 }
 
-// A stage that has no value any more adds nothing, so that the law ends soon and in peace.
+// After an exception a stage returns 0, so that the evaluation ends quickly without further errors.
 PlainValue ValueOf(std::shared_ptr<const StageFunction> stage, std::shared_ptr<Fault> fault) {
   return
       [stage = std::move(stage), fault = std::move(fault)](const StageInput& input, double* value) {
@@ -121,7 +121,7 @@ PlainValue ValueOf(std::shared_ptr<const StageFunction> stage, std::shared_ptr<F
       };
 }
 
-// What derivatives() gives under each name, where it is asked for.
+// Names under which derivatives() returns the derivatives of a stage.
 struct Slopes {
   std::string x;  // "voltage"
   std::vector<std::string> parameters;
@@ -170,7 +170,7 @@ PlainStage WithSlopes(PlainValue value, std::shared_ptr<const StageFunction> slo
   };
 }
 
-// What Effect() was given, keyword by keyword.
+// Keywords of Effect().
 class EffectMaker {
  public:
   EffectMaker(const py::handle& id, const py::handle& parameters, const py::kwargs& given)
@@ -274,7 +274,7 @@ class EffectMaker {
         std::move(names), fault_);
   }
 
-  // Sets of parameters from which it is tried: as given, or a tenth of the way up for the strength.
+  // Parameter sets for first trials: as given, or a tenth of the range for the strength.
   void ReadProbes() {
     std::vector<Probe> probes;
     if (const auto given = keywords_.Take("probes")) {

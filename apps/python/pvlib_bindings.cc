@@ -12,7 +12,7 @@
 #include "lyrefit/law/single_diodes.h"
 #include "work.h"
 
-// What lyrefit.pvlib computes with. Its arguments are checked and broadcast in pvlib.py.
+// Functions for lyrefit.pvlib; pvlib.py checks and broadcasts their arguments.
 namespace lyrefit::python {
 namespace {
 
@@ -22,7 +22,7 @@ DeviceColumn AsColumn(const Numbers& numbers) {
   return {numbers.data(), numbers.strides(0) / static_cast<py::ssize_t>(sizeof(double))};
 }
 
-// Of five or seven arrays of equal length, in the order of pvlib's arguments.
+// Devices from five or seven arrays of equal length, in the order of pvlib's arguments.
 SingleDiodes DevicesOf(const std::vector<Numbers>& parameters) {
   SingleDiodes devices;
   devices.size = static_cast<std::size_t>(parameters[0].size());
@@ -89,7 +89,8 @@ CurveSet MakeSet(const std::vector<Numbers>& voltages, const std::vector<Numbers
   return set;
 }
 
-// The shared parameters, and of every curve its own device and whether it belongs to the others'.
+// The shared parameters; for every curve also its individual device and whether it agrees with the
+// others.
 py::dict DeSotoAnswer(const FamilyReport& report) {
   py::dict shared;
   for (const NamedValue& value : Must(PvlibParameters(report.translation, report.refined))) {

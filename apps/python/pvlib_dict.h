@@ -11,7 +11,7 @@
 
 namespace lyrefit::python {
 
-// What --pvlib writes of a device: pvlib's function and its keywords, and the row of SAM's library.
+// Output of --pvlib for a device: pvlib's function and its keywords, and the row of SAM's library.
 inline pybind11::object PvlibDict(const std::string& name, const Translation& translation,
                                   const std::vector<double>& shared,
                                   const std::string& technology) {

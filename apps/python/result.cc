@@ -28,7 +28,7 @@ void SavePage(const Result& result, py::handle file, bool interactive) {
   }));
 }
 
-// In a line, as it stands at a prompt.
+// One line, for the interactive prompt.
 std::string Describe(const Result& result) {
   std::string brief = result.record().brief();
   while (!brief.empty() && brief.back() == '\n') brief.pop_back();

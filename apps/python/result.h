@@ -13,19 +13,19 @@ namespace lyrefit::python {
 
 namespace py = pybind11;
 
-// How a record shows itself: what the command writes of it under --json, as text, as --brief, --csv
-// and --html. Each is made when it is asked for and not before; nothing of Python's is in them.
+// Output functions of a record: --json, text, --brief, --csv and --html of the command. Each output
+// is computed on request; none uses Python objects.
 struct Record {
   std::function<std::string(JsonPoints points)> json;
   std::function<std::string()> text;
   std::function<std::string()> brief;
   std::function<Document()> document;
-  std::function<std::string()> csv = {};                             // none: it has no table
-  std::function<Expected<void>(const std::string& file)> plot = {};  // none: it has no picture
+  std::function<std::string()> csv = {};                             // empty: no table
+  std::function<Expected<void>(const std::string& file)> plot = {};  // empty: no picture
 };
 
-// What a verb gives: a mapping of what stands in the JSON, read from that very text by Python's own
-// json when first asked for. Verbs derive from it what more there is to ask of theirs.
+// Result of a verb: a mapping with the content of the JSON text, which Python's json parses at the
+// first access. Verbs derive classes with further members.
 class Result {
  public:
   explicit Result(Record record) : record_(std::move(record)) {}
@@ -41,8 +41,8 @@ class Result {
   mutable py::object dictionary_;
 };
 
-// For the class of what never changes: it is its own copy. It stays in its process, and says what
-// can be sent to others in its place.
+// For immutable classes: a copy is the object itself. Pickling raises an error that names a
+// replacement.
 template <class Class>
 void NeverChanges(Class* type, const char* instead) {
   type->def("__copy__", [](const py::object& self) { return self; })

@@ -15,10 +15,10 @@ namespace py = pybind11;
 
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// Ends a search whose observer said stop.
+// Thrown to end a search when its observer requests a stop.
 struct Stopped {};
 
-// One run of a search: counts what it asks for, and keeps the best it met.
+// One run of a search: counts its evaluations and keeps the best points.
 class Run {
  public:
   Run(const ObjectiveFunction& objective, const Box& box, const SearchOptions& options,
@@ -111,7 +111,7 @@ py::array_t<double> SideOf(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-// What stands for a search that came to no end: the middle of the box.
+// Summary of a search that returned no result: the middle of the box.
 SearchSummary Ended(const ObjectiveFunction& objective, const Box& box) {
   SearchSummary summary;
   for (std::size_t k = 0; k < box.lower.size(); ++k) {
@@ -129,7 +129,7 @@ SearchSummary Searched(const py::object& search, const ObjectiveFunction& object
                        const SearchOptions& options, const Observer& observer) {
   auto run = std::make_shared<Run>(objective, box, options, observer);
   bool stopped = false;
-  // It may be kept beyond the search, when there is nothing left to ask.
+  // The search may keep the function after its end, when the run no longer exists.
   const py::cpp_function at([&stopped, weak = std::weak_ptr<Run>(run)](const Points& points) {
     const auto alive = weak.lock();
     if (alive == nullptr) throw py::value_error("the search is over");
@@ -153,7 +153,7 @@ SearchSummary Searched(const py::object& search, const ObjectiveFunction& object
 }  // namespace
 
 SearchFunction SearcherOf(py::object search, std::shared_ptr<Fault> fault) {
-  // Held where the last copy may go without the interpreter's lock.
+  // The deleter takes the interpreter's lock, since the last copy may be destroyed without it.
   std::shared_ptr<py::object> held(new py::object(std::move(search)), [](py::object* object) {
     const py::gil_scoped_acquire acquired;
     delete object;

@@ -9,7 +9,7 @@
 
 namespace lyrefit::python {
 
-// A search of Python's: search(objective, lower, upper, options). What it raises waits in `fault`.
+// Wraps a Python search: search(objective, lower, upper, options). `fault` stores its exceptions.
 SearchFunction SearcherOf(pybind11::object search, std::shared_ptr<Fault> fault);
 
 }  // namespace lyrefit::python

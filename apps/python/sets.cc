@@ -18,7 +18,7 @@ bool IsArray(py::handle value) {
   return IsList(value) || py::isinstance<py::array>(value) || py::hasattr(value, "iloc");
 }
 
-// Whether it can be one curve among others.
+// Whether `value` can be one curve of a list.
 bool IsCurve(py::handle value) {
   if (py::isinstance<IvCurve>(value) || IsPath(value) || IsTable(value)) return true;
   if (py::isinstance<py::array>(value)) return py::cast<py::array>(value).ndim() == 2;

@@ -44,7 +44,7 @@ constexpr char kSimulateEnd[] =
     "...                          temperature_C=33)\n"
     ">>> curve.current.max()\n";
 
-// Keywords that are parameters of a device, whatever the model.
+// Keywords that are parameters of a device, for all models.
 constexpr const char* kParameterKeywords[] = {
     "photocurrent", "saturation_current",   "n",   "resistance_series",    "resistance_shunt",
     "nNsVth",       "saturation_current_2", "n_2", "saturation_current_3", "n_3"};
@@ -56,7 +56,7 @@ void SetParameters(py::handle values, SimulateOptions* options) {
   }
 }
 
-// What is to be simulated, before the keywords have their say.
+// The device to simulate, before the keywords are applied.
 SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id) {
   SimulateOptions options;
   if (parameters.is_none()) return options;
@@ -74,7 +74,7 @@ SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id) {
   return options;
 }
 
-// pvlib's n Ns Vth as the ideality of a cell.
+// Converts pvlib's n Ns Vth to the ideality of a cell.
 void TakeModifiedIdeality(SimulateOptions* options) {
   const auto given = options->parameters.find("nNsVth");
   if (given == options->parameters.end()) return;

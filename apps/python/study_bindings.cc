@@ -83,7 +83,7 @@ ComparedAlgorithm OwnSearch(const std::string& name, py::handle search, CompareA
   return compared;
 }
 
-// Names, functions, a dict of functions by name, or a list of these.
+// Adds algorithms from names, functions, a dict of functions by name, or a list of these.
 void AddAlgorithms(py::handle value, CompareAsked* asked) {
   if (py::isinstance<py::str>(value)) {
     const auto names = SplitList(value.cast<std::string>());
@@ -195,7 +195,7 @@ CompareResult CompareAll(py::handle curves, const py::kwargs& given) {
   return CompareResult(HoldWith(Must(std::move(comparison)), asked.own));
 }
 
-// A row for each compared on each problem.
+// A row for each compared algorithm on each problem.
 py::object RankFrame(const CompareResult& result) {
   py::list rows;
   for (const ProblemResult& problem : result.comparison().problems) {

@@ -35,7 +35,7 @@ class TranslateResult : public Result {
   explicit TranslateResult(const Translated& report) : Result(RecordOf(report)) {}
 };
 
-// The diagnosis behind a translation has these options alone.
+// The options of the diagnosis that precedes a translation.
 const std::vector<OptionRow<DiagnoseOptions>>& DiagnosisRows() {
   static const auto* const rows = [] {
     constexpr const char* kNames[] = {"base", "noise", "effects", "level", "seed", "threads"};
@@ -82,7 +82,8 @@ TranslateAsked ReadTranslateKeywords(Keywords* keywords) {
   return asked;
 }
 
-// The further curves are taken as the first one is; conditions that were said are the first one's.
+// Reads the further curves with the options of the first one; given conditions apply only to the
+// first.
 std::vector<IvCurve> FurtherCurves(py::handle value, const CurveKeywords& first) {
   CurveKeywords said = first;
   said.told = {};

@@ -13,16 +13,16 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr std::chrono::milliseconds kPeriod(100);  // between two looks
+constexpr std::chrono::milliseconds kPeriod(100);  // between two checks
 
-// A progress that keeps its texts.
+// A progress report with copies of its texts.
 struct HeardProgress {
   Progress progress;
   std::string stage;
   std::string note;
 };
 
-// What the working thread and the waiting one tell each other.
+// Messages between the working thread and the waiting one.
 class Exchange {
  public:
   ObserverAction Hear(const Progress& progress) {
@@ -37,7 +37,8 @@ class Exchange {
   }
 
   void Finish(std::exception_ptr thrown) {
-    // Notified under the lock: the one that waits may destroy all this as soon as it has it.
+    // Notifies under the lock: the waiting thread may destroy this object as soon as it gets the
+    // lock.
     const std::lock_guard<std::mutex> lock(mutex_);
     thrown_ = std::move(thrown);
     finished_ = true;
@@ -59,9 +60,9 @@ class Exchange {
   const std::exception_ptr& thrown() const { return thrown_; }
 
  private:
-  bool listened_ = false;  // set before the work begins
+  bool listened_ = false;  // set before the work starts
   std::atomic<bool> stop_{false};
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::optional<HeardProgress> news_;
   bool finished_ = false;
   std::exception_ptr thrown_;
@@ -76,13 +77,13 @@ py::object ProgressObject(const HeardProgress& heard) {
               heard.note);
 }
 
-// False: the caller wants no more.
+// Calls `progress`; false if it requests a stop.
 bool Tell(py::handle progress, const HeardProgress& heard) {
   const py::object answer = progress(ProgressObject(heard));
   return answer.ptr() != Py_False;
 }
 
-// Looks for signals and tells the news, unless the caller wanted no more; what is raised is kept.
+// Checks for signals and reports progress, unless a stop was requested; stores exceptions.
 void Look(py::handle progress, Exchange* exchange, std::optional<py::error_already_set>* raised) {
   if (*raised) return;
   try {

@@ -11,19 +11,18 @@
 
 namespace lyrefit::python {
 
-// Runs `work` without the interpreter's lock. Ten times a second the lock is taken back to look for
-// signals and to call `progress` (None: nobody) with a lyrefit.Progress. Where either raises, or
-// `progress` returns False, the observer says stop; what was raised is raised again once the work is
-// over, and what it gave is dropped. `progress` is called at least once if there was anything to
-// tell.
+// Runs `work` without the interpreter's lock. Ten times a second the lock is taken to check for
+// signals and to call `progress` (may be None) with a lyrefit.Progress. If either raises, or
+// `progress` returns False, the observer requests a stop. After the work the exception is raised
+// again and the result is dropped. `progress` is called at least once if any progress was reported.
 //
-// Signals reach the main thread alone, which may have nothing to do while others work: so the work
-// is done on a thread beside, unless it is all done by one (`threads` is 1), whose observer hears of
-// it often enough. That saves the microseconds of a thread.
+// Only the main thread handles signals, and it may be idle while others work. The work therefore
+// runs on a separate thread, unless it uses a single one (`threads` is 1): its observer is then
+// called often enough. That saves the microseconds of starting a thread.
 void RunAside(pybind11::handle progress, int threads,
               const std::function<void(const Observer&)>& work);
 
-// The same for work that gives something.
+// RunAside for work with a result.
 template <class Function>
 auto Work(pybind11::handle progress, Function&& work, int threads = 0) {
   std::optional<std::invoke_result_t<Function, const Observer&>> result;
@@ -31,7 +30,7 @@ auto Work(pybind11::handle progress, Function&& work, int threads = 0) {
   return *std::move(result);
 }
 
-// Runs what is over at once without the interpreter's lock.
+// Runs short work without the interpreter's lock.
 template <class Function>
 auto Unlocked(Function&& work) {
   const pybind11::gil_scoped_release released;

@@ -15,10 +15,10 @@ const report = (name) => text('lib/lyrefit/report/assets', name);
 const packed = (id, bytes) =>
     `<script type="application/gzip" id="${id}">${gzipSync(bytes, {level: 9}).toString('base64')}</script>`;
 const packedJson = (id, data) => packed(id, JSON.stringify(data));
-// A script that stands in the page unread, for the worker.
+// A script that the page does not run, for the worker.
 const unread = (id, script) => `<script type="text/plain" id="${id}">\n${script}</script>`;
 
-// Measurements with what lies beside them, under the names that they have in the page.
+// Example measurements with their sidecar files, under their names in the page.
 const examples = {};
 for (const [name, folder, file] of [['rtc_france', 'rtc_france', 'curve'],
                                     ['shaded_module', 'diagnosis', 'shaded_module']]) {

@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 
 constexpr double kBetweenProgress_s = 0.1;
 
-// What JSON cannot hold, as names of files may have it, becomes U+FFFD.
+// Dumps JSON; invalid UTF-8, which file names may have, becomes U+FFFD.
 std::string Text(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
@@ -46,7 +46,7 @@ Observer ProgressObserver() {
   };
 }
 
-// Pictures are charts: there is nothing to draw others with.
+// Pictures are interactive charts, since the page has no gnuplot.
 PageOptions InPage() {
   PageOptions options;
   options.stills = false;

@@ -1,13 +1,14 @@
 #pragma once
 
-// What the page asks of the library: text in, text out. README.md says what both hold.
+// C interface of the library for the page: text in, text out. README.md describes both.
 
 extern "C" {
 
-// Does what a request in JSON asks for and answers in JSON, {"error": ...} where that cannot be done.
-// Files are named as they lie in the working folder. The answer stays until the next call.
+// Runs a request in JSON and returns the answer in JSON, {"error": ...} on failure. File names
+// refer to the working folder. The answer is valid until the next call.
 const char* lyrefit_run(const char* request);
 
-// Given by who links this: is told where a fit or a diagnosis stands, a few times a second.
+// Defined by the program that links the library: receives the progress of a fit or a diagnosis, a
+// few times a second.
 void lyrefit_progress(const char* progress);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostPoints = 1000;  // of a curve that is shown before it is fitted
+constexpr std::size_t kMostPoints = 1000;  // of a curve shown before its fit
 constexpr std::size_t kMostCurves = 30;
 
 ordered_json CurveJson(const IvCurve& curve) {
@@ -43,7 +43,7 @@ ordered_json CurveJson(const IvCurve& curve) {
 ordered_json ColumnsJson(const std::string& file, const ReadOptions& reading) {
   ordered_json json = ordered_json::array();
   const auto columns = ListColumns(file, reading);
-  if (!columns) return json;  // no table: what reads it says why
+  if (!columns) return json;  // not a table: the reader gives the error
   for (const ColumnNote& column : *columns) {
     json.push_back({{"place", column.place}, {"name", column.name}, {"use", column.use}});
   }

@@ -9,14 +9,14 @@
 
 namespace lyrefit {
 
-// A measurement with what is said of it, as `lyrefit diagnose` reads it.
+// A measurement with the conditions of the form, as `lyrefit diagnose` reads it.
 Expected<CurveSet> ReadStated(const std::string& file, const ReadingForm& form);
 
-// "sweep" of "sweep.csv".
+// File name without extension: "sweep" for "sweep.csv".
 std::string StemOf(const std::string& file);
 
-// What a file holds as far as it is understood: its columns and what each is read as, its curves with
-// their conditions, what had to be assumed, why it cannot be read.
+// Content of a file as far as it can be read: its columns and their interpretation, its curves with
+// their conditions, the assumptions, and the error if it cannot be read.
 Expected<nlohmann::ordered_json> LookAt(const PageRequest& request);
 
 }  // namespace lyrefit

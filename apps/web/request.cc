@@ -52,7 +52,7 @@ ordered_json DescribeDiagnose() {
   return rows;
 }
 
-// Takes the text of an option out of a form; empty where it says nothing.
+// Removes the text of an option from a form; empty if it is not set.
 std::string Take(const std::string& name, FormTexts* form) {
   const auto found = form->find(name);
   if (found == form->end() || found->second.empty()) return "";
@@ -79,7 +79,7 @@ Expected<void> CheckNothingLeft(const FormTexts& form) {
   return Fail("there is no option '" + form.begin()->first + "'");
 }
 
-// One text, or a list of them.
+// Reads one text, or a list of texts.
 Expected<std::vector<std::string>> TextsOf(const std::string& name, const nlohmann::json& value) {
   std::vector<std::string> texts;
   for (const nlohmann::json& each : value.is_array() ? value : nlohmann::json::array({value})) {

@@ -12,7 +12,7 @@
 
 namespace lyrefit {
 
-// What the page says of one file and what is to be done with it.
+// A verb of the page for one file, with the form's options.
 struct PageRequest {
   std::string verb;  // "about", "look", "fit", "diagnose"
   std::string file;
@@ -21,10 +21,10 @@ struct PageRequest {
 
 Expected<PageRequest> ReadRequest(const std::string& json);
 
-// The forms of the two verbs, made of their option tables.
+// The forms of the verbs fit and diagnose, from their option tables.
 nlohmann::ordered_json DescribeForms();
 
-// How a file is read and what is said beside it.
+// Options for reading a file and conditions of its curves.
 struct ReadingForm {
   ReadOptions reading;
   ConditionOptions conditions;
@@ -41,8 +41,8 @@ struct DiagnoseForm {
   DiagnoseOptions options;
 };
 
-// Each takes its own out of the texts of a form; an error where something is left that it does not
-// know. A look leaves what is meant for the verbs.
+// Each function reads its options from the texts of a form and fails for an unknown option.
+// ReadLookForm ignores the options of the verbs.
 Expected<ReadingForm> ReadLookForm(FormTexts form);
 Expected<FitForm> ReadFitForm(FormTexts form);
 Expected<DiagnoseForm> ReadDiagnoseForm(FormTexts form);

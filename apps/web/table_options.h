@@ -17,14 +17,14 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/curve/number_text.h"
 
-// Option tables as a form: what it shows, and what somebody wrote into it.
+// Option tables as a form: its description, and the reading of its texts.
 namespace lyrefit {
 
-// What a form holds: texts by the names of options, several of those that are given once for each.
+// Content of a form: texts by option name; several texts for options that may be given repeatedly.
 using FormTexts = std::map<std::string, std::vector<std::string>>;
 
-// Whether a form has this option: what a person at the command can say of it, except how many
-// threads and which instructions, of which a browser has one.
+// Whether a form has this option: those of the command, except the number of threads and the
+// instruction set, of which a browser has only one.
 template <class Options>
 bool IsInForm(const OptionRow<Options>& row) {
   const std::string name = row.name;
@@ -32,7 +32,7 @@ bool IsInForm(const OptionRow<Options>& row) {
          name != "kernel" && !std::holds_alternative<OptionNest<Options>>(row.field);
 }
 
-// The name in a form. An option that is true by default has a switch that says no.
+// The name in a form. An option that is true by default has a switch for false.
 template <class Options>
 std::string FormName(const OptionRow<Options>& row, const Options& defaults) {
   const auto* const member = std::get_if<bool Options::*>(&row.field);
@@ -40,7 +40,7 @@ std::string FormName(const OptionRow<Options>& row, const Options& defaults) {
   return std::string(off ? "no-" : "") + row.name;
 }
 
-// Texts allowed, as far as they can be listed.
+// Allowed texts, if the option has a list of them.
 template <class Options>
 std::vector<std::string> ChoicesOf(const OptionRow<Options>& row) {
   std::vector<std::string> choices;
@@ -51,8 +51,8 @@ std::vector<std::string> ChoicesOf(const OptionRow<Options>& row) {
   return choices;
 }
 
-// Adds {"group", "name", "unit", "doc", "kind", "choices", "default", "lower", "upper"} for every row;
-// "kind": switch, number, text, or list, a line each.
+// Appends {"group", "name", "unit", "doc", "kind", "choices", "default", "lower", "upper"} for
+// every row. "kind": switch, number, text, or list (one line per text).
 template <class Options, class Table>
 void DescribeTable(const Table& table, const Options& defaults, nlohmann::ordered_json* rows) {
   std::string group;
@@ -81,7 +81,7 @@ Expected<void> ReadNumber(const std::string& text, T* value) {
   const std::optional<double> number = ParseNumber(text);
   if (!number) return Fail("expected a number, found '" + text + "'");
   if constexpr (std::is_integral_v<T>) {
-    constexpr double kMost = 9007199254740992;  // beyond it whole numbers have gaps
+    constexpr double kMost = 9007199254740992;  // 2^53: larger integers are not exact
     if (*number != std::floor(*number) || std::fabs(*number) > kMost ||
         (std::is_unsigned_v<T> && *number < 0) ||
         (sizeof(T) == sizeof(int) && std::fabs(*number) > 2e9)) {
@@ -92,7 +92,7 @@ Expected<void> ReadNumber(const std::string& text, T* value) {
   return {};
 }
 
-// What one text says of a row's field; `defaults` as a form has them.
+// Sets a row's field from one text; `defaults` are those of the form.
 template <class Options>
 Expected<void> ReadField(const OptionRow<Options>& row, const std::string& text,
                          const Options& defaults, Options* options) {
@@ -116,7 +116,7 @@ Expected<void> ReadField(const OptionRow<Options>& row, const std::string& text,
           return {};
         } else if constexpr (IsNumberField<Field>::value) {
           return ReadNumber(text, &(options->*field));
-        } else if constexpr (std::is_member_pointer_v<Field>) {  // of optional numbers
+        } else if constexpr (std::is_member_pointer_v<Field>) {  // optional numbers
           typename std::decay_t<decltype(options->*field)>::value_type value = {};
           Expected<void> read = ReadNumber(text, &value);
           if (read) options->*field = value;
@@ -128,8 +128,8 @@ Expected<void> ReadField(const OptionRow<Options>& row, const std::string& text,
       row.field);
 }
 
-// Sets the options of a table that `form` has and takes them out of it: what is left in the end
-// nobody knows. A form's empty fields say nothing.
+// Sets the options of a table that `form` has and removes them from it: any rest is unknown. Empty
+// fields are ignored.
 template <class Options, class Table>
 Expected<void> ReadForm(const Table& table, FormTexts* form, Options* options) {
   const Options defaults = *options;

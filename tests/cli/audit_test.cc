@@ -48,7 +48,7 @@ TEST(AuditVerb, ReportsBadRowsByLineAndAuditsTheRest) {
 
 TEST(AuditVerb, PrintsNothingThatIsNoUtf8) {
   const TempFolder folder;
-  // "Müller" as Windows writes it; the second row is a bad one.
+  // "Müller" in Windows-1252; the second row has an invalid number.
   const std::string rows = folder.Write(
       "rows.csv", kHead +
                       "M\xfcller,rtc_france,sd,\xb5LO,9.8602E-04,0.760776,0.036377,53.7185,"
@@ -64,7 +64,7 @@ TEST(AuditVerb, PrintsNothingThatIsNoUtf8) {
                                              "ch'"));
   EXPECT_THAT(RunApp(audit + " --quiet --json -").out, HasSubstr("\"source\": \"M\xc3\xbcller\""));
   EXPECT_THAT(RunApp(audit + " --quiet --csv -").out, HasSubstr("M\xc3\xbcller,"));
-  // Bytes that are no text in any encoding are shown as such.
+  // A name with invalid UTF-8 bytes is printed with replacement characters.
   const AppResult refused = RunApp("audit '" + folder.Path("no\xff") + "'");
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.err, HasSubstr("no\xef\xbf\xbd"));

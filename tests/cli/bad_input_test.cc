@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Points of a cell that a fit takes without complaint.
+// Points of a cell that a fit accepts without warnings.
 const char kGoodRows[] =
     "0,0.76\n0.1,0.759\n0.2,0.758\n0.3,0.755\n0.4,0.73\n0.45,0.69\n0.5,0.57\n0.55,0.3\n0.57,0.05\n";
 const std::string kGood = std::string("voltage_V,current_A\n") + kGoodRows;
@@ -23,7 +23,8 @@ std::string Sample(int rows) {
   return text;
 }
 
-// One clear sentence, exit code 1, nothing written.
+// Expects an error of one sentence that holds every text of `says`, exit code 1 and no file
+// written.
 void ExpectRefused(const TempFolder& folder, const std::string& arguments,
                    const std::vector<std::string>& says) {
   const auto files = [&] {
@@ -45,7 +46,7 @@ void ExpectRefused(const TempFolder& folder, const std::string& arguments,
   EXPECT_EQ(files(), before) << arguments;
 }
 
-// The same for a file of this content, with every output asked for.
+// Expects a file with this content to be refused when every output is requested.
 void ExpectFileRefused(const std::string& content, const std::vector<std::string>& says,
                        const std::string& flags = "") {
   const TempFolder folder;

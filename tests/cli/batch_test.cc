@@ -29,7 +29,8 @@ class BatchCommand : public testing::Test {
     return RunApp("batch '" + file_ + "' --out '" + folder_.Path(out) + "' --threads 2 " + more);
   }
   std::string PartOf(const std::string& out) { return folder_.Path(out) + "/results.part"; }
-  // Runs on until some more lines are written or all is done; then `signal` comes. The exit code.
+  // Resumes the batch until `lines` more rows are written or all are done, then sends `signal`.
+  // Returns the exit code.
   int Interrupted(int signal, int lines) {
     const auto before = LinesIn(PartOf("out"));
     const pid_t child = StartApp(Words("out"), folder_.Path("text"), folder_.Path("err"));
@@ -56,7 +57,7 @@ TEST_F(BatchCommand, EndsOnSignalsAndGoesOn) {
   ASSERT_EQ(Run("whole").exit_code, 0);
   for (const int signal : {SIGINT, SIGTERM}) {
     int exit_code = 0;
-    // Once more where all was done before the signal came.
+    // Repeats if the batch ended before the signal.
     while ((exit_code = Interrupted(signal, 2)) == 0) {
       std::filesystem::remove_all(folder_.Path("out"));
     }
@@ -77,7 +78,7 @@ TEST_F(BatchCommand, InShardsAndMergedGivesTheSameBytes) {
       const AppResult shard = Run(name, fmt::format("--shard {}/{}", k, of));
       EXPECT_EQ(shard.exit_code, 0) << shard.err;
     }
-    if (of == 1) {  // the whole
+    if (of == 1) {  // one shard is the whole batch
       EXPECT_EQ(ResultsIn(folder_.Path(name)), ResultsIn(folder_.Path("whole")));
       continue;
     }
@@ -91,7 +92,7 @@ TEST_F(BatchCommand, InShardsAndMergedGivesTheSameBytes) {
 
 TEST_F(BatchCommand, RefusesAWriterBesideIt) {
   pid_t child = -1;
-  for (int status = 0; !WIFSTOPPED(status);) {  // once more where all was done before it was held
+  for (int status = 0; !WIFSTOPPED(status);) {  // repeats if the batch ended before it was stopped
     child = StartApp(Words("out", "--force"), folder_.Path("text"), folder_.Path("err"));
     Await(child, [&] { return LinesIn(PartOf("out")) > 0; });
     kill(child, SIGSTOP);

@@ -31,8 +31,8 @@ TEST(CoverageVerb, GivesTheSameJsonOnAnyNumberOfThreads) {
   EXPECT_EQ(one, two) << json::diff(one, two).dump();
 }
 
-// Not a measurement of the coverage, which takes hundreds of sets: an interval that is wrong by
-// its construction shows in twenty.
+// Twenty sets detect an interval of wrong construction. A measurement of the coverage itself takes
+// hundreds of sets.
 TEST(CoverageVerb, IntervalsHoldTheTruthMostOfTheTime) {
   const json report = CoverageJson("--sets 20 --curves 10");
   for (const json& parameter : report["parameters"]) {

@@ -37,7 +37,8 @@ TEST(DataSheetVerb, PrintsTheDevice) {
   EXPECT_THAT(result.out, HasSubstr("gamma_pmp"));
 }
 
-// The digits of "4.75" say how far it is rounded; percent are of the values at 25 C.
+// The digits of "4.75" state its rounding, half a unit of the last digit. Coefficients in percent
+// refer to the values at 25 C.
 TEST(DataSheetVerb, WritesJson) {
   const AppResult kelvin = RunApp(kSheet + " --exact --json -");
   ASSERT_EQ(kelvin.exit_code, 0) << kelvin.err;
@@ -62,7 +63,7 @@ TEST(DataSheetVerb, WritesWhatPvlibTakes) {
   EXPECT_EQ(j["cec"]["Technology"], "Multi-c-Si");
 }
 
-// One device for every n: the one that beta_oc picks is the answer.
+// The three points leave one device for every n; the result is the device with the stated beta_oc.
 TEST(DataSheetVerb, ShowsAndDrawsTheFamily) {
   const TempFolder folder;
   const std::string picture = folder.Path("family.svg"), page = folder.Path("family.html");

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
-// Little to do where the answer does not matter.
+// Options of a short run, for tests in which the result does not matter.
 const std::string kQuick = "--effects nonohmic_shunt --draws 200 --no-held-out ";
 
 TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
@@ -107,7 +107,7 @@ TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
   }
 }
 
-// In a module whose bypass diodes act no cause without them explains the step.
+// The bypass diodes of this module conduct, so no cause without them explains the step.
 TEST(DiagnoseVerb, ProvesWhatCausesCanExplain) {
   SKIP_IF_SANITIZED();
   const std::string shaded =
@@ -131,7 +131,7 @@ TEST(DiagnoseVerb, ProvesWhatCausesCanExplain) {
   EXPECT_GT(others, 0.9);
 }
 
-// Of several files each has its line or its complaint.
+// With several files, each gets its line of results or its error.
 TEST(DiagnoseVerb, GoesOnBehindAFileThatCannotBeRead) {
   const std::string files = "diagnose no_such_file.csv '" + DataFolder("rtc_france") + "' ";
   const AppResult text = RunApp(files + kQuick);
@@ -169,7 +169,7 @@ TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
   EXPECT_TRUE(j["verdict"]["causes"].is_array());
 }
 
-// A cell of 8 A whose light jumps up during the sweep.
+// Table of a cell of 8 A whose photocurrent steps up during the sweep.
 std::string CurveWithAStep() {
   std::string text = "voltage,current\n";
   for (int k = 0; k < 40; ++k) {

@@ -88,7 +88,7 @@ TEST(FamilyVerb, SaysThatAFileIsMissing) {
   ExpectRefused("no_such_set --family desoto", "no_such_set");
 }
 
-// One curve cannot tell what a law would need.
+// The parameters of a translation law need several curves.
 TEST(FamilyVerb, RefusesASingleCurve) {
   ExpectRefused(kRtc + " --family desoto", "one curve cannot tell");
   ExpectRefused(kRtc + " --family pvsyst", "one curve cannot tell");
@@ -104,8 +104,8 @@ struct Truth {
   double alpha = 0.0025;
 };
 
-// A folder of six curves of that module by De Soto's law, made by `lyrefit simulate`, each with its
-// sidecar.
+// A folder of six curves of the module above by De Soto's law, written by `lyrefit simulate`, each
+// with its sidecar.
 class FamilyVerbOnASet : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -144,7 +144,7 @@ class FamilyVerbOnASet : public ::testing::Test {
   TempFolder folder_;
 };
 
-// Quick, for tests that look at something else.
+// Options of a short run, for tests of other results.
 const std::string kQuickFamily = " --folds 0 --no-free-fits --iterations 20 --population 15";
 
 TEST_F(FamilyVerbOnASet, FindsTheDeviceBehindTheCurves) {

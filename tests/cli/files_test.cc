@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A measurement with its sidecar, and other ways to it.
+// A measurement with its sidecar, and links that lead to it.
 class NothingIsLost : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -30,7 +30,7 @@ class NothingIsLost : public ::testing::Test {
 
   std::string Quoted(const std::string& name) const { return "'" + folder_.Path(name) + "'"; }
 
-  // One sentence, exit code 1, every file as it was.
+  // Expects an error of one sentence, exit code 1 and every file unchanged.
   void ExpectRefused(const std::string& arguments, const std::string& says) {
     const AppResult result = RunApp(arguments);
     EXPECT_EQ(result.exit_code, 1) << arguments;
@@ -91,7 +91,7 @@ TEST_F(NothingIsLost, WhereAnOutputStandsInASidecarsPlace) {
   ExpectRefused("fit " + Quoted("set") + " --family free --json " + Quoted("set/index.csv"), says);
   ExpectRefused("diagnose " + Quoted("set") + " --extend " + Quoted("set/dataset.json"), says);
   ExpectRefused("compare " + Quoted("module.csv") + " --csv " + Quoted("module-index.csv"), says);
-  // It would be a curve of the set the next time.
+  // The table would count as a curve of the set in the next run.
   ExpectRefused("fit " + Quoted("set") + " --family free --csv " + Quoted("set/table.csv"),
                 "every table in " + folder_.Path("set") + " is read as a curve");
 }
@@ -120,7 +120,7 @@ TEST_F(NothingIsLost, BySimulateEither) {
   folder_.Write("report.json", "{}");
   ExpectRefused(device + Quoted("report.csv"), says);
   EXPECT_EQ(FileText(folder_.Path("report.json")), "{}");
-  // Its own curves it replaces, whatever they are of.
+  // `simulate` replaces curves that it wrote itself, whatever device they are of.
   EXPECT_EQ(RunApp(device + Quoted("own.csv") + " --noise-A 1e-4 --temperature-C 33.3").exit_code,
             0);
   const std::string first = FileText(folder_.Path("own.csv"));
@@ -130,7 +130,7 @@ TEST_F(NothingIsLost, BySimulateEither) {
   EXPECT_EQ(RunApp(device + Quoted("module.csv") + " --force").exit_code, 0);
 }
 
-// The report that the device comes from stands where the conditions of the curve are to be written.
+// The sidecar of the simulated curve would replace the report that the device is read from.
 TEST_F(NothingIsLost, OfTheReportThatIsSimulated) {
   ASSERT_EQ(
       RunApp("fit " + Quoted("module.csv") + " --quiet --json " + Quoted("fit.json")).exit_code, 0);

@@ -17,7 +17,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Three curves and a file that is none.
+// Three curves and a file that is no curve.
 class FitOfManyFiles : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -43,7 +43,7 @@ class FitOfManyFiles : public ::testing::Test {
     return lines;
   }
 
-  // Of a row without quotes.
+  // Fields of a CSV row without quotes.
   static std::vector<std::string> Fields(const std::string& line) {
     std::vector<std::string> fields(1);
     for (const char c : line) {
@@ -162,7 +162,7 @@ TEST_F(FitOfManyFiles, OfOneFileIsATableOfOneRow) {
   EXPECT_EQ(Lines(fit.out).size(), 2U);
 }
 
-// 5,001 readings; the name of the file, in quotes.
+// Writes a curve of 5,001 readings and returns its path in quotes.
 std::string MakeLongCurve(const TempFolder& folder) {
   const std::string curve = "'" + folder.Path("long.csv") + "'";
   const AppResult made = RunApp(
@@ -173,7 +173,8 @@ std::string MakeLongCurve(const TempFolder& folder) {
   return curve;
 }
 
-// What a curve of very many readings says stands in the other keys.
+// The data of a very long curve are thinned in the JSON; the other keys hold the results of all
+// readings.
 TEST(FitJsonOfALongCurve, RepeatsSomeOfItUnlessAsked) {
   const TempFolder folder;
   const std::string curve = MakeLongCurve(folder);
@@ -191,7 +192,7 @@ TEST(FitJsonOfALongCurve, RepeatsSomeOfItUnlessAsked) {
   EXPECT_EQ(all["data"]["residual_A"][5000], data["residual_A"].back());
 }
 
-// Symbols drawn.
+// Number of symbols drawn.
 std::size_t Marks(const std::string& picture) {
   std::ifstream file(picture);
   std::size_t marks = 0;

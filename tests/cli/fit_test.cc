@@ -233,7 +233,7 @@ TEST(Fit, RefusesErrorsItCannotWeighBy) {
 }
 
 TEST(Fit, EndsWith2WhereTheFitIsNotUsable) {
-  // A light curve held against a single bad point of the box.
+  // The search may only use an Iph far below the measured one.
   const AppResult result = RunApp(
       "fit " + kRtc + " --no-polish --population 4 --iterations 1 --bound Iph=0:0.01 --json -");
   EXPECT_EQ(result.exit_code, 2) << result.err;

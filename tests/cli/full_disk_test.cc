@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// What a verb does where what it writes does not fit.
+// Verbs whose output exceeds the file size limit or cannot be written.
 class FullDisk : public testing::Test {
  protected:
   std::string In(const std::string& name) const { return "'" + folder_.Path(name) + "'"; }
@@ -22,7 +22,7 @@ class FullDisk : public testing::Test {
     return RunApp(arguments);
   }
 
-  // One sentence with the reason, exit code 1.
+  // Expects one sentence with the reason and exit code 1.
   static void ExpectComplaint(const AppResult& result, const std::string& arguments,
                               const std::string& reason) {
     EXPECT_EQ(result.exit_code, 1) << arguments << "\n" << result.err;
@@ -31,7 +31,7 @@ class FullDisk : public testing::Test {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
 
-  // Nothing but these files.
+  // Expects no files besides these.
   void ExpectFiles(const std::vector<std::string>& names) const {
     for (const auto& entry : fs::directory_iterator(folder_.Path(""))) {
       EXPECT_NE(std::find(names.begin(), names.end(), entry.path().filename().string()),
@@ -71,12 +71,12 @@ TEST_F(FullDisk, EndsEveryWriterWithASentence) {
            std::string("fit --help"),
        }) {
     ExpectComplaint(RunWithin(300, arguments), arguments, "File too large");
-    fs::remove(folder_.Path("x.jsonl"));  // an empty journal
+    fs::remove(folder_.Path("x.jsonl"));  // a journal without rows
   }
   ExpectFiles({"rows.jsonl"});
 }
 
-// A picture of some 40 kB, of a script of a few.
+// The SVG has about 40 kB, the gnuplot script behind it a few kB.
 TEST_F(FullDisk, LeavesNoHalfPicture) {
   const std::string arguments = fit_ + "--plot " + In("x.svg");
   for (const rlim_t bytes : {8000, 20000}) {
@@ -93,7 +93,7 @@ TEST_F(FullDisk, LeavesAJournalOfWholeLinesThatIsGoneOnWith) {
   const std::string whole = FileText(folder_.Path("j.jsonl"));
   const std::size_t head = whole.find('\n') + 1;
   fs::remove(folder_.Path("j.jsonl"));
-  // Room for some of the nine runs.
+  // The limit leaves space for some of the nine runs.
   const std::size_t room = head + (whole.size() - head) / 2;
   const AppResult full = RunWithin(room, study);
   ExpectComplaint(full, study,
@@ -156,7 +156,7 @@ TEST_F(FullDisk, IsDevFullToo) {
   ASSERT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-// As /proc is, whoever asks.
+// Nobody can write into /proc, not even root.
 TEST_F(FullDisk, IsAFolderThatCannotBeWritten) {
   for (const std::string& arguments : {
            fit_ + "--json /proc/x.json",

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 const std::string kShipped = LYREFIT_DATA_DIR;
 
-// The record that a page holds.
+// The JSON record embedded in a page.
 nlohmann::json RecordOf(const std::string& html) {
   const std::string begins = "<script type=\"application/json\" id=\"record\">";
   const std::size_t at = html.find(begins);

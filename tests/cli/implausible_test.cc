@@ -1,4 +1,4 @@
-// Readings that cannot be a device's, in every verb that takes a curve.
+// Readings that no device can give, in every verb that takes a curve.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using ::testing::StartsWith;
 
 constexpr const char* kVerbs[] = {"fit", "diagnose", "certify", "compare"};
 
-// Enough of each verb to see what it says.
+// Arguments of a short run of each verb.
 std::string Quick(const std::string& verb) {
   if (verb == "fit") return "fit --intervals none ";
   if (verb == "diagnose") return "diagnose --no-held-out --draws 200 ";
@@ -47,7 +47,7 @@ IvCurve Changed(IvCurve curve, const std::function<void(double*, double*)>& chan
   return curve;
 }
 
-// One sentence, exit code 1.
+// Expects an error of one sentence that holds every text of `says`, and exit code 1.
 void ExpectRefused(const std::string& content, const std::string& flags,
                    const std::vector<std::string>& says) {
   const TempFolder folder;
@@ -63,7 +63,7 @@ void ExpectRefused(const std::string& content, const std::string& flags,
   }
 }
 
-// The doubt stands above the answer.
+// Expects a result with the warning `says` at its top, in the text and in the JSON.
 void ExpectDoubted(const std::string& content, const std::string& flags, const std::string& says) {
   const TempFolder folder;
   const std::string file = folder.Write("curve.csv", content);

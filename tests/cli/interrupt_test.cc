@@ -32,7 +32,8 @@ std::vector<std::string> With(std::vector<std::string> arguments,
 
 class InterruptTest : public testing::TestWithParam<int> {
  protected:
-  // What it writes when the signal comes as soon as it has shown `until`. All these would take hours.
+  // Standard output of a run that gets the signal as soon as it has shown `until`. Uninterrupted,
+  // all these runs take hours.
   std::string OutputOf(const std::vector<std::string>& arguments, const std::string& until) {
     ShownApp app(arguments, out_);
     app.AwaitShown(until);
@@ -45,7 +46,7 @@ class InterruptTest : public testing::TestWithParam<int> {
     return nlohmann::json::parse(OutputOf(With(arguments, {"--json", "-"}), until), nullptr, false);
   }
 
-  // The same as soon as it waits for the pipe.
+  // Standard output of a run that gets the signal as soon as it reads from the pipe.
   std::string OutputAt(SilentPipe* pipe, const std::vector<std::string>& arguments) {
     const pid_t child = StartApp(arguments, out_, err_);
     Await(child, [pipe] { return pipe->IsRead(); });
@@ -130,7 +131,7 @@ TEST_P(InterruptTest, KeepsTheBudgetOfATranslationWithoutItsDraws) {
   }
 }
 
-// The second measurement never comes.
+// The second measurement is a pipe that never delivers data.
 TEST_P(InterruptTest, KeepsTheFilesThatWereDiagnosed) {
   EXPECT_THAT(OutputAtPipe({"diagnose", DataFolder("rtc_france")}), HasSubstr("rtc_france"));
 }

@@ -26,7 +26,7 @@ json Timeless(json value) {
   return value;
 }
 
-// So many columns of every line, from the first of them on.
+// `count` columns of every line, from column `from` on.
 std::string Columns(const std::string& csv, std::size_t from, std::size_t count) {
   std::string kept;
   std::size_t column = 0;

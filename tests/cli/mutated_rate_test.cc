@@ -1,6 +1,5 @@
-// What the command does with curves that something went wrong with: a stranger's file, mangled in
-// every way we know. The number of files a verb is given is LYREFIT_MUTATIONS in the environment,
-// or a few:
+// Curves with defects of every known sort, as found in files of other people. Each verb gets a few
+// files, or the number in the environment variable LYREFIT_MUTATIONS:
 //   LYREFIT_MUTATIONS=300 build/tests/cli_rate_test --gtest_filter='Mutated*'
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +26,7 @@ using Mutator = void (*)(std::mt19937* random, Points* points);
 
 struct Mutation {
   const char* name;
-  bool is_curve;  // still what a device could have given
+  bool is_curve;  // a device could still give these readings
   Mutator apply;
 };
 
@@ -50,7 +49,8 @@ void AddNoise(std::mt19937* random, double part, std::vector<double>* values) {
 }
 
 void ConstantRun(std::mt19937* random, bool at_end, std::vector<double>* values) {
-  // Near short circuit a short run is no more than a coarse meter: there it reaches into the knee.
+  // Near short circuit, a short run of equal values could come from a coarse meter. A run that
+  // reaches into the knee could not.
   const std::size_t part = at_end ? values->size() / 3 : values->size() * 3 / 5;
   const std::size_t length = part + Index(random, values->size() / 4);
   const std::size_t begin = at_end ? values->size() - length : 0;
@@ -119,7 +119,8 @@ int HowMany(int otherwise) {
   return asked != nullptr ? std::atoi(asked) : otherwise;
 }
 
-// The measured benchmark curves in turn, each with its sidecar's conditions.
+// Writes a mutant of one of the five measured benchmark curves, in turn. Returns the arguments for
+// it: its path and --cells.
 std::string WriteMutant(const TempFolder& folder, int number, const Mutation& mutation) {
   constexpr const char* kSources[] = {"rtc_france", "pwp201", "msx60", "stm6_40_36", "stp6_120_36"};
   const auto curve = ReadCurve(DataFolder(kSources[number % 5]));
@@ -136,7 +137,7 @@ std::string WriteMutant(const TempFolder& folder, int number, const Mutation& mu
   return "'" + path + "' --cells " + std::to_string(curve->conditions.cells_in_series);
 }
 
-// Numbers beyond double and bare NaN are no JSON: the parser finds them.
+// The parser rejects bare NaN and numbers beyond the range of double, which are invalid JSON.
 nlohmann::json Parsed(const std::string& text) {
   return nlohmann::json::parse(text, nullptr, false);
 }
@@ -158,7 +159,7 @@ void GivesASoundAnswer(const std::string& verb, int count) {
     ASSERT_TRUE(report.is_object()) << result.out.substr(0, 200);
     EXPECT_FALSE(mutation.is_curve && verb == "fit" && result.exit_code == 2);
     if (mutation.is_curve) continue;
-    // An answer about what is no curve says so.
+    // A result for readings that no device gives carries a warning, a doubt or a verdict.
     const nlohmann::json none = nlohmann::json::array();
     const nlohmann::json verdict = report.value("verdict", nlohmann::json::object());
     EXPECT_TRUE(!report.value("warnings", none).empty() || !report.value("doubts", none).empty() ||

@@ -18,7 +18,7 @@ TEST(Pack, MakesOneRowACurveOfAFolderTree) {
   folder.Write("plant/photo.jpg", "x");
   const AppResult result =
       RunApp("pack '" + folder.Path("plant") + "' --out '" + folder.Path("p.jsonl") + "'");
-  EXPECT_EQ(result.exit_code, 2);  // one could not be read
+  EXPECT_EQ(result.exit_code, 2);  // one file could not be read
   EXPECT_THAT(result.out, HasSubstr("2 curves in "));
   EXPECT_THAT(result.out, HasSubstr("1 of them could not be read; the first:\n"));
   EXPECT_THAT(result.err, HasSubstr("1 file of other kinds left aside (1 .jpg)"));
@@ -39,7 +39,7 @@ TEST(Pack, ReadsStandardInputAndWritesStandardOutput) {
   EXPECT_EQ(row["id"], "a/b");
   EXPECT_EQ(row["voltage_V"].size(), 5U);
   EXPECT_EQ(row["irradiance_W_m2"], 912);
-  // What comes out goes in again, as it is.
+  // The output is valid input and is reproduced unchanged.
   const AppResult again = RunApp("pack - --out -", folder.Write("out.jsonl", result.out));
   EXPECT_EQ(again.out, result.out);
 }

@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-// The help without the breaks of its lines.
+// The help of a verb with its line breaks replaced by spaces.
 std::string HelpOf(const std::string& verb) {
   std::istringstream words(RunApp(verb + " --help").out);
   std::string text, word;

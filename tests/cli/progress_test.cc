@@ -19,10 +19,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr int kAlarm_s = 1200;  // ends what hangs
+constexpr int kAlarm_s = 1200;  // ends a process that hangs
 
-// What a run shows on a terminal until it ends or hears a Ctrl-C, which comes as soon as it has
-// shown `until`.
+// What a run prints on a terminal until it ends. As soon as it has printed `until`, it gets a
+// SIGINT (Ctrl-C).
 std::string OnTerminal(std::vector<std::string> arguments, const std::string& until) {
   arguments.insert(arguments.begin(), LYREFIT_APP);
   std::vector<char*> words;
@@ -32,7 +32,7 @@ std::string OnTerminal(std::vector<std::string> arguments, const std::string& un
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
     alarm(kAlarm_s);
-    std::signal(SIGINT, SIG_DFL);  // what the test was told to ignore, the app is not
+    std::signal(SIGINT, SIG_DFL);  // undoes an inherited "ignore"
     execv(LYREFIT_APP, words.data());
     _exit(127);
   }
@@ -89,7 +89,8 @@ TEST(Progress, SaysElsewhereOnceThatARunWillTakeLong) {
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
 }
 
-// On a terminal and elsewhere, when it has done what takes others far beyond their first line.
+// With --quiet nothing is printed, on a terminal or elsewhere. The run has by then done 1000 rows,
+// after which other runs have long printed their first line.
 TEST(Progress, IsSilentWhereAsked) {
   SKIP_IF_SANITIZED();
   const TempFolder folder;

@@ -1,4 +1,4 @@
-// What the flags for reading do with files of data/formats.
+// Effects of the reading flags on files of data/formats.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(ReadingFlags, StandardInputIsRead) {
   }
 }
 
-// By whatever verb: once, and all of it.
+// Every verb reads a pipe once and completely.
 TEST(ReadingFlags, APipeIsReadAsItsFile) {
   const TempFolder folder;
   const std::string pipe = folder.Path("pipe");

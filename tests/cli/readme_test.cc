@@ -1,7 +1,7 @@
-// Every command of the README and of the pages it leads to that can be run with what ships is run,
-// and prints what stands below it. Left out are synopses (they hold brackets or CAPITALS for what
-// is to be filled in) and what a page itself says needs other data or takes its time, in a comment
-// on its line: "# needs ...", "# takes a minute" (but not "# takes seconds").
+// Runs every command of the README and of the pages it links to, and checks the output shown below
+// each. Left out are synopses, which hold brackets or CAPITALS as placeholders. Left out are also
+// commands with a comment "# needs ..." or "# takes a minute" on their line; those with "# takes
+// seconds" are run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A command, and the lines below it that show what it prints, or part of that ("..." for the rest).
+// A command, and the lines shown below it, which are its output or a part of it ("..." for the
+// rest).
 struct ReadmeCommand {
   int line = 0;
   std::string arguments;
@@ -47,7 +48,7 @@ std::vector<ReadmeCommand> CommandsOf(std::istream& page) {
   static const std::string kIndent = "    ";
   static const std::string kStart = kIndent + "lyrefit ";
   std::vector<ReadmeCommand> commands;
-  bool shows = false;  // what is indented here belongs to the last command
+  bool shows = false;  // indented lines belong to the last command
   int number = 0;
   for (std::string line; std::getline(page, line);) {
     const int first = ++number;
@@ -75,7 +76,7 @@ std::vector<std::string> WordsOf(const std::string& line) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-// Numbers need not agree in their last digits, which are those of a processor and a compiler.
+// Numbers may differ in their last digits, which depend on the processor and the compiler.
 bool IsTheSameWord(const std::string& one, const std::string& other) {
   constexpr double kTolerance = 0.01;
   char* end_of_one = nullptr;
@@ -153,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Readme, Page, ::testing::ValuesIn(kPages),
                            return name;
                          });
 
-// The pages of the project, relative to it.
+// All pages, with paths relative to the project.
 std::vector<fs::path> AllPages() {
   std::vector<fs::path> pages = {"README.md"};
   for (const char* part : {"apps", "data", "lib", "tests"}) {
@@ -174,7 +175,7 @@ TEST(Readme, EveryPageWithCommandsToBeRunIsAmongThoseRun) {
   }
 }
 
-// What takes its time, or needs another machine, is not run; but it is there.
+// Scripts that take long or need another machine are not run, but they must exist.
 TEST(Readme, ScriptsThatPagesCallAreThere) {
   static const std::regex kScript(R"((?:^|[\s'`])((?:cmake|tests|apps)/[\w/.-]+\.(?:sh|py|gp)))");
   int scripts = 0;
@@ -188,7 +189,8 @@ TEST(Readme, ScriptsThatPagesCallAreThere) {
   EXPECT_GE(scripts, 8);
 }
 
-// The heading that "#how-it-works" leads to, as pages are shown on the web.
+// Whether a page has the heading of an anchor such as "#how-it-works", by GitHub's rule for
+// anchors.
 bool HasHeading(const fs::path& page, const std::string& anchor) {
   std::ifstream file(page);
   for (std::string line; std::getline(file, line);) {
@@ -221,7 +223,7 @@ TEST(Readme, LinksOfEveryPageLeadSomewhere) {
   EXPECT_GE(links, 40);
 }
 
-// The blocks that cmake/results.sh and cmake/landscapes.sh write anew.
+// The blocks that cmake/results.sh and cmake/landscapes.sh replace.
 TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
   const struct {
     const char* page;

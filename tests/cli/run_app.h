@@ -15,13 +15,13 @@
 namespace lyrefit {
 
 struct AppResult {
-  int exit_code = -1;  // -1: ended by a signal; 130 is what an interrupted run ends with itself
+  int exit_code = -1;  // -1: ended by a signal; 130: a run that was interrupted and ended itself
   std::string out;
   std::string err;
 };
 
-// Runs the lyrefit command with `arguments`, as the shell reads them, in a folder of its own; its
-// standard input is the file `input`.
+// Runs the lyrefit command with `arguments`, in shell syntax, in a temporary folder. Its standard
+// input is the file `input`.
 inline AppResult RunApp(const std::string& arguments, const std::string& input = "/dev/null") {
   const std::string base =
       (std::filesystem::path(::testing::TempDir()) / ("lyrefit-run-" + std::to_string(getpid())))
@@ -43,7 +43,7 @@ inline std::string DataFolder(const std::string& name) {
   return std::string(LYREFIT_DATA_DIR) + "/" + name;
 }
 
-// A made curve with so many points that its proof takes a while; returns its path.
+// Writes a synthetic curve with so many points that its proof takes a while; returns the path.
 inline std::string LongCurve(const TempFolder& folder) {
   const std::string path = folder.Path("long.csv");
   const AppResult made = RunApp(
@@ -61,7 +61,8 @@ struct Refusal {
   std::string complaint;
 };
 
-// Each ends with 1 and a sentence that holds the complaint, and writes nothing.
+// Expects exit code 1 and one sentence that holds the complaint for each refusal, and no file
+// written.
 inline void ExpectRefusals(const std::string& verb, const std::vector<Refusal>& refusals) {
   for (const Refusal& one : refusals) {
     const AppResult result = RunApp(verb + one.arguments);
@@ -72,7 +73,7 @@ inline void ExpectRefusals(const std::string& verb, const std::vector<Refusal>& 
   }
 }
 
-// The JSON that a verb leaves on standard output; null if there is none.
+// The JSON that a verb prints; null if there is none.
 inline nlohmann::json AnswerJson(const std::string& arguments) {
   const AppResult result = RunApp(arguments + " --json -");
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -12,7 +12,7 @@
 
 namespace lyrefit {
 
-// The currents of a table that was written.
+// The currents, second column, of a CSV table.
 inline std::vector<double> CurrentsOf(const std::string& csv) {
   std::vector<double> currents;
   std::istringstream lines(csv);
@@ -26,7 +26,7 @@ inline std::vector<double> CurrentsOf(const std::string& csv) {
   return currents;
 }
 
-// Simulated from a report, the curve is the report's own.
+// Expects `simulate --from` to reproduce the model currents of the report, within 1e-9 A.
 inline void ExpectSameCurve(const std::string& report_file, const nlohmann::json& report) {
   const AppResult simulated = RunApp("simulate --from '" + report_file + "'");
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;

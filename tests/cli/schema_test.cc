@@ -1,4 +1,4 @@
-// What every verb writes as JSON is as its schema in data/schema says.
+// Validates the JSON of every verb against its schema in data/schema.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ const std::string kCauses = " --effects nonohmic_shunt,irr_step --draws 200 --no
 
 bool Works(const std::string& command) { return std::system(command.c_str()) == 0; }
 
-// A Python that has jsonschema; empty: none.
+// The command of a Python with the module jsonschema; empty if there is none.
 std::string Python() {
   for (const std::string python : {"python3", "/usr/bin/python3"}) {
     if (Works(python + " -c 'import jsonschema' 2>/dev/null")) return python;
@@ -27,7 +27,7 @@ std::string Python() {
 
 struct SchemaCase {
   std::string name;
-  std::string arguments;  // FILE is what is to be written
+  std::string arguments;  // FILE stands for the output file
   std::string schema;
 };
 

@@ -96,7 +96,7 @@ TEST(Simulate, IntervalsOfNoisyCurvesHoldTheTruth) {
   const std::string curve = folder.Path("noisy.csv");
   ASSERT_EQ(RunApp(kDevice + "--noise-A 0.005 --seed 3 --out " + curve).exit_code, 0);
   const json p = FitJson(curve)["parameters"]["resistance_series"];
-  // Three times the distance to each end: a miss here is a mistake, no bad luck.
+  // Three times the distance to each end, so that a miss indicates a defect and not chance.
   const double refined = p["refined"];
   EXPECT_LT(refined - 3 * (refined - p["low_95"].get<double>()), 0.25);
   EXPECT_GT(refined + 3 * (p["high_95"].get<double>() - refined), 0.25);

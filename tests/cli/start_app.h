@@ -22,8 +22,8 @@ extern char** environ;
 
 namespace lyrefit {
 
-// Starts the app without a shell, so that the signal reaches it; what the test itself was told to
-// ignore (as under nohup), the app is not.
+// Starts the app without a shell, so that the signal reaches it. Signals that the test itself
+// ignores (as under nohup) are reset to their default in the app.
 inline pid_t StartApp(std::vector<std::string> arguments, const std::string& out,
                       const std::string& err = {}) {
   posix_spawn_file_actions_t actions;
@@ -57,8 +57,8 @@ inline int ExitCodeOf(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Returns as soon as `state` holds, or the child has ended, who stays to be waited for. How long
-// that takes does not matter; what never happens runs into the time limit of the test.
+// Returns as soon as `state` holds or the child has ended; an ended child can still be waited for.
+// There is no timeout here: a state that never holds runs into the time limit of the test.
 template <class State>
 void Await(pid_t child, const State& state) {
   const auto ended = [child] {
@@ -68,13 +68,13 @@ void Await(pid_t child, const State& state) {
   while (!state() && !ended()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
-// How many lines a file has by now.
+// Current number of lines of a file.
 inline std::ptrdiff_t LinesIn(const std::string& path) {
   const std::string text = FileText(path);
   return std::count(text.begin(), text.end(), '\n');
 }
 
-// A named pipe that gives nothing. Somebody who opened it waits for it.
+// A named pipe that delivers no data, so that its reader blocks.
 class SilentPipe {
  public:
   explicit SilentPipe(std::string path) : path_(std::move(path)) {
@@ -87,7 +87,7 @@ class SilentPipe {
   SilentPipe& operator=(const SilentPipe&) = delete;
 
   const std::string& path() const { return path_; }
-  // Whether somebody has opened it to read.
+  // Whether a process has opened the pipe for reading.
   bool IsRead() {
     if (end_ < 0) end_ = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     return end_ >= 0;
@@ -98,7 +98,7 @@ class SilentPipe {
   int end_ = -1;
 };
 
-// The app with its standard error on a terminal, where it shows how far it is.
+// The app with its standard error on a pseudo-terminal, where it shows its progress.
 class ShownApp {
  public:
   ShownApp(const std::vector<std::string>& arguments, const std::string& out) {
@@ -116,7 +116,7 @@ class ShownApp {
   pid_t child() const { return child_; }
   const std::string& shown() const { return shown_; }
 
-  // Reads until it has shown `until`, or has ended.
+  // Reads until the app has printed `until`, a regular expression, or has ended.
   void AwaitShown(const std::string& until) {
     const std::regex awaited(until);
     while (!std::regex_search(shown_, awaited) && ReadOn()) continue;

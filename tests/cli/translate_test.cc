@@ -34,7 +34,7 @@ TEST(TranslateVerb, RefusesBadInputWithOneSentence) {
                       {kCell + "--irradiance-Wm2 0 --temperature-C 25", "dark"}});
 }
 
-// Nothing absurd is carried without a word.
+// Absurd input is refused with one sentence.
 TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
   const TempFolder folder;
   const auto write = [&](const std::string& name, const std::string& rows) {
@@ -66,7 +66,7 @@ TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
                       {kCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
 }
 
-// The same remark in every verb, and no verdict on a power that no device has.
+// Every verb gives the same warning, and translate gives no pass or fail for an impossible power.
 TEST(TranslateVerb, JudgesNoMilliampereReadAsAmpere) {
   const TempFolder folder;
   std::string rows = "voltage_V,current_A\n";

@@ -98,7 +98,7 @@ TEST(Verbs, EmptyArgumentIsNamed) {
   }
 }
 
-// Every long flag of `help`.
+// Every long flag in the help text.
 std::vector<std::string> FlagsIn(const std::string& help) {
   std::vector<std::string> flags;
   std::istringstream lines(help);

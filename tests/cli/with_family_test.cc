@@ -42,7 +42,7 @@ class WithFamily : public ::testing::Test {
   }
   json Read(const std::string& name) const { return json::parse(FileText(folder_.Path(name))); }
 
-  // What the report's curve is, simulated from it.
+  // Currents of a curve simulated from a report.
   std::vector<double> Simulated(const std::string& file, const std::string& curve,
                                 const std::string& more = "") const {
     const AppResult made =

@@ -42,11 +42,12 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   EXPECT_EQ(report["causes"], json::array({"shading"}));
   EXPECT_EQ(report["law"]["bypass_diodes"], 3);
   EXPECT_EQ(report["singlediode"]["resistance_series"],
-            report["parameters"]["resistance_series"]["refined"]);  // of the base
+            report["parameters"]["resistance_series"]["refined"]);  // of the base model
   const json& depth = report["parameters"]["shading.d"];
   EXPECT_LT(depth["low_95"], depth["refined"]);
   EXPECT_GT(depth["high_95"], depth["refined"]);
-  // By its name alone: its forms, and a share of the three substrings that are counted.
+  // `--with shading` without ranges fits two model variants, and a share in whole thirds since the
+  // three substrings are known.
   EXPECT_THAT(fit.out, HasSubstr("d, w, Vb free <-\n"));
   EXPECT_EQ(report["forms"].size(), 2u);
   const json& share = report["parameters"]["shading.w"];
@@ -83,8 +84,8 @@ TEST(With, ASimulationNeedsNoReport) {
   ASSERT_EQ(shaded.exit_code, 0) << shaded.err;
   const std::vector<double> full = CurrentsOf(plain.out), less = CurrentsOf(shaded.out);
   ASSERT_EQ(less.size(), 8U);
-  EXPECT_NEAR(less.front(), full.front(), 0.02);   // the bypass diode takes it over
-  EXPECT_NEAR(less[6], 0.6 * full.front(), 0.15);  // 30 V: the shaded third rules
+  EXPECT_NEAR(less.front(), full.front(), 0.02);   // the bypass diode carries the difference
+  EXPECT_NEAR(less[6], 0.6 * full.front(), 0.15);  // 30 V: the shaded third limits
 }
 
 TEST(With, SaysWhatIsWrongWithAnEffect) {

@@ -29,7 +29,8 @@ Diagnosis DiagnosedQuickly(const IvCurve& curve) {
   return DiagnoseOrFail(curve, Quick(LaboratoryOptions()));
 }
 
-// Averages lie on the curve between their readings, however it bends, and every reading counts.
+// Each average lies on the exact curve at its mean voltage, also where the curve bends, and the
+// weights add up to all readings.
 TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   Recipe recipe = Long();
   recipe.noise_A = 0;
@@ -107,7 +108,7 @@ TEST(AverageTest, ACleanCurveOfAHundredThousandReadingsIsClean) {
   EXPECT_NEAR(d.evidence.misfit_ratio, 1, 0.02);
 }
 
-// The errors are those of so many readings: ten times smaller than of a hundredth of them.
+// A hundred times as many readings make the standard errors ten times smaller.
 TEST(AverageTest, ManyReadingsLeaveLessOpen) {
   Recipe few = VeryLong();
   few.points = 1000;
@@ -119,7 +120,8 @@ TEST(AverageTest, ManyReadingsLeaveLessOpen) {
   }
 }
 
-// Wherever it lies in an average, and in both modes.
+// The step is located to the reading, wherever it lies within an average, in laboratory mode and in
+// field mode.
 TEST(AverageTest, AStepAmongAHundredThousandReadingsIsFoundAtItsReading) {
   constexpr int kStep = 40123;
   for (const DiagnoseOptions& options : {LaboratoryOptions(), DiagnoseOptions()}) {
@@ -147,7 +149,7 @@ TEST(AverageTest, NoAverageGoesOverAJump) {
   EXPECT_LT(averaged.first.size(), 330U);
 }
 
-// Readings in no order are put in one, and it is said.
+// Readings in random order are sorted into one sweep, and the diagnosis warns of it.
 TEST(AverageTest, ReadingsInNoOrderAreOneSweep) {
   IvCurve curve = MadeCurve({});
   std::vector<std::pair<double, double>> readings;

@@ -20,12 +20,13 @@ using ::testing::Not;
 
 constexpr double kOverCharge = 8.617333262e-5;  // k / q, V/K
 
-// A module of 60 cells over light and temperature, as De Soto's law has it; its own solver.
+// A module of 60 cells by De Soto's law over irradiance and temperature, solved here by bisection,
+// independently of the library.
 struct Family {
   double alpha_per_K = 5e-4;
   double bandgap_eV = 1.121;
   double bandgap_slope = -2.677e-4;
-  double saturation_2 = 0;  // n = 2
+  double saturation_2 = 0;  // saturation current of a second diode with n = 2, in ampere
   bool inverse_shunt = false;
   DeviceNotes stated;
 };
@@ -156,7 +157,7 @@ TEST(ChooseBaseTest, ASlopeOfTheGapThatIsStatedIsBelieved) {
   EXPECT_THAT(d.base_sentence, HasSubstr("constant band gap"));
 }
 
-// Ampere per kelvin are those of 1000 W/m2 and 25 C, whatever the brightest curve.
+// A coefficient in A/K refers to 1000 W/m2 and 25 C, not to the brightest curve of the set.
 TEST(ChooseBaseTest, ACoefficientInAmpereIsTakenAsItIs) {
   Family family;
   family.stated.bandgap_eV = 1.121;

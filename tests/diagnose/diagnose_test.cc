@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// What every diagnosis holds, whatever it found.
+// Conditions that every diagnosis meets, whatever its result.
 void ExpectComplete(const Diagnosis& d) {
   EXPECT_FALSE(d.version.empty() || d.base_sentence.empty() || d.verdict.sentence.empty());
   EXPECT_FALSE(d.evidence.kind.empty() || d.gain.sentence.empty());
@@ -136,7 +136,8 @@ TEST(DiagnoseTest, OfSeveralSweepsWholeOnesAreHeldOut) {
     recipe.cells = 60;
     recipe.seed = 10 + sweep;
     IvCurve one = MadeCurve(recipe);
-    for (std::size_t k = 0; k < one.size(); ++k) {  // a third of the module gives 10 % less
+    // a third of the module delivers 10 % less current
+    for (std::size_t k = 0; k < one.size(); ++k) {
       if (one.voltage_V[k] > 0.6 * one.voltage_V.back()) {
         one.current_A[k] = std::min(one.current_A[k], 7.2);
       }
@@ -181,7 +182,7 @@ TEST(DiagnoseTest, RefusesBadInput) {
   EXPECT_FALSE(Diagnose(MadeCurve({}), options));
 }
 
-// Everything but the clock.
+// Compares every result except times.
 void ExpectSame(const Diagnosis& a, const Diagnosis& b) {
   EXPECT_EQ(Ids(a), Ids(b));
   EXPECT_EQ(a.gain.held_out_before_A, b.gain.held_out_before_A);
@@ -238,7 +239,7 @@ TEST(DiagnoseTest, ACurveUnderLittleLightIsFittedAsOneUnderMuch) {
   }
 }
 
-// Down to little light every curve is fitted under the light that was stated.
+// Curves down to 5 W/m2 count as lit, and every curve is fitted at its stated irradiance.
 TEST(DiagnoseTest, ASeriesDownToLittleLightHasNothingToFind) {
   std::vector<IvCurve> curves;
   for (const double irradiance : {5.0, 10.0, 20.0, 50.0, 200.0, 1000.0}) {
@@ -310,7 +311,8 @@ TEST(DiagnoseTest, EveryChoiceIsEchoed) {
                                                         {"draws", "400"}}));
 }
 
-// Whoever reads the report can simulate it, with a cause or without.
+// The extended model of the report can be simulated when no cause was found: it then consists of
+// its diodes.
 TEST(DiagnoseTest, WithoutACauseTheExtendedModelIsItsDiodes) {
   DiagnoseOptions options = Quick();
   options.extend = true;
@@ -336,7 +338,7 @@ TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
   const FitReport& report = d.extended;
   ASSERT_EQ(report.estimates.size(), 7U);
   EXPECT_EQ(report.estimates[5].info.symbol, "irr_step.s");
-  // A device with this law, whose currents are those of the report.
+  // The report holds a device with this law, which reproduces the currents of the report.
   ASSERT_NE(report.device.extension, nullptr);
   ASSERT_EQ(report.device.size(), 7);
   std::vector<double> current_A(d.points.size());

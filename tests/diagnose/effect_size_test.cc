@@ -29,7 +29,7 @@ TEST(ExceedsFloors, WhereTheWholeIntervalIsAboveAFloor) {
   EXPECT_TRUE(ExceedsFloors(size, floors));
   size.power_error = 0.016;
   EXPECT_FALSE(ExceedsFloors(size, floors));
-  EXPECT_TRUE(ExceedsFloors({}, {}));  // without floors everything is
+  EXPECT_TRUE(ExceedsFloors({}, {}));  // without floors every size passes
 }
 
 TEST(ExceedsFloors, OfOneSweepOnlyWhereItShows) {
@@ -38,14 +38,15 @@ TEST(ExceedsFloors, OfOneSweepOnlyWhereItShows) {
   size.reach = 0.1;
   size.power = -0.1;
   size.current = 0.0005;
-  EXPECT_TRUE(ExceedsFloors(size, floors));  // other light has shown it
+  EXPECT_TRUE(ExceedsFloors(size, floors));  // the effect was found under another irradiance
   size.one_sweep = true;
   EXPECT_FALSE(ExceedsFloors(size, floors));
   size.current = 0.0012;
   EXPECT_TRUE(ExceedsFloors(size, floors));
 }
 
-// Over seeds, of a diode alone and beside a step of the light at the knee.
+// The stated error of ln Pmax against the spread over seeds, for a single diode alone and with an
+// irradiance step at the knee.
 TEST(DevicePowerAndErrorTest, IsTheSpreadOfRepeatedFits) {
   constexpr int kSeeds = 100;
   for (const bool step : {false, true}) {
@@ -73,7 +74,8 @@ TEST(DevicePowerAndErrorTest, IsTheSpreadOfRepeatedFits) {
   }
 }
 
-// A 60-cell module, one effect done to it exactly, and noise.
+// A 60-cell module with one effect applied exactly, and noise. `healthy_W`: its maximum power
+// without the effect.
 struct Done {
   IvCurve curve;
   double healthy_W = 0;
@@ -130,12 +132,12 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   }();
   EXPECT_NEAR(cause.recoverable_power_W, done.healthy_W - measured_W, 0.02 * done.healthy_W);
   EXPECT_GT(cause.current_effect.low_95, 0.01);
-  // Cells are not sorted better than this.
+  // The interval covers the usual scatter between sorted cells, 1 %.
   EXPECT_GT(cause.strength[0].high_95 - cause.strength[0].low_95, 0.01);
   EXPECT_GT(d.evidence.noise_path_A, 0);
 }
 
-// What no cause explains is not healthy because it has no name.
+// A misfit that no cause explains must not be reported as the state of a healthy module.
 TEST(FieldDiagnosis, WhatNoCauseExplainsIsNotSaidToBeReference) {
   IvCurve curve = CurveWithAStep();
   DiagnoseOptions options = Quick();
@@ -164,7 +166,8 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   SKIP_IF_SANITIZED();
-  // Soft in reverse: at -A (0.6)^(1 / m) it carries what it misses of the light.
+  // Soft reverse characteristic: the cell carries its missing photocurrent, 0.6 of Isc, at the
+  // voltage -A (0.6)^(1 / m).
   const std::vector<double> weak = {0.6, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const Done done = Do("weak_cell", weak);
   const SyntheticData made = OnTheData(done.curve);
@@ -195,7 +198,7 @@ TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
   EXPECT_EQ(cause.id, "bypass_short");
   EXPECT_THAT(cause.sentence, HasSubstr("a group of cells is shorted, or the number of cells"));
   EXPECT_EQ(cause.equivalents, std::vector<std::string>{"temperature_or_cells"});
-  // Of two groups a half would be missing, which leaves no plausible n.
+  // With two groups, a shorted group would be half of the cells, which leaves no plausible n.
   curve.notes.bypass_diodes = 2;
   const Diagnosis other = DiagnosedInTheField(curve);
   ASSERT_EQ(other.verdict.causes.size(), 1U);
@@ -204,7 +207,8 @@ TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
 
 TEST(FieldDiagnosis, FindsAWeakCellInOneHalfOfAHalfCutModule) {
   SKIP_IF_SANITIZED();
-  // At the terminals a third of the substring's light is missing, of its cell two thirds.
+  // The terminals see a third of the substring's photocurrent missing. The weak cell, in one of two
+  // parallel chains, lacks two thirds of its own.
   const Done done = Do("weak_cell", {0.33, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 2});
   const Diagnosis d = DiagnosedInTheField(done.curve);
   ASSERT_FALSE(d.verdict.causes.empty());

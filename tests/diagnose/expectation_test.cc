@@ -14,8 +14,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// A sweep whose parameters follow light and voltage, with errors that go together as those of fits
-// do.
+// A sweep whose parameters follow irradiance and voltage. Errors of n and Rs are correlated, as in
+// fits.
 SweepState MadeState(RandomStream* random) {
   SweepState state;
   state.isc_A = 8 * (1 + 0.1 * random->Normal());
@@ -43,7 +43,7 @@ std::vector<SweepState> MadeStates(int count, RandomStream* random) {
   return states;
 }
 
-// Share of reference sweeps found different at the level.
+// Fraction of reference sweeps that Differ() finds different at the significance `level`.
 double FalseAlarms(int references, double level, std::uint64_t seed) {
   constexpr int kSweeps = 400;
   RandomStream random(seed);
@@ -70,7 +70,7 @@ TEST(Differ, SeesWhatNoParameterShowsByItself) {
   const auto states = MadeStates(30, &random);
   SweepState sweep = MadeState(&random);
   const Difference before = Differ(Expect(Pointers(states), sweep), sweep);
-  // n and Rs trade for each other in reference sweeps; here both rise.
+  // In reference sweeps n and Rs are negatively correlated; here both rise.
   sweep.ideality += 0.02;
   sweep.series_ohm += 2.5e-3 * sweep.voc_V / sweep.isc_A;
   const Difference after = Differ(Expect(Pointers(states), sweep), sweep);

@@ -49,7 +49,8 @@ DiagnoseOptions QuickWith(const std::vector<std::string>& effects) {
   return options;
 }
 
-// A cell that loses a part of the light's current: on one lit sweep a bent shunt does the same.
+// A cell with poor carrier collection, which loses a fraction of the photocurrent. On one lit
+// sweep, a nonohmic shunt looks alike.
 IvCurve CurveOfPoorCollection() {
   constexpr double kRs = 0.004, kSaturation = 1.2e-8, kThermal = 1.2 * 0.02569, kLoss = 0.04 * 8;
   IvCurve curve = MadeCurve({});

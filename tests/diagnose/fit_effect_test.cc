@@ -18,8 +18,8 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   int fitted = 0;
   for (const Score& score : ScoreEffects(made.weighted, base, candidates, 200, 1)) {
     if (!score.testable || score.effect->probes == nullptr) continue;
-    // Shares, limits and reverse laws that are tried out have no value at which the effect is
-    // not there, and readings in reverse feel a bypass diode where no cell is odd.
+    // Effects with shares, limits or a reverse law that is tried out have no parameter value
+    // without an effect. Readings in reverse also respond to a bypass diode where no cell is weak.
     const std::string id = score.effect->id;
     const LawFit fit = FitEffect(made.weighted, base, score);
     ASSERT_TRUE(fit.usable) << id;
@@ -52,8 +52,7 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   EXPECT_NEAR(without.sum, base.sum, 1e-3 * base.sum);
 }
 
-// Where a tenth of the readings is missing a fit goes on from where it ended, and stays what it
-// was.
+// A refit without a tenth of the readings starts at the previous optimum and stays close to it.
 TEST(FitEffectTest, GoesOnFromWhereItEnded) {
   IvCurve curve = MadeCurve({});
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;

@@ -74,7 +74,8 @@ TEST(FollowUpMeasurementsTest, CoveringLeavesTheOtherGroups) {
   EXPECT_EQ(cover.unknown.size(), 9U);
 }
 
-// What happened while the sweep was taken does not happen again, but goes on at once after it.
+// An effect in time (irr_step) applies to a reverse sweep taken at once after the measurement, but
+// not to a later measurement.
 TEST(LawOnTest, WhatHappenedInTimeStaysThere) {
   const Readings readings = ReadingsOf(Module());
   Law law = StartingLaw(readings, Model::kSingleDiode);

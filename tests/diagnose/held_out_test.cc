@@ -21,7 +21,7 @@ TEST(MakeFoldsTest, SpreadsShortBlocksOverASweep) {
   for (int fold = 0; fold < 10; ++fold) {
     EXPECT_EQ(std::count(folds.begin(), folds.end(), fold), 6);
   }
-  // No fold holds a whole region: its readings stand in three places.
+  // A fold never covers a whole region of the curve: its readings lie at three places.
   EXPECT_EQ(folds[0], folds[20]);
   EXPECT_EQ(folds[0], folds[40]);
 }
@@ -68,7 +68,7 @@ TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
   EXPECT_EQ(*std::max_element(folds.begin(), folds.end()), 3);
 }
 
-// Gains of a cause that is there, by the same steps as a diagnosis takes.
+// Held-out gain of a present cause, by the steps of a diagnosis.
 TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
@@ -86,7 +86,8 @@ TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   MeasureHeldOut(measurement, options, selection, 10, 1, &one, &trials);
   MeasureHeldOut(measurement, options, selection, 10, 2, &two, &again);
   EXPECT_EQ(one.folds, 10);
-  // Not all of it: where the step's own reading is left out, its place is a guess.
+  // The gain is incomplete: where the reading at the step is held out, the position of the step is
+  // uncertain.
   EXPECT_LT(one.held_out_after_A, 0.7 * one.held_out_before_A);
   EXPECT_GT(one.held_out_gain_A2, one.held_out_gain_error_A2);
   EXPECT_GT(one.held_out_gain_error_A2, 0);

@@ -48,7 +48,8 @@ TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
   }
 }
 
-// The truth itself fits what it gave: what is left are the old readings' residuals.
+// The true law fits the exact follow-up readings, so that only the residuals of the old readings
+// remain.
 TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
   const Reference reference = FitReferences();
   for (const FollowUp& follow_up : FollowUpMeasurements(*reference.made.weighted.readings)) {
@@ -62,7 +63,8 @@ TEST(FitJointTest, TheTruthLeavesTheOldResidualsAlone) {
   }
 }
 
-// A light and a temperature that turned out otherwise cost what they are unlikely, and little more.
+// Deviations of irradiance and temperature by 2 and -1 standard deviations add about their squares,
+// 5, to the sum of squares.
 TEST(FitJointTest, FindsWhatWasUnknown) {
   const Reference reference = FitReferences();
   const FollowUp follow_up = Find(*reference.made.weighted.readings, "second_light");

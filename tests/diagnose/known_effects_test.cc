@@ -16,7 +16,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A lamp that brightens and fades twice in a sweep, which the catalogue does not know.
+// A lamp that brightens and fades twice in a sweep. The catalogue has no such effect.
 template <class T>
 T Flicker(const T& x) {
   const T square = 4.0 * x * x;
@@ -44,7 +44,7 @@ IvCurve UnderTheLamp() {
   recipe.points = 80;
   IvCurve curve = MadeCurve(recipe);
   const double last = static_cast<double>(curve.size() - 1);
-  // Beyond the knee the diode takes part of what the light adds.
+  // Beyond the knee the diode takes part of the additional photocurrent.
   const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
   const std::vector<double> p = MadeParameters(recipe);
   const std::vector<double> steady = SolveCurrents(device, p.data(), curve.voltage_V);

@@ -10,14 +10,15 @@
 
 namespace lyrefit {
 
-// Few draws and nothing held out, where neither matters.
+// Options with few null statistics draws and without held-out fits, for tests in which neither
+// matters.
 inline DiagnoseOptions Quick(DiagnoseOptions options = {}) {
   options.draws = 400;
   options.held_out = false;
   return options;
 }
 
-// Of a curve or a set of curves that can be diagnosed.
+// Diagnoses a curve or a set of curves; the test fails on an error.
 template <class Data>
 Diagnosis DiagnoseOrFail(const Data& data, const DiagnoseOptions& options = Quick()) {
   auto diagnosis = Diagnose(data, options);
@@ -31,7 +32,7 @@ inline std::vector<std::string> Ids(const Diagnosis& diagnosis) {
   return ids;
 }
 
-// A sweep during which the light steps up.
+// A sweep of a cell of 8 A in which the current steps up by 0.12 A.
 inline IvCurve CurveWithAStep() {
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;

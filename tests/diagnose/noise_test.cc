@@ -12,7 +12,8 @@
 namespace lyrefit {
 namespace {
 
-// Readings of a set, and their differences from the curves without noise.
+// Readings of a set, and residuals: the noise-free minus the measured currents, in units of the
+// current scale.
 struct Noisy {
   Measurement measurement;
   std::vector<double> residual;
@@ -45,7 +46,7 @@ Noise EstimateNoiseOf(const Noisy& made, const DeviceNotes& notes = {}, const Gr
   return EstimateNoise(measurement, made.residual, made.used);
 }
 
-// Median over seeds of an estimate, in parts of the truth.
+// Median over seeds of an estimate, relative to the true value.
 template <class F>
 double MedianOver(int seeds, F estimate) {
   std::vector<double> values;
@@ -90,7 +91,7 @@ TEST(EstimateNoiseTest, FindsNoiseInProportion) {
   EXPECT_LT(UpperMedian(bottom), 0.3 * 0.003);
 }
 
-// The rounding of a coarse grid bounds the noise from below.
+// The rounding step of the current is a lower limit of the noise estimate.
 TEST(EstimateNoiseTest, NeverFallsBelowWhatAGridLeaves) {
   Recipe recipe;
   recipe.noise_A = 1e-6;
@@ -119,7 +120,7 @@ TEST(IsCoarseTest, WeighsAGridAgainstTheNoise) {
   EXPECT_FALSE(coarse({0, 0}));
   EXPECT_FALSE(coarse({0.5 * sigma, 0}));
   EXPECT_TRUE(coarse({5 * sigma, 0}));
-  EXPECT_FALSE(coarse({0, 5 * sigma}));  // there is no dark curve
+  EXPECT_FALSE(coarse({0, 5 * sigma}));  // the set has no dark curve
 }
 
 TEST(EstimateNoiseTest, SmoothMisfitIsNoNoise) {
@@ -162,7 +163,7 @@ TEST(EstimateNoiseTest, AStatedShapeIsKeptAndItsSizeMeasured) {
   recipe.points = 200;
   const Noisy made = MakeNoisy({recipe});
   DeviceNotes notes;
-  notes.current_noise_constant_A = 0.04;  // ten times what it is
+  notes.current_noise_constant_A = 0.04;  // ten times the true value
   notes.current_noise_relative = 0.0;
   const Noise noise = EstimateNoiseOf(made, notes);
   EXPECT_NEAR(noise.lit.constant * made.measurement.readings.scale.current_A, 0.004, 0.0008);

@@ -15,8 +15,8 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-// Measurements as nobody should take them: a verdict, no crash and finite numbers, where the person
-// insists.
+// Diagnoses unsuitable measurements, with plausibility checks off (`as_is`). The result must be a
+// verdict with finite numbers.
 Diagnosis DiagnoseOutlier(CurveSet set) {
   for (IvCurve& curve : set.curves) curve.as_is = true;
   DiagnoseOptions options;
@@ -41,7 +41,7 @@ Diagnosis DiagnoseOutlier(CurveSet set) {
 
 Diagnosis DiagnoseOutlier(const IvCurve& curve) { return DiagnoseOutlier(SetOf({curve})); }
 
-// The readings of a curve in another order.
+// The curve with its readings in another order.
 IvCurve Reordered(const IvCurve& curve, const std::vector<int>& order) {
   IvCurve result = curve;
   result.voltage_V.clear();

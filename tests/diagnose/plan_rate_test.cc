@@ -17,17 +17,17 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kNoise = 5e-4;  // of the current scale
+constexpr double kNoise = 5e-4;  // relative to the current scale
 
-// Of each pair: LYREFIT_PLAN_REPEATS (40 say how well all pairs are foreseen, in a quarter of an
-// hour), or a few of the first pairs.
+// Repeats of each pair from LYREFIT_PLAN_REPEATS, or 0 if it is not set. 40 repeats measure the
+// accuracy for all pairs in a quarter of an hour. Without it, only the first pairs are tried.
 int RepeatsAsked() {
   const char* const asked = std::getenv("LYREFIT_PLAN_REPEATS");
   return asked != nullptr ? std::max(std::atoi(asked), 1) : 0;
 }
 constexpr int kFewPairs = 2, kFewRepeats = 8;
 
-// A cause that is there, one that looks like it, and the measurement.
+// A true cause, another cause that looks alike, and the measurement.
 struct Pair {
   const char* truth;
   std::vector<double> p;
@@ -67,11 +67,11 @@ std::vector<Pair> Pairs() {
 }
 
 struct Outcome {
-  std::map<std::string, double> foreseen;  // by measurement
+  std::map<std::string, double> foreseen;  // probability by measurement
   std::map<std::string, bool> right;
 };
 
-// The measurement of a pair, as its cause makes it.
+// The simulated measurement of a pair.
 struct Made {
   LawFit truth;
   WeightedData weighted;
@@ -104,8 +104,8 @@ Made Make(const Pair& pair, RandomStream* random) {
   return made;
 }
 
-// The cause and what looks like it, fitted; nothing where the data tell them apart already or show
-// neither.
+// Fits the true cause and the one that looks alike. Empty if the data already distinguish them or
+// support neither.
 std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
   constexpr double kApart = 6, kFound = 12;
   const LawFit base = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
@@ -125,7 +125,7 @@ std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
   return candidates;
 }
 
-// Those of so many measurements of the pair that leave both.
+// Numbers of the simulated measurements, out of `tries`, that leave both causes possible.
 std::vector<int> OpenOnes(const Pair& pair, int tries) {
   std::vector<char> open(tries);
   ParallelFor(tries, 0, [&](int k) {
@@ -140,8 +140,8 @@ std::vector<int> OpenOnes(const Pair& pair, int tries) {
   return numbers;
 }
 
-// The pair with its cause at the strength, from the one given down, at which the measurement most
-// often leaves both.
+// The pair with the strength of its cause reduced to the value at which most measurements leave
+// both causes possible.
 Pair Settled(Pair pair) {
   constexpr int kSteps = 8, kTries = 12;
   double& strength = *std::find_if(pair.p.begin(), pair.p.end(), [](double p) { return p != 0; });
@@ -159,7 +159,7 @@ Pair Settled(Pair pair) {
   return pair;
 }
 
-// What a plan foresees, and what comes out when the further readings are taken.
+// The probabilities predicted by a plan, and the results once the further readings are simulated.
 Outcome Try(const Pair& pair, int number) {
   RandomStream random(17, number);
   const Made made = Make(pair, &random);
@@ -182,8 +182,8 @@ Outcome Try(const Pair& pair, int number) {
   return outcome;
 }
 
-// Mean of the foreseen probabilities beside the share of right names, over measurements whose noise
-// is drawn anew each time.
+// Mean predicted probability against the fraction of correctly named causes, over measurements with
+// independent noise.
 TEST(PlanRateTest, ForeseesHowOftenTheRightNameComesOut) {
   int rows = 0, within = 0;
   double off = 0;

@@ -1,4 +1,5 @@
-// Real sweeps: no fit of a cause undercuts what was proved of it. All sweeps at night, every sixth by day.
+// Real sweeps: no fit of a cause has a lower RMSE than the lower bound proved for that cause.
+// Nightly runs use all sweeps, other runs every sixth.
 
 #include <gtest/gtest.h>
 

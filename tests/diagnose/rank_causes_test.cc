@@ -16,7 +16,8 @@ Recipe SweptModule(bool and_back = false) {
   return recipe;
 }
 
-// An effect fitted beside an ordinary base, not evaluated.
+// An effect with given parameter values beside an ordinary base model; its currents are not
+// evaluated.
 FittedCandidate FittedCandidateOf(const char* id, const std::vector<double>& values, double statistic,
               double n = kOrdinary) {
   FittedCandidate fitted;
@@ -48,11 +49,12 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
   EXPECT_FALSE(possible(FittedCandidateOf("temp_drift", {-12}, 50)));
   EXPECT_FALSE(possible(FittedCandidateOf("irr_step", {0.5, 0}, 50)));  // at its bound
   EXPECT_TRUE(possible(FittedCandidateOf("mismatch", kUnequal, 50)));
-  EXPECT_FALSE(possible(FittedCandidateOf("mismatch", {0.1, 0.006}, 50)));  // a third of a cell
+  // share of a third of one cell
+  EXPECT_FALSE(possible(FittedCandidateOf("mismatch", {0.1, 0.006}, 50)));
   EXPECT_FALSE(possible(FittedCandidateOf("nonohmic_shunt", {0.1, 5}, 50)));
   EXPECT_FALSE(possible(FittedCandidateOf("mismatch", kUnequal, 50, 0.7)));
   EXPECT_TRUE(possible(FittedCandidateOf("mismatch", kUnequal, 50, 0.7), Before(0.6)));
-  // The first of the darker groups may be as bright as the brightest; one of them is not.
+  // The first of the darker substrings may reach the light of the brightest; a later one may not.
   EXPECT_TRUE(possible(FittedCandidateOf("substrings", {0, 0.3, 0.4, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
   EXPECT_FALSE(possible(FittedCandidateOf("substrings", {0, 0.3, 0, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
 }
@@ -79,7 +81,8 @@ TEST(RankCauses, TakesWhatLeavesAsLittleAndSupposesLess) {
   const auto with = [&](const FittedCandidate& other) { return Ranked(made, {dip, other}); };
   EXPECT_EQ(with(leaving(FittedCandidateOf("mismatch", kUnequal, 70), 0.0012)), 1U);
   EXPECT_EQ(with(leaving(FittedCandidateOf("mismatch", kUnequal, 70), 0.0013)), 0U);
-  EXPECT_EQ(with(leaving(FittedCandidateOf("mismatch", kUnequal, 40), 0.0005)), 0U);  // of half of it
+  // explains less than half as much
+  EXPECT_EQ(with(leaving(FittedCandidateOf("mismatch", kUnequal, 40), 0.0005)), 0U);
 }
 
 TEST(RankCauses, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
@@ -128,8 +131,8 @@ TEST(RankCauses, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
   }
 }
 
-// The first sweep's current is raised by what charges, the second's is not: sorted by voltage they
-// rise and fall.
+// In the first sweep, charging raises the current; in the second sweep it does not. Sorted by
+// voltage, the currents of both would rise and fall.
 TEST(LightMoved, SaysNothingOfTwoSweeps) {
   for (const bool both : {false, true}) {
     IvCurve curve = MadeCurve(SweptModule(both));
@@ -152,7 +155,7 @@ TEST(RankCauses, KeepsTheComplexOneWhereItsCurveIsAnother) {
   const std::vector<double> both = {0.3, 1. / 3, 0.6, 1. / 3, 0, 0, 0, 0, 0.5, 1};
   const std::vector<FittedCandidate> fitted_candidates = {FittedCandidateOf("substrings", both, 100),
                                      FittedCandidateOf("shading", kShade, 99)};
-  // A tenth of the misfit is left to the simple one.
+  // The simpler cause leaves a tenth of the misfit.
   EXPECT_EQ(RankCauses(made.weighted, fitted_candidates, 9 * kFloor, kFloor), 1U);
   EXPECT_EQ(RankCauses(made.weighted, fitted_candidates, 11 * kFloor, kFloor), 0U);
 }

@@ -1,5 +1,6 @@
-// Real sweeps of known condition, and whole days of them; built only where LYREFIT_FIELD_DATA names
-// them. The tables go to standard output; LYREFIT_EVERY_SWEEP=1 takes the days' sweeps one by one.
+// Real sweeps of known condition, and whole days of sweeps. Built only if LYREFIT_FIELD_DATA is set
+// to their folder. The tables go to standard output; LYREFIT_EVERY_SWEEP=1 diagnoses every sweep of
+// the days.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,8 @@ DiagnoseOptions Quick() {
   return options;
 }
 
-// Wrong readings and a grid say nothing of the module.
+// Ids of causes of the module; outliers and quantisation are causes of the measurement and are left
+// out.
 std::vector<std::string> Named(const Diagnosis& diagnosis) {
   std::vector<std::string> ids;
   for (const Cause& cause : diagnosis.verdict.causes) {
@@ -99,7 +101,8 @@ TEST(RealCurvesTest, CleanSweepsAreLeftAloneAndFaultsAreNamed) {
   EXPECT_GE(right, 17);
 }
 
-// Sweeps of a folder with more light than a tenth, and what each was given first.
+// Counts the first cause named for each sweep of a folder. Sweeps with a largest current below 0.5
+// A are left out.
 std::map<std::string, int> FirstNames(const std::string& folder, int bypass_diodes) {
   constexpr double kLeastIsc_A = 0.5;
   constexpr int kFew = 20;
@@ -140,7 +143,7 @@ TEST(RealCurvesTest, WholeDaysOfReferenceModulesAreSilent) {
   SKIP_IF_SANITIZED();
   EXPECT_LE(ShareNamed(FirstNames("sandia_pvue125", 2)), 0.05);
   EXPECT_LE(ShareNamed(FirstNames("nist_ground_2015-07-20", 3)), 0.05);
-  // A shade in the morning and in the evening, clouds about noon.
+  // On this day there was shade in the morning and in the evening, and clouds about noon.
   const auto shaded = FirstNames("nist_ground_2015-07-01", 3);
   EXPECT_LE(ShareNamed(shaded), 0.4);
   EXPECT_GT(shaded.count("shading") + shaded.count("substrings"), 0U);

@@ -1,5 +1,6 @@
-// Faults done to real clean sweeps, among real reference sweeps of the same module at other moments;
-// built only where LYREFIT_FIELD_DATA names them. The table goes to standard output.
+// Faults applied to real clean sweeps, compared with real reference sweeps of the same module at
+// other times. Built only if LYREFIT_FIELD_DATA is set to their folder. The table goes to standard
+// output.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,8 +24,9 @@ namespace {
 
 constexpr int kReferences = 30, kCases = 40;
 
-// A day of one module: its sweeps under fair light and which of them were taken under steady light,
-// as their neighbours in time say (and, where it can be relied on, the sensor), not their shape.
+// A day of one module: its sweeps under sufficient light, and the numbers of those under steady
+// light. Steadiness follows from the neighbours in time and, if reliable, the irradiance sensor;
+// never from the shape of the sweep.
 struct Day {
   std::vector<IvCurve> curves;
   std::vector<SweepState> states;
@@ -33,10 +35,11 @@ struct Day {
 
 struct DayPlan {
   std::string folder;
-  int first = 0;             // the sweep it begins with
-  bool sensor = true;        // the irradiance belongs to the sweeps
-  double steady = 0;         // how far ln Isc may lie from its neighbours' mean
-  double sensor_steady = 1;  // the same for ln Isc / G
+  int first = 0;             // first sweep used
+  bool sensor = true;        // the irradiance was measured with each sweep
+  double steady = 0;         // limit on the deviation of ln Isc from the mean of its neighbours
+  // limit on the deviation of ln(Isc / G) from the mean of its neighbours
+  double sensor_steady = 1;
 };
 
 Day ReadDay(const DayPlan& plan) {
@@ -53,7 +56,7 @@ Day ReadDay(const DayPlan& plan) {
     day.states.push_back(sweep->state);
     day.curves.push_back(std::move(curve));
   }
-  // Of three sweeps in a row, the middle one's distance from the line through the others.
+  // Distance of the middle one of three consecutive sweeps from the mean of its two neighbours.
   const auto off = [&day](std::size_t k, const std::function<double(const SweepState&)>& of) {
     return std::fabs(of(day.states[k]) - 0.5 * (of(day.states[k - 1]) + of(day.states[k + 1])));
   };
@@ -75,7 +78,8 @@ IvCurve WithResistance(IvCurve curve, const SweepState& state) {
   return curve;
 }
 
-// Adds this part of `scale` at Voc, in proportion to the voltage.
+// Adds a current in proportion to the voltage: at Voc it is `part` of Isc or, with `of_current`, of
+// the reading's own current.
 IvCurve WithSlope(IvCurve curve, const SweepState& state, double part, bool of_current) {
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double scale = of_current ? curve.current_A[k] : state.isc_A;
@@ -84,11 +88,11 @@ IvCurve WithSlope(IvCurve curve, const SweepState& state, double part, bool of_c
   return curve;
 }
 
-// The readings as V(I), rising in I; beyond the last along the plateau, a line through the lowest
-// quarter of the voltages.
+// The readings as V(I), rising in I. Above the largest current, V(I) follows the plateau: a
+// straight line through the readings at the lowest quarter of the voltages.
 struct VoltageOfCurrent {
   std::vector<double> current, voltage;
-  double plateau_A = 0, slope = 0;  // at 0 V, dI/dV
+  double plateau_A = 0, slope = 0;  // current at 0 V, and dI/dV
 
   explicit VoltageOfCurrent(const IvCurve& curve, const SweepState& state) {
     std::vector<std::pair<double, double>> points;
@@ -121,7 +125,8 @@ struct VoltageOfCurrent {
   }
 };
 
-// One of three substrings with 1 % less light behind its bypass diode, composed of the readings.
+// Composes, from the readings, the curve of a module in which one of three substrings with bypass
+// diodes has 1 % less photocurrent.
 IvCurve WithDarkSubstring(IvCurve curve, const SweepState& state) {
   const VoltageOfCurrent whole(curve, state);
   const double less = 0.01 * state.isc_A;
@@ -147,7 +152,7 @@ IvCurve WithFault(const std::string& fault, const IvCurve& curve, const SweepSta
   return curve;
 }
 
-// Steady sweeps of other moments within 20 % of Isc and 5 % of Voc, drawn at random.
+// Steady sweeps at other times within 20 % of Isc and 5 % of Voc, drawn at random.
 std::vector<IvCurve> DrawReferences(const Day& day, int target, RandomStream* random) {
   constexpr int kApart = 2;
   std::vector<int> near;
@@ -170,7 +175,7 @@ std::vector<IvCurve> DrawReferences(const Day& day, int target, RandomStream* ra
 }
 
 const char* const kFaults[] = {"nothing", "Rs +10 %", "leak 1 %", "drift 1 %", "substring 1 %"};
-// Of each, what names it: a leak in proportion to the voltage is a drift to one sweep.
+// Ids of causes that count as a correct name of each fault.
 const std::map<std::string, std::vector<std::string>> kNames = {
     {"Rs +10 %", {"series_resistance"}},
     {"leak 1 %", {"shunt", "nonohmic_shunt"}},
@@ -237,8 +242,8 @@ TEST_P(ReferenceFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
   EXPECT_GE(rates["leak 1 %"].among, 0.8);
 }
 
-// On 2015-07-01 the shade of the morning (until sweep 380) and its bypass step are a fault of their
-// own; the irradiance of the NIST days is the weather station's, not the sweeps'.
+// On 2015-07-01 the shade of the morning (until sweep 380) and its bypass step are a separate
+// fault. The irradiance of the NIST days was measured by a weather station, not with the sweeps.
 INSTANTIATE_TEST_SUITE_P(Days, ReferenceFieldTest,
                          ::testing::Values(DayPlan{"sandia_pvue125", 0, true},
                                            DayPlan{"nist_ground_2015-07-20", 0, false},

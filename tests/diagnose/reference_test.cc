@@ -21,8 +21,8 @@ using ::testing::IsEmpty;
 
 constexpr double kSeriesOhm = 0.24, kNoise_A = 0.005;
 
-// The same module on another moment of a fair day: other light, other temperature of the cells.
-// What a single diode misses of every sweep of it: `bump`.
+// A sweep of one module at some moment of a fair day, with its own irradiance and cell temperature.
+// `bump_A`: amplitude of a deviation from the single diode that all sweeps share.
 IvCurve Sweep(int number, double bump_A = 0.01) {
   Recipe recipe;
   recipe.name = "s" + std::to_string(number);
@@ -81,7 +81,8 @@ TEST(CompareWithReferences, NamesASeriesResistanceWithItsSizeAndItsPower) {
   ASSERT_FALSE(c.causes.empty());
   const ReferenceCause& cause = c.causes.front();
   EXPECT_EQ(cause.id, "series_resistance");
-  // Of what this sweep had: the warmer cells' voltages, and so their resistance, are smaller.
+  // The change is relative to this sweep's own Rs. Its cells are warmer than those of the
+  // references, so its voltages, and with them its Rs, are smaller.
   EXPECT_NEAR(cause.size, 10.25, 1);
   EXPECT_LT(cause.low_95, cause.size);
   EXPECT_GT(cause.high_95, cause.size);

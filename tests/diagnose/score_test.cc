@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kDraws = 1000;
 
-// Scores of every effect on one curve with nothing in it but noise, whose currents are replaced
-// by the fitted ones and fresh noise: the linear null.
+// Scores of every effect under the linear null hypothesis: the fitted currents of one curve with
+// fresh noise.
 class NullTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -42,8 +42,7 @@ class NullTest : public ::testing::Test {
   LawFit clean_;
 };
 
-// Kolmogorov's distance of p-values from uniform ones, of the part above `from` (below it p-values
-// are tails of a fitted law and few).
+// Kolmogorov distance of the p-values from a uniform distribution.
 double DistanceFromUniform(std::vector<double> p) {
   std::sort(p.begin(), p.end());
   double distance = 0;
@@ -63,7 +62,7 @@ TEST_F(NullTest, PValuesOfNoiseAreUniform) {
     double corrected = 1;
     for (const Score& score : Draw(seed)) {
       if (!score.testable) continue;
-      // One-sided effects that would have to be negative all have the p-value 1.
+      // A one-sided effect with an estimate of the wrong sign has the p-value 1.
       if (score.statistic > 0) by_effect[score.effect->id].push_back(score.p_value);
       EXPECT_GE(score.corrected_p, score.p_value);
       EXPECT_LE(score.corrected_p, 1);
@@ -81,7 +80,7 @@ TEST_F(NullTest, PValuesOfNoiseAreUniform) {
     return std::count_if(smallest.begin(), smallest.end(), [=](double p) { return p < level; });
   };
   EXPECT_LT(DistanceFromUniform(smallest), 2.2 / std::sqrt(kCurves));
-  EXPECT_LE(below(0.05), 24);  // 10 are expected; more than 24 would be 1 in 1e4
+  EXPECT_LE(below(0.05), 24);  // 10 are expected; more than 24 have a probability of 1e-4
   EXPECT_GE(below(0.5), 70);
 }
 
@@ -125,7 +124,7 @@ TEST(ScoreTest, SeesAStepOfTheLight) {
   EXPECT_GT(Of(scores, "irr_step").statistic, Of(scores, "second_diode").statistic);
 }
 
-// What the base model absorbs is not tried on the residuals it leaves.
+// An effect that the base model absorbs is not testable, and the reason is stated.
 TEST(ScoreTest, SaysWhatCannotBeSeen) {
   for (const Score& score : ScoreCurve(MadeCurve({}))) {
     EXPECT_EQ(score.testable, score.why_not.empty()) << score.effect->id;
@@ -162,7 +161,7 @@ TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
     const double corrected = calibration.Corrected(p);
     EXPECT_GE(corrected, last);
     EXPECT_LE(corrected, 1);
-    EXPECT_GE(corrected, 0.99 * p);  // these null_statistics are more extreme than they should be
+    EXPECT_GE(corrected, 0.99 * p);  // these null_statistics are larger than the theoretical ones
     last = corrected;
   }
 }

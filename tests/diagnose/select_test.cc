@@ -54,7 +54,7 @@ TEST(SelectCausesTest, FindsNothingInNoise) {
     EXPECT_TRUE(selection.extended.law.effects.empty());
     EXPECT_GT(selection.unknown_p, 0);
   }
-  EXPECT_LE(found, 2);  // half is expected at the level of 0.05
+  EXPECT_LE(found, 2);  // at the level of 0.05, 0.5 is expected
 }
 
 TEST(SelectCausesTest, FindsAStepOfTheLight) {
@@ -92,7 +92,7 @@ TEST(SelectCausesTest, LeavesAWrongReadingOut) {
   EXPECT_LT(selection.outlier_p, 1e-4);
 }
 
-// The limit is read off the values; clipped readings are not fitted.
+// The limit is read off the values; clipped readings are excluded from the fit.
 TEST(SelectCausesTest, TakesClippingFromTheValues) {
   IvCurve curve = MadeCurve({});
   for (double& i : curve.current_A) i = std::min(i, 7.9);
@@ -124,7 +124,7 @@ TEST(SelectCausesTest, OnlyCandidatesAreNamed) {
 TEST(SelectCausesTest, NamesNoMoreThanAsked) {
   IvCurve curve = CurveWithAStep();
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    curve.current_A[k] += 0.15 * std::sin(0.6 * k);  // nothing in the catalogue does this
+    curve.current_A[k] += 0.15 * std::sin(0.6 * k);  // no effect of the catalogue has this shape
   }
   SelectOptions options;
   options.largest_causes = 2;

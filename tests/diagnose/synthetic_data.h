@@ -13,7 +13,7 @@
 
 namespace lyrefit {
 
-// A synthetic measurement, its noise known.
+// A synthetic measurement with known noise.
 struct SyntheticData {
   Measurement measurement;
   WeightedData weighted;
@@ -31,12 +31,12 @@ inline SyntheticData OnTheData(const CurveSet& set, double sigma_A = 0.004) {
 
 inline SyntheticData OnTheData(const IvCurve& curve) { return OnTheData(SetOf({curve})); }
 
-// The effects a diagnosis tries on these data.
+// Effects of the catalogue that data with these traits can show.
 inline std::vector<const Effect*> Showable(const DataTraits& traits) {
   return Candidates(Catalogue(), traits, {});
 }
 
-// Scored and judged by linear null_statistics of the same law.
+// Scores of the effects, with p-values from linear null_statistics of the same law.
 inline std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
                                        const std::vector<const Effect*>& effects, int draws,
                                        std::uint64_t seed) {

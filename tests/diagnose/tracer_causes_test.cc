@@ -1,4 +1,4 @@
-// What tracers and the light do to a sweep, each alone in the curve of a module.
+// Effects of tracers and of varying light on a sweep, each applied alone to the curve of a module.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(TracerCauses, AVoltageAtTheEndOfItsRangeIsALimit) {
   ExpectHeld(causes[0].strength[0], "Vc", end);
 }
 
-// A bell only by chance: clouds come soon and go slowly, or cover for a while.
+// The dip need not be bell-shaped: clouds may arrive quickly and leave slowly.
 TEST(TracerCauses, ADipOfAnyShapeIsOneCause) {
   SKIP_IF_SANITIZED();
   for (const double skew : {0.5, 0.0}) {

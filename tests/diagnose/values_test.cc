@@ -31,7 +31,7 @@ ValueFindings Look(const IvCurve& curve) {
   return LookAtValues(*made);
 }
 
-// |dI/dV| of a cell in parts of its largest current.
+// dI/dV| of a cell, in 1/V of its largest current.
 double Slope(const IvCurve& curve, std::size_t k) {
   const double dv = curve.voltage_V[k + 2] - curve.voltage_V[k - 2];
   return std::fabs((curve.current_A[k + 2] - curve.current_A[k - 2]) / dv / curve.current_A[0]);
@@ -44,7 +44,7 @@ TEST(FindGridTest, FindsTheStep) {
   }
 }
 
-// Files show a few digits of what an instrument rounded.
+// Files may print fewer digits than the rounding step of the instrument has.
 TEST(FindGridTest, FindsTheStepBehindDigits) {
   const std::vector<double> current = MadeCurve({}).current_A;
   for (const double step : {1.0 / 7, 10.0 / 256}) {
@@ -77,7 +77,7 @@ TEST(LookAtValuesTest, FindsClippedReadings) {
   EXPECT_EQ(findings.clipped.front(), 0);
 }
 
-// As a source meter does at its compliance.
+// A source meter holds the current at its compliance limit.
 TEST(LookAtValuesTest, FindsALowerLimit) {
   IvCurve curve = MadeCurve({});
   const double limit = curve.current_A[curve.size() - 6];
@@ -90,7 +90,7 @@ TEST(LookAtValuesTest, FindsALowerLimit) {
   for (std::size_t k = curve.size() - 2; k < curve.size(); ++k) {
     curve.current_A[k] = curve.current_A[curve.size() - 2];
   }
-  EXPECT_FALSE(Look(curve).limited);  // two readings are none
+  EXPECT_FALSE(Look(curve).limited);  // two readings at one value are no limit
 }
 
 TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
@@ -118,7 +118,7 @@ TEST(LookAtValuesTest, CleanCurvesShowNothing) {
   EXPECT_THAT(findings.rounding, Each(0));
 }
 
-// Dark currents are read on a range of their own.
+// Dark currents are measured in another instrument range.
 TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
   IvCurve lit = MadeCurve({}), dark = MadeDarkCurve();
   lit.current_A = Rounded(lit.current_A, 0.1);
@@ -132,7 +132,7 @@ TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
   EXPECT_NEAR(findings.grids.dark * scale, 0.02, 1e-9);
 }
 
-// A run of equal values has one rounding error between them.
+// Equal neighbouring values share one rounding error.
 TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
   IvCurve curve = MadeCurve({});
   curve.current_A = Rounded(curve.current_A, 0.5);
@@ -153,7 +153,7 @@ TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
     const ValueFindings findings = Look(curve);
     EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
     EXPECT_TRUE(findings.at_voltage_limit.empty());
-    // The standard deviation of what a bin hides, times the slope.
+    // Standard deviation of the rounding within a voltage bin, times the slope.
     double steep = 0, expected = 0;
     for (std::size_t k = curve.size() - 9; k < curve.size() - 3; ++k) {
       steep += findings.bin_rounding[k];
@@ -165,14 +165,14 @@ TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
 }
 
 TEST(FindBinsTest, FindsReadingsThatDriftThroughTheirBins) {
-  for (const double bin : {0.0101, 0.0127}) {  // one value in ten is skipped, or comes twice
+  for (const double bin : {0.0101, 0.0127}) {  // every tenth value is skipped or repeated
     IvCurve curve = MadeCurve({});
     curve.voltage_V = Rounded(curve.voltage_V, bin);
     const ValueFindings findings = Look(curve);
     EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
     EXPECT_NEAR(findings.bins_shared, 0.0113 / std::fabs(0.0113 - bin), 2) << bin;
   }
-  // Set voltages of which some are missing are no bins.
+  // Programmed voltages with gaps are not rounded voltages.
   IvCurve curve = MadeCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.voltage_V[k] = 0.0113 * k;
   for (const int k : {11, 15, 31, 32, 44}) {
@@ -182,7 +182,8 @@ TEST(FindBinsTest, FindsReadingsThatDriftThroughTheirBins) {
   EXPECT_EQ(Look(curve).voltage_bin, 0);
 }
 
-// A source goes from voltage to voltage as it is told, coarsely at first, finely at the knee.
+// A source steps through programmed voltages, coarsely at first, finely at the knee. This is no
+// rounding.
 TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
   EXPECT_EQ(Look(MadeCurve({})).voltage_bin, 0);
   IvCurve curve = MadeCurve({});
@@ -204,7 +205,8 @@ TEST(LookAtValuesTest, FindsALimitOfTheVoltage) {
   EXPECT_TRUE(findings.HasLimits());
 }
 
-// The load holds the device at one point: all of its readings are right.
+// The load holds the device at one operating point: current and voltage both stand still, and all
+// readings are valid.
 TEST(LookAtValuesTest, SeesNoLimitWhereTheCurrentStandsStillAsWell) {
   IvCurve curve = MadeCurve({});
   const std::size_t last = curve.size() - 7;
@@ -216,7 +218,7 @@ TEST(LookAtValuesTest, SeesNoLimitWhereTheCurrentStandsStillAsWell) {
   EXPECT_FALSE(Look(MadeCurve({})).HasLimits());
 }
 
-// Sweeps of a family end at one voltage, each with one reading.
+// The sweeps of a family end at the same voltage, each with one reading.
 TEST(ValuesTest, TheCommonEndOfSweepsIsNoLimitOfTheVoltage) {
   std::vector<IvCurve> curves;
   for (const double irradiance : {200.0, 400.0, 600.0, 800.0, 1000.0}) {

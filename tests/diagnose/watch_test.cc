@@ -51,7 +51,7 @@ TEST(WatchTest, HearsOfEveryStageOfADiagnosis) {
   EXPECT_THAT(stages, ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
 }
 
-// Wherever the stop comes, nothing further is fitted and the diagnosis says that it is unfinished.
+// A stop during any stage ends all fits, and the diagnosis is marked as unfinished.
 TEST(WatchTest, AStopEndsEveryStageAtOnce) {
   for (const char* stage : {"base fit", "null statistics", "selection", "candidates", "held out"}) {
     const Observer observer = [&](const Progress& progress) {

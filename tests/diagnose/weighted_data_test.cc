@@ -21,7 +21,7 @@ TEST(WhitenTest, DividesByTheNoiseAndDropsWhatIsLeftOut) {
   EXPECT_EQ(made.weighted.count(), 59);
 }
 
-// Noise of a first-order process becomes white, chain by chain.
+// First-order autoregressive noise becomes white, separately within each chain.
 TEST(WhitenTest, TakesTheCorrelationOut) {
   Recipe recipe;
   recipe.points = 1000;
@@ -117,7 +117,7 @@ TEST(LinearizeTest, IsTheFitsTangent) {
   EXPECT_NEAR(linear.residual.squaredNorm(), fit.sum, 1e-9 * fit.sum);
   EXPECT_LT((linear.basis.transpose() * linear.basis - Eigen::MatrixXd::Identity(5, 5)).norm(),
             1e-10);
-  // At an optimum nothing along the parameters is left.
+  // At an optimum the residual has no component along the parameters.
   EXPECT_LT((linear.basis.transpose() * linear.residual).norm(), 1e-3 * std::sqrt(fit.sum));
   const Eigen::MatrixXd rest =
       linear.jacobian - linear.basis * (linear.basis.transpose() * linear.jacobian);
@@ -135,7 +135,7 @@ TEST(LinearizeTest, ParametersPressedAgainstABoundAreNotFree) {
   EXPECT_EQ(StandardErrors(linear, 5)[kBaseConductance], 0);
 }
 
-// Standard errors are the spread of fits over seeds.
+// Standard errors equal the spread of fits over seeds.
 TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
   constexpr int kSeeds = 120;
   std::vector<double> sum(5, 0.0), square(5, 0.0), stated(5, 0.0);
@@ -149,7 +149,7 @@ TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
     const std::vector<double> errors = StandardErrors(Linearize(made.weighted, fit), 5);
     const double to_A[] = {scale, 1, 1, 1 / scale, scale};
     for (int k = 0; k < 5; ++k) {
-      if (k == kBasePivot) continue;  // its place moves with the curve
+      if (k == kBasePivot) continue;  // the pivot moves with the curve
       const double value = fit.p[k] * to_A[k];
       sum[k] += value / kSeeds;
       square[k] += value * value / kSeeds;

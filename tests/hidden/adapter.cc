@@ -11,14 +11,14 @@ namespace {
 lyrefit::IvCurve Bare(const Measurement& from, std::size_t first, int number) {
   lyrefit::IvCurve curve;
   curve.name = "case " + std::to_string(number) + " curve " + std::to_string(from.curve[first]);
-  curve.as_is = true;  // whether the diagnosis sees it, not the checks before it
+  curve.as_is = true;  // turns the input checks off, so that the diagnosis has to detect the fault
   curve.conditions.cells_in_series = from.cells;
   curve.conditions.irradiance_W_m2 = from.irradiance[first];
   curve.conditions.cell_temperature_K = from.temperature[first] + 273.15;
   curve.notes.technology = from.thin_film ? "thin film" : "crystalline silicon";
   if (from.bypass_diodes > 0) curve.notes.bypass_diodes = from.bypass_diodes;
   if (from.bandgap_eV > 0) curve.notes.bandgap_eV = from.bandgap_eV;
-  curve.notes.bandgap_slope_per_K = 0;  // the generator's cells have a constant gap
+  curve.notes.bandgap_slope_per_K = 0;  // the cells of the generator have a constant band gap
   if (from.isc_tempco_per_K > 0) curve.notes.isc_tempco_per_K = from.isc_tempco_per_K;
   if (from.noise_constant_A > 0) {
     curve.notes.current_noise_constant_A = from.noise_constant_A;

@@ -26,16 +26,17 @@ struct Claim {
 };
 
 struct Answer {
-  std::string error;  // empty: none
+  std::string error;  // empty: no error
   std::vector<Claim> claims;
   double seconds = 0;
 };
 
-// How it is asked: for readings of little noise at a bench, or as in the field.
+// Noise and departure that the diagnosis assumes: low instrument noise (laboratory) or field
+// conditions.
 enum class Mode { kLaboratory, kField };
 
-// Hands the readings, and no word of what is in them, to the diagnosis under test.
-// `second_diode`: the base model has two diodes.
+// Runs the diagnosis under test on the readings. It gets no information on the hidden effects.
+// `second_diode`: the base model is the double-diode model.
 Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
            bool second_diode = false, Mode mode = Mode::kLaboratory);
 

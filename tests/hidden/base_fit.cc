@@ -17,8 +17,8 @@ struct Data {
   const Plan& plan;
   const std::vector<double>& currents;
   const std::vector<double>& sigmas;
-  Device fixed;  // cells, band gap, coefficient
-  double pivot;  // V, where the diode's current is a parameter
+  Device fixed;  // cells, band gap and temperature coefficient, which are not fitted
+  double pivot;  // V, where the diode current is a parameter
 };
 
 Device DeviceOf(const Five& p, const Data& data) {
@@ -32,7 +32,7 @@ Device DeviceOf(const Five& p, const Data& data) {
   return device;
 }
 
-struct Linear {  // residuals and their slopes, in noise units
+struct Linear {  // residuals and their derivatives, in noise standard deviations
   double chi2 = 0;
   std::vector<double> residuals;
   std::vector<Five> slopes;
@@ -42,7 +42,7 @@ double JunctionAt(const Five& p, const Data& data, const Setting& at, double v) 
   return JunctionCurrent(CellUnder(DeviceOf(p, data), {}, at.suns, at.kelvin), v);
 }
 
-// Slopes of the solved current out of differences of the junction's law.
+// Derivatives of the solved current, by differences of the junction equation.
 Five SlopesAt(const Five& p, const Data& data, const Setting& at, double v, double current) {
   const double by_v =
       (JunctionAt(p, data, at, v + 1e-6) - JunctionAt(p, data, at, v - 1e-6)) / 2e-6;
@@ -81,7 +81,8 @@ Linear Linearised(const Five& p, const Data& data, bool slopes) {
   return linear;
 }
 
-// Step of the damped normal equations over the free parameters; Gauss with columns scaled to 1.
+// Step of the damped normal equations over the free parameters, by Gaussian elimination with
+// columns scaled to 1.
 Five StepOf(const Linear& linear, const std::array<bool, kSize>& held, double damping) {
   double a[kSize][kSize + 1] = {};
   for (std::size_t i = 0; i < linear.residuals.size(); ++i) {

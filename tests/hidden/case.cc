@@ -31,7 +31,7 @@ Scene DrawScene(Kind kind, NoiseType noise, const DeviceWish& wish, Random* rand
   return scene;
 }
 
-// Puts the effect in where alone it shows as strongly as wanted.
+// Injects the effect into `scene`, with the strength at which it alone has the requested misfit.
 std::optional<Cause> Hidden(const Hide& hide, double misfit, const Scene& clean, Scene* scene,
                             Random* random) {
   Shape shape = DrawShape(random);

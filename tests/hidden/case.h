@@ -11,35 +11,36 @@ namespace hidden {
 
 struct Cause {
   std::string name;
-  std::vector<std::string> acceptable;  // itself first
+  std::vector<std::string> acceptable;  // names that count as right, `name` first
   double strength = 0;
-  double misfit = 0;  // alone, in noise units
+  double misfit = 0;  // of this effect alone, in noise standard deviations
   Size size;
 };
 
-// A measurement with its answer.
+// A simulated measurement and its true causes.
 struct Case {
   Kind kind = Kind::kForward;
   std::vector<Cause> causes;      // empty: nothing to find
-  bool second_diode = false;      // there, but not the question
-  std::string absorbed = "none";  // there, but nothing shows it
+  bool second_diode = false;      // present, but a claim of it does not count
+  std::string absorbed = "none";  // an effect that the base model absorbs
   NoiseType noise = NoiseType::kEqual;
   Measurement measurement;
 };
 
-// The first effect of the list is as strong as `misfit` says, and so is every other one alone.
+// Request for a simulated case. `misfit` is the misfit of each effect alone, in noise standard
+// deviations.
 struct Request {
   Kind kind = Kind::kForward;
   std::vector<const Hide*> hides;
   double misfit = 12;
-  std::optional<NoiseType> noise;  // otherwise any of independent readings
+  std::optional<NoiseType> noise;  // empty: drawn among the types with independent errors
   std::uint64_t seed = 1;
 };
 
-// Draws devices until one has room for what is asked; nothing after a dozen.
+// Draws devices until all effects of the request fit into one. Returns nothing after a dozen draws.
 std::optional<Case> MakeCase(const Request& request);
 
-// Nothing identifiable inside: devices of one or two diodes, with or without what is absorbed.
+// A case without any identifiable effect: one or two diodes, with or without an absorbed effect.
 Case MakeNull(Kind kind, NoiseType noise, std::uint64_t seed);
 
 }  // namespace hidden

@@ -8,8 +8,8 @@
 namespace hidden {
 namespace {
 
-constexpr double kBuiltIn = 0.9;  // V of a junction
-constexpr double kFar = 1e6;      // V, where a blocking contact lets no more current through
+constexpr double kBuiltIn = 0.9;  // built-in voltage of a junction, V
+constexpr double kFar = 1e6;      // V, returned where a blocking contact cannot carry the current
 
 double Diode(double saturation, double exponent) {
   return saturation == 0 ? 0 : saturation * std::expm1(std::min(exponent, 300.0));

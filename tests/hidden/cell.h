@@ -5,7 +5,7 @@
 
 namespace hidden {
 
-// A cell under given light and temperature.
+// A cell at given irradiance and temperature. A, V, S, ohm.
 struct Cell {
   double photocurrent = 1;
   double saturation = 1e-9;

@@ -2,8 +2,8 @@
 
 namespace hidden {
 
-// What really happens besides the plain device; as it stands, nothing. Voltages and ohms of one
-// cell, time x runs from -1/2 to 1/2 over the measurement.
+// Effects that act besides the plain device; the default values mean none. Voltages and resistances
+// are those of one cell. The time x runs from -1/2 to 1/2 over the measurement.
 struct Effects {
   // device
   double shunt_strength = 0;  // A/V^m
@@ -13,9 +13,9 @@ struct Effects {
   double collection = 0;  // V
   double photoshunt = 0;  // S at 1000 W/m2
   bool photoshunt_exponential = false;
-  double inverse_contact = 0;  // 1/A, of the blocking contact's current
+  double inverse_contact = 0;  // 1/A, inverse saturation current of the blocking contact
   double lumped_drop = 0;      // V/A^2
-  double lateral_ohm = 0;      // between two half cells
+  double lateral_ohm = 0;      // between the two halves of a cell
   double shade_depth = 0;
   int shaded_substrings = 1;
   double bypass_drop = 0.5;  // V of one diode
@@ -30,9 +30,9 @@ struct Effects {
   double dip_at = 0;
   double dip_width = 0.05;
   double temperature_drift_K = 0;
-  double capacitance = 0;  // F of a cell, part that does not depend on voltage
+  double capacitance = 0;  // F of a cell, the part that does not depend on voltage
   double diffusion_s = 0;  // charge per diode current
-  double skew_s = 0;       // the current is taken so much later than the voltage
+  double skew_s = 0;       // the voltage is taken this much earlier than the current
   // instruments
   double clip_A = 0;  // 0: none
   double current_offset_A = 0;

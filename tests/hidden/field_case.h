@@ -10,19 +10,19 @@
 
 namespace hidden::field {
 
-// A number somebody would read off, "light" of a dim part, "share" of the cells, "width" of a
-// scatter, "step" of the light.
+// A quantity that a user reads from the diagnosis: "light" (relative light of a dim part), "share"
+// (of the cells), "width" (of a scatter), "step" (of the light), ...
 struct Figure {
   std::string quantity;
   double value;
 };
 
 struct Truth {
-  std::vector<std::string> accepted;  // names that are right first; empty: nothing is wrong
-  std::vector<Figure> figures;        // a light is followed by its share, where it has one
+  std::vector<std::string> accepted;  // accepted first names; empty: no fault
+  std::vector<Figure> figures;        // a "light" is followed by its "share" if it has one
 };
 
-// A fault of the field: what it does to a healthy rig.
+// A field fault: the change that it makes to a healthy rig.
 struct Fault {
   const char* name;
   void (*apply)(Random* random, Rig* rig, Truth* truth);
@@ -34,17 +34,18 @@ struct Case {
   std::string kind;
   Make make;
   Truth truth;
-  double misfit = 0;   // % of Isc that the best single diode misses the exact readings by (rms)
-  double healthy = 0;  // the same without the fault
+  double misfit = 0;   // rms misfit of the best single diode to the exact readings, % of Isc
+  double healthy = 0;  // the misfit without the fault, % of Isc
   Measurement measurement;
 };
 
 std::vector<std::string> Kinds();
-// The size at which the best single diode misses the healthy module, departure included, by
-// `wanted` of Isc.
+// Scales the departure so that the rms misfit of the best single diode to the healthy module is
+// `wanted`, as a fraction of Isc. The departure is included.
 void SettleDeparture(const Sampled& curve, double wanted, Departure* departure);
 Case MakeCase(const std::string& kind, std::uint64_t seed);
-// The same with a misfit above a bound, as % of Isc; the strongest of many draws where none is.
+// Draws cases until one has a misfit of at least `misfit`, in % of Isc. If none of many draws
+// reaches it, returns the one with the largest misfit.
 Case MakeCaseAbove(const std::string& kind, double misfit, std::uint64_t seed);
 
 }  // namespace hidden::field

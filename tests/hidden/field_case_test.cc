@@ -51,7 +51,7 @@ TEST(FieldCase, AboveAMisfitIsThere) {
   }
 }
 
-// As real clean sweeps are missed: half of them by 0.05 to 0.2 % of Isc, hardly one by 0.5 %.
+// Real clean sweeps: half of them have a misfit of 0.05 to 0.2 % of Isc, hardly any 0.5 %.
 TEST(FieldCase, CleanModulesAreMissedAsRealOnesAre) {
   std::vector<double> missed;
   for (int seed = 0; seed < 25; ++seed) {

@@ -15,7 +15,7 @@ void AddDiode(double saturation, double scale, double v, Law* law) {
   law->slope -= e / scale;
 }
 
-// A shunt whose multiplied part grows without limit towards the breakdown voltage.
+// Shunt current with a multiplied part that diverges at the breakdown voltage.
 void AddBrokenShunt(const Cell& cell, double v, Law* law) {
   const double near = 1 + v / cell.reverse_V;
   const double extra = cell.reverse_factor * std::pow(near, -cell.reverse_exponent);
@@ -30,7 +30,7 @@ void AddSoftPower(const Cell& cell, double v, Law* law) {
   law->slope += current * cell.reverse_exponent / v;
 }
 
-// The light's own carriers, and those of a little leakage, multiply.
+// Avalanche multiplication of the photocurrent and of a small leakage current.
 void AddMultiplication(const Cell& cell, double v, Law* law) {
   const double part = std::pow(-v / cell.reverse_V, cell.reverse_exponent);
   const double carried = cell.photocurrent + 0.02 * cell.reverse_A;
@@ -46,7 +46,7 @@ struct Bracket {
 Bracket Around(const Cell& cell, double current) {
   const double thermal = kVoltPerKelvin * cell.kelvin;
   const double lack = cell.photocurrent - current;
-  if (lack <= 0) {  // every reverse law conducts more than the shunt alone
+  if (lack <= 0) {  // with reverse breakdown the junction conducts more than the shunt alone
     double low = lack / cell.shunt_S - 1e-12;
     if (cell.reverse != Reverse::kSoftPower) {
       low = std::max(low, -cell.reverse_V * (1 - 1e-13));
@@ -77,8 +77,8 @@ Law AtJunctionVoltage(const Cell& cell, double v) {
   return law;
 }
 
-// Newton's steps from the side where the law bends away; a step that leaves the bracket, which
-// shrinks with every reading of the law, is replaced by its middle.
+// Newton steps from the side from which they converge monotonically. Every evaluation shrinks the
+// bracket; a step that leaves the bracket is replaced by a bisection.
 Point AtCurrent(const Cell& cell, double current) {
   Bracket in = Around(cell, current);
   double v = current < cell.photocurrent ? in.high : 0.5 * (in.low + in.high);

@@ -2,10 +2,11 @@
 
 namespace hidden::field {
 
-// How a cell conducts once its neighbours drive more current through it than its light delivers.
+// Current of a cell under reverse bias, when its neighbours drive more current than its light
+// delivers.
 enum class Reverse { kShuntBreakdown, kSoftPower, kMultiplication };
 
-// One cell as it lies in the module, warm and lit. A, V, S, ohm, K.
+// One cell at its own temperature and light in the module. A, V, S, ohm, K.
 struct Cell {
   double photocurrent = 8;
   double diffusion_A = 1e-10;
@@ -16,16 +17,16 @@ struct Cell {
   double series_ohm = 4e-3;
   double kelvin = 298.15;
   Reverse reverse = Reverse::kShuntBreakdown;
-  double reverse_V = 15;  // size of the breakdown voltage; of a soft power the voltage at
-                          // which it carries `reverse_A`
+  double reverse_V = 15;  // magnitude of the breakdown voltage; for kSoftPower the voltage at which
+                          // it carries `reverse_A`
   double reverse_exponent = 3.4;
   double reverse_A = 8;         // nominal photocurrent
-  double reverse_factor = 0.1;  // shunt breakdown only: part of the shunt that breaks down
+  double reverse_factor = 0.1;  // kShuntBreakdown only: fraction of the shunt that breaks down
 };
 
 struct Law {
-  double current;  // delivered, without the series resistance
-  double slope;    // by the junction's voltage, negative
+  double current;  // generated current at the junction, before the series resistance
+  double slope;    // derivative by the junction voltage, negative
 };
 Law AtJunctionVoltage(const Cell& cell, double junction_V);
 
@@ -34,7 +35,7 @@ struct Point {
   double voltage;
   double slope;  // dV/dI, negative
 };
-// Terminal voltage at which the cell delivers `current`.
+// Terminal voltage at which the cell delivers `current`, with its slope.
 Point AtCurrent(const Cell& cell, double current);
 
 }  // namespace hidden::field

@@ -9,8 +9,8 @@ namespace {
 constexpr double kFarthest = 1.1;
 constexpr int kSteps = 440;
 
-// A sum of steps of either sign, each eased over its own length: rough on the small, yet not the
-// Gaussian path an error model would assume.
+// Sum of smoothed steps of either sign, each with its own length. It is rough on small scales but
+// not Gaussian, unlike the path that an error model assumes.
 std::vector<double> RoughPath(Random* random) {
   std::vector<double> path(kSteps + 1, 0.0);
   const int count = 40 + random->Index(120);

@@ -6,20 +6,21 @@
 
 namespace hidden::field {
 
-// How far a module departs from any curve its cells would make, in parts of its short-circuit
-// current: a rough path over the voltage, smooth bumps, and a knee sharper or rounder than diodes'.
+// Deviation of a module from the curve of its cells, as a fraction of Isc. It sums a rough path
+// over the voltage, smooth bumps, and a knee that is sharper or rounder than that of diodes.
 struct Departure {
   struct Bump {
     double at, width, size;
   };
-  double size = 0;           // factor on everything
-  std::vector<double> path;  // over u = 0 .. kFarthest, equal steps
+  double size = 0;           // factor on the sum
+  std::vector<double> path;  // at equal steps of u = 0 .. kFarthest
   std::vector<Bump> bumps;
-  double flat = 1;  // what of both is left far below the knee, where modules keep closer to diodes
+  double flat = 1;  // factor on path and bumps far below the knee, where modules follow diodes more
+                    // closely
   double knee = 0;
   double knee_exponent = 1;
 
-  // `u`: voltage / open circuit; `lost`: part of the short-circuit current not delivered there.
+  // `u`: voltage / open-circuit voltage. `lost`: 1 - current / Isc at that voltage.
   double At(double u, double lost) const;
 };
 

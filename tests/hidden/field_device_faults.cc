@@ -1,4 +1,4 @@
-// What shade, damage and snow do to a module.
+// Effects of shade, damage and snow on a module.
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +13,14 @@ Group* AnyGroup(Random* random, Module* module) {
 
 double Share(const Module& module) { return 1.0 / static_cast<double>(module.groups.size()); }
 
-// What is left of a group's light where one of its chains has `light`: the others deliver theirs.
+// Light of a group, relative to full light, if `dim_chains` of its parallel chains have `light`.
 double LeftOfGroup(const Group& group, double light, std::size_t dim_chains) {
   const double chains = static_cast<double>(group.chains.size());
   return (dim_chains * light + chains - dim_chains) / chains;
 }
 
-// All cells of the group, or a good part of them; in half-cut modules perhaps one half only.
+// Dims all cells of the group or a large part of them; in half-cut modules possibly only one half.
+// Returns the relative light of the group.
 double Shade(double light, Random* random, Group* group) {
   const std::size_t dim = random->Chance(0.5) ? 1 : group->chains.size();
   const double part = random->Chance(0.6) ? 1 : random->Uniform(0.3, 1);
@@ -55,7 +56,7 @@ void WeakCell(Random* random, Rig* rig, Truth* truth) {
   Group* group = AnyGroup(random, &rig->module);
   const double light = DimCells(random->Uniform(0.10, 0.93), count, random, group);
   truth->accepted = {"weak_cell"};
-  // Several dim cells of one substring are a shade that covers part of it.
+  // Several dim cells of one substring also count as shade on part of the substring.
   if (count > 1) truth->accepted.insert(truth->accepted.end(), {"shading", "substrings"});
   truth->figures = {{"light", light}};
 }
@@ -68,7 +69,7 @@ void LeakyCell(Random* random, Rig* rig, Truth* truth) {
   truth->figures = {{"leak", cell.shunt_S}};
 }
 
-// Symmetric, or most a little above the mean and few far below.
+// The scatter is symmetric, or skewed: most cells slightly above the mean and few far below.
 void Scatter(Random* random, Rig* rig, Truth* truth) {
   const double width = random->Uniform(0.01, 0.04);
   const bool lopsided = random->Chance(0.5);
@@ -91,7 +92,7 @@ void Scatter(Random* random, Rig* rig, Truth* truth) {
   truth->figures = {{"width", std::sqrt(squares / count - mean * mean) / mean}};
 }
 
-// One curve cannot tell a third of the cells bridged from a third of them counted too many.
+// One curve cannot distinguish a bypassed third of the cells from a wrong cell count.
 void BypassShort(Random* random, Rig* rig, Truth* truth) {
   Group* group = AnyGroup(random, &rig->module);
   group->bypass = Bypass::kShorted;
@@ -108,7 +109,7 @@ void BypassOpen(Random* random, Rig* rig, Truth* truth) {
   truth->figures = {{"light", light}};
 }
 
-// Deeper from group to group, and within each from cell to cell.
+// The loss rises from group to group and, within each group, from cell to cell.
 void Snow(Random* random, Rig* rig, Truth* truth) {
   const double thinnest = random->Uniform(0.3, 1);
   double light = thinnest;

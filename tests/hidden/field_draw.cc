@@ -51,14 +51,14 @@ void DrawReverse(double current, Random* random, Cell* cell) {
   }
 }
 
-// The cell all others are like, at the module's light and temperature.
+// The typical cell at the light and temperature of the module.
 Cell DrawCell(double current_stc, bool two_diodes, const Make& make, Random* random) {
   const double thermal = kVoltPerKelvin * kStandardKelvin;
   Cell cell;
   cell.kelvin = make.kelvin;
   cell.photocurrent = current_stc * make.suns * (1 + 5e-4 * (make.kelvin - kStandardKelvin));
   cell.diffusion_ideality = random->Uniform(1.0, two_diodes ? 1.15 : 1.35);
-  const double part = two_diodes ? random->LogUniform(0.004, 0.2) : 0;  // at the open circuit
+  const double part = two_diodes ? random->LogUniform(0.004, 0.2) : 0;  // share at open circuit
   const double open = make.open_circuit_V;
   const double n1 = cell.diffusion_ideality;
   const double n2 = random->Chance(0.7) ? 2 : random->Uniform(2.2, 3);
@@ -73,7 +73,7 @@ Cell DrawCell(double current_stc, bool two_diodes, const Make& make, Random* ran
   return cell;
 }
 
-// How unequal the cells of one module are.
+// Standard deviations of the parameters between the cells of one module.
 struct Spread {
   double light, diffusion, recombination, shunt, series, kelvin, reverse;
 };
@@ -84,7 +84,7 @@ Spread DrawSpread(Random* random) {
           random->Uniform(0.01, 0.05)};
 }
 
-// A normal draw without the far tails, which belong to faults.
+// Normal draw clamped at 2.5 standard deviations; larger deviations are faults.
 double Usual(Random* random) { return std::clamp(random->Normal(), -2.5, 2.5); }
 
 Cell Varied(const Cell& like, const Spread& spread, Random* random) {
@@ -163,7 +163,7 @@ Drawn DrawModule(Uniformity uniformity, Random* random) {
       DrawCell(current / chains, uniformity != Uniformity::kSingleDiode, make, random);
   const Spread spread = uniformity == Uniformity::kEveryCellItsOwn ? DrawSpread(random) : Spread{};
   BypassDiode diode = DrawDiode(current, make.kelvin, random);
-  if (uniformity != Uniformity::kEveryCellItsOwn) diode.saturation_A *= 1e-5;  // a silicon junction
+  if (uniformity != Uniformity::kEveryCellItsOwn) diode.saturation_A *= 1e-5;  // of silicon
   drawn.module = Assemble({layout.cells, layout.groups, chains}, like, spread, diode, random);
   return drawn;
 }

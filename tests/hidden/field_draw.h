@@ -5,7 +5,7 @@
 
 namespace hidden::field {
 
-// What a module is made as, and what weather it stands in.
+// Design of a module and its irradiance and temperature.
 struct Make {
   bool half_cut = false;
   double suns = 1;
@@ -15,15 +15,15 @@ struct Make {
 
 struct Drawn {
   Make make;
-  Module module;  // healthy
+  Module module;  // without a fault
 };
 
 enum class Uniformity { kSingleDiode, kDoubleDiode, kEveryCellItsOwn };
 
-// kSingleDiode and kDoubleDiode: every cell the same.
+// kSingleDiode and kDoubleDiode: all cells are equal.
 Drawn DrawModule(Uniformity uniformity, Random* random);
 
-// What all modules of one make have in common is drawn from `seed`.
+// A module type. The properties that all modules of the type share are drawn from `seed`.
 struct ModuleType {
   std::uint64_t seed = 1;
   int cells = 60;
@@ -32,7 +32,7 @@ struct ModuleType {
   double open_circuit_V = 0.65;
 };
 
-// One of them, every cell its own, under this light and warmth.
+// A module of the type at the given irradiance and temperature. Every cell has its own parameters.
 Module DrawOfType(const ModuleType& type, double suns, double kelvin, Random* random);
 
 }  // namespace hidden::field

@@ -1,4 +1,4 @@
-// How tracers of different kinds run through the voltages.
+// Voltages over time of the tracer types.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFine = 4000;
 
-// Positions at which a rising sum over a fine run through the voltages passes equal steps.
+// Voltages at which a rising sum over a fine voltage grid reaches equal steps.
 std::vector<double> EqualSteps(const std::vector<double>& voltages, const std::vector<double>& sums,
                                int count) {
   std::vector<double> steps;

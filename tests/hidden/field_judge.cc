@@ -7,11 +7,11 @@
 namespace hidden::field {
 namespace {
 
-// What a parameter of a claim says of which quantity, by a part of its name; the first that fits.
+// Assigns a quantity to a parameter of a claim by a substring of its name; the first match counts.
 struct Meaning {
   const char* part;
   const char* quantity;
-  bool missing;  // it is the part that is missing of 1
+  bool missing;  // the parameter is 1 - quantity
 };
 constexpr Meaning kMeanings[] = {
     {"deficit", "light", true},          {"shading_depth", "light", true},
@@ -22,7 +22,7 @@ constexpr Meaning kMeanings[] = {
 
 struct Said {
   const char* quantity;
-  std::string group;  // what tells parameters of several groups apart: the digits in the name
+  std::string group;  // digits of the parameter name, which distinguish the groups
   double value, low, high;
 };
 

@@ -8,27 +8,27 @@
 
 namespace hidden::field {
 
-// A number that an accepted claim reads off, beside the true one.
+// A quantity that an accepted claim reports, beside its true value.
 struct Compared {
   std::string quantity;
   double truth;
   double value;
-  bool interval = false;  // there is one
-  bool holds = false;     // and the truth lies within
+  bool interval = false;  // the claim has an interval
+  bool holds = false;     // the interval contains the truth
 };
 
 struct Judgement {
-  bool named = false;        // anything
-  bool first_right = false;  // first name accepted
+  bool named = false;        // at least one claim
+  bool first_right = false;  // the first name is accepted
   bool any_right = false;
   int claims = 0;
-  int spurious = 0;  // not accepted
+  int spurious = 0;  // claims that are not accepted
   std::string first = "-";
   std::vector<Compared> compared;
 };
 
-// Resolution and outliers are no faults of a module, and the second diode of a bench curve that has
-// one is no false alarm: such claims do not count.
+// Scores an answer. Two sorts of claims do not count: quantisation and outliers, which are no
+// module faults, and the second diode of a laboratory curve that has one.
 Judgement Judge(const Case& made, const Answer& answer);
 
 }  // namespace hidden::field

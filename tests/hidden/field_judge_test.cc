@@ -55,7 +55,7 @@ TEST(FieldJudge, ReadsLightsAndSharesOfEveryGroup) {
   const auto compared = Judge(Shaded(), Saying({claim})).compared;
   ASSERT_EQ(compared.size(), 4u);
   EXPECT_EQ(compared[0].quantity, "light");
-  EXPECT_DOUBLE_EQ(compared[0].value, 0.71);  // not the group that has no cells
+  EXPECT_DOUBLE_EQ(compared[0].value, 0.71);  // not that of the group without cells
   EXPECT_FALSE(compared[0].holds);
   EXPECT_TRUE(compared[0].interval);
   EXPECT_DOUBLE_EQ(compared[2].value, 0.39);

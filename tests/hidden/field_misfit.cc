@@ -17,8 +17,9 @@ struct Curve {
 
 using Two = std::array<double, 2>;  // log(scale / open), root of series ohm / ohm
 
-// Least squares over photocurrent, saturation current (in units of its value at the largest
-// junction voltage) and shunt; what would be negative stays away.
+// Linear least squares over photocurrent, saturation current and shunt conductance. The saturation
+// current is in units of its value at the largest junction voltage. Parameters that would be
+// negative are left out.
 struct Linear {
   std::array<double, 3> x;
   bool ok;
@@ -140,7 +141,7 @@ double CurrentOf(const OneDiode& diode, double voltage, double guess) {
     const double off =
         diode.photocurrent - (e - diode.saturation_A) - diode.shunt_S * junction - current;
     const double fall = 1 + diode.series_ohm * (e / diode.scale_V + diode.shunt_S);
-    double step = off / fall;  // into the exponential no faster than two of its scales
+    double step = off / fall;  // limits the exponent to a rise of two scales
     if (diode.series_ohm > 0) step = std::min(step, 2 * diode.scale_V / diode.series_ohm);
     current += step;
     if (std::fabs(step) < 1e-12 * (diode.photocurrent + std::fabs(current))) break;
@@ -161,7 +162,7 @@ OneDiodeFit BestOneDiode(const std::vector<double>& voltage, const std::vector<d
   const auto better = [](const Corner& a, const Corner& b) { return a.rms < b.rms; };
   std::sort(starts.begin(), starts.end(), better);
   Corner best = std::min(Descend(curve, starts[0].at), Descend(curve, starts[1].at), better);
-  best = Descend(curve, best.at);  // a simplex that has shrunk too soon
+  best = Descend(curve, best.at);  // restart, in case the simplex collapsed too early
   OneDiodeFit fit{Best(curve, best.at), best.rms, {}};
   for (std::size_t i = 0; i < voltage.size(); ++i) {
     fit.residuals.push_back(CurrentOf(fit.diode, voltage[i], current[i]) - current[i]);

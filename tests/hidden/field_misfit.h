@@ -4,7 +4,7 @@
 
 namespace hidden::field {
 
-// A curve of one diode: A, S, ohm and, for the exponent's scale, V of the whole module.
+// Single-diode curve of a whole module: A, S, ohm. `scale_V` is n Ns kT/q in V.
 struct OneDiode {
   double photocurrent = 0;
   double saturation_A = 0;
@@ -18,11 +18,11 @@ double CurrentOf(const OneDiode& diode, double voltage, double guess);
 struct OneDiodeFit {
   OneDiode diode;
   double rms = 0;                 // of the current, A
-  std::vector<double> residuals;  // model - given
+  std::vector<double> residuals;  // model - given, A
 };
 
-// The best one near enough: of the five parameters three are linear once the currents in the
-// exponent are taken as given; the other two are searched by a simplex.
+// Approximately the best single diode in rms current. Three of the five parameters are linear once
+// the measured currents are used in the exponent. A Nelder-Mead simplex searches the other two.
 OneDiodeFit BestOneDiode(const std::vector<double>& voltage, const std::vector<double>& current);
 
 }  // namespace hidden::field

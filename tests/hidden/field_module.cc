@@ -35,7 +35,7 @@ Sampled CurveOfChain(const std::vector<Cell>& chain, double largest) {
   return Sample(law, kBeyondOpen * largest, kBeyondShort * largest, kTolerance * largest);
 }
 
-// As a part of the group, in generator sign: at negative voltage it carries current forward.
+// Diode curve in the generator sign convention: forward current flows at negative voltage.
 Sampled CurveOfDiode(const BypassDiode& diode, double largest) {
   Sampled curve;
   const auto add = [&](double current) {
@@ -45,7 +45,8 @@ Sampled CurveOfDiode(const BypassDiode& diode, double largest) {
          -diode.scale_V * std::log(inside / diode.saturation_A) - diode.series_ohm * current,
          -diode.scale_V / inside - diode.series_ohm});
   };
-  // From where it blocks: twelve scales of voltage let all but 6e-6 of the saturation current pass.
+  // The blocking range starts at twelve voltage scales, where the current is within 6e-6 of
+  // saturation.
   constexpr int kSteps = 48;
   for (int i = 0; i < kSteps; ++i)
     add(diode.saturation_A * std::expm1(12.0 * (i - kSteps) / kSteps));

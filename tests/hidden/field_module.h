@@ -14,8 +14,8 @@ struct BypassDiode {
 
 enum class Bypass { kWorks, kOpen, kShorted };
 
-// Cells one after the other, in a half-cut module twice side by side, and one bypass diode over
-// them.
+// Cells in series with one bypass diode across them. A half-cut module has two such chains in
+// parallel per group.
 struct Group {
   std::vector<std::vector<Cell>> chains;
   BypassDiode diode;
@@ -27,11 +27,12 @@ struct Group {
 struct Module {
   std::vector<Group> groups;
   int CellsInSeries() const;
-  double LargestPhotocurrent() const;  // of a group's chains together
+  double LargestPhotocurrent() const;  // A; sum over the parallel chains of a group
 };
 
-// The curve of the module while all its light is `light` times what its cells state: from a little
-// below 0 V to more than 3 % beyond the open circuit, currents to a millionth of the largest.
+// Curve of the module with the photocurrent of every cell multiplied by `light`. It runs from
+// slightly below 0 V to more than 3 % beyond open circuit. Currents are accurate to a millionth of
+// the largest.
 Sampled CurveOf(const Module& module, double light = 1);
 
 }  // namespace hidden::field

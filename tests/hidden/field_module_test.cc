@@ -38,7 +38,7 @@ double DropOf(const BypassDiode& diode, double current) {
   return diode.scale_V * std::log1p(current / diode.saturation_A) + diode.series_ohm * current;
 }
 
-// Halving, and nothing else: what every interpolation is held against.
+// Root by bisection only, the reference for the interpolated curves.
 template <class F>
 double Halved(const F& falling, double low, double high) {
   for (int i = 0; i < 90; ++i) {
@@ -82,7 +82,7 @@ TEST(FieldCell, GoesThereAndBackInEveryReverseLaw) {
       EXPECT_NEAR(AtJunctionVoltage(cell, junction).current, current, 1e-9);
       const double up = AtCurrent(cell, current + 1e-6).voltage;
       const double down = AtCurrent(cell, current - 1e-6).voltage;
-      if (current == 8) continue;  // where the slope jumps
+      if (current == 8) continue;  // the slope is discontinuous
       EXPECT_NEAR((up - down) / 2e-6 / at.slope, 1, 1e-4) << current;
     }
     EXPECT_LT(AtCurrent(cell, 8.5).voltage, -1);
@@ -111,7 +111,8 @@ TEST(FieldModule, ShadedGroupHasItsPlateauAndItsStepWhereItsDiodeTurns) {
   const Sampled curve = CurveOf(module);
   const double open = OpenCircuit(curve);
   EXPECT_NEAR(curve.CurrentAt(0.75 * open), 0.6 * 8, 0.02 * 8);
-  // At 0.8 of the light the diode carries what the dim cells, at -drop / 20 V each, do not.
+  // At 0.8 of the light the bypass diode carries the rest; the dim cells carry theirs at -drop / 20
+  // V each.
   double carried = 0.2 * 8;
   double drop = DropOf(module.groups[1].diode, carried);
   carried -= cell.shunt_S * drop / 20;
@@ -134,7 +135,7 @@ TEST(FieldModule, OpenDiodeLeavesTheStringToItsWeakestCell) {
   Module module = Equal(cell, 3, 20);
   Cell& weak = module.groups[0].chains[0][3];
   weak.photocurrent *= 0.5;
-  weak.reverse_V = 60;  // breaks down far beyond what 59 cells can drive
+  weak.reverse_V = 60;  // far beyond the voltage that 59 cells can apply
   const double bypassed = ShortCircuit(CurveOf(module));
   module.groups[0].bypass = Bypass::kOpen;
   const double limited = ShortCircuit(CurveOf(module));

@@ -7,7 +7,7 @@
 namespace hidden::field {
 namespace {
 
-// A slope at an end that would make the cubic turn back is flattened.
+// Sets an end slope to zero, or limits it, where the cubic would not be monotonic.
 double Tamed(double slope, double chord) {
   return slope * chord <= 0
              ? 0
@@ -19,7 +19,7 @@ struct Read {
   double slope;
 };
 
-// The cubic from (x0, y0) to (x1, y1) at x; a straight line beyond the ends.
+// Cubic Hermite interpolant from (x0, y0) to (x1, y1) at x; a straight line beyond the ends.
 Read Cubic(double x0, double y0, double s0, double x1, double y1, double s1, double x) {
   const double width = x1 - x0;
   const double t = (x - x0) / width;
@@ -39,7 +39,7 @@ Read CurrentBetween(const Point& p, const Point& q, double voltage) {
   return Cubic(p.voltage, p.current, 1 / p.slope, q.voltage, q.current, 1 / q.slope, voltage);
 }
 
-// Position of the point that begins the piece.
+// Index of the first point of the piece that contains x.
 template <class Before>
 std::size_t Piece(const std::vector<Point>& points, double x, const Before& before) {
   const auto after = std::upper_bound(points.begin(), points.end(), x, before);
@@ -73,7 +73,7 @@ void Halve(const std::function<Point(double)>& law, const Point& p, const Point&
   Halve(law, middle, q, tolerance, depth + 1, points);
 }
 
-// Every part's places within the stretch that all of them cover, without near repeats.
+// Coordinates of the points of all parts within their common range, without near duplicates.
 std::vector<double> Places(const std::vector<const Sampled*>& parts,
                            double (*place)(const Point&)) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;

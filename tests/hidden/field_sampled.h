@@ -7,8 +7,8 @@
 
 namespace hidden::field {
 
-// A falling curve by points with their slopes, currents rising and voltages falling; in between a
-// cubic through both ends with both slopes, in whichever direction it is read.
+// A falling curve as points with slopes, with rising currents and falling voltages. Between two
+// points it is the cubic Hermite interpolant, of voltage over current or of current over voltage.
 struct Sampled {
   std::vector<Point> points;
 
@@ -18,11 +18,13 @@ struct Sampled {
   Point PointAtVoltage(double voltage) const;
 };
 
-// Points of `law` over low..high, halved until the cubic is right to `tolerance` of current.
+// Samples `law` from `low` to `high`. Intervals are halved until the cubic is accurate to
+// `tolerance` in current.
 Sampled Sample(const std::function<Point(double current)>& law, double low, double high,
                double tolerance);
 
-// One after the other: voltages add. Side by side: currents add. Both hold where all parts do.
+// Series connection adds voltages; parallel connection adds currents. The result covers the range
+// that all parts cover.
 Sampled InSeries(const std::vector<const Sampled*>& parts);
 Sampled SideBySide(const std::vector<const Sampled*>& parts);
 

@@ -1,4 +1,4 @@
-// What the sky, the junctions' charge and the tracer do while the sweep runs.
+// Faults of the sweep: varying light, junction charge and the tracer.
 #include <algorithm>
 #include <cmath>
 
@@ -15,10 +15,10 @@ void UpAndDown(Random* random, Tracer* tracer) {
 
 struct Moment {
   double time;
-  double u;  // voltage / open circuit
+  double u;  // voltage / open-circuit voltage
 };
 
-// A moment at which the light matters: before the knee has passed altogether.
+// A time before the end of the knee, where the current still depends on the light.
 Moment DrawMoment(Random* random, const Rig& rig) {
   Lit lit(rig.module);
   const std::vector<Instant> instants = Instants(rig.tracer, lit.Whole());
@@ -34,7 +34,7 @@ Moment DrawMoment(Random* random, const Rig& rig) {
   return best;
 }
 
-// Falls with rising voltage, where a group's bypass diode would make it fall.
+// The light step lowers the current with rising voltage, near a voltage where a bypass diode would.
 bool LooksLikeShade(const Rig& rig, double u) {
   const Tracer& tracer = rig.tracer;
   if (tracer.up_and_down || tracer.writes_times) return false;
@@ -86,7 +86,7 @@ void Hysteresis(Random* random, Rig* rig, Truth* truth) {
   truth->accepted = {"capacitance", "timing_skew"};
 }
 
-// One sweep does not tell a range from a step of the light: both are right.
+// One sweep cannot distinguish a range switch from a step of the light: both names are accepted.
 void RangeSwitch(Random* random, Rig* rig, Truth* truth) {
   if (random->Chance(0.4)) UpAndDown(random, &rig->tracer);
   rig->tracer.averaged = 1;

@@ -6,7 +6,7 @@
 namespace hidden::field {
 namespace {
 
-constexpr double kRung = 0.008;  // of the logarithm of the light
+constexpr double kRung = 0.008;  // step of the logarithm of the light
 
 double Rounded(double value, double step) {
   return step > 0 ? step * std::round(value / step) : value;
@@ -20,7 +20,7 @@ struct Averaged {
   double voltage, current, time;
 };
 
-// What the converter makes of it: steps, finer below the switch of the range.
+// Adds the reading of the converter: rounded, with a finer step below the range switch.
 void Add(const Rig& rig, const Averaged& mean, double isc, double voc, int sweep,
          Readings* readings) {
   const Tracer& tracer = rig.tracer;
@@ -49,7 +49,7 @@ const Sampled& Lit::Rung(int rung) {
   return rungs_.emplace(rung, CurveOf(module_, std::exp(kRung * rung))).first->second;
 }
 
-// Parabola over the logarithm of the light at fixed voltage.
+// Quadratic interpolation over the logarithm of the light at fixed voltage.
 double Lit::Current(double voltage, double light) {
   if (light == 1) return Rung(0).CurrentAt(voltage);
   const double place = std::log(light) / kRung;

@@ -10,8 +10,8 @@
 
 namespace hidden::field {
 
-// The curve of a module under any light near 1, out of curves at a ladder of lights that are made
-// when they are needed.
+// Curve of a module under any light near 1, interpolated between curves at fixed light levels.
+// These are computed on demand.
 class Lit {
  public:
   explicit Lit(const Module& module) : module_(module) {}
@@ -24,48 +24,50 @@ class Lit {
   std::map<int, Sampled> rungs_;
 };
 
-// kEven, kBinned: voltage in equal steps of time; kBinned takes many readings and hands over the
-// means of few. kCapacitor: the module charges one, readings in equal times. kKnee: equal steps
-// along the curve.
+// kEven, kBinned: voltage in equal steps of time; kBinned averages many readings into few.
+// kCapacitor: the module charges a capacitor, with readings at equal times. kKnee: equal steps of
+// arc length along the curve.
 enum class Drive { kEven, kBinned, kCapacitor, kKnee };
 
-// All as parts: voltages of the open circuit, currents of the short-circuit current.
+// Voltages are fractions of the open-circuit voltage, currents fractions of the short-circuit
+// current.
 struct Tracer {
   Drive drive = Drive::kEven;
-  int points = 100;  // of a sweep
+  int points = 100;  // per sweep
   bool down = false;
   bool up_and_down = false;
   bool writes_times = false;
   double seconds = 1;
   double first_voltage = 0.01;
-  double last_voltage = 1.01;  // a capacitor stops sooner:
-  double last_current = 0.01;  // here
-  int averaged = 1;            // readings
+  double last_voltage = 1.01;  // a capacitor drive stops earlier,
+  double last_current = 0.01;  // at this current
+  int averaged = 1;            // readings per mean
   double current_noise = 1e-4;
   double voltage_noise = 1e-4;
   double current_step = 0;  // resolution; 0: none
   double voltage_step = 0;
-  double fine_below = 0;  // a ten times finer range begins; 0: there is none
+  double fine_below = 0;  // below this current a ten times finer range applies; 0: none
   double fine_gain = 1;
-  double voltage_bin = 0;         // readings are taken to the middle of a bin; 0: none
-  double voltage_end = 1e300;     // what is above is recorded as this
-  double least_current = -1e300;  // below which the load does not go: it stays there
+  double voltage_bin = 0;         // readings are moved to the centre of a bin; 0: none
+  double voltage_end = 1e300;     // higher voltages are recorded as this value
+  double least_current = -1e300;  // lower limit of the recorded current
 };
 
 enum class Bench { kLaboratory, kField };
 Tracer DrawTracer(Bench bench, Random* random);
 
-// Charge in the junctions: the current it takes where the voltage moves, as parts.
+// Current that charges the junction capacitances while the voltage changes.
 struct Charge {
-  double constant = 0;   // of Isc at the mean speed of the sweep
-  double diffusion = 0;  // the curve's shift, of the open circuit, at that speed
+  double constant = 0;   // fraction of Isc at the mean speed of the sweep
+  double diffusion = 0;  // shift of the curve at that speed, fraction of the open-circuit voltage
 };
 
-// The readings' true voltages and times (0 to 1), before noise; with every averaged one.
+// True voltage and time (0 to 1) of one reading before noise. Readings that are averaged are listed
+// one by one.
 struct Instant {
   double voltage;
   double time;
-  double speed;  // of the voltage over its mean size, with its sign
+  double speed;  // signed rate of the voltage over its mean magnitude
   int sweep;
 };
 std::vector<Instant> Instants(const Tracer& tracer, const Sampled& curve);
@@ -85,7 +87,7 @@ struct Rig {
   Tracer tracer;
 };
 
-// Without anything the tracer or the air adds: no departure, no wandering, no noise.
+// Exact readings, without the departure, fluctuation, noise and rounding.
 Readings Exact(const Rig& rig, Lit* lit);
 Readings Measured(const Rig& rig, Lit* lit, Random* random);
 

@@ -8,20 +8,20 @@
 
 namespace hidden {
 
-// What an effect's draw settles before its strength is known.
+// Random properties of an effect that are drawn before its strength is determined.
 struct Shape {
   std::array<double, 4> parts;  // each 0..1
   double sign = 1;
-  double misfit = 0;  // the wanted one
+  double misfit = 0;  // requested misfit, in noise standard deviations
 };
 
-// The size a person would read off, in A, V, K, W/m2 of the whole device.
+// Size of an effect for a user, in A, V, K or W/m2 of the whole device.
 struct Size {
-  const char* unit = nullptr;  // nullptr: no plain figure
+  const char* unit = nullptr;  // nullptr: no such figure
   double value = 0;
 };
 
-// Puts in what is one number of the effects, with the sign of the shape.
+// Sets one number of the effects to the strength, with the sign of the shape.
 template <double Effects::*kField>
 bool Signed(const Shape& shape, double strength, Scene* scene) {
   scene->effects.*kField = shape.sign * strength;
@@ -30,26 +30,26 @@ bool Signed(const Shape& shape, double strength, Scene* scene) {
 
 enum class Wish { kAny, kModule, kCrystalline };
 
-// An effect that can be hidden in a scene.
+// An effect that can be injected into a scene.
 struct Hide {
   const char* name;
   std::vector<Kind> kinds;
-  double low;  // strength
+  double low;  // lower limit of the strength
   double high;
-  // Puts it in; false where the device has no room for it.
+  // Injects the effect; false if the device cannot have it.
   bool (*apply)(const Shape& shape, double strength, Scene* scene);
-  // Names the data cannot tell from it, besides its own.
+  // Further names that the data cannot distinguish from this effect.
   std::vector<std::string> (*twins)(const Shape& shape, const Scene& scene) = nullptr;
   Size (*size)(const Scene& scene) = nullptr;
   Wish wish = Wish::kAny;
 };
 
-// What can be found.
+// The identifiable effects.
 const std::vector<Hide>& Hides();
 const Hide* FindHide(const std::string& name);
 bool Shows(const Hide& hide, Kind kind);
 
-// What the base model's parameters absorb: naming it, or anything else, is a false alarm.
+// Effects that the parameters of the base model absorb. Any claim about them is a false alarm.
 const std::vector<Hide>& Absorbed();
 
 const std::vector<Hide>& DeviceHides();
@@ -59,8 +59,8 @@ const std::vector<Hide>& ConditionHides();
 
 Shape DrawShape(Random* random);
 
-// Strength at which the misfit is the wanted one, within two percent; negative where the effect
-// cannot reach it.
+// Strength at which the misfit is `misfit` within two percent. Negative if the effect cannot reach
+// it.
 double StrengthFor(const Hide& hide, const Shape& shape, const Scene& scene, double misfit);
 
 }  // namespace hidden

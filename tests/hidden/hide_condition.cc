@@ -27,7 +27,7 @@ bool OffsetOnOneCurve(const Shape& shape, double strength, Scene* scene) {
   return true;
 }
 
-// Over equal steps of voltage fading light is a shunt.
+// With equal voltage steps, linearly falling light has the effect of a shunt.
 bool FadingLight(const Shape&, double strength, Scene* scene) {
   scene->effects.drift = -strength / 40;
   return scene->plan.even;

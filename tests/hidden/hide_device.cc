@@ -96,7 +96,7 @@ Names PhotoshuntTwins(const Shape& shape, const Scene&) {
   return shape.misfit < 12 ? Names{"collection"} : Names{};
 }
 
-// Lumped and distributed are two forms of one cause.
+// Lumped and distributed resistance are two model variants of one cause.
 Names RsCurrentTwins(const Shape&, const Scene&) { return {"distributed_rs"}; }
 
 Names MismatchTwins(const Shape&, const Scene&) { return {"shading"}; }

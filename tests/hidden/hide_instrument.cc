@@ -44,7 +44,7 @@ bool CurrentOffset(const Shape& shape, double strength, Scene* scene) {
 }
 
 bool WrongCellsOrTemperature(const Shape& shape, double strength, Scene* scene) {
-  const double factor = scene->device.ideality / strength;  // what n is divided by
+  const double factor = scene->device.ideality / strength;  // divisor of n
   if (shape.parts[0] < 0.5 && factor < 1.25) {
     scene->stated_kelvin = kReferenceK * factor;
     return true;
@@ -108,7 +108,7 @@ const std::vector<Hide>& InstrumentHides() {
        Signed<&Effects::voltage_offset>,
        VoltageTwins,
        [](const Scene& s) {
-         return Size{"V", -s.effects.voltage_offset * s.device.cells};  // what is added
+         return Size{"V", -s.effects.voltage_offset * s.device.cells};  // added by the instrument
        }},
       {"temperature_or_cells", {kFwd, kRev, kUpDown}, 0.5, 0.86, WrongCellsOrTemperature},
   };

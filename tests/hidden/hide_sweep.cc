@@ -8,7 +8,8 @@ namespace {
 using Names = std::vector<std::string>;
 constexpr Kind kFwd = Kind::kForward, kRev = Kind::kReverse, kUpDown = Kind::kUpDown;
 
-// On one forward sweep only light that grows faster than any shunt lets the current fall shows.
+// On one forward sweep a drift is identifiable only if the light rises, faster than any shunt
+// lowers the current.
 bool Drift(const Shape& shape, double strength, Scene* scene) {
   scene->effects.drift = scene->plan.kind == kFwd ? strength : shape.sign * strength;
   return true;
@@ -29,7 +30,7 @@ bool Transient(const Shape& shape, double strength, Scene* scene) {
 
 double CellRate(const Scene& scene) { return scene.plan.Rate() / scene.device.cells; }
 
-// The strength is the current beside the knee: all of it constant, all of it diffusion, or both.
+// The strength is the charging current beside the knee, constant, from diffusion, or both.
 bool Capacitance(const Shape& shape, double strength, Scene* scene) {
   const double constant = shape.parts[0] < 0.35 ? 1 : shape.parts[0] < 0.6 ? 0 : shape.parts[1];
   const double n_vt = scene->device.ideality * kBoltzmannOverCharge * kReferenceK;
@@ -130,7 +131,7 @@ const std::vector<Hide>& SweepHides() {
        TimingSkew,
        SkewTwins,
        [](const Scene& s) {
-         return Size{"s", -s.effects.skew_s};  // after the current
+         return Size{"s", -s.effects.skew_s};  // delay of the voltage after the current
        }},
   };
   return hides;

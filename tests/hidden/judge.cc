@@ -10,7 +10,7 @@ bool Holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Factor that turns a figure in `unit` into one in the plain unit; 0: not the same quantity.
+// Factor from `unit` to the unit `plain`; 0 if the dimensions differ.
 double FactorTo(const std::string& plain, const std::string& unit) {
   if (unit == plain || (plain == "1" && unit.empty())) return 1;
   if (plain == "1") return unit == "%" ? 0.01 : 0;

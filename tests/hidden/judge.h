@@ -9,26 +9,26 @@
 
 namespace hidden {
 
-// Claims that count: not the second diode a device really has.
+// All claims but that of a second diode which the device really has.
 std::vector<Claim> Counted(const Case& made, const Answer& answer);
 
-// The first claim's name is among the acceptable ones, or its set holds the cause with at most two
-// names besides that are not acceptable.
+// Whether a claim identifies the cause. Either its name is acceptable, or its set contains the
+// cause and at most two names of claim and set are not acceptable.
 bool Names(const Claim& claim, const Cause& cause);
 
 struct Judgement {
   bool detected = false;
-  bool first_right = false;  // first name acceptable
-  bool in_set = false;       // the cause itself among the first claim's names
-  bool named = false;        // by Names, in any claim
+  bool first_right = false;  // the first name is acceptable
+  bool in_set = false;       // the cause itself is among the names of the first claim
+  bool named = false;        // any claim identifies the cause (Names)
   int set_size = 0;
   std::string first = "-";
 };
 
 Judgement Judge(const Case& made, const Answer& answer, std::size_t cause = 0);
 
-// The first strength of the claim that names the cause in its own unit, made plain: without
-// milli, micro or percent. Nothing where the units differ.
+// First strength of the claim that names the cause, in the unit of the cause without milli, micro
+// or percent. Empty if the units have different dimensions.
 struct Sized {
   double value;
   double low;

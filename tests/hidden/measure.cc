@@ -9,7 +9,7 @@
 namespace hidden {
 namespace {
 
-constexpr int kStepsBetween = 8;  // of the charge, from reading to reading
+constexpr int kStepsBetween = 8;  // steps of the charge between two readings
 
 struct Truth {
   const Device& device;
@@ -18,7 +18,7 @@ struct Truth {
 
   double X(double time_s) const { return plan.kind <= Kind::kUpDown ? plan.X(time_s) : 0; }
   double Suns(const Setting& at, double time_s) const {
-    if (at.suns == 0) return 0;  // dark stays dark
+    if (at.suns == 0) return 0;  // no effect adds light to a dark curve
     const double shown = at.suns;
     const double x = X(time_s);
     double suns = shown * (1 + effects.sensor_bend * (shown - 1) + effects.sensor_gain);
@@ -35,7 +35,7 @@ struct Truth {
   }
 };
 
-// Terminal voltage at any time, straight from reading to reading and on beyond both ends.
+// Terminal voltage at any time, linear between the readings and extrapolated beyond both ends.
 double VoltageAt(const Plan& plan, double time_s) {
   const std::vector<Setting>& all = plan.settings;
   const double interval = all[1].time_s - all[0].time_s;
@@ -61,7 +61,8 @@ std::vector<Substring> Arranged(const Device& device, const Effects& effects, co
   return {lit, shaded};
 }
 
-// The junction's charge followed in time; the sweep begins three readings before the first.
+// Integrates the junction charge in time. The sweep begins three intervals before the first
+// reading.
 std::vector<double> ChargedCurrents(const Truth& truth) {
   const std::vector<Setting>& all = truth.plan.settings;
   const double interval = (all[1].time_s - all[0].time_s) / kStepsBetween;

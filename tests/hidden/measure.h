@@ -7,7 +7,7 @@
 
 namespace hidden {
 
-// Currents as the instruments would show them without noise, outliers and steps of resolution.
+// Currents that the instruments show without noise, outliers and resolution, in A.
 std::vector<double> ExactCurrents(const Device& device, const Effects& effects, const Plan& plan);
 
 }  // namespace hidden

@@ -13,21 +13,22 @@ const char* Name(NoiseType type);
 
 struct Noise {
   NoiseType type = NoiseType::kEqual;
-  double constant_A = 1e-3;  // standard deviation; a tenth in the dark
+  double constant_A = 1e-3;  // standard deviation; a tenth of it in the dark
   double relative = 0;
-  double resolution_A = 0;  // rounding step; a tenth in the dark
-  double neighbours = 0;    // correlation from reading to reading
+  double resolution_A = 0;  // rounding step; a tenth of it in the dark
+  double neighbours = 0;    // correlation of neighbouring readings
 };
 
 Noise DrawNoise(NoiseType type, double photocurrent, Random* random);
 
-// Standard deviations about the exact currents, rounding included.
+// Standard deviations of the readings about the exact currents, rounding included, in A.
 std::vector<double> Sigmas(const Noise& noise, const Plan& plan, const std::vector<double>& exact);
 
 std::vector<double> WithNoise(const Noise& noise, const Plan& plan,
                               const std::vector<double>& exact, Random* random);
 
-// In the dark a finer range is used.
+// Rounds to multiples of `resolution_A`, or of a tenth of it in the dark, where a finer range
+// applies.
 std::vector<double> Rounded(double resolution_A, const Plan& plan, std::vector<double> currents);
 
 }  // namespace hidden

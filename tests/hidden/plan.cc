@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kNames[kKinds] = {"fwd", "rev", "updown", "dark", "famG", "famGT"};
 
-// From 0 to 1, even or denser towards 1.
+// Values from 0 to 1, equally spaced or denser towards 1.
 std::vector<double> Ramp(int count, bool even) {
   std::vector<double> ramp(count);
   for (int i = 0; i < count; ++i) {
@@ -20,7 +20,7 @@ std::vector<double> Ramp(int count, bool even) {
   return ramp;
 }
 
-// Adds a curve from `low` to `high` volt of the whole device.
+// Adds a curve from `low` to `high`, in V of the whole device.
 void AddCurve(Setting at, const std::vector<double>& ramp, double low, double high, Plan* plan) {
   for (const double part : ramp) {
     at.voltage = low + part * (high - low);
@@ -62,7 +62,7 @@ void AddUpDown(const Device& device, Random* random, Plan* plan) {
     all.push_back(all[i]);
     all.back().sweep = 1;
   }
-  if (random->Chance(0.25)) {  // down first
+  if (random->Chance(0.25)) {  // the first sweep goes down
     std::rotate(all.begin(), all.begin() + half, all.end());
     for (Setting& at : all) at.sweep = 1 - at.sweep;
   }

@@ -10,11 +10,11 @@ namespace hidden {
 enum class Kind { kForward, kReverse, kUpDown, kDark, kIrradiances, kConditions };
 constexpr int kKinds = 6;
 const char* Name(Kind kind);  // "fwd", "rev", "updown", "dark", "famG", "famGT"
-std::vector<Kind> KindsCalled(const std::string& name);  // "all" or one
+std::vector<Kind> KindsCalled(const std::string& name);  // "all" or one name
 
-// A reading to be taken: what is set and what the sensors show.
+// Settings of a reading and the values that the sensors show.
 struct Setting {
-  double voltage = 0;  // terminals of the whole device
+  double voltage = 0;  // V at the terminals of the whole device
   double time_s = 0;
   int sweep = 0;
   int curve = 0;
@@ -24,12 +24,12 @@ struct Setting {
 
 struct Plan {
   Kind kind = Kind::kForward;
-  bool even = true;    // steps of voltage
-  bool times = false;  // written down
+  bool even = true;    // equal voltage steps
+  bool times = false;  // the measurement has times
   std::vector<Setting> settings;
 
-  double X(double time_s) const;  // -1/2 .. 1/2
-  double Rate() const;            // typical |dV/dt| of a cell's share, V/s
+  double X(double time_s) const;  // time scaled to -1/2 .. 1/2
+  double Rate() const;            // mean |dV/dt| of the whole device, V/s
 };
 
 Plan DrawPlan(Kind kind, const Device& device, Random* random);

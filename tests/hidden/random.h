@@ -6,7 +6,7 @@
 
 namespace hidden {
 
-// One seed out of a seed and the places of a draw: splitmix64 over each.
+// Combines a seed and the indices of a draw into one seed, by splitmix64 over each.
 inline std::uint64_t SeedOf(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0,
                             std::uint64_t c = 0) {
   for (const std::uint64_t part : {a, b, c}) {
@@ -18,7 +18,7 @@ inline std::uint64_t SeedOf(std::uint64_t seed, std::uint64_t a, std::uint64_t b
   return seed;
 }
 
-// Draws that are the same with every standard library.
+// Random numbers that do not depend on the standard library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -31,7 +31,7 @@ class Random {
   int Index(int count) { return static_cast<int>(Unit() * count); }
   bool Chance(double probability) { return Unit() < probability; }
   double Sign() { return Chance(0.5) ? 1 : -1; }
-  double Normal() {  // Box and Muller
+  double Normal() {  // Box-Muller
     const double radius = std::sqrt(-2 * std::log(Unit()));
     return radius * std::cos(6.283185307179586 * Unit());
   }

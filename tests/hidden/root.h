@@ -4,8 +4,8 @@
 
 namespace hidden {
 
-// Root of a rising function between low and high: Chandrupatla's mix of inverse quadratic
-// interpolation and bisection, down to the last bits.
+// Root of a rising function between `low` and `high` to rounding accuracy, by Chandrupatla's
+// combination of inverse quadratic interpolation and bisection.
 template <class F>
 double BracketedRoot(const F& f, double low, double high, double f_low, double f_high) {
   if (f_low == 0) return low;
@@ -39,7 +39,7 @@ double BracketedRoot(const F& f, double low, double high, double f_low, double f
   return a;
 }
 
-// Root of a rising function anywhere: a bracket that doubles outwards from the guess.
+// Root of a rising function without given bounds: the bracket doubles outwards from the guess.
 template <class F>
 double Root(const F& f, double guess, double stride) {
   double low = guess, high = guess;

@@ -13,30 +13,30 @@ struct Outlier {
   double sigmas;
 };
 
-// Everything that decides what the readings will be, but for the draw of the noise.
+// Complete description of a simulated measurement except for the random noise.
 struct Scene {
   Device device;
   Effects effects;
   Plan plan;
   Noise noise;
   std::vector<Outlier> outliers;
-  double resolution_A = 0;   // a step that is to be found; 0: only the noise's own
-  int stated_cells = 0;      // of the person at the bench; 0: as they are
-  double stated_kelvin = 0;  // 0: as it is
+  double resolution_A = 0;   // rounding step to be identified; 0: that of `noise`
+  int stated_cells = 0;      // cells stated to the diagnosis; 0: the true number
+  double stated_kelvin = 0;  // temperature stated to the diagnosis; 0: the true one
 
-  std::vector<double> Exact() const;   // with outliers, without noise and rounding
-  std::vector<double> Sigmas() const;  // about the exact currents
+  std::vector<double> Exact() const;   // A; with outliers, without noise and rounding
+  std::vector<double> Sigmas() const;  // A; about the exact currents
 };
 
-// Norm of what is left of the exact currents after the best base model, in noise units; where the
-// currents are rounded on purpose, of the rounding.
+// Norm of the residuals of the best base model to the exact currents, in noise standard deviations.
+// If `resolution_A` is set, the norm of the rounding errors instead.
 double Misfit(const Scene& scene);
 
-// What a laboratory hands over.
+// Readings and metadata that the diagnosis gets.
 struct Measurement {
   std::vector<double> voltage;
   std::vector<double> current;
-  std::vector<double> time;  // empty where nobody wrote it down
+  std::vector<double> time;  // empty: not recorded
   std::vector<int> sweep;
   std::vector<int> curve;
   std::vector<double> irradiance;   // W/m2

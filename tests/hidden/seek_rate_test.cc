@@ -44,7 +44,7 @@ std::string Told(const Answer& answer) {
   return text.empty() ? "nothing" : text;
 }
 
-// Within its interval widened by half, or within 60 % of the truth.
+// The error is at most 60 % of the truth, or 1.5 times the half width of the interval.
 bool Sane(const Sized& size, double truth) {
   const double slack = std::max(0.6 * std::fabs(truth), 0.75 * (size.high - size.low));
   return std::fabs(size.value - truth) <= slack;
@@ -52,7 +52,7 @@ bool Sane(const Sized& size, double truth) {
 
 class Seek : public testing::TestWithParam<Place> {};
 
-// At least three of four are found and named; what is named has about its size.
+// At least three of four cases are detected and named. Reported sizes are near the truth.
 TEST_P(Seek, FindsNamesAndSizesWhatIsHidden) {
   const auto [kind, hide] = GetParam();
   int found = 0, named = 0;
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Hidden, Seek, testing::ValuesIn(Places()), [](const aut
   return std::string(Name(place.param.kind)) + "_" + place.param.hide->name;
 });
 
-double AtLeast(int count, int cases, double rate) {  // binomial
+double AtLeast(int count, int cases, double rate) {  // binomial tail probability
   double term = std::pow(1 - rate, cases), below = 0;
   for (int k = 0; k < count; ++k) {
     below += term;
@@ -96,7 +96,7 @@ double AtLeast(int count, int cases, double rate) {  // binomial
   return 1 - below;
 }
 
-// More alarms than this have a probability below 0.002 where the level is kept.
+// At the nominal level, more alarms than this have a probability below 0.002.
 TEST(Silence, IsKeptWhereNothingIsHidden) {
   int cases = 0, alarms = 0;
   for (const Kind kind : KindsCalled("all")) {
@@ -114,7 +114,7 @@ TEST(Silence, IsKeptWhereNothingIsHidden) {
   EXPECT_GT(AtLeast(alarms, cases, kLevel), 0.002) << alarms << " alarms in " << cases;
 }
 
-// What nobody states is estimated: nobody is accused of having stated it wrongly.
+// Coefficients that are not stated are estimated, so no claim may say that they are stated wrongly.
 TEST(Silence, IsKeptWhereTheCoefficientsAreNotStated) {
   int cases = 0, alarms = 0;
   for (int i = 0; i < 16; ++i) {

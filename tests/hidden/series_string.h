@@ -11,12 +11,12 @@ struct CellGroup {
   int count = 1;
 };
 
-// Cells in series, perhaps with a bypass diode across them, `copies` times in the string.
+// Cells in series with an optional bypass diode across them. The string contains `copies` of it.
 struct Substring {
   std::vector<CellGroup> groups;
   int copies = 1;
   bool bypassed = false;
-  bool ideal = false;  // the diode holds its drop whatever the current
+  bool ideal = false;  // the diode voltage is `drop` at any current
   double drop = 0.5;   // V, at `drop_current`
   double drop_current = 1;
 };

@@ -113,7 +113,7 @@ bool Read(int argc, char** argv, StudyOptions* options) {
     if (flag == flags.end() || i + 1 == argc) return false;
     flag->second(argv[i + 1]);
   }
-  if (options->mode == "field") return true;  // its kinds are its own
+  if (options->mode == "field") return true;  // the mode has its own kinds
   const bool known = options->effect == "all" || FindHide(options->effect) != nullptr;
   return known && !KindsCalled(options->kind).empty();
 }

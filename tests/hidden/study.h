@@ -15,44 +15,45 @@ struct StudyOptions {
   std::string mode;
   std::string kind = "all";
   std::string effect = "all";
-  std::string csv;   // file for the table; empty: none
-  std::string rows;  // file for every case; empty: none
-  int cases = 0;     // 0: the mode's own number
-  int number = 0;    // of the case to show
+  std::string csv;   // file of the table; empty: none
+  std::string rows;  // file of all cases; empty: none
+  int cases = 0;     // 0: default of the mode
+  int number = 0;    // index of the case to show
   double level = 0.05;
   std::uint64_t seed = 1;
-  std::string asked;  // "laboratory" or "field"; empty: as the world is
-  int threads = 0;    // 0: as many as there are processors
-  // Of `field`:
-  double misfit_above = 0;  // % of Isc; of the cases with a fault
-  std::string show;         // kind of which case `number` is written as a table
+  std::string asked;  // "laboratory" or "field"; empty: that of the simulator
+  int threads = 0;    // 0: one per processor
+  // For the mode `field`:
+  double misfit_above = 0;  // minimum misfit of the cases with a fault, % of Isc
+  std::string show;         // kind whose case `number` is written as a table
   std::string dump;         // folder for the cases as tables
 };
 
 Mode ModeOf(const StudyOptions& options);
 
-// Rates of false alarms on nulls of every kind and noise, at the level and at 0.01.
+// False-alarm rates on cases without an effect, by kind of data and noise, at `level` and at 0.01.
 int StudySilence(const StudyOptions& options);
-// Found and named, by kind, effect and how strongly the effect shows.
+// Detection and identification rates by kind of data, effect and misfit.
 int StudyPower(const StudyOptions& options);
-// Whether two effects at once are both named.
+// How often both of two simultaneous effects are named.
 int StudyPairs(const StudyOptions& options);
-// Which name comes first for each effect that shows with at least 7 noise units.
+// First names claimed for each effect with a misfit of at least 7 noise standard deviations.
 int StudyConfusion(const StudyOptions& options);
-// How often the 95 % interval of a named effect's size holds the truth.
+// How often the 95 % interval of the size of a named effect contains the truth.
 int StudySize(const StudyOptions& options);
-// The second world, modules in the field (field_*.h): named at all, by the right name, spurious
-// claims, lights and shares; or its cases as tables. `effect` is a kind of field_case.h.
+// Field simulator (field_*.h): rates of cases with a claim, of right names and of spurious claims,
+// and the errors of lights and shares. Or writes its cases as tables. `effect` is a kind of
+// field_case.h.
 int StudyField(const StudyOptions& options);
-// One case of `power` or, without an effect, of `silence`, as a table of readings; what is in it
-// and what is answered go to the error output.
+// Writes one case of `power` or, without an effect, of `silence` as a table of readings. The causes
+// and the answer go to standard error.
 int ShowCase(const StudyOptions& options);
 
-// body(0) .. body(count - 1), each writing only to its own slot.
+// Calls body(0) .. body(count - 1) in parallel. Each call must write only to its own slot.
 void ForEach(int count, int threads, const std::function<void(int)>& body);
 
-// A hidden effect, how strongly it shows and what was answered; made is false where no device drawn
-// had room for it.
+// A simulated case and its answer. `made` is false if none of the drawn devices could have the
+// effect.
 struct Run {
   bool made = false;
   Case hidden;
@@ -66,9 +67,9 @@ std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Hide& hi
 
 std::vector<const Hide*> HidesCalled(const std::string& name, Kind kind);
 
-// "drift|temp_drift clip": every claim with its set.
+// All claims with their equivalent names, as in "drift|temp_drift clip".
 std::string Text(const Answer& answer);
 
-double Percent(int part, int whole);  // NaN of nothing
+double Percent(int part, int whole);  // NaN if `whole` is 0
 
 }  // namespace hidden

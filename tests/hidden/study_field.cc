@@ -15,7 +15,7 @@ struct FieldRun {
   field::Judgement judgement;
 };
 
-// How well a quantity of the accepted claims agrees with the truth.
+// Errors of one quantity over the accepted claims.
 struct Agreement {
   std::vector<double> errors;
   int intervals = 0;
@@ -102,8 +102,8 @@ std::uint64_t FieldSeed(const StudyOptions& options, const std::string& kind, in
 }
 
 field::Case FieldCase(const StudyOptions& options, const std::string& kind, int number) {
-  // A shorted group leaves a curve that a single diode fits as well as a healthy one; bins and
-  // limits spoil readings, not the curve.
+  // No minimum misfit for three faults. A single diode fits the curve of a shorted group as well as
+  // that of a healthy module; bins and limits change the readings, not the curve.
   const bool any = kind.rfind("clean", 0) == 0 || kind == "bypass_short" ||
                    kind == "voltage_bins" || kind == "limits";
   return field::MakeCaseAbove(kind, any ? 0 : options.misfit_above,

@@ -14,10 +14,10 @@ field::Case FieldCase(const StudyOptions& options, const std::string& kind, int 
 std::string Joined(const std::vector<std::string>& words);
 std::string FiguresOf(const field::Case& hidden);  // "light 0.71, share 0.3333"
 
-// The case to show as a table on the output, what is in it on the error output.
+// Writes the case as a table to standard output and its truth to standard error.
 int ShowFieldCase(const StudyOptions& options);
 
-// A table with its notes for every case in the folder, and what is in them: labels.csv.
+// Writes each case as a table with its notes into the folder, and the true faults into labels.csv.
 int DumpFieldCases(const StudyOptions& options, const std::vector<std::string>& kinds, int cases);
 
 }  // namespace hidden

@@ -8,7 +8,7 @@
 namespace hidden {
 namespace {
 
-// Two effects that can be in one scene and that these data tell apart at all.
+// Whether two effects can act in one scene and the data can distinguish them.
 bool GoTogether(const Hide& a, const Hide& b) {
   static const std::vector<std::string> kAlone = {"quantisation", "temperature_or_cells"};
   static const std::vector<std::vector<std::string>> kApart = {

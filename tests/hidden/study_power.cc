@@ -13,7 +13,7 @@ constexpr int kBands = 5;
 
 double NormalBelow(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-// Threshold of a blind search over as many effective directions as the kind of data has.
+// Detection threshold of a search over the number of effective directions of the kind of data.
 double BlindThreshold(Kind kind, double level) {
   constexpr std::array<double, kKinds> kDirections = {5.7, 6.8, 9.1, 6.0, 6.9, 10.4};
   const double beyond = level / kDirections[static_cast<int>(kind)];
@@ -48,7 +48,7 @@ struct Band {
   }
 };
 
-// The last one is for what the base model absorbs: it can only be seen in the values.
+// The last band is for effects that the base model absorbs. Only parameter values can show them.
 using Bands = std::array<Band, kBands + 1>;
 
 int BandOf(double misfit) {
@@ -109,7 +109,7 @@ void PrintRows(Kind kind, const Hide& hide, const std::vector<Run>& runs, std::F
   }
 }
 
-// Nothing where no file is asked for.
+// Sets `*file` to nullptr if `path` is empty.
 bool Open(const std::string& path, const char* header, std::FILE** file) {
   *file = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
   if (*file != nullptr) std::fputs(header, *file);

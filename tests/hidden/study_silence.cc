@@ -15,12 +15,12 @@ struct Quiet {
 
 struct Alarms {
   int cases = 0;
-  int loose = 0;   // at the level asked for
-  int strict = 0;  // at 0.01, or seen in the values
+  int loose = 0;   // alarms at the requested level
+  int strict = 0;  // alarms at 0.01, or from parameter values
   int failed = 0;
   double seconds = 0;
   std::map<std::string, int> names;
-  std::map<std::string, int> absorbed;  // what else was in the alarmed cases
+  std::map<std::string, int> absorbed;  // absorbed effects in the cases with an alarm
 };
 
 bool Strict(const Claim& claim) { return claim.by_values || claim.corrected_p < 0.01; }

@@ -14,7 +14,7 @@ FurtherCurve Further(const MadeModule& module, double g, double t_C) {
   return {module.Readings(g, t_C), g, t_C, module.Diode(g, t_C)};
 }
 
-// Half way between 1000 and 600 W/m2 at one temperature: what procedure 3 is for.
+// Procedure 3 between 1000 and 600 W/m2 at one temperature, half way.
 TEST(BetweenCurves, MeetsTheTruthBetweenTwoLights) {
   const MadeModule module;
   PreparedCurve curve = module.Curve(1000, 45, {800, 45});

@@ -17,7 +17,7 @@ using lyrefit::Procedure;
 
 constexpr Procedure kAll[] = {Procedure::kIec1,   Procedure::kIec2,   Procedure::kIec4,
                               Procedure::kDeSoto, Procedure::kPvsyst, Procedure::kExtended};
-constexpr int kGroups = 10;  // of the sweeps
+constexpr int kGroups = 10;  // groups of sweeps for the jackknife
 
 lyrefit::UncertaintyOptions SizesOf(const Conditions& at) {
   lyrefit::UncertaintyOptions sizes;
@@ -25,14 +25,14 @@ lyrefit::UncertaintyOptions SizesOf(const Conditions& at) {
   sizes.irradiance_percent = at.light_percent;
   sizes.temperature_K = at.temperature_K;
   sizes.cell_offset_K = 0;
-  sizes.voltage_percent = sizes.current_percent = 0;  // one instrument on both ends
+  sizes.voltage_percent = sizes.current_percent = 0;  // the same instrument measured both sweeps
   if (at.beta_percent >= 0) sizes.beta_percent = at.beta_percent;
   sizes.alpha_percent = at.alpha_percent;
   sizes.epsilon_percent = at.epsilon_percent;
   return sizes;
 }
 
-// Of Pmax, parts, k = 2.
+// Uncertainty of the procedure itself, relative to Pmax, k = 2.
 double OfProcedure(const Carried& row, const Sizes& sizes) {
   return std::hypot(sizes.light * std::sqrt(row.folds), sizes.temperature * std::sqrt(row.heat));
 }
@@ -57,8 +57,8 @@ Tally Sum(const std::vector<const Carried*>& rows, int left_out) {
   return tally;
 }
 
-// The share for which `within` or more of `count` have a probability of 2.5 %, and the one for which
-// `within` or fewer have.
+// Exact 95 % limits of a fraction (Clopper and Pearson 1934). At the lower limit `within` or more
+// of `count` have a probability of 2.5 %, at the upper limit `within` or fewer.
 double LowestShare(int within, int count) {
   return within <= 0 ? 0 : boost::math::ibeta_inv(within, count - within + 1.0, 0.025);
 }
@@ -206,7 +206,7 @@ Sizes FittedSizes(const std::vector<Carried>& all, Procedure procedure) {
   double lowest = 1e300;
   for (int i = 0; i <= kSteps; ++i) {
     for (int j = 0; j <= kSteps; ++j) {
-      // Squares, so that small sizes are finely divided.
+      // Quadratic spacing gives a fine grid at small values.
       const Sizes tried = {kLargest * i * i / (kSteps * kSteps),
                            kLargest / 2 * j * j / (kSteps * kSteps)};
       double surprise = 0;

@@ -1,5 +1,5 @@
-// Curves whose conditions and whose curve under other conditions are both known, carried from one
-// to the other by every procedure: how far off each is, and how far off it says it may be.
+// Translation of curves to conditions at which the true curve is known, by every procedure.
+// Compares the errors with the stated uncertainties.
 #pragma once
 
 #include <array>
@@ -13,47 +13,49 @@
 
 namespace shown {
 
-// A curve made ready, and what it is known to give where it was taken.
+// A prepared curve, with the key points at its own conditions and their noise.
 struct Sweep {
   lyrefit::Preparation made;
   lyrefit::KeyPoints key;
   lyrefit::KeyPointNoise noise;
 };
 
-// How sure the conditions of a set are, expanded (k = 2).
+// Expanded uncertainties (k = 2) of the conditions and coefficients of a set.
 struct Conditions {
   double light_percent = 0;
   double temperature_K = 0;
-  double beta_percent = 5;  // below 0: as where nobody stated beta
+  double beta_percent = 5;  // below 0: beta is not stated
   double alpha_percent = 20;
   double epsilon_percent = lyrefit::UncertaintyOptions().epsilon_percent;
 };
 
-// One procedure from one sweep to one place. Of Pmax, in parts.
+// Result of one procedure for one sweep and target. `error` and the uncertainties are relative, of
+// Pmax.
 struct Carried {
-  // Of Isc, Voc, Imp, Vmp, Pmax, FF: errors and expanded uncertainties (k = 2), in parts.
+  // Relative errors and expanded uncertainties (k = 2) of Isc, Voc, Imp, Vmp, Pmax and FF.
   std::array<double, 6> errors{};
   std::array<double, 6> expandeds{};
   lyrefit::Procedure procedure = lyrefit::Procedure::kIec1;
   bool recommended = false;
   double error = 0;
-  double expanded = 0;      // k = 2, of everything
-  double of_procedure = 0;  // k = 2, of the procedure itself: in `expanded` too
+  double expanded = 0;      // k = 2, from all sources
+  double of_procedure = 0;  // k = 2, of the procedure itself; `expanded` includes it
   double folds = 0;         // |ln(G2 / G1)|
   double heat = 0;          // |T2 - T1| / 10 K
   int from = 0;
   int to = 0;
 };
 
-// The options that all sweeps of a set are made ready with: no diagnosis unless asked for.
+// Preparation options of all sweeps of a set. `diagnosed`: compute all procedures, with the
+// diagnosis.
 lyrefit::TranslateOptions ReadyOptions(bool diagnosed);
 
-// In parallel; those that cannot be made ready are left out.
+// Prepares the curves in parallel. Curves that cannot be prepared are left out, with a message on
+// standard error.
 std::vector<Sweep> MakeReady(const std::vector<lyrefit::IvCurve>& curves,
                              const lyrefit::TranslateOptions& options, int threads);
 
-// One sweep to one place of which the truth is known. `light_too`: the light is doubted on both
-// ends, as where both were measured.
+// Translates a sweep to a target with known key points `truth`, by every procedure.
 std::vector<Carried> CarryOne(const Sweep& from, const lyrefit::TranslationTarget& target,
                               const lyrefit::KeyPoints& truth, const Conditions& at);
 
@@ -61,12 +63,12 @@ struct Pairing {
   int pairs = 1500;
   unsigned seed = 1;
   int threads = 0;
-  // Both ends must be in it; empty: all.
+  // One flag per sweep: whether a pair may contain it. Empty: all.
   std::vector<bool> allowed;
 };
 
-// Pairs drawn at random, each carried from the first to the second. Sizes of light and temperature
-// are of both ends together.
+// Draws random pairs and translates the first sweep to the conditions of the second. `at` states
+// the combined uncertainty of the conditions of both sweeps.
 std::vector<Carried> CarryPairs(const std::vector<Sweep>& sweeps, const Conditions& at,
                                 const Pairing& how);
 
@@ -75,29 +77,31 @@ struct Tally {
   double bias = 0;
   double rms = 0;
   double expanded = 0;   // mean
-  double within = 0;     // part of the errors
-  double within_se = 0;  // standard error, by leaving out a tenth of the sweeps at a time
+  double within = 0;     // fraction of errors within U
+  double within_se = 0;  // standard error, by a jackknife over tenths of the sweeps
 };
 
 Tally TallyOf(const std::vector<Carried>& all, std::optional<lyrefit::Procedure> procedure,
               bool recommended);
 
-// The same with another size of the procedure's own error, per e-fold and per 10 K (k = 2, parts).
+// Uncertainty of the procedure itself in Pmax, relative, k = 2: per e-fold of light and per 10 K.
+// WithSizes returns the results with these values instead.
 struct Sizes {
   double light = 0;
   double temperature = 0;
 };
 std::vector<Carried> WithSizes(const std::vector<Carried>& all, const Sizes& sizes);
 
-// The sizes that make the errors of one procedure likeliest: normal, variances in proportion to the
-// step.
+// Maximum-likelihood values for the errors of one procedure. The errors are normal; the variance of
+// the procedure is proportional to the step.
 Sizes FittedSizes(const std::vector<Carried>& all, lyrefit::Procedure procedure);
 
-// Markdown: a row a procedure, the recommended ones last.
+// Prints a Markdown table: one row per procedure, then the recommended ones.
 void PrintTable(const std::vector<Carried>& all);
 
-// Markdown: how many of Isc, Voc and Pmax lie within U, with exact 95 % limits (Clopper and Pearson
-// 1934), and the mean of U; a row a procedure, the recommended ones last.
+// Prints a Markdown table of how many values of Isc, Voc and Pmax lie within U, and of the mean U.
+// Limits are exact at 95 % (Clopper and Pearson 1934). One row per procedure, then the recommended
+// ones.
 void PrintHeld(const std::vector<Carried>& all);
 
 }  // namespace shown

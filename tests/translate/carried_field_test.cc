@@ -1,6 +1,6 @@
-// The short version of translate_study: what is stated of a translation holds on measured sweeps of
-// two modules and on devices by other laws. Intervals are 95 %; the bounds leave room for the few
-// sweeps that a test has time for.
+// Short version of translate_study. Stated uncertainties must hold on measured sweeps of two
+// modules and on simulated devices that follow other laws. Intervals are 95 %; the bounds allow for
+// the small number of sweeps.
 #include "translate/carried.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// 60 cells, from 0 V to beyond Voc.
+// 60 cells; the default range is from 0 V to beyond Voc.
 IvCurve Curve(int points = 101, double from_V = 0, double to_V = 38) {
   IvCurve curve;
   curve.conditions.cells_in_series = 60;

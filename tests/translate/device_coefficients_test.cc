@@ -69,13 +69,13 @@ TEST(Technology, IsKnownByWhatPeopleWrite) {
   EXPECT_EQ(FindTechnology("dye"), nullptr);
 }
 
-// What nobody states is settled from the curve so that it is near what the module has.
+// Coefficients that are not stated are derived from the curve and are near the true ones.
 TEST(SettledInputs, AreNearTheTruthOfAModule) {
   const MadeModule module;
   const SettledInputs settled =
       SettleInputs(module.Coefficients(), "c-Si", module.Curve(800, 45, {}), module.Bare(800, 45));
   EXPECT_NEAR(settled.values.resistance_series_ohm, 0.25, 1e-9);
-  // Voc(1000) / Voc(500) of the module by its own B1 and B2, to 0.05 %.
+  // Voc(1000) / Voc(500) by the derived B1 and B2, compared with that of the module.
   const double x = std::log(2.0);
   const double f = 1 + x * (settled.values.b1 + x * settled.values.b2);
   const double truth =

@@ -21,7 +21,7 @@ TEST(E1036, MeetsTheModelWhereReadingsAreExact) {
   EXPECT_NEAR(found.max_power_voltage_V, truth.max_power_voltage_V, 0.3);
 }
 
-// What windows are for: many readings steady the answer.
+// E1036 windows average over many readings, which lowers the scatter of Pmax.
 TEST(E1036, ScattersLessThanSingleReadings) {
   const MadeModule module;
   const CurvePoints clean = module.Readings(1000, 25, 100);

@@ -21,7 +21,7 @@ FitReport PlainFit(const IvCurve& curve) {
   return *Fit(curve, options);
 }
 
-// Without a cause the extended model is De Soto's law.
+// Without effects the extended model is De Soto's law.
 TEST(ExtendedModel, OfAReferenceModuleIsDeSotosLaw) {
   const MadeModule module;
   const IvCurve curve = module.Measured(700, 40);
@@ -59,7 +59,7 @@ TEST(ExtendedModel, RefusesWhatIsNoModel) {
   EXPECT_FALSE(ExtendedPoints(none, inputs.inputs, 3));
 }
 
-// Of causes, what is in the device is kept and what was of the sweep goes.
+// Effects of the device are kept; effects of the sweep are removed.
 TEST(ExtendedModel, TellsTheDeviceFromTheSweep) {
   const MadeModule module;
   const IvCurve curve = module.Measured(700, 40);

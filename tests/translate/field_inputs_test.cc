@@ -68,7 +68,7 @@ TEST(CellCorrection, IsThatOfASensorOnTheBackOrAsStated) {
   }
 }
 
-// The budget's line has the correction as its value, and its doubt.
+// The budget's line holds the correction as its value, and the uncertainty of the correction.
 TEST(FieldInputs, KeepTheDoubtOfTheCorrection) {
   UncertaintyOptions options;
   options.temperature_source = TemperatureSource::kBackOfModule;

@@ -1,7 +1,7 @@
-// Whether what is stated is so: strings with a power that is known, measured with sensors and
-// instruments whose errors are drawn from the stated uncertainties, carried to standard conditions
-// and judged. The share of wrong verdicts must be the stated probability, bin by bin, and the
-// expanded interval must hold the true power in 95 +- 2 %.
+// Verifies the stated probabilities by simulation. Strings of known power are measured with errors
+// drawn from the stated uncertainties, translated to standard conditions and tested against the
+// rating. In every bin the rate of wrong verdicts must equal the stated probability. The expanded
+// interval must contain the true power in 95 +- 2 %.
 
 #include "lyrefit/translate/field_test.h"
 
@@ -27,11 +27,12 @@ namespace {
 
 constexpr double kAlpha_A_K = 0.005;
 
-// A string of 20 modules of 60 cells by a law, `strength` times as wide as a good one.
+// Simulated string of 20 modules of 60 cells. A factor `strength` on its currents sets its power
+// relative to the rating.
 struct World {
   TranslationLaw law = TranslationLaw::kDeSoto;
   Procedure procedure = Procedure::kDeSoto;
-  double translation_percent = 0;  // stated; negative: what the table has
+  double translation_percent = 0;  // stated; negative: from the table
 };
 
 class Maker {
@@ -89,8 +90,8 @@ class Maker {
 
 struct Judged {
   bool done = false;
-  bool held = false;        // by value +- U
-  bool held_drawn = false;  // by the drawn interval
+  bool held = false;        // value +- U contains the true power
+  bool held_drawn = false;  // the drawn interval contains it
   bool wrong = false;
   double stated = 0;
   Zone zone = Zone::kPass;
@@ -106,7 +107,8 @@ UncertaintyOptions Sure(const World& world) {
   return options;
 }
 
-// Errors of sensors and instrument as the inputs state them.
+// Simulates a measurement with errors of sensors and instrument drawn from the stated
+// uncertainties.
 IvCurve Measure(const Maker& maker, double strength, double beta_V_K, RandomStream* random,
                 TranslateOptions* how) {
   const double light = Between(random, 700, 1050), warm = Between(random, 30, 60);
@@ -129,7 +131,7 @@ IvCurve Measure(const Maker& maker, double strength, double beta_V_K, RandomStre
 Judged JudgeOne(const World& world, const Maker& maker, double beta_V_K, double rated_W,
                 std::uint64_t string) {
   RandomStream random(20, string);
-  // Flat, far beyond both sides of the limit.
+  // Uniform, far beyond both sides of the limit.
   const double strength = Between(&random, 0.87, 1.07);
   TranslateOptions how;
   how.procedures = {world.procedure};
@@ -222,7 +224,7 @@ void Print(const char* name, const Rates& rates) {
   }
 }
 
-// The device follows the law of the procedure, which then has no error of its own.
+// The device follows the law of the procedure, so the procedure has no error.
 TEST(FieldTestRate, VerdictsAreWrongAsOftenAsStated) {
   const int strings = Repeats(2000, 500);
   const Rates rates = Count({TranslationLaw::kDeSoto, Procedure::kDeSoto, 0}, strings);
@@ -236,8 +238,8 @@ TEST(FieldTestRate, VerdictsAreWrongAsOftenAsStated) {
   for (const int zone : rates.zones) EXPECT_GT(zone, strings / 30) << "every zone occurs";
 }
 
-// The device follows another law than the procedure: the procedure's stated error makes up for it,
-// which never makes verdicts surer than they are.
+// The device follows another law than the procedure. The stated uncertainty of the procedure covers
+// the error, so verdicts are not wrong more often than stated.
 TEST(FieldTestRate, AnotherLawIsWithinTheErrorOfTheProcedure) {
   for (const World& world : {World{TranslationLaw::kPvsyst, Procedure::kIec2, -1},
                              World{TranslationLaw::kPvsyst, Procedure::kDeSoto, -1},

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Pmax with a normal uncertainty, by draws or without.
+// Pmax with a normal uncertainty, with or without Monte Carlo draws.
 UncertainOutput Power(double value_W, double u_W, int draws = 0) {
   UncertainModel model;
   model.outputs = {{"max_power", "Pmax", "W"}};
@@ -111,8 +111,8 @@ TEST(FieldTest, PerformanceFactorIsMeasuredOverPredicted) {
   EXPECT_DOUBLE_EQ(test.predicted_W, predicted);
   EXPECT_DOUBLE_EQ(test.performance_factor, 300 / predicted);
   EXPECT_LT(test.performance_low, test.performance_factor);
-  // Light 5 %, a little less behind the cables, voltage and current 1 % each, 1 K and 2 K at
-  // -0.4 % / 0.92, gamma 5 % of 8 %.
+  // Contributions: light 5 % (slightly less because of cabling), voltage and current 1 % each, 1 K
+  // and 2 K at -0.4 % / 0.92, gamma 5 % of 8 %.
   const double light = 0.05 * (1 - 0.016 / 0.984);
   const double kelvin = 0.004 / 0.92;
   const double expanded = std::sqrt(light * light + 2 * 0.01 * 0.01 + kelvin * kelvin * (1 + 4) +
@@ -121,7 +121,8 @@ TEST(FieldTest, PerformanceFactorIsMeasuredOverPredicted) {
               expanded, 0.002 * expanded + 5e-5);
 }
 
-// Other units, another device, other light: nothing is held against the rating.
+// Power far above the rating gives no verdict; wrong units, another device or other light can cause
+// it.
 TEST(FieldTest, JudgesNoPowerFarAboveTheRating) {
   UncertaintyOptions uncertainty;
   uncertainty.draws = 0;

@@ -35,7 +35,7 @@ TEST(KeyPointNoise, OfIscIsThatOfTheReadingAtZeroVolt) {
   EXPECT_GT(noise.relative_bias[kMaxPowerOutput], 0) << "the highest of noisy readings is too high";
 }
 
-// The covariance it states is that of readings with fresh noise.
+// The estimated variance equals that of simulated readings with new noise.
 TEST(KeyPointNoise, IsWhatFreshReadingsScatterBy) {
   const Smooth curve = MakeSmooth(60);
   const std::vector<double> sigma(60, 0.02), sigma_V(60, 0.01);

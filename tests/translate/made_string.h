@@ -14,7 +14,7 @@
 
 namespace lyrefit {
 
-// A module of 60 cells that follows De Soto's law to the letter, and what is true of it.
+// A simulated module of 60 cells that follows De Soto's law exactly, and its true values.
 class MadeModule {
  public:
   MadeModule() {
@@ -92,7 +92,7 @@ class MadeModule {
     return inputs;
   }
 
-  // The readings with their true diode, and coefficients settled from them.
+  // The readings with the true diode parameters, and with band gap and mu_gamma derived from them.
   PreparedCurve Curve(double g, double t_C, const TranslationTarget& target) const {
     PreparedCurve curve;
     curve.points = Readings(g, t_C);

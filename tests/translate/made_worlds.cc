@@ -18,7 +18,7 @@ using hidden::Random;
 using hidden::SeedOf;
 
 constexpr double kStandard_K = 298.15;
-constexpr double kAlpha = 5e-4;  // of the field's cells, 1/K
+constexpr double kAlpha = 5e-4;  // temperature coefficient of Isc of the field cells, 1/K
 
 field::ModuleType DrawType(std::uint64_t seed) {
   Random random(SeedOf(seed, 1));
@@ -32,8 +32,8 @@ field::ModuleType DrawType(std::uint64_t seed) {
   return type;
 }
 
-// The module of a type under these conditions: the same cells whatever they are. `alike`: no two
-// cells differ.
+// The module of a type under given conditions; its cells do not depend on the conditions. `alike`:
+// all cells are equal.
 field::Module ModuleOf(const field::ModuleType& type, std::uint64_t seed, bool alike, double suns,
                        double kelvin) {
   Random random(SeedOf(seed, 3));
@@ -46,7 +46,8 @@ field::Module ModuleOf(const field::ModuleType& type, std::uint64_t seed, bool a
   return module;
 }
 
-// What a shunt is does not depend on the light in this world: a fault's neither.
+// Copies the shunt conductances: in this simulator they do not depend on the light, with or without
+// a fault.
 void TakeShunts(const field::Module& from, field::Module* to) {
   for (std::size_t g = 0; g < from.groups.size(); ++g) {
     for (std::size_t k = 0; k < from.groups[g].chains.size(); ++k) {
@@ -94,7 +95,7 @@ lyrefit::IvCurve CurveOfReadings(const field::Readings& readings, const field::M
   return curve;
 }
 
-// A shunt beside every cell or a resistance in series: modules that age evenly.
+// Uniform ageing: an additional shunt on every cell, or an additional series resistance.
 void Age(const std::string& kind, const field::ModuleType& type, Random* random,
          field::Module* module) {
   const double cell_ohm = type.open_circuit_V / type.current;

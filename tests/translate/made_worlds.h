@@ -1,5 +1,5 @@
-// Devices of which the truth at standard conditions is known: by laws that are no procedure's, and
-// modules built cell by cell (hidden/field_*), healthy or with a fault.
+// Simulated devices with known curves at standard conditions. Their laws differ from those of the
+// procedures, or they are modules built cell by cell (hidden/field_*), with or without a fault.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace shown {
 
-// A measured curve, what a data sheet would say of the device, and what it would give in truth.
+// A simulated measured curve, the data-sheet coefficients and the true key points at STC.
 struct MadeCase {
   lyrefit::IvCurve curve;
   lyrefit::StatedCoefficients coefficients;
   lyrefit::KeyPoints stc{};
 };
 
-// "PVsyst", "two diodes", "cells".
+// Names of the simulators: "PVsyst", "two diodes", "cells".
 std::vector<std::string> Worlds();
-// Light drawn evenly between both (W/m2), 5 C and more.
+// Range of the irradiance, drawn uniformly. The cell temperature is 5 C or more.
 struct Light {
   double lowest_W_m2 = 250;
   double highest_W_m2 = 1100;
 };
 MadeCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed);
 
-// Kinds of faults: of hidden/field_*, and a shunt over every cell or a resistance in series. Those
-// of the sweep are not in the truth.
+// Kinds of faults: those of hidden/field_*, a shunt on every cell, and a series resistance. The
+// true STC values include device faults but no sweep faults.
 std::vector<std::string> FaultKinds();
 MadeCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,
                     std::uint64_t seed);

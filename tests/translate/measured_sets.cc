@@ -21,7 +21,7 @@ lyrefit::KeyPoints KeyOf(const IvCurve& curve) {
 
 constexpr double kLeast_W_m2 = 150;
 
-// Every so many of those with a curve to speak of.
+// Keeps every `every`-th curve that reaches open circuit and has enough light.
 void Keep(int every, MeasuredSet* set) {
   std::vector<IvCurve> kept;
   for (std::size_t i = 0; i < set->curves.size(); i += every) {

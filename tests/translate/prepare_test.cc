@@ -40,7 +40,7 @@ TEST(Prepare, FindsTheDiodeAndAnchorsItsLawToBeta) {
   EXPECT_THAT(made->warnings, IsEmpty());
 }
 
-// A sensor on the back reads 2 K less than the cells at 800 W/m2 have.
+// At 800 W/m2 a sensor on the back of the module reads 2 K less than the cell temperature.
 TEST(Prepare, CorrectsASensorOnTheBackToTheCells) {
   const MadeModule module;
   TranslateOptions options = NoDiagnosis(module);

@@ -28,22 +28,23 @@ TEST(Procedures, LeaveTheCurveAsItIsWhereTheTargetIsTheSource) {
   }
 }
 
-// De Soto's device carried by De Soto's law is itself.
+// De Soto's law is exact for a device that follows it.
 TEST(Procedures, DeSotoIsExactOnItsOwnDevice) {
   const MadeModule module;
   for (const double g : {300.0, 700.0, 1100.0}) {
     PreparedCurve curve = module.Curve(g, 50, {1000, 25});
-    curve.bandgap.reset();  // as stated
+    curve.bandgap.reset();  // the stated band gap applies
     const KeyPoints truth = module.Truth(1000, 25);
     const auto key = TranslatedKeyPoints(Procedure::kDeSoto, curve, module.Inputs(g, 50));
     ASSERT_TRUE(key) << key.error().message;
-    // What is left is how the readings are interpolated.
+    // The remaining error comes from the interpolation of the readings.
     EXPECT_NEAR(key->max_power_W, truth.max_power_W, 2e-4 * truth.max_power_W) << g;
     EXPECT_NEAR(key->open_circuit_voltage_V, truth.open_circuit_voltage_V, 2e-3) << g;
   }
 }
 
-// 5 % of light and 4 K: 0.15 % of Pmax, and no more than half of it half as far.
+// A step of 5 % of light and 4 K has an error below 0.15 % of Pmax; half the step has at most half
+// the error.
 TEST(Procedures, AreCloseToTheTruthForSmallSteps) {
   const MadeModule module;
   const auto error = [&](Procedure procedure, double part) {
@@ -121,7 +122,8 @@ TEST(Procedures, AllowForLeadsBeforeAllElse) {
   }
 }
 
-// IEC TS 60904-1-2: 850 W/m2 in front and 100 behind at a bifaciality of 0.7 are 920 W/m2.
+// IEC TS 60904-1-2: 850 W/m2 on the front and 100 on the rear at a bifaciality of 0.7 equal 920
+// W/m2.
 TEST(Procedures, CountTheLightBehind) {
   const MadeModule module;
   TranslationInputs both = module.Inputs(920, 40);
@@ -138,7 +140,7 @@ TEST(Procedures, CountTheLightBehind) {
   }
 }
 
-// A gain of the voltage is one of every voltage, and nothing else.
+// Gains of voltage and current scale the fitted curve and nothing else.
 TEST(Procedures, BendTheFittedDiodeWithTheGains) {
   const MadeModule module;
   const PreparedCurve curve = module.Curve(800, 45, {800, 45});

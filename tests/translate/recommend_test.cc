@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Made ready from 800 W/m2, 45 C, with everything computed.
+// A prepared curve at 800 W/m2 and 45 C with results of four procedures.
 struct Choice {
   explicit Choice(const TranslationTarget& target) {
     made.curve = module.Curve(800, 45, target);
@@ -64,7 +64,7 @@ TEST(Recommend, TakesWhatThereIs) {
   EXPECT_THAT(none.reason, HasSubstr("no procedure"));
 }
 
-// A shunt of 5 Voc / Isc, in readings that do not come to open circuit either.
+// A shunt resistance of 5 Voc / Isc, in readings with and without open circuit.
 TEST(Recommend, HasALowShuntCarriedByTheExtendedModel) {
   for (const bool to_open_circuit : {true, false}) {
     Choice choice({1000, 25});

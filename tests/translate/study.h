@@ -1,4 +1,4 @@
-// The command translate_study: tables of how well curves are carried.
+// The command translate_study: tables of the accuracy of translated curves.
 #pragma once
 
 #include <string>
@@ -7,26 +7,27 @@ namespace shown {
 
 struct StudyOptions {
   std::string data;  // folder of field measurements
-  int every = 3;     // sweeps of a measured set
+  int every = 3;     // uses every n-th sweep of a measured set
   int pairs = 1500;
-  int cases = 0;  // 0: the mode's own number
+  int cases = 0;  // 0: default of the mode
   unsigned seed = 1;
   int threads = 0;
 };
 
-// Sandia and NIST: all procedures, with temperatures doubted half, once and twice as much.
+// Sandia and NIST: all procedures, with 1, 0.7 and 1.4 times the observed scatter of the
+// conditions.
 int StudySets(const StudyOptions& options);
-// Sizes fitted to one half of the Sandia sweeps, tried on the other.
+// Procedure uncertainties fitted to one half of the Sandia sweeps and tested on the other half.
 int StudyHalves(const StudyOptions& options);
-// Sizes fitted to every set and world by itself.
+// Procedure uncertainties fitted to each measured set and each simulator separately.
 int StudySizes(const StudyOptions& options);
-// Healthy devices by other laws than any procedure's, to standard conditions.
+// Simulated healthy devices, which follow other laws than the procedures, translated to STC.
 int StudyMade(const StudyOptions& options);
-// The same where the cells are warmer than their sensor, corrected and not.
+// Simulated healthy devices whose cells are warmer than the sensor, with and without a correction.
 int StudySensors(const StudyOptions& options);
-// The same where nobody states beta.
+// Simulated healthy devices without a stated beta.
 int StudyBeta(const StudyOptions& options);
-// Modules of cells with a fault, to standard conditions.
+// Modules simulated cell by cell, with a fault, translated to STC.
 int StudyFaults(const StudyOptions& options);
 // Real curves with and without faults.
 int StudyReal(const StudyOptions& options);

@@ -18,7 +18,7 @@ using lyrefit::Procedure;
 constexpr Procedure kAll[] = {Procedure::kIec1,   Procedure::kIec2,   Procedure::kIec4,
                               Procedure::kDeSoto, Procedure::kPvsyst, Procedure::kExtended};
 
-// One faulty module carried: errors of Pmax in parts.
+// Translation of one faulty module; errors are relative, of Pmax.
 struct Answer {
   std::map<Procedure, double> errors;
   double recommended = 0;
@@ -55,7 +55,7 @@ Answer Ask(const MadeCase& made) {
   return answer;
 }
 
-// "-1.2 (2.3)": mean and rms, %; a dash where none was computed.
+// Prints "-1.2 (2.3)", mean and rms in %, or a dash if there are no results.
 void PrintErrors(const std::vector<double>& errors) {
   if (errors.empty()) {
     std::printf(" - |");

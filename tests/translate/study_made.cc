@@ -17,8 +17,8 @@ namespace {
 
 using lyrefit::Procedure;
 
-// What the field does not know: light by 3 %, a sensor on the back by 1 K (k = 2), alpha and beta of
-// the data sheet by 20 % and 5 %; how much warmer the cells are at 1000 W/m2 is `of`'s.
+// Expanded uncertainties (k = 2) in the field: irradiance 3 %, back sensor 1 K, data-sheet alpha 20
+// % and beta 5 %. `Warmer` states how much warmer than the sensor the cells are at 1000 W/m2.
 constexpr double kLight_percent = 3, kSensor_K = 1;
 
 struct Warmer {
@@ -26,14 +26,14 @@ struct Warmer {
   double mean_K, spread_K;  // of a normal distribution
 };
 
-// A back sensor's answer to it, and its expanded uncertainty at 1000 W/m2.
+// Correction of a back sensor and its expanded uncertainty, both at 1000 W/m2.
 struct SensorAnswer {
   const char* name;
   double correction_K, expanded_K;
 };
 constexpr SensorAnswer kCorrected = {"corrected by 2.5 K, U 1.5 K", 2.5, 1.5};
 
-// What whoever carries the curves is told and doubts.
+// Stated inputs and uncertainties of the translation.
 struct Told {
   SensorAnswer answer = kCorrected;
   bool beta = true;
@@ -80,7 +80,7 @@ std::vector<Carried> CarryWorld(const std::string& world, const Light& light, in
   return all;
 }
 
-// The size of a procedure that makes its errors on a set likeliest.
+// Prints the maximum-likelihood procedure uncertainties of a set.
 void PrintSizes(const std::string& set, const std::vector<Carried>& all) {
   std::printf("| %s |", set.c_str());
   for (const Procedure procedure : {Procedure::kIec1, Procedure::kIec2, Procedure::kIec4,

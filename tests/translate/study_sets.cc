@@ -62,7 +62,7 @@ void ShowSet(const MeasuredSet& set, const StudyOptions& options) {
 
 struct Split {
   const char* name;
-  // 0: the first part, 1: the second.
+  // 0: the sweep is in the first half, 1: in the second.
   int (*part)(int place, const Sweep& sweep);
 };
 

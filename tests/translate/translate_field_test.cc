@@ -1,4 +1,4 @@
-// Measured curves of a healthy module carried to the conditions of others of them.
+// Measured curves of a healthy module, translated to the conditions of each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ class SandiaPairs : public ::testing::Test {
     const auto set = ReadCurveSet(LYREFIT_FIELD_DATA_DIR "/field/sandia_pvue125");
     ASSERT_TRUE(set) << set.error().ToString();
     TranslateOptions options;
-    options.coefficients.alpha_A_K = 0.0054;  // of the set's own description
+    options.coefficients.alpha_A_K = 0.0054;  // from the description of the set
     options.coefficients.beta_V_K = -0.0774;
     options.procedures = {Procedure::kIec1};
     constexpr std::size_t kEvery = 12;
@@ -44,7 +44,7 @@ class SandiaPairs : public ::testing::Test {
     ASSERT_GT(made_.size(), 40U);
   }
 
-  // Of Pmax, over all pairs whose step is within the limits.
+  // Relative errors of Pmax over all pairs with a step within the limits.
   Errors ErrorsOf(Procedure procedure, double most_light, double most_K, double least_light) const {
     Errors errors;
     for (const Preparation& from : made_) {
@@ -67,7 +67,7 @@ class SandiaPairs : public ::testing::Test {
   std::vector<Preparation> made_;
 };
 
-// What two sweeps in like conditions differ by is 0.4 %: no procedure adds to it.
+// Two sweeps in similar conditions differ by 0.4 %; no procedure adds to that for small steps.
 TEST_F(SandiaPairs, SmallStepsAreAsGoodAsTheMeasurement) {
   for (const Procedure procedure : {Procedure::kIec1, Procedure::kIec2, Procedure::kIec4,
                                     Procedure::kDeSoto, Procedure::kPvsyst}) {
@@ -78,7 +78,8 @@ TEST_F(SandiaPairs, SmallStepsAreAsGoodAsTheMeasurement) {
   }
 }
 
-// Beyond 30 % of the light De Soto's law, which is recommended there, is the best on the whole.
+// For steps above 30 % of light De Soto's law, which is recommended there, has the smallest rms
+// error.
 TEST_F(SandiaPairs, LargeStepsAreDeSotos) {
   const Errors best = ErrorsOf(Procedure::kDeSoto, 2, 60, 0.3);
   EXPECT_GT(best.count, 500);

@@ -24,7 +24,8 @@ TranslateOptions Quick(const MadeModule& module) {
   return options;
 }
 
-// The module with one more path beside its junctions, or one cause, under these conditions.
+// Simulates the module with a leak parallel to its junctions or with an effect, under given
+// conditions.
 IvCurve Simulated(const MadeModule& module, double g, double t_C, double leak_ohm,
                   const std::string& cause, double noise_A) {
   const TranslatedDevice at = module.At(g, t_C);
@@ -84,8 +85,8 @@ TEST(TranslateCurve, BringsAReferenceModuleToStandardConditions) {
   }
 }
 
-// A leak of 20 ohm is there by day and night: De Soto's law makes it grow with the light, procedure
-// 2 the same; the extended model keeps it.
+// A leak of 20 ohm does not depend on the light. The extended model keeps it constant; De Soto's
+// law and procedure 2 let it grow with the light.
 TEST(TranslateCurve, KeepsALowShuntWhereItIs) {
   const MadeModule module;
   const double truth = TruePower(Simulated(module, 1000, 25, 20, "", 0));
@@ -100,7 +101,7 @@ TEST(TranslateCurve, KeepsALowShuntWhereItIs) {
 TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
   const MadeModule module;
   TranslateOptions options = Quick(module);
-  if (kSanitized) options.diagnosis.effects = {"shading", "irr_step"};  // all of them take minutes
+  if (kSanitized) options.diagnosis.effects = {"shading", "irr_step"};  // all effects take minutes
   const double shaded = TruePower(Simulated(module, 1000, 25, 1e9, "shading", 0));
   const auto shade = TranslateCurve(Simulated(module, 800, 45, 1e9, "shading", 0.004), options);
   ASSERT_TRUE(shade) << shade.error().message;
@@ -114,7 +115,7 @@ TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
   EXPECT_EQ(step->Recommended()->procedure, Procedure::kExtended);
   EXPECT_THAT(step->removed, ::testing::Not(::testing::IsEmpty()));
   EXPECT_NEAR(ErrorOf(*step, Procedure::kExtended, reference), 0, 0.005);
-  // Key points without a sweep as fine as the one that is drawn.
+  // Key points are as accurate as those of the fine output curve.
   const TranslatedResult& drawn = *step->Recommended();
   const KeyPoints swept = FindKeyPoints(drawn.curve.voltage_V, drawn.curve.current_A);
   EXPECT_NEAR(drawn.key_points.max_power_W, swept.max_power_W, 1e-5 * swept.max_power_W);
@@ -123,7 +124,7 @@ TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
   EXPECT_GT(ErrorOf(*step, Procedure::kDeSoto, reference), 0.03);
 }
 
-// Read 2.5 K too cold at 1000 W/m2, as by a sensor on the back.
+// The stated temperature is 2 K too low at 800 W/m2 (2.5 K at 1000 W/m2), as of a back sensor.
 TEST(TranslateCurve, SaysWhatWasReadAndWhatTheCellsHave) {
   const MadeModule module;
   TranslateOptions options = Quick(module);
@@ -195,7 +196,7 @@ TEST(TranslateCurve, TakesTheSecondCurveWhereThereIsOne) {
   EXPECT_EQ(report->results.size(), 2U);
 }
 
-// From 120 W/m2 the maximum power at 1000 W/m2 lies where no reading is.
+// From 80 W/m2 the maximum power point at 1000 W/m2 lies beyond open circuit of the measured curve.
 TEST(TranslateCurve, SaysThatProcedure1NeedsNegativeCurrents) {
   const MadeModule module;
   TranslateOptions options = Quick(module);

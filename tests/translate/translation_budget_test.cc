@@ -16,7 +16,7 @@ constexpr Procedure kEveryProcedure[] = {
     Procedure::kIec1,   Procedure::kIec2,   Procedure::kIec3,    Procedure::kIec4,
     Procedure::kDeSoto, Procedure::kPvsyst, Procedure::kExtended};
 
-// Nothing is uncertain but the procedure.
+// All inputs are exact, so only the uncertainty of the procedure remains.
 UncertaintyOptions Nothing() {
   UncertaintyOptions options;
   options.draws = 0;
@@ -53,7 +53,8 @@ TEST(TranslationErrorOf, HasSixSizesForEveryProcedureAndTheirSource) {
 
 TEST(TranslationBudget, OfNoStepIsNone) { EXPECT_LT(ExpandedPart({800, 45}, Nothing()), 1e-9); }
 
-// Variances go with the step: four times the logarithm of the light, twice the size.
+// The variance is proportional to the step: four times the log ratio of light doubles the
+// uncertainty.
 TEST(TranslationBudget, GrowsWithTheRootOfTheStep) {
   const double once = ExpandedPart({800 * std::exp(-0.1), 45}, Nothing());
   const double four = ExpandedPart({800 * std::exp(-0.4), 45}, Nothing());

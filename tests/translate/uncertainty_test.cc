@@ -26,7 +26,7 @@ UncertainInput Input(const char* name, double value, double u,
   return input;
 }
 
-// From a rectangle's ends.
+// Rectangular distribution between two limits.
 UncertainInput Rectangle(const char* name, double low, double high) {
   return Input(name, 0.5 * (low + high), (high - low) / std::sqrt(12.0),
                Distribution::kRectangular);
@@ -76,7 +76,8 @@ TEST(Propagate, IsExactForLinearModels) {
   EXPECT_NEAR(budget.coverage_probability, 0.9545, 5e-5);
 }
 
-// JCGM 101:2008, 9.2.2, 9.2.3 and 9.2.4; ends with the tolerances that are printed there.
+// JCGM 101:2008, 9.2.2, 9.2.3 and 9.2.4, with the tolerances for interval ends that are printed
+// there.
 TEST(Propagate, GivesTheAdditiveExamplesOfJcgm101) {
   SKIP_IF_SANITIZED();
   const UncertainModel sum = Model(Sum);
@@ -137,7 +138,7 @@ TEST(Propagate, GivesTheMassCalibrationOfJcgm101) {
   EXPECT_NEAR(mass.value + mass.expanded_uncertainty, 1.3395, 1e-4);
   EXPECT_NEAR(mass.drawn.mean, 1.2341, 3e-4);
   EXPECT_NEAR(mass.drawn.standard_deviation, 0.0754, 2e-4);
-  // The printed interval is the shortest one; its place is less sure than its length.
+  // The printed interval is the shortest one; its location is less certain than its length.
   const CoverageInterval shortest = ShortestInterval(mass.samples, 0.95);
   EXPECT_NEAR(shortest.low, 1.0834, 2e-3);
   EXPECT_NEAR(shortest.high, 1.3825, 2e-3);
@@ -175,7 +176,7 @@ TEST(Propagate, GivesTheComparisonLossOfJcgm101) {
 }
 
 TEST(NumericalTolerance, IsHalfAUnitOfTheLastDigit) {
-  // The examples of JCGM 101, 7.9.2.
+  // Examples of JCGM 101, 7.9.2.
   EXPECT_DOUBLE_EQ(NumericalTolerance(0.35, 2), 0.005);
   EXPECT_DOUBLE_EQ(NumericalTolerance(0.4, 1), 0.05);
   EXPECT_DOUBLE_EQ(NumericalTolerance(2, 1), 0.5);
@@ -202,7 +203,7 @@ TEST(Propagate, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_NE(Done(model, sources, options).outputs[0].drawn.mean, one.outputs[0].drawn.mean);
 }
 
-// Two results that the readings' noise moves together.
+// Noise of the readings correlates two results.
 TEST(Propagate, KeepsTheCovarianceOfATerm) {
   UncertainModel model;
   model.outputs = {{"a", "A", ""}, {"b", "B", ""}, {"sum", "A + B", ""}};
@@ -277,7 +278,7 @@ TEST(UncertainOutput, ProbabilityIsThatOfTheDrawsOrNormal) {
   EXPECT_NEAR(drawn.outputs[0].ProbabilityBelow(98), 0.158655, 0.003);
 }
 
-// An exponential: half of it lies in a shorter interval at its beginning than anywhere else.
+// The shortest interval with half of an exponential distribution begins at its lowest value.
 TEST(ShortestInterval, LiesWhereTheSamplesAreDense) {
   std::vector<double> rising;
   for (int i = 0; i < 10000; ++i) rising.push_back(-std::log(1 - (i + 0.5) / 10000));

@@ -1,19 +1,19 @@
-// The page: files in, what was read of them, fits and diagnoses out.
+// The page: reads files, shows their content, and runs fits and diagnoses.
 (() => {
-  const kMostBytes = 64 * 2 ** 20;  // as the library's reader has it
+  const kMostBytes = 64 * 2 ** 20;  // limit of the library's reader
   const kTitles = {fit: 'Fit', diagnose: 'Diagnosis'};
   const element = (id) => document.getElementById(id);
 
   const files = [];                       // {name, bytes, values, look, results, state}
-  const options = {fit: {}, diagnose: {}};  // what is said of all files
+  const options = {fit: {}, diagnose: {}};  // options for all files
   let chosen = null;
-  let shown = 'fit';  // which result of the chosen file
+  let shown = 'fit';  // displayed result of the chosen file
   let forms = null;
-  let looker = null;  // answers at once, while the other works
+  let looker = null;  // reads files while `runner` fits
   let runner = null;
   let queue = [];
   let running = null;
-  let finished = 0;  // fits and diagnoses, failed ones too
+  let finished = 0;  // number of fits and diagnoses, including failed ones
 
   function say(id, text) {
     element(id).textContent = text;
@@ -22,7 +22,7 @@
 
   // Files ---------------------------------------------------------------------------------------
 
-  // NAME.json beside NAME.csv says what holds for it, as beside a file on disk.
+  // NAME.json beside NAME.csv gives its conditions, as for files on disk.
   const stem = (name) => name.replace(/\.[^.]*$/, '');
   const isSidecar = (file) => /\.json$/i.test(file.name) &&
       files.some((other) => other !== file && !/\.json$/i.test(other.name) && stem(other.name) === stem(file.name));
@@ -89,7 +89,7 @@
     lookAtAll();
   }
 
-  // A name as a folder can hold it.
+  // Converts a name to one that is allowed in a folder.
   const fileName = (name) => name.replace(/[/\\\0]/g, '_').replace(/^\.+$/, '_') || 'measurement';
 
   function addFile(name, bytes) {
@@ -119,7 +119,7 @@
     }
     const first = added.find((file) => !isSidecar(file)) ?? added[0];
     if (!first) return;
-    lookAtAll();  // a table may have got its sidecar
+    lookAtAll();  // the new file may be the sidecar of a table
     choose(first);
   }
 
@@ -208,7 +208,7 @@
     if (!running) next();
   }
 
-  // What a verb is told of a file: what it has no option for is not said.
+  // Options of a verb for a file, without those that the verb does not have.
   function saidOf(file, verb) {
     const names = new Set(forms[verb].map((row) => row.name));
     const own = Object.entries(ownValues(file)).filter(([name]) => names.has(name));
@@ -363,9 +363,8 @@
     lyrefit.onTheme(() => document.querySelectorAll('iframe').forEach(reportView.followTheme));
   }
 
-  // A browser compiles a function when it is called first, which takes longer than a whole fit; so an example is
-  // fitted while the page is still being looked at. All is asked for at once, before the page listens, so that no
-  // file of the user's comes between.
+  // A browser compiles a function at its first call, which takes longer than a whole fit. An example is therefore
+  // fitted at page load. All its requests are sent before the page accepts files, so that no user's file comes between.
   function warmUp(all) {
     const names = ['rtc_france.csv', 'rtc_france.json'];
     for (const name of names) runner.write(name, new TextEncoder().encode(all[name]));
@@ -396,7 +395,7 @@
     document.documentElement.dataset.engine = 'ready';
   }
 
-  // For who looks at the page from outside: its tests.
+  // Interface for the tests of the page.
   globalThis.lyrefitPage = {files, engines: () => [looker, runner], finished: () => finished};
   start();
 })();

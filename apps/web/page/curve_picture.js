@@ -1,4 +1,4 @@
-// The readings as they were read, as a small picture. Offers curvePicture(curves).
+// A small picture of the readings before the fit. Defines curvePicture(curves).
 function curvePicture(curves) {
   const kWidth = 560, kHeight = 340;
   const kLeft = 58, kRight = 12, kTop = 12, kBottom = 42;

@@ -1,5 +1,5 @@
-// Engines of the page: each a worker of its own, with the same files. Offers Engine, and engineParts(), which
-// promises what one is made of: unpacked and compiled once.
+// Engines of the page: each is a separate worker with a copy of the files. Defines Engine, and engineParts(), which
+// returns a promise of the unpacked and compiled parts; they are shared.
 let partsPromise = null;
 function engineParts() {
   partsPromise ??= (async () => {
@@ -17,7 +17,7 @@ class Engine {
   constructor(parts) {
     this.parts = parts;
     this.files = new Map();
-    this.waiting = new Map();  // by number: what to do with an answer
+    this.waiting = new Map();  // callbacks of unanswered requests, by number
     this.last = 0;
     this.begin();
   }
@@ -49,7 +49,7 @@ class Engine {
       this.memory = memory;
       waiting.done(answer);
     } else {
-      // What stands in its memory is not to be trusted: a new one takes its place.
+      // The memory of a failed engine may be corrupt: a new engine replaces it.
       waiting.done({error: `the engine failed: ${failure}`});
       this.stop('the engine was begun anew');
     }
@@ -64,7 +64,7 @@ class Engine {
     if (this.files.delete(name)) this.worker.postMessage({action: 'remove', name});
   }
 
-  // The answer to a request; one with `stopped` where stop() came before it.
+  // Promise of the answer to a request, with `stopped` if stop() came first.
   run(request, progress) {
     const id = ++this.last;
     return new Promise((done) => {
@@ -73,7 +73,7 @@ class Engine {
     });
   }
 
-  // Ends all work at once and is ready for more.
+  // Ends all work at once and starts a new worker.
   stop(why) {
     this.worker.terminate();
     const waiting = [...this.waiting.values()];

@@ -1,5 +1,5 @@
-// Forms, made of what the engine says of its option tables. Offers formFields(rows, values, changed): elements, a
-// field for every row, which keep `values` as they are filled in.
+// Forms from the engine's description of its option tables. Defines formFields(rows, values, changed): one element for
+// every row, which updates `values` on input.
 function formFields(rows, values, changed) {
   const say = (tag, text, className) => {
     const element = document.createElement(tag);
@@ -31,7 +31,7 @@ function formFields(rows, values, changed) {
     if (row.kind === 'number') input.inputMode = 'decimal';
     input.spellcheck = false;
     input.autocomplete = 'off';
-    // Infinity and the largest whole number stand for no limit.
+    // Infinity and the largest integer mean no limit.
     const none = row.kind === 'number' && !(Math.abs(Number(row.default)) < 1e18);
     input.placeholder = row.placeholder ?? (none ? 'none' : row.default ?? '');
     input.value = [values[row.name] ?? []].flat().join('\n');

@@ -1,6 +1,6 @@
-// What was read of a file, as elements. Offers readView: what belongs to a file, its forms, its columns, its errors.
+// Display of a file's content. Defines readView: elements for its forms, its columns and its errors.
 const readView = (() => {
-  const kOwnGroups = ['Conditions', 'Reading'];  // of the options: these are said of each file
+  const kOwnGroups = ['Conditions', 'Reading'];  // groups of options that are set for each file
   const kMainFields = {
     cells: {label: 'Cells in series', unit: ''},
     'temperature-C': {label: 'Cell temperature (°C)', unit: '°C'},
@@ -8,7 +8,7 @@ const readView = (() => {
   };
   const kKnown = {cells: 'cells', 'temperature-C': 'temperature_C', 'irradiance-Wm2': 'irradiance_Wm2'};
 
-  // An error with the line of the file that it is about.
+  // Shows an error with the line of the file that it refers to.
   function showError(box, error, file) {
     box.replaceChildren();
     box.hidden = !error;
@@ -64,7 +64,7 @@ const readView = (() => {
     return box;
   }
 
-  // Columns may be chosen from those that there are.
+  // Fields for reading; columns are chosen from those of the file.
   function readingFields(file, form, changed) {
     const columns = file.look?.columns ?? [];
     const rows = form.filter((row) => kOwnGroups.includes(row.group) && !kMainFields[row.name]).map((row) => {
@@ -75,7 +75,7 @@ const readView = (() => {
     return formFields(rows, file.values, changed);
   }
 
-  // Writes a form anew, and leaves the keyboard where it was.
+  // Replaces a form's fields and restores the keyboard focus.
   function fill(holder, fields) {
     const field = holder.contains(document.activeElement) ? document.activeElement.closest('.field') : null;
     holder.replaceChildren(...fields);

@@ -1,4 +1,4 @@
-// A report as it is shown and saved. Offers reportView: frameOf(result), followTheme(frame), save(result, verb, what).
+// Display and saving of a report. Defines reportView: frameOf(result), followTheme(frame), save(result, verb, what).
 const reportView = (() => {
   function followHeight(frame) {
     const page = frame.contentDocument;
@@ -7,7 +7,7 @@ const reportView = (() => {
     fit();
   }
 
-  // The report has the colours of the page around it.
+  // Gives the report the theme of the page.
   function followTheme(frame) {
     const wanted = document.documentElement.dataset.theme;
     const page = frame.contentDocument;
@@ -18,13 +18,13 @@ const reportView = (() => {
     if (now !== wanted) button.click();
   }
 
-  // The report in a frame, which grows with it.
+  // A frame with the report, as high as its content.
   function frameOf(result) {
     const frame = document.createElement('iframe');
     frame.title = `Report of ${result.name}`;
     frame.srcdoc = result.page_html;
     frame.addEventListener('load', () => {
-      frame.contentDocument.querySelector('header .tools').hidden = true;  // the page around it has them
+      frame.contentDocument.querySelector('header .tools').hidden = true;  // the page has its own
       followTheme(frame);
       followHeight(frame);
     });

@@ -1,9 +1,9 @@
-// In the worker, behind the engine's own script, which defines createEngine(): a folder of files and answers to
+// Code of the worker after the engine's script, which defines createEngine(): a folder of files and answers to
 // requests, one after the other.
 let engine = null;
 let asked = null;
 
-// What the engine says while it works: see progress.js.
+// Called by the engine during its work, through progress.js.
 globalThis.lyrefitProgress = (text) => postMessage({id: asked, progress: JSON.parse(text)});
 
 async function start(module) {

@@ -136,14 +136,14 @@ OptimumCount Descents::Count() const {
   for (const Optimum& local_optimum : descents) {
     count.ends += local_optimum.ends;
     independent.ends += local_optimum.apart;
-    independent.descents += local_optimum.apart > 0 ? 1 : 0;
+    independent.local_optima += local_optimum.apart > 0 ? 1 : 0;
     independent.once += local_optimum.apart == 1 ? 1 : 0;
     independent.twice += local_optimum.apart == 2 ? 1 : 0;
     if (!SameOptimum(*local_optimum.first, ends_[best_])) continue;
     count.best_visits += local_optimum.ends;
     independent.best_visits += local_optimum.apart;
   }
-  count.descents = static_cast<int>(descents.size());
+  count.local_optima = static_cast<int>(descents.size());
   constexpr int kLeast = 3;
   if (independent.ends >= kLeast) {
     count.unseen = independent.once * (independent.once - 1) / (2.0 * (independent.twice + 1));

@@ -164,7 +164,7 @@ PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const Se
   PolishResult result =
       ReportEnds(job->problem, starts, std::move(ends), descents.best(), job->watch.stopped(), begin);
   result.ends = all;
-  result.report.descents = descents.Count();
+  result.report.local_optima = descents.Count();
   report->variants = ReportVariants(*job, descents);
   SelectVariant(best.start.variant, best.end.p, job, report);
   return result;

@@ -14,16 +14,16 @@
 namespace lyrefit {
 namespace {
 
-// Cosine below which a gradient counts as zero when a bound is released or a diode let in.
+// Cosine below which a gradient counts as zero when a bound is released or a diode added.
 constexpr double kFlat = 1e-8;
-// How often a parameter may be let go, and a diode let in, times the number of parameters.
+// Limits of released bounds and of added diodes, as multiples of the number of parameters.
 constexpr int kMostReleased = 2;
 constexpr int kMostLetIn = 1;
-// Length of a column, in residuals, below which a unit of its coordinate changes nothing.
+// Length of a column, in residuals, below which its coordinate has no influence.
 constexpr double kNoInfluence = 1e-12;
-// Relative rise of the mean square, from the best point on the way to the end, that is no rounding.
+// Relative rise of the mean square, from the lowest point to the end, beyond rounding.
 constexpr double kWorse = 1e-9;
-constexpr double kNoLoss = 1e-12;  // the same, of what may be taken out
+constexpr double kNoLoss = 1e-12;  // the same limit when a diode is dropped
 
 class ActiveSet {
  public:
@@ -79,14 +79,14 @@ class ActiveSet {
 
   void Clamp() {
     std::vector<double>& p = now_.at.p;
-    for (int i = 0; i < size(); ++i) {  // a shunt stands before the dark one that follows it
+    for (int i = 0; i < size(); ++i) {  // each shunt precedes its dark shunt, which depends on it
       const ParameterRange range = BoundsAt(shape_, i, p);
       p[i] = std::min(std::max(p[i], range.low), range.high);
     }
   }
 
-  // The bounded solve knows no bounds of a saturation current whose n moves. At its bound the diode
-  // keeps its current at V0 as far as its n can make up for it.
+  // The bounded solve has no bounds for a saturation current whose n is free. A diode moved to such
+  // a bound keeps its current at V0 as far as its n can compensate.
   void StepBackInside() {
     std::vector<double>& p = now_.at.p;
     const double pivot = shape_.voltage_scale_V / shape_.thermal_voltage_V;
@@ -107,13 +107,14 @@ class ActiveSet {
     Measure();
   }
 
-  // Holding and letting go may lead uphill on a curve that the model does not describe.
+  // Fixing and releasing bounds may raise the sum of squares of a curve that the model does not
+  // describe.
   void Remember() {
     if (best_.held.empty() || now_.mean_square < best_.mean_square) best_ = now_;
   }
 
-  // Of the settled places the lowest: what was let go from there and led nowhere is not asked
-  // again.
+  // Keeps the lowest point with a stable active set. A bound whose release did not lower the sum of
+  // squares from there is not released again.
   void KeepIfBetter() {
     if (settled_.held.empty() || now_.mean_square < settled_.mean_square) {
       settled_ = now_;
@@ -142,12 +143,13 @@ class ActiveSet {
     return end;
   }
 
-  // One solve over what is not held; keeps the better of before and after. Returns its coordinates.
+  // One solve over the free parameters; keeps the better of before and after. Returns its
+  // coordinates.
   std::vector<double> Solve(bool bounded, double function_tolerance, int max_iterations) {
     const Coordinates coordinates(shape_, now_.at.p, now_.held);
     std::vector<double> theta = coordinates.Start();
     now_.converged = theta.empty() && now_.at.local.empty();
-    // No place to take a step from.
+    // No derivatives exist at this point.
     if (now_.converged || !std::isfinite(now_.mean_square)) return theta;
     if (!coordinates.Sane(theta.data())) return theta;
     SolveOptions how;
@@ -175,8 +177,8 @@ class ActiveSet {
     return std::move(end.theta);
   }
 
-  // Whether what a solve came to is a place to be: within the bounds that it did not know, and with
-  // no diode that has faded. What presses against its bound is then held there.
+  // Whether the end of a solve is acceptable: inside the bounds unknown to the solve, and without a
+  // diode of negligible current. Parameters at a bound are then held there.
   bool IsInside() {
     FitPoint at = now_.at;
     std::vector<bool> held = now_.held;
@@ -190,7 +192,7 @@ class ActiveSet {
     return true;
   }
 
-  // Puts the parameter of a coordinate on one of its bounds and holds it there.
+  // Sets the parameter of a coordinate to one of its bounds and holds it there.
   void Hold(const Coordinates& coordinates, int k, bool lower) {
     const int i = coordinates.parameter(k);
     now_.at.p[i] = coordinates.AtBound(k, lower, now_.at.p);
@@ -213,8 +215,8 @@ class ActiveSet {
     if (TakeOutFaded() || any) Measure();
   }
 
-  // Solves without bounds. True if the answer lies inside them; else goes as far as the first bound
-  // on the way there and holds that parameter.
+  // Solves without bounds. True if the solution lies inside them. Otherwise goes as far as the
+  // first bound on the way and holds that parameter.
   bool SolveFree() {
     const State before = now_;
     const Coordinates coordinates(shape_, before.at.p, before.held);
@@ -257,7 +259,7 @@ class ActiveSet {
     return false;
   }
 
-  // Takes out what has faded if nothing is lost by it; the rest is then solved once more.
+  // Drops diodes of negligible current if the sum of squares stays. The rest is then solved again.
   bool FadesWithoutLoss() {
     State before = now_;
     if (!TakeOutFaded()) return false;
@@ -269,8 +271,9 @@ class ActiveSet {
 
   bool TakeOutFaded() { return RemoveFaded(shape_, &now_.at.p, &now_.held); }
 
-  // Signed cosine of the residuals with each parameter that is neither fixed nor absent; 0 where it
-  // sits at a bound and would leave it, and of all others.
+  // Signed cosine of the residuals with the column of each parameter that is neither fixed nor of a
+  // dropped diode. 0 for all others, and for a parameter at a bound whose descent direction leads
+  // outside.
   std::vector<double> FreeCosines() const {
     std::vector<bool> held = fixed_;
     HoldAbsent(shape_, now_.at.p, &held);
@@ -301,7 +304,7 @@ class ActiveSet {
     return largest;
   }
 
-  // Lets the held parameter that most wants back into its range move again.
+  // Releases the held parameter whose inward descent direction has the largest cosine.
   bool ReleaseOne() {
     const std::vector<double> cosines = FreeCosines();
     int best = -1;
@@ -317,8 +320,8 @@ class ActiveSet {
     return true;
   }
 
-  // Puts a vanished diode where the residuals ask for one and solves on; keeps it only if that
-  // pays.
+  // Adds a dropped diode where the residuals correlate with its current and continues the solve.
+  // Keeps the diode only if the sum of squares falls.
   bool AddDiode() {
     if (!options_.let_in || Ended()) return false;
     for (int i = 0; i < size(); ++i) {
@@ -351,8 +354,8 @@ class ActiveSet {
   const RefineOptions& options_;
   std::vector<bool> fixed_;
   State now_;
-  State best_;     // of all places on the way
-  State settled_;  // of those inside the bounds that a free solve came to
+  State best_;     // lowest of all points so far
+  State settled_;  // lowest point with a stable active set
   std::vector<bool> refused_;
   int last_released_ = -1;
   int released_ = 0;
@@ -360,14 +363,14 @@ class ActiveSet {
   int iterations_ = 0;
   bool stopped_ = false;
   bool hopeless_ = false;          // options_.cutoff is out of reach
-  std::unique_ptr<FitModel> coarse_;  // filled where needed
+  std::unique_ptr<FitModel> coarse_;  // created when needed
 };
 
 }  // namespace
 
 namespace {
 
-// Models may take what is no number for any number at all.
+// Models may evaluate NaN parameters to finite residuals.
 bool AreNumbers(const FitPoint& point) {
   const auto none = [](double x) { return std::isnan(x); };
   return std::none_of(point.p.begin(), point.p.end(), none) &&

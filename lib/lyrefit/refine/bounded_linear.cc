@@ -9,14 +9,14 @@ namespace {
 
 enum class Held { kFree, kLower, kUpper };
 
-// The unknowns that are off their bounds.
+// The unknowns that are not at a bound.
 struct FreeSet {
   int count = 0;
   int index[kMostLinear];
   void Add(int i) { index[count++] = i; }
 };
 
-// Least squares in the free variables with the others where they are.
+// Least squares in the free variables, the others fixed at `x`.
 SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb, const SmallVector& x,
                       const FreeSet& free) {
   const int count = free.count;
@@ -32,8 +32,8 @@ SmallVector SolveFree(const SmallMatrix& gram, const SmallVector& atb, const Sma
   return g.ldlt().solve(rhs);
 }
 
-// Goes from x towards the free solution; at the first bound on the way, stops there and clamps.
-// True if the whole way was free.
+// Steps from x to the free solution; stops at the first bound on the way and fixes that variable.
+// True if no bound was met.
 bool StepTowards(const SmallVector& target, const FreeSet& free, const SmallVector& lower,
                  const SmallVector& upper, SmallVector* x, Held* side) {
   double reach = 1;

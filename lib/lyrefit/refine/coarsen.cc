@@ -10,11 +10,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kBins = 256;  // of equally many points: what the shape of the curve is read from
-// Groups of equal length along the curve, and what stands for each.
-constexpr int kScatteredGroups = 64;  // four points, where the residual takes the measured current
+constexpr int kBins = 256;  // with equal numbers of points, for the path length of the curve
+// Groups of equal length along the curve.
+constexpr int kScatteredGroups = 64;  // of four points each, for the measured-current objective
 constexpr int kSmoothGroups = 30;
-constexpr int kNodes = 4;  // of a smooth group
+constexpr int kNodes = 4;  // points of a smooth group
 
 // Weight, mean and covariance of a group of points.
 struct Moments {
@@ -55,8 +55,8 @@ std::vector<int> VoltageOrder(const std::vector<double>& voltage_V) {
   return order;
 }
 
-// Where the groups begin in `order`, and its end. Noise would lengthen a path from point to point,
-// so the length is that of the path through the means of the bins.
+// First points of the groups in `order`, then its end. Noise would lengthen a path from point to
+// point, so the length is that of the path through the means of the bins.
 std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order,
                                     int groups) {
   const auto bin_begin = [&](int bin) {
@@ -105,11 +105,12 @@ void AddScattered(const Moments& m, Points* points) {
   }
 }
 
-// The Gauss quadrature of a group: nodes and weights that sum every polynomial of degree
-// 2 kNodes - 1 as the group's own points do (Golub and Welsch; the recurrence by Lanczos' process
-// on the points themselves), and at the nodes the polynomial of degree kNodes - 1 that is closest
-// to the currents. Sums of squares of whatever is such a polynomial less the currents are kept but
-// for a constant, which is returned: the weighted squares around the polynomial.
+// The Gauss quadrature of a group: nodes and weights whose sums equal those of the group's points
+// for every polynomial of degree 2 kNodes - 1 (Golub and Welsch; the recurrence by Lanczos' process
+// on the points themselves). The currents at the nodes are those of the closest polynomial of
+// degree kNodes - 1. If the model current is such a polynomial within the group, the sum of squared
+// residuals is kept up to a constant. Returns this constant: the weighted sum of squares of the
+// currents around the polynomial.
 double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin, Iterator end,
                  Points* points) {
   const int count = static_cast<int>(end - begin);
@@ -121,11 +122,11 @@ double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin,
   }
   const double reach = std::max(x.cwiseAbs().maxCoeff(), 1e-300);
   x /= reach;
-  constexpr double kSamePlace = 1e-9;  // of the reach: no further node
+  constexpr double kSamePlace = 1e-9;  // reach; nodes closer than this are not separated
   const int most = std::min(kNodes, count);
   Eigen::MatrixXd basis(count, most);
   Eigen::MatrixXd recurrence = Eigen::MatrixXd::Zero(most, most);
-  Eigen::VectorXd along(most);  // of the currents, each polynomial of the basis
+  Eigen::VectorXd along(most);  // components of the currents along the basis polynomials
   Eigen::VectorXd next = root;
   int nodes = 0;
   while (nodes < most) {
@@ -142,8 +143,8 @@ double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin,
       next -= basis.leftCols(nodes) * (basis.leftCols(nodes).transpose() * next).eval();
     }
   }
-  // The nodes are the eigenvalues of the recurrence. They lie within [-1, 1], so that those of the shifted matrix are
-  // its singular values.
+  // The nodes are the eigenvalues of the recurrence. They lie within [-1, 1], so those of the
+  // shifted matrix are its singular values.
   constexpr double kShift = 2;
   recurrence.diagonal().array() += kShift;
   const RightSingular found = FindRightSingular(recurrence.topLeftCorner(nodes, nodes));
@@ -156,8 +157,8 @@ double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin,
   return rest.squaredNorm();
 }
 
-// Gives the weight of the heaviest point of the first group, where no diode conducts yet, to two
-// points around it that are as far off as `squares` asks.
+// Splits the heaviest point of the first group, where no diode conducts yet, into two points of
+// half the weight. Their distance in current adds `squares` to the sum of squares.
 void AddConstant(double squares, Points* points) {
   const auto first = points->weights.begin();
   const std::ptrdiff_t most = std::min<std::ptrdiff_t>(kNodes, points->weights.end() - first);
@@ -171,7 +172,8 @@ void AddConstant(double squares, Points* points) {
 
 }  // namespace
 
-// Effects act on readings, of which no few stand for many; and errors do that hang together.
+// Effects act on single readings, and correlated errors on neighbours, so neither allows
+// coarsening.
 bool CanCoarsen(const RefineProblem& problem) {
   return problem.voltage_V.size() > kFewPoints && problem.device.extension == nullptr &&
          problem.errors == nullptr;

@@ -4,20 +4,20 @@
 
 namespace lyrefit {
 
-// Up to so many points are taken as they are.
+// Curves of at most this many points are not coarsened.
 constexpr int kFewPoints = 512;
 
-// A problem of a few hundred points that stands for one of many: the points, in order of voltage,
-// are cut into groups of neighbours, short where the curve bends, and each group becomes four
-// points with its weight, its mean and its covariance of voltage and current or, for the solved
-// current, the nodes of its Gauss quadrature, which keep what is a cubic within it. Sums of squares
-// of anything that is straight within each group are kept, whatever the parameters, so the rise of
-// the sum of squares around the optimum is kept to far better than the 1 % a profile is told to.
-// Bounds, scales and kernel stay. A problem of at most kFewPoints comes back as it is, and one of a
-// device with effects or of errors that hang together.
+// A problem of a few hundred points that replaces one of many. The points, in order of voltage, are
+// cut into groups of neighbours, short where the curve bends. Measured current: each group becomes
+// four points with its weight, its mean and its covariance of voltage and current. Solved current:
+// each group becomes the nodes of its Gauss quadrature, which keep a cubic within the group. Sums
+// of squares of residuals that are straight within each group are kept for all parameters. The rise
+// of the sum of squares around the optimum is therefore kept far better than the 1 % tolerance of a
+// profile. Bounds, scales and kernel stay. Returns the problem unchanged for at most kFewPoints, a
+// device with effects, or correlated errors.
 RefineProblem Coarsen(const RefineProblem& problem);
 
-// Whether it would not come back as it is.
+// Whether Coarsen changes the problem.
 bool CanCoarsen(const RefineProblem& problem);
 
 }  // namespace lyrefit

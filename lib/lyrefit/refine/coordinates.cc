@@ -9,7 +9,7 @@ namespace {
 constexpr double kLowestConductance = -0.1;  // in units of 1 / R0
 constexpr double kLargestLogCurrent = 30;    // of a diode at V0, in units of I0
 
-// Coordinates of these fall as the parameter rises.
+// Kinds whose coordinates fall as the parameter rises.
 bool Falls(ParameterKind kind) { return kind == ParameterKind::kIdeality || IsConductance(kind); }
 
 // The natural value of a step of 1 along a linear coordinate.
@@ -88,7 +88,7 @@ void Coordinates::ToParameters(const double* theta, double* p) const {
       p[i] = theta[k] * StepOf(*shape_, parameter);
     }
   }
-  for (int i = 0; i < count; ++i) {  // what depends on the others
+  for (int i = 0; i < count; ++i) {  // parameters that depend on others
     const FitParameter& parameter = shape_->parameters[i];
     const int with = parameter.with[0];
     if (parameter.kind == ParameterKind::kSaturation && Moves(i)) {

@@ -6,17 +6,17 @@
 
 namespace lyrefit {
 
-// The coordinates in which a fit moves, one for every parameter that is not held, scaled so that
-// none depends strongly on another:
-//   photocurrents, series, plain   linear, in parts of I0, of R0 = V0 / I0, of the step
+// Coordinates of a fit, one for every parameter that is not held, scaled so that none depends
+// strongly on another:
+//   photocurrents, series, plain   linear, in units of I0, of R0 = V0 / I0, of the step
 //   ideality                       1 / n
 //   shunt                          R0 / Rsh, so that a perfect shunt is 0
 //   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; held, but not fixed, it
 //                                  keeps that ratio
 //   saturation current             ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's
 //                                  current at V0
-// So each coordinate touches one parameter, but that the saturation current follows its n and the
-// dark shunt its shunt.
+// Each coordinate changes one parameter, with two exceptions: the saturation current also depends
+// on its n, and the dark shunt on its shunt.
 class Coordinates {
  public:
   Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> held);
@@ -24,11 +24,11 @@ class Coordinates {
   int size() const { return static_cast<int>(moving_.size()); }
   int parameter(int coordinate) const { return moving_[coordinate]; }
 
-  // Coordinates of the parameters it was made at.
+  // Coordinates of the parameters passed to the constructor.
   std::vector<double> Start() const;
   void ToParameters(const double* theta, double* p) const;
 
-  // Derivatives of the parameters by the coordinates that are not 0, at parameters `p`.
+  // Derivatives of the parameters by the coordinates at parameters `p`; zeros are left out.
   struct Slope {
     int parameter;
     int coordinate;
@@ -36,21 +36,21 @@ class Coordinates {
   };
   std::vector<Slope> Slopes(const double* p) const;
 
-  // Bounds of a coordinate; infinite where it has none, as a saturation current while its n moves.
+  // Bounds of a coordinate; infinite for a saturation current whose n is free.
   double lower(int coordinate) const { return lower_[coordinate]; }
   double upper(int coordinate) const { return upper_[coordinate]; }
 
-  // The parameter of a coordinate by itself, linear in the coordinates (a saturation current: its
-  // logarithm; the others: the coordinate), and its bounds there.
+  // The parameter of a coordinate alone, linear in the coordinates: the logarithm of a saturation
+  // current, otherwise the coordinate. OwnLower and OwnUpper are its bounds.
   double Own(int coordinate, const std::vector<double>& theta) const;
   double OwnLower(int coordinate) const;
   double OwnUpper(int coordinate) const;
 
-  // What parameter a coordinate's lower or upper bound stands for, exactly, the others at `p`.
+  // Exact parameter value at a coordinate's lower or upper bound, the other parameters at `p`.
   double AtBound(int coordinate, bool lower, const std::vector<double>& p) const;
 
-  // Whether a point is near enough to its bounds to be worth evaluating: a free solve may step over
-  // a bound (its parameter is then held there), but not into regions where currents overflow.
+  // Whether a point is near enough to its bounds to be evaluated. A solve without bounds may step
+  // over a bound (the parameter is then set to that bound), but not to currents that overflow.
   bool Sane(const double* theta) const;
 
  private:
@@ -63,12 +63,12 @@ class Coordinates {
   const ModelShape* shape_;
   std::vector<double> p_;
   std::vector<int> moving_;  // parameter of each coordinate
-  std::vector<int> slot_;    // coordinate of each parameter, -1 where held
+  std::vector<int> slot_;    // coordinate of each parameter, -1 if held
   std::vector<double> lower_;
   std::vector<double> upper_;
 };
 
-// Bounds of a parameter with the others at `p`: its own; a dark shunt's are relative to its shunt.
+// Bounds of a parameter, the others at `p`. Those of a dark shunt are relative to its shunt.
 ParameterRange BoundsAt(const ModelShape& shape, int i, const std::vector<double>& p);
 
 }  // namespace lyrefit

@@ -8,14 +8,14 @@
 
 namespace lyrefit {
 
-// One curve of a device as a model: one block without unknowns of its own, mean squares by the
-// kernel.
+// One curve of a device as a model: one block without local unknowns. The kernel computes mean
+// squares.
 class CurveModel : public FitModel {
  public:
-  // Keeps a reference.
+  // Keeps a reference to the problem.
   explicit CurveModel(const RefineProblem& problem);
-  // For one descent, in which each evaluation may start where the last one ended: faster for
-  // extended devices, and not for several threads at once.
+  // For one descent: each evaluation may start from the last solution. Faster for devices with
+  // effects; not thread-safe.
   CurveModel(const RefineProblem& problem, GiveUp give_up);
 
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
@@ -26,9 +26,9 @@ class CurveModel : public FitModel {
  private:
   explicit CurveModel(std::unique_ptr<RefineProblem> own);
 
-  std::unique_ptr<RefineProblem> own_;  // null: somebody else's
+  std::unique_ptr<RefineProblem> own_;  // null: the caller owns the problem
   const RefineProblem& problem_;
-  std::unique_ptr<LawWorkspace> kept_;  // null: evaluations know nothing of each other
+  std::unique_ptr<LawWorkspace> kept_;  // null: evaluations are independent
 };
 
 }  // namespace lyrefit

@@ -9,13 +9,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kBriefly = 12;         // iterations that do for most refits
-constexpr int kMaxIterations = 200;  // of the others
+constexpr int kBriefly = 12;         // iterations that suffice for most refits
+constexpr int kMaxIterations = 200;  // of the other refits
 constexpr int kMaxRounds = 10;
-constexpr double kHopeless = 10;   // of t: no swap of diodes brings a saturation current so far
-constexpr double kInside = 0.994;  // of the rise at the end: so far from it no swap matters
+constexpr double kHopeless = 10;   // of t; no exchange of diodes is tried above it
+constexpr double kInside = 0.994;  // of the rise at the end; no exchange is tried below it
 
-// The optimum with the diode of parameter i and diode d exchanged, where both have the same bounds.
+// Exchanges the diode of parameter i and diode d, if both have the same bounds.
 bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>* p) {
   const ParameterKind kind = problem.device.parameters[i].kind;
   const bool saturation = kind == ParameterKind::kSaturation;
@@ -31,7 +31,7 @@ bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>
   return true;
 }
 
-// The fits behind the profile of one parameter of one curve.
+// The refits of the profile of one parameter of one curve.
 class CurveRefits {
  public:
   CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
@@ -42,7 +42,7 @@ class CurveRefits {
     if (Kind() == ParameterKind::kSaturation)
       hopeless_ = best.mean_square + kHopeless * kHopeless * rise;
     how_.small = true;
-    how_.let_in = false;  // the descents do that
+    how_.let_in = false;  // the separable descents add diodes
     how_.max_iterations = how_.first_iterations = kMaxIterations;
     how_.max_rounds = kMaxRounds;
     how_.stop = [this, stop] { return stopped_ = stopped_ || (stop && stop()); };
@@ -59,8 +59,8 @@ class CurveRefits {
     briefly.max_rounds = 0;
     if (enough > 0) briefly.cutoff = enough;
     RefineEnd end = RefineModel(model_, from, briefly);
-    // A descent that sees further where that did not do; and before a place counts as outside,
-    // since the diodes may have changed their parts there.
+    // RefineFrom is tried if the brief fit did not reach its goal. It is also tried before a point
+    // counts as outside, since the diodes may have exchanged roles there.
     const bool further = end.converged ? end.mean_square > outside_ && OfDiode()
                                        : end.mean_square > enough && (OfDiode() || !(enough > 0));
     if (further) TakeIfLower(RefineFrom(held_, from.p, how_), &end);
@@ -73,7 +73,7 @@ class CurveRefits {
     return end;
   }
 
-  // Whether a start that needs no luck leads into a local optimum at or below `enough`.
+  // Whether a fit from a deterministic start ends at or below `enough`.
   bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
     Ask(value, enough, tolerance);
     RefineOptions reach = how_;
@@ -111,7 +111,7 @@ class CurveRefits {
     how_.function_tolerance = how_.first_tolerance = tolerance;
   }
 
-  // The optima with the parameter's diode and another exchanged.
+  // The optima with the parameter's diode and another one exchanged.
   std::vector<std::vector<double>> Traded(double value) const {
     std::vector<std::vector<double>> all;
     for (int d = 0; d < DiodeCount(held_.device); ++d) {
@@ -127,7 +127,7 @@ class CurveRefits {
   const RefineEnd& best_;
   RefineProblem held_;
   CurveModel model_;
-  double outside_ = 0;  // mean square of a place that is
+  double outside_ = 0;  // mean square of a point outside the interval
   double hopeless_ = HUGE_VAL;
   RefineOptions how_;
   bool stopped_ = false;
@@ -142,7 +142,7 @@ ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
     return [&, member](auto&&... of) { return (curve.*member)(of...); };
   };
   ProfileRefits refits{bind(&CurveRefits::Refit), bind(&CurveRefits::Elsewhere)};
-  // What a single diode does has one local optimum.
+  // A model with a single diode has only one local optimum.
   if (DiodeCount(problem.device) == 1) refits.elsewhere = nullptr;
   return FindProfileSide(CurveModel(problem), best, query, refits);
 }

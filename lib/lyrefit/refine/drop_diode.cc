@@ -8,13 +8,12 @@
 namespace lyrefit {
 namespace {
 
-// A diode that adds less than this part of the largest current at the largest voltage has faded; a
-// trial diode is as weak, to read off the direction its current would pull.
+// A diode is dropped if it adds less than this part of the largest current at the largest voltage.
+// A trial diode is as weak, so that only the direction of its current matters.
 constexpr double kFaded = 1e-9;
 constexpr int kSteps = 24;  // over the range of n
 
-// exp(V0 / (n Ns Vt)): what makes a diode's current at the largest voltage of its saturation
-// current.
+// exp(V0 / (n Ns Vt)): ratio of a diode's current at the largest voltage to its saturation current.
 double Growth(const ModelShape& shape, double n) {
   return std::exp(std::min(shape.voltage_scale_V / (n * shape.thermal_voltage_V), 600.0));
 }

@@ -6,26 +6,26 @@
 
 namespace lyrefit {
 
-// What may vanish from a fit and come back: a diode, by its saturation current, which takes its
-// ideality along.
+// Dropping a diode from a fit and adding it again. A diode is dropped by a saturation current of 0,
+// and its ideality is then held as well.
 
-// Holds what belongs to a diode that is not there.
+// Holds the parameters of every dropped diode.
 void HoldAbsent(const ModelShape& shape, const std::vector<double>& p, std::vector<bool>* held);
 
-// HoldAbsent, and takes out diodes that may vanish and no longer show at the largest voltage; true
-// if there was one.
+// Calls HoldAbsent and drops diodes that may vanish and add no visible current at the largest
+// voltage. True if one was dropped.
 bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* held);
 
-// A diode that would be of use where there is none.
+// A diode that would lower the sum of squares.
 struct DiodeToAdd {
-  double cosine = 0;  // of its current with what the residuals ask for
-  double size = 0;    // its saturation current if nothing else moved
+  double cosine = 0;  // of its current with the negative residuals
+  double size = 0;    // its saturation current if no other parameter changes
   double n = 0;
 };
 
-// The ideality in the range of parameter `saturation`'s at which the residuals at `point` ask most
-// for it; a cosine of 0: nowhere. Looked for on the few points that stand for many, if there are
-// such (`coarse`, may be null).
+// Finds the ideality, in the range of that of parameter `saturation`, whose diode current has the
+// largest cosine with the negative residuals at `point`. A cosine of 0: there is none. Scans the
+// coarsened model `coarse` if it is not null.
 DiodeToAdd FindDiodeToAdd(const FitModel& model, const FitModel* coarse, const FitPoint& point,
                       int saturation);
 

@@ -5,8 +5,8 @@
 namespace lyrefit {
 namespace {
 
-// Of a row by itself. Less than 0 where a mean of neighbours has less of the path than shows at one
-// place: with what it shares with others that is a covariance all the same.
+// Independent variance of a row. Below 0 if a mean of neighbours has less path variance than a
+// single reading. Together with the covariances the matrix is positive definite all the same.
 double OwnVariance(const ErrorModel& errors, int k) {
   const double own = errors.white[k] * errors.white[k];
   if (errors.averaged_away.empty() || errors.path.empty()) return own;
@@ -18,7 +18,7 @@ double OwnVariance(const ErrorModel& errors, int k) {
 double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
   const bool has_path = !errors.path.empty();
   const Eigen::Index columns = rows.cols();
-  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // of the path, as foretold
+  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // prediction of the path
   double variance = 1, logs = 0;                                 // of the state
   int before = -1;
   for (int k = 0; k < errors.size(); ++k) {
@@ -56,7 +56,7 @@ RowMatrix CovarianceTimes(const ErrorModel& errors, const RowMatrix& rows) {
   RowMatrix product = rows;
   for (int k = 0; k < errors.size(); ++k) product.row(k) *= OwnVariance(errors, k);
   if (errors.path.empty()) return product;
-  // What each reading shares with those before it and itself, then with those after it.
+  // Covariances of each reading with earlier readings and itself, then with later ones.
   const auto kept = [&](int a, int b) {
     return errors.chain[a] == errors.chain[b] ? std::exp(errors.position[a] - errors.position[b])
                                               : 0.0;

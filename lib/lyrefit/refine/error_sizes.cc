@@ -9,8 +9,9 @@
 namespace lyrefit {
 namespace {
 
-// Of the prior of ln length, below its center. Above it a path hardly changes within the sweep, and
-// its size and length say one thing.
+// Standard deviation of the prior of ln length below its center, and above it. A path longer than
+// the center hardly changes within the sweep: only one combination of its size and length is
+// identifiable.
 constexpr double kLengthWidth = 8;
 constexpr double kLongerWidth = 0.5;
 
@@ -27,15 +28,15 @@ ErrorSizes SizesAt(const Logs& at) {
 
 struct Rows {
   const ErrorShape& shape;
-  RowMatrix columns;  // orthonormal ones for what was fitted, then the residual
+  RowMatrix columns;  // orthonormal basis of the fitted directions, then the residual
   const Differences& differences;
 };
 
-// From products with each other of whitened columns, which are nearly independent, the residual
-// last, and ln det of the covariance.
+// Restricted log-likelihood from ln det of the covariance and the Gram matrix of the whitened
+// columns, the residual last. The columns must be nearly orthogonal.
 double RestrictedFromProducts(Eigen::MatrixXd products, double log_determinant) {
   const Eigen::Index last = products.cols() - 1;
-  for (Eigen::Index i = 0; i < last; ++i) {  // Cholesky's decomposition; the last pivot is the rest
+  for (Eigen::Index i = 0; i < last; ++i) {  // Cholesky; the last pivot is the residual sum
     const double pivot = products(i, i);
     if (!(pivot > 0)) return -HUGE_VAL;
     log_determinant += std::log(pivot);
@@ -81,7 +82,7 @@ double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   return std::isnan(sum) ? -HUGE_VAL : sum;
 }
 
-// The best of a coarse grid about the prior and about what the residuals measure.
+// The best point of a coarse grid about the prior and about the size of the residuals.
 Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   const Eigen::VectorXd residual = rows.columns.rightCols(1);
   double typical = 0;
@@ -111,7 +112,7 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   return highest > -HUGE_VAL ? best : usual;
 }
 
-// 0 where it is not positive.
+// 0 if the matrix is not positive definite.
 Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
   Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
   for (int j = 0; j < 4; ++j) {
@@ -124,7 +125,7 @@ Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
   return inverse;
 }
 
-// The same of errors that know nothing of each other, at the size that suits them best.
+// LogLikelihood of independent errors of the best size.
 double WhiteLogLikelihood(const Rows& rows) {
   ErrorModel white;
   white.white = rows.shape.stated.empty() ? rows.shape.current : rows.shape.stated;
@@ -137,12 +138,12 @@ double WhiteLogLikelihood(const Rows& rows) {
   return LogLikelihood(white, rows.columns);
 }
 
-// The longest path, up to the usual length, that is nearly as likely as the best at `top`. What a fit
-// takes out of the residuals is the slowest part of the path, so its length is known poorly from
-// above, and standard errors are too small where it is taken for short.
+// The longest path, up to the prior's length, of nearly the posterior of the maximum `top`. A fit
+// absorbs the slowest part of the path from the residuals, so the data hardly bound its length from
+// above. Too short a path makes standard errors too small.
 Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs& top,
                     double usual) {
-  constexpr double kAllowed = 0.25;  // less in ln posterior
+  constexpr double kAllowed = 0.25;  // loss in ln posterior
   constexpr int kLonger = 4, kMostSteps = 10;
   const double highest = value(top);
   Logs at = top, longest = top;
@@ -151,7 +152,7 @@ Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs&
     const auto others = [&](const Logs& three) {
       return value({three[0], three[1], three[2], length});
     };
-    // What neighbours differ by, path^2 / length, stays.
+    // The differences of neighbours, path^2 / length, stay constant.
     const double path = at[2] + 0.5 * (length - at[3]);
     at = NewtonAscent(others, {at[0], at[1], path}, kMostSteps);
     at.push_back(length);
@@ -160,7 +161,8 @@ Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs&
   return longest;
 }
 
-// 1 less the mean of exp(-|x - x'|) over a stretch of this third: what averaging takes of the path.
+// 1 less the mean of exp(-|x - x'|) over a stretch of three times `third`: the part of the path's
+// variance that averaging removes.
 double AveragedAway(double third) {
   const double x = 3 * third;
   if (x < 1e-3) return third;

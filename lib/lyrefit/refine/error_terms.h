@@ -5,27 +5,27 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// How large the errors of one instrument and one device are.
+// Sizes of the errors of one instrument and one device.
 struct ErrorSizes {
-  double current_A = 0;  // standard deviation of every current by itself
-  double voltage_V = 0;  // of a voltage at Voc, which shows by the slope of the curve
-  double path = 0;       // of the light, relative, along the sweep, or of what looks like it
-  // Along the sweep, in Voc, over which the path's correlation falls to 1 / e.
+  double current_A = 0;  // standard deviation of every independent current error
+  double voltage_V = 0;  // of a voltage at Voc, which acts through the slope of the curve
+  double path = 0;       // of the light along the sweep, relative, or of a similar model error
+  // Distance along the sweep, in Voc, over which the path's correlation falls to 1 / e.
   double length = 1;
 };
 
-// Whether each size is within a relative `tolerance` of the other's.
+// Whether all sizes agree within a relative `tolerance`.
 bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance);
 
-// Errors of many curves of one device: those of readings, a path for each curve, and what all
-// readings of one curve share.
+// Errors of many curves of one device: those of readings, a path for each curve, and the errors
+// common to all readings of one curve.
 struct FamilyErrorSizes {
   ErrorSizes readings;
-  double irradiance = 0;     // of a curve's stated light, relative
+  double irradiance = 0;     // of a curve's stated irradiance, relative
   double temperature_K = 0;  // of its stated temperature
 };
 
-// How many of the sizes there are: the simpler kinds are nested in the richer ones.
+// Number of sizes in use; the simpler kinds are nested in the richer ones.
 enum class FamilyErrorKind { kIndependent, kPath, kCurves };
 
 template <>

@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-// Weak: a per cent of light and a kelvin, give or take a factor of 20.
+// Center of weak priors: a per cent of light and a kelvin, with a factor of 20 either way.
 constexpr double kUsualIrradiance = 0.01;
 constexpr double kUsualTemperature_K = 1;
 constexpr double kWidth = 3;
@@ -52,7 +52,7 @@ FamilyErrorSizes FindFamilyErrors(FamilyErrorKind kind, const FamilyErrorShape& 
   };
   constexpr int kMostSteps = 30;
   std::vector<double> best = center;
-  for (const double part : {1.0, 0.03}) {  // of what is usual: tracers' readings, and made ones
+  for (const double part : {1.0, 0.03}) {  // of the usual sizes: tracers' readings, simulated ones
     std::vector<double> start = center;
     for (double& one : start) one += std::log(part);
     std::vector<double> end = NewtonAscent(value, std::move(start), kMostSteps);
@@ -72,7 +72,7 @@ double LogLikelihood(const FamilyErrorShape& shape, const FamilyErrorSizes& size
     const Eigen::MatrixXd block =
         rows.middleRows(shape.first[c], shape.first[c + 1] - shape.first[c]);
     const Eigen::MatrixXd all = TransposedTimes(block, block);
-    // Of whitened readings the covariance is 1 + common common': Woodbury's formula.
+    // Whitened readings have the covariance 1 + common common': Woodbury's formula.
     const double a = all(1, 1) + 1, b = all(2, 2) + 1, mixed = all(1, 2);
     const double determinant = a * b - mixed * mixed, x = all(0, 1), y = all(0, 2);
     sum += std::log(determinant) + all(0, 0) -

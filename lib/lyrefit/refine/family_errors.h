@@ -8,17 +8,17 @@
 
 namespace lyrefit {
 
-// What the sizes multiply, in the unit of the residuals, curves below each other.
+// Factors of the sizes in the unit of the residuals, curves below each other.
 struct FamilyErrorShape {
-  ErrorShape readings;     // of each curve its own chain, numbered from 0
-  RowMatrix common;        // two columns, by irradiance (relative) and temperature
-  std::vector<int> first;  // row of each curve, and the end
+  ErrorShape readings;     // each curve has its own chain, numbered from 0
+  RowMatrix common;        // two columns: by irradiance (relative) and by temperature
+  std::vector<int> first;  // first row of each curve, then the number of rows
 };
 
-// The sizes at which the likelihood of the residuals, times weak priors, is largest. Not the
-// restricted one: where a law misses its curves, it would ask what other parameters might have
-// said, and those that suit the curves' shapes put their temperatures wrong by ten kelvin. Sizes
-// that `kind` does not have are 0. `isc_A` and `voc_V` are typical of the curves.
+// The sizes that maximise the likelihood of the residuals times weak priors. Not the restricted
+// likelihood: where a translation model does not fit its curves, other parameters that suit the
+// curves' shapes put their temperatures wrong by ten kelvin. Sizes that `kind` does not have are 0.
+// `isc_A` and `voc_V` are typical of the curves.
 FamilyErrorSizes FindFamilyErrors(FamilyErrorKind kind, const FamilyErrorShape& shape, double isc_A,
                                   double voc_V, const Eigen::VectorXd& residual);
 

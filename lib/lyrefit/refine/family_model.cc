@@ -16,7 +16,7 @@
 namespace lyrefit {
 namespace {
 
-// Every shared parameter of the richest law, irradiance and temperature.
+// Every shared parameter of the largest translation model, irradiance and temperature.
 constexpr int kUnknowns = 16;
 using Unknowns = Dual<kUnknowns>;
 
@@ -52,7 +52,7 @@ ModelShape ShapeOf(const JointProblem& problem) {
   return shape;
 }
 
-// TranslateCurve of a device with effects, which follows the sky by itself.
+// TranslateCurve for a device with effects, whose equations include the operating conditions.
 bool TakeExtended(const JointProblem& problem, const double* p, std::vector<double>* device,
                   RowMatrix* chain) {
   const Translation& at = problem.translation;
@@ -66,15 +66,16 @@ bool TakeExtended(const JointProblem& problem, const double* p, std::vector<doub
   for (std::size_t e = 0; problem.quoted && e < extension.uses.size(); ++e) {
     const int first = extension.law.Offset(static_cast<int>(e));
     const Effect& effect = *extension.uses[e].effect;
-    // The effects' parameters stand in one stretch of the shared ones.
+    // The effects' parameters are contiguous in the shared ones.
     chain->block(first, at.shared_of[first], effect.size(), effect.size()) =
         OwnByReported(effect, extension.readings.scale, device->data() + first);
   }
   return true;
 }
 
-// A device's parameters under one curve's sky, and with `chain` their slopes by the shared
-// parameters and, behind those, irradiance and temperature. False where that is no place to be.
+// A device's parameters under the operating conditions of one curve. `chain`, if not null:
+// derivatives by the shared parameters, then by irradiance and temperature. False if the conditions
+// are not physical or a parameter is not finite.
 bool TranslateCurve(const JointProblem& problem, const double* p, double irradiance,
                     double temperature, std::vector<double>* device, RowMatrix* chain) {
   const Translation& at = problem.translation;
@@ -163,8 +164,8 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
     residuals[k] = root * (residuals[k] - curve.current_A[k]);
     if (sloped) by_device.row(k) *= root;
   }
-  // The common errors of the sensors move irradiance and temperature one to one; priors depend on
-  // nothing that is shared.
+  // The common errors of the sensors shift irradiance and temperature one to one; priors do not
+  // depend on shared parameters.
   const FitBlock& size = shape().blocks[block];
   RowMatrix by_unknown = RowMatrix::Zero(sloped ? size.residuals : 0, problem_.shared());
   if (sloped) by_unknown.topRows(points).noalias() = by_device.lazyProduct(chain);

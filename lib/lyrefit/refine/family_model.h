@@ -8,25 +8,25 @@
 
 namespace lyrefit {
 
-// An unknown that a curve has to itself.
+// A local unknown of one curve.
 struct OwnUnknown {
-  int which;  // in JointLocal
-  double sd;  // of its prior, may be infinite
+  int which;  // index into JointLocal
+  double sd;  // standard deviation of its prior, may be infinite
 };
 std::vector<OwnUnknown> OwnUnknowns(const JointCurve& curve);
 
-// A joint problem as a model: one block for each curve, its priors behind its points.
+// A joint problem as a model: one block for each curve, with the residuals of its priors after
+// those of its points.
 class FamilyModel : public FitModel {
  public:
-  // Keeps a reference.
+  // Keeps a reference to the problem.
   explicit FamilyModel(const JointProblem& problem);
 
   FitPoint Pack(const JointPoint& point) const;
   JointPoint Unpack(const FitPoint& point) const;
 
-  // Derivatives of the solved current follow from the implicit function theorem at the root; those
-  // of the device's parameters with respect to the unknowns from dual numbers through the
-  // translation.
+  // Derivatives of the solved current follow from the implicit function theorem at the root. Dual
+  // numbers through the translation give those of the device's parameters by the unknowns.
   bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
                 double* local_slopes) const override;
 

@@ -5,8 +5,7 @@
 
 namespace lyrefit {
 
-// Ceres writes to the log when it is handed a number that is not finite; what goes to it passes
-// here first.
+// Ceres writes to the log if it receives a number that is not finite; this check comes before.
 inline bool AllFinite(const double* x, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     if (!std::isfinite(x[k])) return false;

@@ -13,13 +13,13 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kAbsent = -25;  // ln(current of a vanished diode at V0 / I0)
+constexpr double kAbsent = -25;  // ln(current of a dropped diode at V0 / I0)
 
 RefineOptions HowToRefine(const JointOptions& options) {
   RefineOptions how;
   how.function_tolerance = options.function_tolerance;
   if (options.proceed) how.stop = [&options] { return !options.proceed(); };
-  how.trust_radius = 1e6;  // starts are further off than a curve's: a longer step leads astray
+  how.trust_radius = 1e6;  // starts are worse than a curve's: a longer step leads astray
   return how;
 }
 

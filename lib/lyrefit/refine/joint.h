@@ -11,16 +11,16 @@
 
 namespace lyrefit {
 
-// One curve of a joint problem and the unknowns of its own: true irradiance = stated (1 + u), true
-// temperature = stated + d.
+// One curve of a joint problem and its local unknowns u and d: true irradiance = stated (1 + u),
+// true temperature = stated + d.
 struct JointCurve {
   std::vector<double> voltage_V;
   std::vector<double> current_A;
   std::vector<double> weight;  // of the squared residuals; 1 is a point of ordinary weight
-  double irradiance_W_m2 = 0;  // as stated, above 0
+  double irradiance_W_m2 = 0;  // as stated, above 0 (but see `extended`)
   double temperature_K = 0;
-  // Where the translation has effects: its device in this curve's measurement. The curve has no
-  // unknowns of its own then, and its irradiance may be 0.
+  // With effects: the translation's device under this curve's conditions. The curve then has no
+  // local unknowns, and its irradiance may be 0.
   std::shared_ptr<const Device> extended;
   // Standard deviation of the unknown's prior around 0; 0: no such unknown, infinite: no prior.
   double irradiance_sd = 0;  // of u
@@ -36,16 +36,17 @@ struct JointProblem {
   Objective objective = Objective::kSolvedCurrent;
   std::vector<JointCurve> curves;
   // Bounds of the shared parameters in the translation's order, then of the sensors' common errors:
-  // true irradiance = stated + first (W/m2), true temperature = stated + second (K). Equal: held.
+  // true irradiance = stated + first (W/m2), true temperature = stated + second (K). Equal bounds:
+  // fixed.
   std::vector<double> lower;
   std::vector<double> upper;
-  double noise_A = 1;  // of a point of weight 1: what priors are weighed against
-  // The effects' parameters are in the units of reports. What is reported of one may depend on
-  // others (the strength k of k |V|^m on m), so intervals are found in these numbers; fits are not,
-  // since there such parameters hang together.
+  double noise_A = 1;  // standard deviation of a point of weight 1, which scales the priors
+  // Whether the effects' parameters are in reporting units. A reported parameter may depend on
+  // others (the strength k of k |V|^m on m), so intervals are computed in reporting units. Fits use
+  // internal units, since such parameters are correlated in reporting units.
   bool quoted = false;
 
-  // Natural sizes that the coordinates are scaled by.
+  // Scales of the coordinates.
   double current_scale_A = 1;
   double voltage_scale_V = 1;
 
@@ -58,8 +59,8 @@ struct JointProblem {
 void FindJointScales(JointProblem* problem);
 
 struct JointPoint {
-  std::vector<double> shared;     // with both sensor errors at the end
-  std::vector<JointLocal> local;  // of each curve; 0 where there is no such unknown
+  std::vector<double> shared;     // followed by the two sensor errors
+  std::vector<JointLocal> local;  // of each curve; 0 without such an unknown
 };
 
 // Irradiance and temperature of a curve at a point of the problem.
@@ -69,18 +70,18 @@ struct TrueConditions {
 };
 TrueConditions ConditionsAt(const JointProblem& problem, const JointPoint& point, int curve);
 
-// The device of a curve: the translation's, or with its effects the curve's own.
+// The device of a curve: the translation's, or with effects the curve's own.
 const Device& DeviceOf(const JointProblem& problem, int curve);
 
-// Parameters of that device at a point of the problem.
+// Parameters of DeviceOf at a point of the problem.
 std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve);
 
 struct JointEnd {
   JointPoint point;
   double squares = 0;        // weighted sum over the points, A^2
-  double prior_squares = 0;  // what the priors add
+  double prior_squares = 0;  // sum of squares of the priors
   bool converged = false;
-  bool stopped = false;  // as `proceed` asked
+  bool stopped = false;  // by `proceed`
   int iterations = 0;
   std::vector<bool> held;         // see RefineEnd
   double projected_gradient = 1;  // of the shared parameters, see RefineEnd
@@ -88,12 +89,12 @@ struct JointEnd {
 
 struct JointOptions {
   double function_tolerance = 1e-15;  // as in RefineOptions
-  // Asked once an iteration; false ends the fit at the best point so far. May be empty.
+  // Called once per iteration; false ends the fit at the best point so far. May be empty.
   std::function<bool()> proceed;
 };
 
-// RefineModel of a joint problem. Of the saturation currents only that of a second diode may
-// vanish; it then comes back with a size that shows nowhere, so that its logarithm is a number.
+// RefineModel of a joint problem. Only the saturation current of a second diode may vanish. Its
+// result is then a negligible positive value, so that the logarithm is finite.
 JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
                        const JointOptions& options = {});
 
@@ -101,15 +102,15 @@ JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
 JointEnd RefineJointlyPlainly(const JointProblem& problem, const JointPoint& start,
                               const JointOptions& options = {});
 
-// FindSpread of a joint problem at the end of its fit, `variance` that of a point of weight 1.
+// FindSpread of a joint problem at the end of its fit; `variance` is that of a point of weight 1.
 struct JointSpread : Spread {
-  std::vector<JointLocal> local_errors;  // standard errors of the curves' own unknowns
-  double local_degrees = 0;  // how many unknowns of their own the curves have beyond their priors
+  std::vector<JointLocal> local_errors;  // standard errors of the curves' local unknowns
+  double local_degrees = 0;  // degrees of freedom of the local unknowns beyond their priors
 };
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
 
-// FindOtherOptima of a joint problem with effects, in numbers of their own, from the end of its fit:
-// what t and the variance of a point of weight 1 allow.
+// FindOtherOptima of a joint problem with effects, in internal units, from the end of its fit.
+// Accepts optima within the threshold of t and the variance of a point of weight 1.
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
                                   double variance, const std::function<bool()>& proceed = {});
 

@@ -13,11 +13,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// More steps in a row than this that cannot be evaluated, and the descent ends where it is.
+// Limit of consecutive steps that cannot be evaluated; beyond it the descent ends.
 constexpr int kMostInvalid = 20;
 constexpr double kLeastRadius = 1e-32, kLargestRadius = 1e16;
 
-// A place of the descent. The memory of `jacobian` is what `evaluate` fills: a column a residual.
+// A point of the descent. `evaluate` fills the memory of `jacobian`: one column per residual.
 struct Place {
   VectorXd p;
   VectorXd residuals;
@@ -33,13 +33,13 @@ bool Evaluate(const LeastSquaresProblem& problem, Place* place) {
   return std::isfinite(place->sum);
 }
 
-// The model of the sum of squares around a place: half of it falls by -(gradient' d + d' gram d /
-// 2).
+// The quadratic model of the sum of squares around a point: half of it falls by -(gradient' d + d'
+// gram d / 2).
 struct Quadratic {
   MatrixXd gram;
   VectorXd gradient;
   VectorXd scale;         // squared lengths of the columns
-  std::vector<int> free;  // parameters that move and are not pressed against a bound
+  std::vector<int> free;  // parameters that move and have no active bound
 };
 
 Quadratic Expand(const LeastSquaresProblem& problem, const Place& place) {
@@ -56,7 +56,7 @@ Quadratic Expand(const LeastSquaresProblem& problem, const Place& place) {
   return model;
 }
 
-// The damped step in the parameters of `free`, the others moving as `step` says already.
+// The damped step in the parameters of `free`; the others move by the given `step`.
 bool SolveFree(const Quadratic& model, const std::vector<int>& free, double radius,
                VectorXd* step) {
   const int count = static_cast<int>(free.size());
@@ -78,8 +78,8 @@ bool SolveFree(const Quadratic& model, const std::vector<int>& free, double radi
   return true;
 }
 
-// Where the damped step leads. At the first bound on its way it stops for that parameter, and goes
-// on in the others: the model falls all the way.
+// The end of the damped step. A parameter that meets its bound first is fixed there, and the step
+// continues in the others: the model's sum of squares falls all the way.
 bool TakeStep(const LeastSquaresProblem& problem, const Quadratic& model, const VectorXd& from,
               double radius, VectorXd* to) {
   std::vector<int> free = model.free;
@@ -111,7 +111,7 @@ bool TakeStep(const LeastSquaresProblem& problem, const Quadratic& model, const 
   return true;
 }
 
-// By how much the model's sum of squares falls.
+// Predicted decrease of the sum of squares.
 double Predicted(const Quadratic& model, const VectorXd& step) {
   return -2 * model.gradient.dot(step) - step.dot(Times(model.gram, step));
 }
@@ -121,8 +121,8 @@ bool IsTiny(const VectorXd& step, const VectorXd& p) {
   return step.norm() <= kParameterTolerance * (p.norm() + kParameterTolerance);
 }
 
-// How far the model is trusted, steered as Nielsen 1999 ("Damping parameter in Marquardt's method")
-// does it: by what a step gained of what was predicted.
+// Trust radius, controlled by the ratio of actual to predicted decrease (Nielsen 1999, "Damping
+// parameter in Marquardt's method").
 struct Trust {
   double radius;
   double shrink = 2;
@@ -138,8 +138,8 @@ struct Trust {
   }
 };
 
-// Where the parabola through a step's start, with its slope there, and its end is lowest: for ends
-// that disappoint.
+// Part of a step at the minimum of the parabola through its start, with the slope there, and its
+// end. For steps with too small a decrease.
 double BestPart(const Quadratic& model, const VectorXd& step, double gained) {
   const double slope = -2 * model.gradient.dot(step);
   return std::min(std::max(slope / (2 * (slope - gained)), 0.1), 0.5);
@@ -147,8 +147,8 @@ double BestPart(const Quadratic& model, const VectorXd& step, double gained) {
 
 LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
                         Place here) {
-  // A step that is hardly damped and promises nothing need not be tried; nor one that promises so
-  // little that many like it would not do.
+  // A nearly undamped step without a predicted decrease is not tried. Nor is one whose predicted
+  // decrease, times kMany, does not reach the cutoff.
   constexpr double kLeastQuality = 1e-3, kMany = 10;
   LeastSquaresEnd end;
   end.usable = true;

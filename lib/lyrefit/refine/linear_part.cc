@@ -7,8 +7,8 @@
 namespace lyrefit {
 namespace {
 
-// The normal equations square the condition of the columns; one step of iterative refinement with
-// the true residual gives the digits back.
+// The normal equations square the condition number of the columns. One step of iterative refinement
+// with the true residual restores the digits.
 void SharpenFree(const SmallVector& lower, const SmallVector& upper, LinearPart* linear) {
   const int count = static_cast<int>(linear->free.size());
   SmallMatrix gram(count, count);

@@ -8,9 +8,9 @@
 
 namespace lyrefit {
 
-// The linear part of the measured-current problem at given Rs and n: minimise
-// sum of weight x (Iph - G Vd - sum Is (exp(Vd / (n Ns Vt)) - 1) - I)^2 within the bounds of Iph, G
-// = 1/Rsh and Is. Columns are scaled to a largest entry of 1 and multiplied by sqrt(weight).
+// The linear part of the measured-current problem at given Rs and n: minimise the sum of weight x
+// (Iph - G Vd - sum Is (exp(Vd / (n Ns Vt)) - 1) - I)^2 within the bounds of Iph, G = 1/Rsh and Is.
+// Columns are scaled to a largest entry of 1 and multiplied by sqrt(weight).
 struct LinearPart {
   Eigen::MatrixXd columns;   // points x (2 + diodes): Iph, G, then the diodes
   Eigen::VectorXd target;    // sqrt(weight) x measured current
@@ -18,10 +18,10 @@ struct LinearPart {
   SmallVector x;             // the solution, scaled
   Eigen::VectorXd residual;  // columns x - target
   SmallMatrix gram;          // columns' columns
-  std::vector<int> free;     // columns off their bounds
+  std::vector<int> free;     // columns that are not at a bound
 };
 
-// Columns for an Rs and a list of n, which may be longer than the device has diodes.
+// Columns for an Rs and a list of n, which may be longer than the device's number of diodes.
 LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<double>& weights,
                              double rs, const std::vector<double>& idealities);
 

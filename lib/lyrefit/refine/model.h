@@ -9,44 +9,45 @@
 
 namespace lyrefit {
 
-// A parameter as a fit sees it; see ParameterInfo.
+// A parameter of a fit; see ParameterInfo.
 struct FitParameter {
   ParameterKind kind = ParameterKind::kPlain;
   double step = 1;
   std::array<int, 2> with = {-1, -1};
   double lower = 0;  // equal: fixed
   double upper = 0;
-  // Of a saturation current: may become 0, which takes its diode out with its ideality, and come
-  // back where the residuals ask for it.
+  // Saturation currents only: the value 0 is allowed and drops the diode with its ideality. The
+  // diode is added again if it lowers the sum of squares.
   bool may_vanish = false;
 
   bool fixed() const { return lower == upper; }
 };
 
-// Residuals that are evaluated together, and how many unknowns nobody else has they depend on.
+// Residuals that are evaluated together, and the number of unknowns that only they depend on.
 struct FitBlock {
   int residuals = 0;
   int locals = 0;
 };
 
-// What is fitted, and the natural sizes that its coordinates are scaled by.
+// Parameters and residual blocks of a model, and the scales of its coordinates.
 struct ModelShape {
   std::vector<FitParameter> parameters;
   std::vector<FitBlock> blocks;
-  double points = 1;  // that the mean square is over: residuals without those of priors
+  double points = 1;  // divisor of the mean square: residuals without those of priors
   double current_scale_A = 1;
   double voltage_scale_V = 1;
-  double thermal_voltage_V = 1;  // n times this is how steep a diode of ideality n is
+  double thermal_voltage_V = 1;  // n times this is the voltage scale of a diode of ideality n
 
   int size() const { return static_cast<int>(parameters.size()); }
   double resistance_scale() const { return voltage_scale_V / current_scale_A; }
   int locals() const;  // of all blocks
 };
 
-// A shunt of resistance_scale() / this is perfect: a number, so that laws can compute with it.
+// A shunt of resistance_scale() / this counts as perfect; finite, so that the equations can compute
+// with it.
 constexpr double kPerfectConductance = 1e-30;
 
-// From infos and bounds, the latter shared with them or longer by further plain parameters.
+// From infos and bounds. Bounds beyond the infos belong to further plain parameters.
 std::vector<FitParameter> MakeFitParameters(const std::vector<ParameterInfo>& infos,
                                             const std::vector<double>& lower,
                                             const std::vector<double>& upper);
@@ -56,8 +57,8 @@ struct FitPoint {
   std::vector<double> local;  // unknowns of the blocks, one block after the other
 };
 
-// A bounded least-squares problem: minimise the sum of squares of the residuals of all blocks. It
-// knows natural parameters alone; coordinates, active bounds and solver are the engine's.
+// A bounded least-squares problem: minimise the sum of squares of the residuals of all blocks. Has
+// only natural parameters; coordinates, active bounds and solver belong to RefineModel.
 class FitModel {
  public:
   explicit FitModel(ModelShape shape) : shape_(std::move(shape)) {}
@@ -66,17 +67,16 @@ class FitModel {
   const ModelShape& shape() const { return shape_; }
   void Fix(int i, double value) { shape_.parameters[i].lower = shape_.parameters[i].upper = value; }
 
-  // Residuals of a block in ampere and, where asked for, their derivatives row by row: `slopes` by
-  // all parameters, `local_slopes` by the block's own unknowns (which come zeroed). False where the
+  // Residuals of a block in ampere and, if requested, their derivatives row by row: `slopes` by all
+  // parameters, `local_slopes` by the block's local unknowns (zeroed before the call). False if the
   // model cannot be evaluated.
   virtual bool Evaluate(int block, const double* p, const double* local, double* residuals,
                         double* slopes, double* local_slopes) const = 0;
 
-  // Sum of squares over `points`, in A^2; not finite where the model cannot be evaluated.
+  // Sum of squares over `points`, in A^2; not finite if the model cannot be evaluated.
   virtual double MeanSquare(const FitPoint& point) const;
 
-  // A smaller model with the same parameters that stands for this one when directions are looked
-  // for; null: none.
+  // A coarsened model with equal parameters, for scanning search directions; null: none.
   virtual std::unique_ptr<FitModel> Coarse() const { return nullptr; }
 
  private:

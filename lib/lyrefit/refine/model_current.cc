@@ -9,14 +9,14 @@
 namespace lyrefit {
 namespace {
 
-// Both a term's two prepared numbers, of its at most three parameters, and its current, of those
-// numbers and the junction voltage.
+// Derivatives by three variables: those of a term's two prepared numbers by its at most three
+// parameters, and those of its current by these numbers and the junction voltage.
 using OfThree = Dual<3>;
 
 struct Sloped {
   Term term;
   PreparedTerm<OfThree> of_numbers;
-  OfThree a, b;  // the numbers, of the term's parameters
+  OfThree a, b;  // the prepared numbers as functions of the term's parameters
 };
 
 std::vector<Sloped> PrepareTerms(const Device& device, const double* p) {

@@ -52,8 +52,8 @@ Eigen::MatrixXd CurvatureAt(const Function& value, const std::vector<double>& at
 }
 
 std::vector<double> NewtonAscent(const Function& value, std::vector<double> at, int most_steps) {
-  constexpr double kLongest = 2;     // of a step, in any one of them
-  constexpr double kSettled = 3e-3;  // the same
+  constexpr double kLongest = 2;     // step in any one coordinate
+  constexpr double kSettled = 3e-3;  // step in any one coordinate at convergence
   const auto size = static_cast<Eigen::Index>(at.size());
   double value_there = value(at);
   for (int step = 0; step < most_steps; ++step) {

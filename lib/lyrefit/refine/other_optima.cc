@@ -7,9 +7,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kMostSettings = 6;  // of an effect, that look best before their refit
-constexpr double kSameCurve = 1e-3;       // of the error: two optima are the same curve
-constexpr double kSameNumber = 1e-3;      // relative: and the effects have the same numbers there
+constexpr std::size_t kMostSettings = 6;  // of an effect; those of the lowest error are refitted
+constexpr double kSameCurve = 1e-3;       // of the error, below which two optima have one curve
+constexpr double kSameNumber = 1e-3;      // relative, below which the effects have the same numbers
 
 std::vector<double> Residuals(const FitModel& model, const FitPoint& at) {
   std::vector<double> all;
@@ -38,7 +38,7 @@ struct Optimum {
   std::vector<double> residuals;
 };
 
-// Whether two optima are one: another setting alone does not make a difference.
+// Whether two optima are equal; a different setting alone does not distinguish them.
 bool Same(const Optimum& a, const Optimum& b, const std::vector<int>& numbers) {
   return SameCurve(a.residuals, b.residuals) &&
          std::all_of(numbers.begin(), numbers.end(), [&](int i) {
@@ -47,7 +47,7 @@ bool Same(const Optimum& a, const Optimum& b, const std::vector<int>& numbers) {
          });
 }
 
-// Where the effects' parameters stand that are no settings.
+// Indices of the effects' parameters that are not settings.
 std::vector<int> Numbers(const Extension& extension, int first) {
   std::vector<int> numbers;
   for (const EffectUse& use : extension.uses) {
@@ -59,7 +59,7 @@ std::vector<int> Numbers(const Extension& extension, int first) {
   return numbers;
 }
 
-// From `best` with other settings, those of the lowest error.
+// Points of the lowest error among those from `best` with other settings.
 std::vector<FitPoint> WithOthers(const FitModel& model, const Settings& settings,
                                  const FitPoint& best) {
   std::vector<std::pair<double, FitPoint>> trials;

@@ -8,25 +8,25 @@
 
 namespace lyrefit {
 
-// Parameters of one effect that are settled by trying and not by descent (the time of a step, one
-// law or the other), where they are free, and what they are tried at.
+// Free parameters of one effect that are selected by trials and not by descent (the time of a step,
+// the choice between two laws), and their trial values.
 struct Settings {
   std::vector<int> parameters;
-  std::set<std::vector<double>> values;  // a value for each of them
+  std::set<std::vector<double>> values;  // one value for each parameter
 };
 
-// Of every effect that has such parameters. Those of the effects stand from `first` on.
+// Settings of every effect with such parameters. The effects' parameters start at index `first`.
 std::vector<Settings> FindSettings(const Extension& extension, int first);
 
-// Optima beside the best that the data may allow as well.
+// Optima besides the best one that are compatible with the data.
 struct OptimumQuery {
-  double highest = 0;  // mean square up to which they do
-  int first = 0;       // where the effects' parameters begin
-  RefineOptions how;   // of the refits
+  double highest = 0;  // mean square of the least compatible optimum, A^2
+  int first = 0;       // index of the effects' first parameter
+  RefineOptions how;   // options of the refits
 };
 
-// Of `ends`, and of refits from `best` with other settings of the effects, those that `highest`
-// allows, each with another curve or other numbers. All in numbers of the effects' own.
+// The optima below `highest` among `ends` and among refits from `best` with other settings of the
+// effects. Each differs from the others in its curve or in its numbers. All in internal units.
 std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
                                   const FitPoint& best, std::vector<FitPoint> ends,
                                   const OptimumQuery& query);

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// What sizes are measured in; 1 where all is 0.
+// Largest magnitude of the values; 1 if all are 0.
 double ScaleOf(const std::vector<double>& values) {
   const double largest = LargestMagnitude(values);
   return largest > 0 ? largest : 1;

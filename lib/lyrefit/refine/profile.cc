@@ -10,17 +10,17 @@ namespace lyrefit {
 namespace {
 
 constexpr int kMaxRefits = 32;
-constexpr int kProposals = 8;           // then by bisection
-constexpr double kLeastRise = 0.05;     // of t: less is thought to be this
-constexpr double kLongest = 3;          // of the last way: how far ahead a path is thought straight
-constexpr double kBeyond = 1.1;         // of the way: the next place after one found to be inside
+constexpr int kProposals = 8;           // the search then bisects
+constexpr double kLeastRise = 0.05;     // of t; smaller rises are replaced by it
+constexpr double kLongest = 3;          // of the last step; limit of linear extrapolation
+constexpr double kBeyond = 1.1;         // of the step; distance of the next trial after one inside
 constexpr double kCloseEnough = 0.003;  // of t
-constexpr double kBetter = 1e-7;  // relative decrease of the mean square that tells a new optimum
-// What a refit may still fall by when it ends, in parts of the rise that is looked for.
+constexpr double kBetter = 1e-7;  // relative decrease of the mean square at a new optimum
+// Function tolerance of a refit, as part of the rise at the end.
 constexpr double kSlack = 1e-3;
-constexpr double kLoosest = 1e-7;    // the same in parts of the mean square, at most
-constexpr double kEndless = 60;      // logarithm that stands for an infinite way
-constexpr double kVanished = 1e-12;  // of its bound: where a saturation current of 0 is begun from
+constexpr double kLoosest = 1e-7;    // upper limit of it, as part of the mean square
+constexpr double kEndless = 60;      // logarithm that replaces an infinite distance
+constexpr double kVanished = 1e-12;  // of its bound: start of a saturation current of 0
 
 class Side {
  public:
@@ -40,7 +40,7 @@ class Side {
 
   ProfileSide Find() {
     bound_ = query_.upper ? bounds_.high : bounds_.low;
-    // A saturation current that neither may vanish nor is bounded has no end.
+    // A saturation current that has no upper bound, or may not be 0, has no end.
     const bool zero = IsSaturation() && bound_ <= 0;
     bound_counts_ = std::isfinite(Scaled(bound_)) || (zero && parameter_.may_vanish);
     side_.value = bound_;
@@ -69,21 +69,21 @@ class Side {
     return std::move(side_);
   }
 
-  // A place of the path that refits took from the optimum.
+  // A point of the path of refits from the optimum.
   struct Place {
     double x;     // of the parameter, on its scale
     double rise;  // root of the rise, in units of the variance
     FitPoint at;
   };
 
-  // One end of what the crossing is sought between: a place of the parameter on its scale and the
-  // logarithm of rise / t there; infinite at the optimum and where it was not measured.
+  // One end of the bracket of the crossing: the parameter on its scale, and the logarithm of rise /
+  // t there. Infinite at the optimum and if not evaluated.
   struct Mark {
     double x;
     double log_rise;
   };
 
-  // Of the optima that are inside, the one to go on from.
+  // The optimum inside the interval that lies furthest out.
   const FitPoint& Outermost() const {
     const FitPoint* outermost = &best_;
     for (const FitPoint& local_optimum : query_.local_optima) {
@@ -94,7 +94,7 @@ class Side {
     return *outermost;
   }
 
-  // The crossing between the optimum and `end`, where the rise is above t.
+  // Finds the crossing between the optimum and `end`, where the rise is above t.
   void Approach(double start, double end) {
     Mark near{start, -HUGE_VAL}, far{end, HUGE_VAL};
     double x = FirstGuess(start, end);
@@ -108,11 +108,12 @@ class Side {
       Mark& mark = moved > 0 ? far : near;
       mark.x = x;
       mark.log_rise = std::log(part);
-      // An end that stays twice counts half, or one side would creep (the Illinois rule).
+      // Halves the value of an end that stays twice (the Illinois rule); otherwise one side would
+      // creep.
       if (moved == last_moved) (moved > 0 ? near : far).log_rise *= 0.5;
       last_moved = moved;
       side_.settled = std::fabs(rise - query_.t) < kCloseEnough * query_.t;
-      // Where the refits jump from one local optimum to another there is no place at the threshold.
+      // If the refits jump between local optima, no point reaches the threshold exactly.
       if (!side_.settled && Length(near.x, far.x) < kCloseEnough * Length(start, far.x)) {
         if (!std::isfinite(far.log_rise) && BoundIsInside()) return;
         side_.settled = true;
@@ -130,7 +131,7 @@ class Side {
         if (std::fabs(x - start) >= std::fabs(end - start)) x = 0.5 * (near.x + far.x);
         continue;
       }
-      // Bisection outside the bracket.
+      // A proposal outside the bracket is replaced by its middle.
       const double proposal = Proposal(near, far);
       const bool inside = std::min(near.x, far.x) < proposal && proposal < std::max(near.x, far.x);
       x = inside && side_.refits < bisect_after ? proposal : 0.5 * (near.x + far.x);
@@ -138,8 +139,8 @@ class Side {
     if (side_.settled || far.log_rise < HUGE_VAL) side_.value = Natural(side_.settled ? x : far.x);
   }
 
-  // Where the rise should be t. Between two places: by their logarithms. From the optimum: it is
-  // close to proportional to the distance, and the ratio of the two changes evenly.
+  // Predicted point with a rise of t. Between two points: linear in their logarithms. From the
+  // optimum: the rise is nearly proportional to the distance, and their ratio changes linearly.
   double Proposal(const Mark& near, const Mark& far) const {
     if (std::isfinite(near.log_rise) && std::isfinite(far.log_rise)) {
       const double part = near.log_rise / (near.log_rise - far.log_rise);
@@ -157,8 +158,8 @@ class Side {
     return start + ratio * query_.t;
   }
 
-  // From where to refit at x: where the straight line through the last two places leads, or one of
-  // all places, whichever is lowest there.
+  // Start of the refit at x: the linear extrapolation of the last two points, or any point of the
+  // path, whichever has the lowest mean square there.
   FitPoint Ahead(double x) const {
     FitPoint lowest;
     double least = HUGE_VAL;
@@ -182,7 +183,7 @@ class Side {
       const ParameterKind kind = model_.shape().parameters[j].kind;
       const double to = ToScale(kind, one.at.p[j]);
       const double next = FromScale(kind, to + part * (to - ToScale(kind, before.at.p[j])));
-      if (!std::isfinite(next)) continue;  // of what has vanished
+      if (!std::isfinite(next)) continue;  // parameter of a dropped diode
       const ParameterRange range = BoundsAt(model_.shape(), j, ahead.p);
       ahead.p[j] = std::min(std::max(next, range.low), range.high);
     }
@@ -192,13 +193,13 @@ class Side {
     return ahead;
   }
 
-  // Distance of two places on the scale; of saturation currents in ampere, since the logarithm of a
-  // vanished one is far from anything.
+  // Distance of two points on the scale. In ampere for saturation currents, since the logarithm of
+  // a value near 0 is far from any other.
   double Length(double a, double b) const {
     return IsSaturation() ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
   }
 
-  // The optimum on the scale, moved inside where it has no place there (a vanished diode).
+  // The optimum on the scale; a dropped diode, which has no value there, starts at kVanished.
   double StartOnScale(double value) const {
     return Scaled(IsSaturation() && value <= 0 ? kVanished * bound_ : value);
   }
@@ -211,7 +212,7 @@ class Side {
     return far > start ? start + step : start - step;
   }
 
-  // sqrt of the rise of the refitted sum of squares in units of the variance.
+  // Square root of the rise of the refitted sum of squares, in units of the variance.
   double Rise(double value, const FitPoint& from, double enough) {
     ++side_.refits;
     RefineEnd end = refits_.refit(value, from, enough, tolerance_);
@@ -229,7 +230,7 @@ class Side {
     return std::sqrt(std::max((mean_square - best_.mean_square) / unit_, 0.0));
   }
 
-  // Whether refits from elsewhere stay below t there; the path goes on from where they ended.
+  // Whether refits from other starts have a rise below t; their end is added to the path.
   bool InsideElsewhere(double value) {
     FitPoint there;
     const bool inside = refits_.elsewhere && refits_.elsewhere(value, enough_, tolerance_, &there);
@@ -251,7 +252,7 @@ class Side {
     });
   }
 
-  // Once more, with what the way has shown: the data may allow the bound after all.
+  // Refits at the bound again with the path's points as starts: the data may be compatible with it.
   bool BoundIsInside() {
     const bool inside = bound_counts_ && InsideElsewhere(bound_);
     if (inside) {
@@ -269,13 +270,13 @@ class Side {
   const ParameterRange bounds_;
   const double unit_;         // of the squared rise, in mean squares
   const double rise_at_end_;  // of the mean square
-  const double enough_;       // a mean square that is inside for sure
+  const double enough_;       // mean square that is certainly inside
   const double tolerance_;
-  FitPoint last_;            // where the last refit ended
+  FitPoint last_;            // end of the last refit
   std::vector<Place> path_;  // the optimum, then the refits on the way to the crossing
   double lowest_;
   double bound_ = 0;
-  bool bound_counts_ = false;  // it is a place that can be refitted at
+  bool bound_counts_ = false;  // whether refits at the bound are possible
   ProfileSide side_;
 };
 

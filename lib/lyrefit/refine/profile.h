@@ -8,20 +8,20 @@
 
 namespace lyrefit {
 
-// One side of a profile-likelihood interval (Bates and Watts 1988, section 6.1): the value of
-// parameter i, left (or right) of the optimum, at which the sum of squares refitted in all other
-// unknowns has risen by t^2 x variance; the bound, if it does not rise that far inside it. Found to
-// 0.3 % of the rise's root; the refits go on until that is known and no further.
+// One side of a profile-likelihood interval (Bates and Watts 1988, section 6.1). Its value is that
+// of parameter i, left (or right) of the optimum, at which the sum of squares, refitted in all
+// other unknowns, has risen by t^2 x variance. It is the bound if the rise inside the bound is
+// smaller. Accurate to 0.3 % of the root of the rise; a refit ends as soon as it decides the
+// comparison.
 struct ProfileSide {
   double value = 0;
   bool at_bound = false;
-  // False: the crossing was not met in the refits allowed, or the search for it was ended before.
-  // `value` is then the nearest place that is known to lie outside, or the bound.
+  // False: the crossing was not found within the allowed refits, or its search ended early. `value`
+  // is then the nearest point known to lie outside, or the bound.
   bool settled = true;
-  bool stopped = false;  // as a refit was asked to
+  bool stopped = false;  // by the `stop` of a refit
   int refits = 0;
-  // The lowest refit that came out below the optimum it started from, if any: that was not the
-  // optimum.
+  // The lowest refit below the optimum of the start, if any: the start was then not the optimum.
   std::vector<double> better;
 };
 
@@ -31,27 +31,27 @@ struct ProfileQuery {
   double t = 2;                // quantile of Student's t
   double variance = 0;         // of a residual of weight 1, in A^2
   double standard_error = 0;   // first guess of the scale; NaN or 0: none
-  bool end_at_better = false;  // a refit below the optimum ends the search for the crossing
-  // Other optima, which the data allow as well: the interval is the hull of what all of them allow.
+  bool end_at_better = false;  // whether a refit below the optimum ends the search
+  // Other optima compatible with the data. The interval is the hull of those of all optima.
   std::vector<FitPoint> local_optima = {};
 };
 
-// What a profile needs to know of the fits behind it.
+// The refits that a profile calls.
 struct ProfileRefits {
-  // The fit from `start` with the query's parameter held at `value`. It need not go below
-  // `enough`, nor closer to its end than `tolerance` (relative, of the sum of squares).
+  // The fit from `start` with the query's parameter fixed at `value`. It may end at a mean square
+  // of `enough`, or at a relative decrease of the sum of squares below `tolerance`.
   std::function<RefineEnd(double value, const FitPoint& start, double enough, double tolerance)>
       refit;
-  // Whether a fit from elsewhere ends at or below `enough`; its place goes to `there`. May be
-  // empty: there is one local optimum.
+  // Whether a fit from another start ends at or below `enough`; `there` receives its end. May be
+  // empty: there is only one local optimum.
   std::function<bool(double value, double enough, double tolerance, FitPoint* there)> elsewhere;
 };
 
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             const ProfileRefits& refits);
 
-// The same for one curve, whose diodes may trade places on the way. `stop` is asked once an
-// iteration of every refit.
+// FindProfileSide for one curve, whose diodes may exchange roles along the profile. `stop` is
+// called once per iteration of every refit.
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
                             const ProfileQuery& query, const std::function<bool()>& stop = {});
 

@@ -16,7 +16,7 @@ RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
 
 RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,
                      const RefineOptions& options) {
-  constexpr double kWorse = 1e-9;  // relative rise of the mean square that is no rounding
+  constexpr double kWorse = 1e-9;  // relative rise of the mean square beyond rounding
   const double tolerance = std::max(options.function_tolerance, 1e-11);
   RefineEnd end = Refine(problem, SeparableDescent(problem, start, tolerance), options);
   if (end.mean_square <= MeanSquare(problem, start) * (1 + kWorse)) return end;

@@ -11,8 +11,8 @@ namespace lyrefit {
 RefineEnd Refine(const RefineProblem& problem, std::vector<double> start,
                  const RefineOptions& options = {});
 
-// SeparableDescent, with the tolerance of `options` but no finer than its own, then Refine. Never
-// ends above `start`: where the descent led astray, Refine goes from the start itself.
+// SeparableDescent, with the tolerance of `options` but at least 1e-11, then Refine. Never ends
+// above `start`: if the descent ends higher, Refine runs from `start` itself.
 RefineEnd RefineFrom(const RefineProblem& problem, const std::vector<double>& start,
                      const RefineOptions& options = {});
 

@@ -48,7 +48,7 @@ class Descent {
     return ToParameters(problem_, linear_, Rs(theta_), Idealities(theta_));
   }
 
-  // Weights that make the measured-current residual a first-order stand-in for the solved one.
+  // Weights that make the measured-current residual equal to the solved one to first order.
   void WeighForSolvedCurrent() {
     const std::vector<double> p = Parameters();
     for (std::size_t k = 0; k < weights_.size(); ++k) {
@@ -119,7 +119,7 @@ class Descent {
     }
   }
 
-  // One accepted step; false when none helps any more.
+  // One accepted step; false if no step lowers the sum of squares further.
   bool Step(const Eigen::MatrixXd& j, double* damping) {
     const Eigen::VectorXd gradient = TransposedTimes(j, linear_.residual);
     const Eigen::MatrixXd hessian = TransposedTimes(j, j);
@@ -189,7 +189,7 @@ class Descent {
 
 std::vector<double> SeparableDescent(const RefineProblem& problem, const std::vector<double>& start,
                                      double tolerance) {
-  if (problem.device.extension != nullptr) return start;  // not linear in anything
+  if (problem.device.extension != nullptr) return start;  // not linear in Iph, Is and 1/Rsh
   Descent descent(problem, start, tolerance);
   if (problem.objective == Objective::kMeasuredCurrent) {
     descent.Run();

@@ -54,7 +54,7 @@ std::vector<double> Idealities(const RefineProblem& problem) {
   return idealities;
 }
 
-// The columns of all n at one Rs, whose Gram matrix serves every combination of them.
+// The columns of all n at one Rs; every combination of n uses their Gram matrix.
 struct GridColumns {
   double rs;
   LinearPart linear;
@@ -72,7 +72,7 @@ GridColumns ColumnsAt(const RefineProblem& problem, const std::vector<double>& i
   return at;
 }
 
-// The best linear unknowns for the `chosen` n.
+// The least-squares solution of the linear unknowns for the `chosen` n.
 SeparableStart SolveFor(const RefineProblem& problem, const std::vector<double>& idealities,
                         const GridColumns& at, const std::vector<int>& chosen) {
   const int size = 2 + static_cast<int>(chosen.size());
@@ -105,7 +105,7 @@ bool HasRangeOfTheLast(const RefineProblem& problem, int diode) {
          problem.upper[n] == problem.upper[previous];
 }
 
-// Rising combinations of the n of the grid that every diode's bounds allow.
+// Ascending combinations of those n of the grid that every diode's bounds allow.
 void Combine(const RefineProblem& problem, const std::vector<double>& idealities,
              const GridColumns& at, std::vector<int>* chosen, std::vector<SeparableStart>* starts) {
   const int diode = static_cast<int>(chosen->size());
@@ -134,7 +134,7 @@ std::string Origin(int diodes, const std::vector<double>& p) {
   return origin + text;
 }
 
-// The lowest, each with n of its own.
+// The starts of the lowest mean square, each with a different set of n.
 std::vector<SeparableStart> Best(std::vector<SeparableStart> starts, int diodes, int count) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const auto& a, const auto& b) { return a.mean_square < b.mean_square; });
@@ -156,7 +156,7 @@ std::vector<SeparableStart> Best(std::vector<SeparableStart> starts, int diodes,
 
 }  // namespace
 
-// All combinations of n at one Rs after the other.
+// Tries all combinations of n at each Rs.
 std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint,
                                             int count) {
   if (problem.device.extension != nullptr) return {};

@@ -15,8 +15,8 @@
 namespace lyrefit {
 namespace {
 
-// A block of residuals over two blocks of unknowns: the coordinates, then its own; either may be
-// missing.
+// A block of residuals over two blocks of unknowns: the coordinates, then its local unknowns.
+// Either may be missing.
 class BlockCost : public ceres::CostFunction {
  public:
   BlockCost(const FitModel& model, const Coordinates& coordinates, int block, double unit_A)
@@ -45,7 +45,7 @@ class BlockCost : public ceres::CostFunction {
   double unit_A_;
 };
 
-// Ends a solve where it stands when asked to, or when it is low enough.
+// Ends a solve if `stop` returns true or the sum of squares is low enough.
 class StopAsked : public ceres::IterationCallback {
  public:
   explicit StopAsked(const SolveOptions& options) : options_(options) {}
@@ -85,7 +85,7 @@ ceres::Solver::Options CeresOptions(const SolveOptions& options) {
 
 constexpr int kMostSmall = 12;  // coordinates
 
-// All blocks below each other, in the coordinates.
+// Solves all blocks, one below the other, in the coordinates.
 SolveEnd SolveSmall(const FitModel& model, const Coordinates& coordinates,
                     const SolveOptions& options) {
   LeastSquaresProblem problem;
@@ -128,14 +128,14 @@ SolveEnd SolveModel(const FitModel& model, const Coordinates& coordinates,
   end.theta = coordinates.Start();
   end.local = std::move(local);
   end.converged = end.theta.empty() && end.local.empty();  // nothing to find
-  // Ceres writes to the log when it is handed a number that is not finite.
+  // Ceres writes to the log if it receives a number that is not finite.
   if (end.converged || !AllFinite(end.theta.data(), end.theta.size()) ||
       !AllFinite(end.local.data(), end.local.size()))
     return end;
   ceres::Problem solver;
   auto order = std::make_shared<ceres::ParameterBlockOrdering>();
-  // All locals lie side by side, since Ceres orders what it eliminates by address: in pieces, the
-  // last bits of a fit would hang on where they happened to lie.
+  // All local unknowns are contiguous in memory, since Ceres orders eliminated blocks by address.
+  // With separate allocations the last bits of a fit would depend on those addresses.
   double* own = end.local.data();
   for (std::size_t b = 0; b < model.shape().blocks.size(); ++b) {
     const int locals = model.shape().blocks[b].locals;

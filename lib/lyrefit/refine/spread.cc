@@ -10,10 +10,10 @@ namespace lyrefit {
 namespace {
 
 constexpr double kSingular = 1e-13;
-constexpr double kTakenOver = 1e-10;  // of a column's length: what is left of it is rounding
-constexpr double kOpen = 1e-6;        // of a gradient along a direction that nothing decides
+constexpr double kTakenOver = 1e-10;  // of a column's length; a shorter rest is rounding
+constexpr double kOpen = 1e-6;        // of a gradient along an undetermined direction
 
-// The columns without what the blocks' own unknowns can take over.
+// The columns with the projection on the local unknowns' columns removed.
 RowMatrix ProjectOut(const Linearization& now) {
   RowMatrix projected = now.jacobian;
   for (std::size_t c = 0; c < now.local.size(); ++c) {
@@ -25,9 +25,9 @@ RowMatrix ProjectOut(const Linearization& now) {
   return projected;
 }
 
-// Inverse of J'J over the coordinates in two factors: `half` has a column for every
-// direction that the data decide (inverse = half half'), `open` one of length 1 for every direction
-// along which nothing changes.
+// Inverse of J'J over the coordinates in two factors. `half` has one column for every direction
+// determined by the data (inverse = half half'). `open` has one of length 1 for every direction
+// along which no residual changes.
 struct Directions {
   Eigen::MatrixXd half;
   Eigen::MatrixXd open;
@@ -40,7 +40,7 @@ Directions FindDirections(const Linearization& now) {
   Directions found;
   found.half.setZero(moving, 0);
   found.open.setZero(moving, 0);
-  // Columns without influence would spoil the scale of the others: they are open by themselves.
+  // Columns without influence would spoil the scale of the others: each is an open direction.
   std::vector<int> seen;
   const auto add_open = [&](const Eigen::VectorXd& direction) {
     found.open.conservativeResize(Eigen::NoChange, found.open.cols() + 1);
@@ -54,7 +54,7 @@ Directions FindDirections(const Linearization& now) {
   }
   const int count = static_cast<int>(seen.size());
   if (count == 0) return found;
-  // Coordinates by scaled ones.
+  // Coordinates as functions of the scaled ones.
   Eigen::MatrixXd unscale = Eigen::MatrixXd::Zero(moving, count);
   for (int k = 0; k < count; ++k) unscale(seen[k], k) = 1 / projected.col(seen[k]).norm();
   const RightSingular svd = FindAllRightSingular(Times(projected, unscale));
@@ -72,7 +72,7 @@ Directions FindDirections(const Linearization& now) {
   return found;
 }
 
-// Whether a linear function of the coordinates stays the same along every open direction.
+// Whether a linear function of the coordinates is constant along every open direction.
 bool Decided(const Eigen::VectorXd& gradient, const Directions& found) {
   for (Eigen::Index k = 0; k < found.open.cols(); ++k) {
     if (std::fabs(gradient.dot(found.open.col(k))) > kOpen * gradient.norm()) return false;

@@ -10,7 +10,7 @@ namespace lyrefit {
 // Texts about lyrefit itself. The manual and the completion script use the declarations of the
 // verbs.
 
-// The page printed by `lyrefit` without a verb: a question and its verb on each line.
+// The page printed by `lyrefit` without a verb: the verbs that answer each question.
 std::string FirstPage();
 
 // The terms of the field and the columns of the tables, each explained in a few sentences.

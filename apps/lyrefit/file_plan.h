@@ -28,8 +28,8 @@ struct FilePlan {
 };
 
 // Whether the run can write its files without loss; call it before the work. No output may be an
-// input or a file read along with one, no two outputs may be one file, at most one may be standard
-// output, and all must be writable. Leaves no files behind.
+// input or a file read along with one, and no two outputs may be one file. At most one output may
+// be standard output, and all must be writable. Leaves no files behind.
 Expected<void> CheckFilePlan(const FilePlan& plan);
 
 }  // namespace lyrefit

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-// Each function adds the functions and types of one library module to the Python module, and is
+// Each function adds the functions and types of one library module to the Python module. Most are
 // defined in MODULE_bindings.cc.
 namespace lyrefit::python {
 

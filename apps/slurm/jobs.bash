@@ -1,11 +1,11 @@
 # shellcheck shell=bash disable=SC2154 # the names of a run are those of lyrefit-slurm
-# The scripts of a run, their submission, and what became of its shards.
+# The scripts of a run, their submission, and the state of its shards.
 
-# One shard is the whole, and makes the results itself.
+# A single shard is the whole run and writes the results directly to OUT.
 ShardFolder() { if ((shards > 1)); then echo /shards; fi; }
 
-# The script of a task. It starts in OUT and goes to the folder of the submission, as relative paths among the
-# options of lyrefit batch begin there.
+# The script of a task. It starts in OUT and changes to the folder of the submission, to which relative paths in
+# the options of lyrefit batch refer.
 TaskScript() {
   local command=("$lyrefit" batch "${inputs[@]}" "${batch_options[@]}" --threads "$cpus" --resume)
   cat << END
@@ -53,7 +53,7 @@ Quoted() {
   echo "${words% }"
 }
 
-# SubmitArray LIST: the tasks and the merge that waits for them and for every task still on its way.
+# SubmitArray LIST: submits these tasks, and the merge, which waits for them and for all tasks still in the queue.
 SubmitArray() {
   local array merge waits
   waits=$(QueuedJobs array)
@@ -78,8 +78,8 @@ OpenRun() {
   read -r shards at_once < "$out/slurm/shards"
 }
 
-# Sets queue, a line "KIND JOB INDEX STATE" for every task of the run that Slurm still has. Asked for by owner:
-# of jobs that it has forgotten Slurm says that there never were any, as if it did not answer.
+# Sets queue, a line "KIND JOB INDEX STATE" for every task of the run in Slurm's queue. The query is by owner, since
+# a query for jobs that Slurm no longer stores fails as if it did not answer.
 LookAtQueue() {
   local all
   all=$(squeue --noheader --array --user="$(stat -c %U -- "$out/slurm/shards")" --format='%F %K %T') ||
@@ -88,7 +88,7 @@ LookAtQueue() {
     "$out/slurm/jobs" - <<< "$all")
 }
 
-# QueuedJobs KIND: those jobs of the run, by colons.
+# QueuedJobs KIND: the jobs of this kind in the queue, separated by colons.
 QueuedJobs() {
   awk -v kind="$1" '$1 == kind && !seen[$2]++ { print $2 }' <<< "$queue" | paste -sd:
 }
@@ -98,7 +98,7 @@ IsDone() {
     [[ $(tail -n 1 -- "$out/shards/shard-$1-of-$shards.part" 2> /dev/null) == '{"end":'* ]]
 }
 
-# Sets done, running, waiting and missing, the shards of each kind.
+# Sets done, running, waiting and missing: the shards in each of these states.
 LookAtShards() {
   local kind k state
   local -A states=()
@@ -118,7 +118,7 @@ LookAtShards() {
   done
 }
 
-# 1 2 3 7 as 1-3,7.
+# Ranges K...: ascending numbers as ranges, 1 2 3 7 as 1-3,7.
 Ranges() {
   local k first='' last='' text=''
   for k in "$@" ''; do

@@ -1,10 +1,10 @@
 # shellcheck shell=bash disable=SC2154 # the names of a run are those of lyrefit-slurm
-# How many shards: so many that a task lasts, by the rate that a sample of the input shows.
+# The number of shards for tasks of the requested duration, from the rate of a sample of the input.
 
-readonly kEmptyParts=4194304 # so many that a shard holds a curve at most: what is left is the start-up
+readonly kEmptyParts=4194304 # shards of at most one curve: they measure the start-up time
 
-# RunSample PARTS FOLDER: three shards of so many, spread over the input; adds what they took and wrote to
-# sample_us and sample_rows.
+# RunSample PARTS FOLDER: runs three of PARTS shards, spread over the input; sets sample_us to their time in
+# microseconds and sample_rows to their number of rows.
 RunSample() {
   local parts=$1 place folder=$2/$1 started runner=()
   [[ -z $on_node ]] || runner=(srun --quiet --ntasks=1 "--cpus-per-task=$cpus" "${sbatch_options[@]}")
@@ -19,8 +19,8 @@ RunSample() {
   done
 }
 
-# Sets shards, and time_limit if the user did not, from the rate that three places of the input show. Empty
-# shards tell the start-up, which is no part of the rate.
+# Sets shards, and time_limit if the user did not, from the rate at three places of the input. The start-up time,
+# measured with empty shards, does not count.
 ChooseShards() {
   local folder parts empty_us empty_rows most plan
   folder=$(mktemp -d -p "$1" .lyrefit-sample.XXXXXX)
@@ -58,14 +58,14 @@ ChooseShards() {
   trap - EXIT
 }
 
-# LargerShards PARTS MICROSECONDS: so few parts that a sample should last, after one that did not.
+# LargerShards PARTS MICROSECONDS: number of parts for a sample of sufficient duration, after one of this duration.
 LargerShards() {
   local parts=$(($1 * ($2 > 0 ? $2 : 1) / (sample_seconds * 1200000)))
   parts=$((parts > $1 / 4 ? $1 / 4 : parts < $1 / 16 ? $1 / 16 : parts))
   echo $((parts > 4 ? parts : 4))
 }
 
-# What an array may hold, with indices from 1.
+# The largest number of tasks in an array, with indices from 1.
 MostTasks() {
   local size
   size=$(scontrol show config | awk '$1 == "MaxArraySize" { print $3 }')

@@ -1,11 +1,11 @@
 # shellcheck shell=bash
-# What a task of the array does with its shard; lyrefit-slurm puts `k` and `command` before it. A shard that is
-# killed, or whose time is nearly up, goes back into the queue and goes on where it stopped (--resume).
+# Runs the shard of a task of the array; lyrefit-slurm defines `k` and `command` before this text. A shard that is
+# killed, or whose time is nearly up, is requeued and resumes (--resume).
 : "${k:?}" "${command:?}"
 restarts=${SLURM_RESTART_COUNT:-0}
 echo "$(date '+%F %T') shard $k on $(hostname), restarts: $restarts"
 
-# Slurm takes the task back into the queue, and the shard goes on where it stopped.
+# Requeue REASON LIMIT: requeues the task unless it was restarted LIMIT times; the shard then resumes.
 Requeue() {
   if ((restarts >= $2)); then
     echo "$(date '+%F %T') shard $k: $1, and restarted $restarts times already: given up"
@@ -21,12 +21,12 @@ Requeue() {
 
 reason=
 trap 'reason="the time limit is near"; kill -TERM "$child" 2> /dev/null' USR1
-trap 'reason=ended; kill -TERM "$child" 2> /dev/null' TERM INT # cancelled, or preempted: then Slurm requeues by itself
+trap 'reason=ended; kill -TERM "$child" 2> /dev/null' TERM INT # cancelled, or preempted and requeued by Slurm
 "${command[@]}" &
 child=$!
 wait "$child"
 code=$?
-while kill -0 "$child" 2> /dev/null; do # a signal to this script ends a wait before the child has ended
+while kill -0 "$child" 2> /dev/null; do # a signal to this script ends a wait before the child ends
   wait "$child"
   code=$?
 done
@@ -35,7 +35,7 @@ if [[ $reason == ended ]]; then
   exit 143
 fi
 ((code == 0)) || [[ -z $reason ]] || Requeue "$reason" 50
-((code <= 128 || code == 130 || code == 143)) || # these two: somebody told it to end
+((code <= 128 || code == 130 || code == 143)) || # 130 and 143: ended by SIGINT or SIGTERM
   Requeue "lyrefit was killed by signal $((code - 128))" 3
 echo "$(date '+%F %T') shard $k: exit code $code"
 exit "$code"

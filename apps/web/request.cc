@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The rows of a form that no table has as the page needs them: which curve of a file, a model that
-// the data choose, the box that is searched.
+// Rows that the page needs and no option table has: the index of the curve in a file, the automatic
+// model, and the search bounds.
 constexpr char kCurve[] = "curve";
 constexpr char kModel[] = "model";
 constexpr char kBounds[] = "bounds";

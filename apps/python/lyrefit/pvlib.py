@@ -139,7 +139,7 @@ def _curves(rows, v_oc, shape, points, method):
         voltage = np.multiply.outer(v_oc, np.linspace(0, 1, points)).reshape(-1)
         current = _lyrefit._current_at(voltage, each)
     else:
-        # Over the junction's voltage all is explicit.
+        # Voltage and current are explicit functions of the junction voltage.
         spread = (11 - np.logspace(np.log10(11), 0, points)) / 10
         junction = np.multiply.outer(v_oc, spread).reshape(-1)
         photocurrent, saturation_current, resistance_series, resistance_shunt, nNsVth = each
@@ -223,7 +223,7 @@ def fit_sandia_simple(voltage, current, v_oc=None, i_sc=None, v_mp_i_mp=None, vl
             found["resistance_shunt"], found["n"] * thermal_V)
 
 
-# The reference of lyrefit's laws, and pvlib's slope of the band gap.
+# Reference conditions of lyrefit's laws, and pvlib's slope of the band gap.
 _IRRADIANCE_W_m2 = 1000.0
 _TEMPERATURE_C = 25.0
 _KELVIN = 273.15
@@ -274,7 +274,7 @@ def fit_desoto_sandia(ivcurves, specs, const=None, maxiter=5, eps1=1.0e-3):
     irradiance = np.array(ivcurves["ee"], dtype=np.float64) * (_IRRADIANCE_W_m2 / const["E0"])
     temperature = np.array(ivcurves["tc"], dtype=np.float64)
     away_K = const["T0"] - _TEMPERATURE_C
-    # Such that the slope is pvlib's when the gap is counted from T0.
+    # Converted so that the slope relative to the band gap at T0 is pvlib's.
     slope = _BANDGAP_SLOPE / (1 - _BANDGAP_SLOPE * away_K)
     found = _lyrefit._fit_desoto(
         [np.asarray(v, dtype=np.float64) for v in ivcurves["v"]],

@@ -129,7 +129,7 @@
         .map(([each, text]) => new File([text], each));
   }
 
-  // What was read -------------------------------------------------------------------------------
+  // Content of files ----------------------------------------------------------------------------
 
   function ownValues(file) {
     return Object.fromEntries(Object.entries(file.values).filter(([, value]) => value.length > 0));
@@ -297,7 +297,7 @@
     element('report').replaceChildren(...(fine ? [reportView.frameOf(result)] : []));
   }
 
-  // Beginning -----------------------------------------------------------------------------------
+  // Start ---------------------------------------------------------------------------------------
 
   function takePaste(text) {
     if (!text.trim()) {

@@ -5,8 +5,9 @@
 namespace lyrefit {
 namespace {
 
-// Independent variance of a row. Below 0 if a mean of neighbours has less path variance than a
-// single reading. Together with the covariances the matrix is positive definite all the same.
+// Variance of a row by itself. Below 0 if averaging removes more path variance from a mean of
+// neighbours than its independent variance. With the path the full matrix is a covariance all the
+// same.
 double OwnVariance(const ErrorModel& errors, int k) {
   const double own = errors.white[k] * errors.white[k];
   if (errors.averaged_away.empty() || errors.path.empty()) return own;

@@ -59,7 +59,7 @@ TEST(JsonRows, TakeOtherNamesUnitsAndNesting) {
   EXPECT_EQ(items[1].curve.curve->current_A, kCurrent);
   EXPECT_EQ(items[2].curve.id, "s:3");
   ASSERT_TRUE(items[2].curve.curve);
-  EXPECT_EQ(items[2].curve.curve->current_A, kCurrent);  // load sign turned
+  EXPECT_EQ(items[2].curve.curve->current_A, kCurrent);  // load sign convention corrected
   EXPECT_FALSE(items[2].curve.curve->irradiance_known);
 }
 
@@ -251,7 +251,7 @@ TEST(Batch, SeveralInputsStandOneBehindTheOther) {
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "x: ok");
   EXPECT_THAT(lines[7], HasSubstr("the id 'inv10/str1' was used before, in " + rows + ":2"));
-  // Their names tell folders apart.
+  // The folder name makes the ids of several folders unique.
   folder.Write("u/s.csv", "V,I\n0,1\n1,0\n");
   EXPECT_THAT(IdsOf(ReadBatch({folder.Path("u") + "/", folder.Path("t")})), Contains("u/s"));
 }
@@ -275,7 +275,7 @@ TEST(Examples, EveryShapeHoldsTheSameCurves) {
       EXPECT_EQ(curve.conditions.irradiance_W_m2, same.conditions.irradiance_W_m2);
       EXPECT_NEAR(curve.conditions.cell_temperature_K, same.conditions.cell_temperature_K, 1e-9);
       EXPECT_EQ(curve.conditions.cells_in_series, 60);
-      if (name == std::string("ivcurves.json")) continue;  // has but numbers
+      if (name == std::string("ivcurves.json")) continue;  // holds numbers only
       const std::string id = rows[i].curve.id;
       EXPECT_EQ(items[i].curve.id, name == std::string("tree") ? id.substr(6) : id);
       EXPECT_EQ(items[i].curve.beside.at("date"), "2026-05-01");
@@ -283,7 +283,7 @@ TEST(Examples, EveryShapeHoldsTheSameCurves) {
   }
 }
 
-// The same items in the same order, however many shards.
+// The shards together have the same items in the same order as the whole input.
 void ExpectSameInShards(const std::vector<std::string>& inputs) {
   const std::vector<std::string> whole = LinesOf(ReadBatch(inputs));
   for (const int of : {1, 3, 8}) {
@@ -338,7 +338,7 @@ TEST(Digest, ChangesWithTheBytesAndNamesOfTheShard) {
   EXPECT_NE(first, before);
   folder.Write("r.jsonl", GoodRow("a") + "\n" + GoodRow("c") + "\n");
   EXPECT_NE(digest(file, {}), before);
-  EXPECT_EQ(digest(file, {1, 2}), first);  // its bytes are the same
+  EXPECT_EQ(digest(file, {1, 2}), first);  // the bytes of this shard are unchanged
   const std::string tree = digest(folder.Path("t"), {});
   folder.Write("t/inv2/str9.json", R"({"cells_in_series":72})");
   const std::string other = digest(folder.Path("t"), {});
@@ -347,7 +347,7 @@ TEST(Digest, ChangesWithTheBytesAndNamesOfTheShard) {
   EXPECT_NE(digest(folder.Path("t"), {}), other);
 }
 
-// What a pipe gives can be read once: nothing may take a look at it before.
+// A pipe can be read only once, so opening the batch must not consume any of it.
 TEST(Pipes, GiveEveryRow) {
   const TempFolder folder;
   const std::string pipe = folder.Path("rows.jsonl");

@@ -26,7 +26,7 @@ TEST(RatedPowerBeside, IsTheNumberThatStandsBesideACurve) {
   EXPECT_FALSE(RatedPowerBeside(curve));
 }
 
-// line -> {how, fate}
+// Reads a truth file: line -> {how, fate}.
 std::map<int, std::pair<std::string, std::string>> Truth(const std::string& path) {
   std::map<int, std::pair<std::string, std::string>> truth;
   std::ifstream lines(path);
@@ -74,7 +74,7 @@ TEST(FitTask, EveryBrokenRowOfALoadHasItsReason) {
     }
     const auto& [how, fate] = done->second;
     ++ways[how];
-    // Of a row before that stands under another id itself none is repeated.
+    // A copied id is unique if the row before has lost or changed its own.
     const auto before = truth.find(line - 1);
     if (how == "duplicated_id" && before != truth.end()) continue;
     if (fate == "refused") {

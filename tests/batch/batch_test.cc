@@ -88,7 +88,7 @@ TEST(Batch, IsTakenUpWhereItWasStopped) {
   const std::string file = folder.Write("strings.jsonl", ManyRows(300));
   ASSERT_TRUE(RunOn(file, CountTask(), Into(folder.Path("whole"))));
   BatchOptions options = Into(folder.Path("out"));
-  options.start = BatchStart::kResume;  // where there is nothing: anew
+  options.start = BatchStart::kResume;  // starts a new run if there is no checkpoint
   std::int64_t before = 0;
   int stops = 0;
   while (true) {
@@ -96,9 +96,9 @@ TEST(Batch, IsTakenUpWhereItWasStopped) {
     ASSERT_TRUE(done) << done.error().ToString();
     EXPECT_EQ(done->rows_before, before);
     if (!done->interrupted) break;
-    ASSERT_LE(++stops, 300);  // or it would stand still
+    ASSERT_LE(++stops, 300);  // every restart must make progress
     before = done->rows;
-    // What a killed process leaves: half a line.
+    // A killed process leaves an incomplete line.
     std::ofstream(CheckpointPath(options.folder, {}), std::ios::app) << "{\"id\":\"site/comb0/st";
   }
   EXPECT_GE(stops, 1);
@@ -137,7 +137,7 @@ class Unfinished : public testing::Test {
     options_.start = BatchStart::kResume;
   }
 
-  // Refused, and what was there is as it was.
+  // The run is refused and the checkpoint is unchanged.
   void ExpectRefusal(const BatchTaskType& task, const std::string& sentence) {
     EXPECT_THAT(MessageOf(RunOn(file_, task, options_)), HasSubstr(sentence));
     EXPECT_EQ(FileText(options_.folder + "/results.part"), part_);
@@ -197,7 +197,7 @@ TEST_F(Unfinished, IsLeftAloneIfDamaged) {
   ExpectRefusal(CountTask(), "this line is no row, the file is damaged");
 }
 
-// Root may open every file: while this lives the process is nobody, where it was root.
+// Root may open every file. While an object lives, a process of root runs as the user nobody.
 class AsNobody {
  public:
   AsNobody() {
@@ -219,13 +219,13 @@ TEST(Batch, LosesNothingToAFullDisk) {
   ASSERT_TRUE(RunOn(file, CountTask(), Into(folder.Path("whole"))));
   BatchOptions options = Into(folder.Path("out"));
   options.start = BatchStart::kResume;
-  // Too small for the rows; then for the rows, but not for what is made of them.
+  // A limit below the size of the checkpoint, and one below the size of the results.
   const auto lines = std::filesystem::file_size(folder.Path("whole") + "/results.jsonl");
   for (const rlim_t bytes : {rlim_t{20000}, static_cast<rlim_t>(lines - 100)}) {
     const FileLimit limit(bytes);
     const auto done = RunOn(file, CountTask(), options);
     EXPECT_THAT(MessageOf(done), HasSubstr("cannot write the ")) << bytes;
-    // Rows are written in groups, as many at once as are done; where not one group fits, none is kept.
+    // Rows are written in groups; if the first group does not fit, no checkpoint remains.
     const std::string part = options.folder + "/results.part";
     const bool kept = std::filesystem::exists(part);
     if (kept) EXPECT_EQ(FileText(part).back(), '\n');
@@ -279,7 +279,7 @@ TEST(Batch, WritesNoFormulasIntoItsTable) {
   EXPECT_EQ(ids_in("out"), "'=cmd|' /C calc'!A0\n'=1+1\n'+1+1\n-0.5\n'@SUM(1)\nstr 1\n");
   EXPECT_THAT(FileText(folder.Path("out") + "/results.jsonl"),
               HasSubstr("{\"id\":\"=cmd|' /C calc'!A0\","));
-  // As they are, of one run and of shards.
+  // Unchanged ids with raw_csv, in one run and in merged shards.
   BatchOptions raw = Into(folder.Path("raw"));
   raw.raw_csv = true;
   ASSERT_TRUE(RunOn(file, CountTask(), raw));

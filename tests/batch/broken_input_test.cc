@@ -3,7 +3,7 @@
 #include "lyrefit/batch/batch_source.h"
 #include "read_batch.h"
 
-// Rows, files and bytes that are wrong: each keeps its row and has its reason.
+// Malformed rows, files and bytes: each row keeps its place and gets a reason.
 
 namespace lyrefit {
 namespace {
@@ -128,7 +128,7 @@ TEST(BrokenInput, IsAnErrorOfItsOwn) {
   EXPECT_EQ(MessageOf((*empty)->Next()), "expected at least one curve, found none");
 }
 
-// Cut anywhere, a file gives what is whole and says what is not.
+// A truncated file gives all complete rows, and an error for the incomplete one.
 TEST(Hostile, AFileCutAnywhereLosesNoRow) {
   const TempFolder folder;
   const std::string rows = GoodRow("a") + "\n" + GoodRow("b") + "\n" + GoodRow("c") + "\n";
@@ -142,7 +142,7 @@ TEST(Hostile, AFileCutAnywhereLosesNoRow) {
       const std::string cut = text.substr(0, size);
       const std::string file = folder.Write(name, cut);
       const auto source = OpenBatch({file});
-      if (!source) continue;  // said as such
+      if (!source) continue;  // refused with an error
       const auto items = ReadBatch({file});
       if (name != std::string("r.jsonl")) continue;
       const auto whole = std::count(cut.begin(), cut.end(), '\n');

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Two shards of a run, the second of which is changed.
+// Two shards of a run; the tests change the checkpoint of the second.
 class ChangedPart : public testing::Test {
  protected:
   void SetUp() override {
@@ -45,7 +45,7 @@ class ChangedPart : public testing::Test {
     return RunOn(file_, CountTask(), options);
   }
 
-  // Neither merged nor gone on with: the line, from 1, is named.
+  // Merging and resuming both fail with the number of the changed line, from 1.
   void ExpectSeen(const std::vector<std::string>& lines, int line) const {
     Write(lines);
     ExpectErrorAt(Merge(), part_, line, 0, "the checksum of this line is not that of");

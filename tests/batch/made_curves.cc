@@ -15,7 +15,7 @@ using hidden::Random;
 
 constexpr double kThermalVoltPerK = 8.617333262e-5;
 
-// A single diode as its junction sees it; what is asked for is its open circuit.
+// Single-diode model over the junction voltage, with the open-circuit voltage as a parameter.
 struct Diode {
   double photocurrent_A;
   double open_circuit_V;
@@ -41,7 +41,7 @@ struct Row {
   std::vector<double> current_A;
 };
 
-// The row as text; a break acts on the row before, or on the text.
+// The row as text. A break changes either the row, before it becomes text, or this text.
 struct RowText {
   std::string id, voltage, current;
   bool has_id = true, has_current = true, cut = false;
@@ -132,7 +132,7 @@ std::string ListOf(const std::vector<double>& values, Shape shape) {
   return text;
 }
 
-// Puts a word where a number stood.
+// Replaces one number of the list by a word.
 void ReplaceSome(Random* random, const char* word, std::string* list) {
   const std::size_t begin =
       list->find(' ', static_cast<std::size_t>(random->Uniform(0, 0.9 * list->size())));
@@ -225,7 +225,7 @@ std::string CsvRow(const Row& row, const RowText& text) {
 
 struct Line {
   std::string text, id;
-  std::string how, fate;  // empty: as any other
+  std::string how, fate;  // empty: an unchanged row
 };
 
 Line LineOf(std::int64_t place, const CurvesRequest& request) {

@@ -41,7 +41,7 @@ struct Weather {
   std::string date;
 };
 
-// Inverter by inverter, a day each; a string every 70 seconds about noon of a clear day.
+// One inverter per day, one string every 70 seconds around noon of a clear day.
 Weather WeatherOf(int place) {
   constexpr int kOfDay = kCombiners * kStringsOfCombiner;
   const int day = place / kOfDay;
@@ -93,10 +93,10 @@ KeyPoints ModuleAt(double suns, double celsius) {
 
 double RatedPower() { return 5 * std::floor(ModuleAt(1, 25).pmax() / 5); }
 
-// What a tracer that charges a capacitor through the string hands over.
+// A string without a fault, measured by a tracer that charges a capacitor.
 StringRig HealthyString(const Weather& weather, Random* random) {
   StringRig rig;
-  const double clean = 1 - 0.004 * std::fabs(random->Normal());  // a little dust
+  const double clean = 1 - 0.004 * std::fabs(random->Normal());  // slight soiling
   const double kelvin = weather.kelvin + 0.7 * random->Normal();
   for (int m = 0; m < kModules; ++m) {
     const double power_class = 1 + 0.003 * std::clamp(random->Normal(), -2.5, 2.5);
@@ -116,9 +116,9 @@ StringRig HealthyString(const Weather& weather, Random* random) {
 
 struct Strung {
   std::string id, date;
-  double irradiance_Wm2 = 0, temperature_C = 0;  // as the sensors say
+  double irradiance_Wm2 = 0, temperature_C = 0;  // as shown by the sensors
   hidden::field::Readings readings;
-  double loss_percent = 0;  // of the largest power, by the fault
+  double loss_percent = 0;  // loss of maximum power by the fault
 };
 
 Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
@@ -140,14 +140,15 @@ Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
   hidden::field::Lit lit(whole.module);
   strung.loss_percent = 100 * (1 - KeyPointsOf(lit.Whole()).pmax() / KeyPointsOf(reference).pmax());
   strung.readings = Measured(whole, &lit, &random);
-  Random sensor(SeedOf(seed, 1'000'000 + place / kStringsOfCombiner));  // set up at each combiner
+  // The sensor is set up anew at each combiner.
+  Random sensor(SeedOf(seed, 1'000'000 + place / kStringsOfCombiner));
   const double gain = 1 + 0.004 * sensor.Normal() + 0.006 * random.Normal();
   strung.irradiance_Wm2 = std::round(1000 * weather.suns * gain);
   strung.temperature_C = std::round(10 * (weather.kelvin - kCelsius + random.Normal())) / 10;
   return strung;
 }
 
-// Which strings, in the order of the faults.
+// Indices of the strings with a fault, in the order of PlantFaults.
 std::vector<int> HiddenPlaces(const PlantRequest& request) {
   Random random(SeedOf(request.seed, 2'000'000));
   std::vector<int> places;
@@ -227,7 +228,7 @@ std::string TruthOf(const std::vector<Strung>& strings, const std::vector<int>& 
   return text;
 }
 
-// The printed figures of one module, with the coefficients between 25 and 50 C.
+// Data sheet of one module as JSON, with temperature coefficients between 25 and 50 C.
 std::string ModuleJson(double rated_W) {
   const KeyPoints cool = ModuleAt(1, 25), warm = ModuleAt(1, 50);
   const auto percent = [](double one, double other) { return 100 * (other / one - 1) / 25; };

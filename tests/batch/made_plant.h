@@ -8,24 +8,25 @@
 
 namespace made {
 
-// A plant of strings of 20 modules of 60 cells, cell by cell, with faults hidden in some of them.
+// A simulated plant of strings with 20 modules of 60 cells, built cell by cell; some have faults.
 
-inline constexpr int kModules = 20;  // of a string
+inline constexpr int kModules = 20;  // per string
 inline constexpr int kCombiners = 10;
 inline constexpr int kStringsOfCombiner = 25;
 
-// A string while it is measured.
+// A string and the conditions of its measurement.
 struct StringRig {
   std::vector<hidden::field::Module> modules;
-  double lead_ohm = 0;  // what connectors and cables add
+  double lead_ohm = 0;  // of connectors and cables
   hidden::field::Sky sky;
   hidden::field::Tracer tracer;
 };
 
 struct PlantFault {
   const char* name;
-  const char* accepted;  // names that are right, parted by '|'
-  // "curve": in the string's own curve; "neighbours": only beside the rating and other strings.
+  const char* accepted;  // accepted names, separated by '|'
+  // "curve": visible in the curve of the string; "neighbours": only by comparison with the rating
+  // and other strings.
   const char* shows_in;
   const char* words;
   void (*apply)(hidden::Random* random, StringRig* rig);
@@ -35,15 +36,15 @@ const std::vector<PlantFault>& PlantFaults();
 struct PlantRequest {
   int strings = 500;
   std::uint64_t seed = 1;
-  int threads = 0;     // 0: all cores; never changes a byte
-  std::string packed;  // a file with one curve a row; empty: not written
-  std::string tree;    // a folder: site/inverter/combiner/string.csv; empty: not written
+  int threads = 0;     // 0: all cores; the output does not depend on it
+  std::string packed;  // file with one curve per row; empty: not written
+  std::string tree;    // folder: site/inverter/combiner/string.csv; empty: not written
   bool sidecars = false;
-  std::string truth;   // id,fault,accepted,shows_in,loss_percent,words of what is hidden
+  std::string truth;   // file of the faults: id,fault,accepted,shows_in,loss_percent,words
   std::string module;  // rating and coefficients of a module, as JSON
 };
 
-// Returns what went wrong, empty if nothing did.
+// Returns an error message, empty on success.
 std::string WritePlant(const PlantRequest& request);
 
 }  // namespace made

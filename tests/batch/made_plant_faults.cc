@@ -61,7 +61,8 @@ void MissingModule(Random*, StringRig* rig) { rig->modules.pop_back(); }
 
 void BadConnector(Random* random, StringRig* rig) { rig->lead_ohm += random->Uniform(2, 3); }
 
-// Strongest at the end of the string that lies lowest against earth.
+// Potential-induced degradation is strongest at the end of the string with the lowest potential to
+// earth.
 void Degraded(Random* random, StringRig* rig) {
   constexpr int kHit = 9;
   for (int m = 0; m < kHit; ++m) {
@@ -99,8 +100,8 @@ void OpenDiode(Random* random, StringRig* rig) {
   chain[random->Index(static_cast<int>(chain.size()))].photocurrent *= random->Uniform(0.5, 0.7);
 }
 
-// One curve cannot tell cells that are bridged from cells that are not there or are warmer than was
-// said; nor dirt on everything from a light sensor that reads high.
+// One curve cannot distinguish bypassed cells from a wrong cell count or a higher temperature, nor
+// uniform soiling from a light sensor that reads high.
 constexpr const char* kLessVoltage =
     "bypass_short|temperature_or_cells|temp_offset|voltage_offset|Voc-";
 constexpr const char* kLessCurrent = "soiling|sensor_offset|Isc/G-";

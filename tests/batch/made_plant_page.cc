@@ -1,4 +1,4 @@
-// The page of a made plant, for the tests that look at it with a browser:
+// Writes the page of a synthetic plant, for the tests in a browser:
 //   made_plant_page ROWS PAGE [DIGITS [ROWS_FILE]]
 // ROWS_FILE receives the rows as JSON Lines.
 #include <chrono>

@@ -15,9 +15,9 @@
 
 namespace lyrefit {
 
-// Rows of a plant as a field test leaves them, made up: sites of inverters of combiners of 24
-// strings, one in 40 with a cause, one in 100 without a result. What stands in a row hangs on the
-// seed and its number alone.
+// Synthetic result rows of a plant after a field test. Ids have the levels site, inverter, combiner
+// and string, with 24 strings per combiner. One in 40 has a cause, one in 100 has no result. A row
+// depends only on the seed and its number.
 
 inline std::vector<ResultColumn> MadePlantColumns() {
   constexpr CellType kText = CellType::kText;

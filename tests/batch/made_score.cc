@@ -11,7 +11,7 @@
 namespace made {
 namespace {
 
-using Row = std::map<std::string, std::string>;  // by the names of the columns
+using Row = std::map<std::string, std::string>;  // cells by column name
 
 std::vector<std::vector<std::string>> Records(const std::string& text) {
   std::vector<std::vector<std::string>> records;
@@ -68,7 +68,7 @@ std::set<std::string> Words(const std::string& text, const char* between) {
   return words;
 }
 
-// "Voc -4.96 % (usual: within 0.5 %), FF ..." -> "Voc-", ...
+// Names and directions of the outliers: "Voc -4.96 % (usual: within 0.5 %), FF ..." -> "Voc-", ...
 std::set<std::string> OutlierNames(const std::string& text) {
   std::set<std::string> names;
   std::string before;
@@ -104,7 +104,7 @@ Alarm AlarmOf(const Row& row) {
   return alarm;
 }
 
-// Nothing but that the instrument misread once or counts in steps: no fault of a string.
+// Whether the only alarm is a single misreading or the resolution, which is no fault of the string.
 bool OfInstrument(const Row& row, const Alarm& alarm) {
   const std::string cause = At(row, "cause");
   return !alarm.by_group && !alarm.by_zone && (cause == "outliers" || cause == "quantisation");

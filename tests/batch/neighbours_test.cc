@@ -10,7 +10,7 @@ namespace {
 
 using Groups = std::vector<std::vector<Neighbour>>;
 
-// Strings whose quantities scatter by these parts, under light that is nowhere the same.
+// Strings with the relative scatter stated below. Every combiner has its own irradiance.
 Groups MakePlant(int groups, int strings, std::uint64_t seed) {
   RandomStream random(seed);
   Groups plant(groups);
@@ -52,7 +52,7 @@ Alarms CountAlarms(const Groups& plant, double level) {
 }
 
 TEST(Neighbours, KeepTheRateOfFalseAlarms) {
-  // Many plants of each size; at 2 % the count of alarms is known well enough.
+  // Many plants of each size. At a level of 2 % the number of alarms is large enough for the rate.
   const struct {
     int plants, groups, strings;
   } cases[] = {{400, 1, 10}, {200, 3, 8}, {60, 10, 12}, {4, 200, 12}};
@@ -72,7 +72,7 @@ TEST(Neighbours, KeepTheRateOfFalseAlarms) {
 
 TEST(Neighbours, FlagAStringWithABypassedSubstring) {
   Groups plant = MakePlant(20, 12, 1);
-  plant[7][3].values[kVoc] *= 1 - 1.0 / 60;  // one of twenty modules lost a third
+  plant[7][3].values[kVoc] *= 1 - 1.0 / 60;  // one of 60 substrings is lost
   plant[7][3].values[kPmaxPerLight] *= 1 - 1.0 / 60;
   NeighbourScatter scatter;
   for (const auto& group : plant) scatter.Add(DeviationsAmong(group, 0.05));
@@ -91,7 +91,8 @@ TEST(Neighbours, AreComparedUnderLikeLightOnly) {
   group[0].irradiance_W_m2 *= 1.2;
   group[1].irradiance_W_m2 = kUnknown;
   const auto deviations = DeviationsAmong(group, 0.05);
-  for (const NeighbourDeviation& one : deviations) EXPECT_EQ(one.peers, 0);  // three peers at most
+  // Each string has at most three peers in similar light, too few for a comparison.
+  for (const NeighbourDeviation& one : deviations) EXPECT_EQ(one.peers, 0);
   const auto cells = NeighbourCells(deviations[0], {});
   EXPECT_EQ(cells.size(), NeighbourColumns().size());
   EXPECT_TRUE(std::holds_alternative<std::monostate>(cells[5]));

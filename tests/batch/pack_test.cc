@@ -7,7 +7,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// What a packed curve has to bring back.
+// A packed curve must have equal values in all fields of the curve.
 void ExpectSame(const IvCurve& a, const IvCurve& b) {
   EXPECT_EQ(a.voltage_V, b.voltage_V);
   EXPECT_EQ(a.current_A, b.current_A);
@@ -47,7 +47,7 @@ std::string Packed(const std::vector<std::string>& inputs, PackFormat format, in
   return text;
 }
 
-// All files of data/formats that can be read alone, and rows with everything that a row can say.
+// All single files of data/formats, and rows with all fields that a row can have.
 std::vector<std::string> Inputs(const TempFolder& folder) {
   const std::string formats = std::string(LYREFIT_DATA_DIR) + "/formats";
   const std::string rows = folder.Write(
@@ -93,7 +93,7 @@ void ExpectSamePacked(PackFormat format, const std::string& name) {
     ExpectSame(*after[i].curve.curve, *before[i].curve.curve);
   }
   EXPECT_GT(sound, 25);
-  // A packed file packs to itself.
+  // Packing a packed file gives the same file.
   EXPECT_TRUE(Packed({folder.Path(name)}, format) == text);
 }
 

@@ -252,7 +252,7 @@ TEST_F(PlantPageTest, OnlyTheCompressedTableGrows) {
     }
     return static_cast<double>(html.size() - inside);
   };
-  // 400 and 2,000 nodes: as many as are drawn, and as many as are counted.
+  // 400 and 2,000 nodes: the limit of drawn nodes and the limit of counted nodes.
   EXPECT_LT(around(40000), 1.1 * around(8000));
 }
 

@@ -18,8 +18,8 @@ struct ReadItem {
   BatchCurve curve;
 };
 
-// All items of one shard; what cannot be opened or read on is a failure of the test. An input
-// without a curve, which ends with an error, has no items.
+// All items of one shard. An input that cannot be opened or read to the end fails the test. An
+// input without any curve, which ends with an error, has no items.
 inline std::vector<ReadItem> ReadBatch(const std::vector<std::string>& inputs,
                                        const BatchReadOptions& options = {}) {
   std::vector<ReadItem> all;
@@ -45,7 +45,7 @@ inline std::vector<std::string> IdsOf(const std::vector<ReadItem>& items) {
   return ids;
 }
 
-// "id: ok" or "id: the error".
+// "id: ok" or "id: error message".
 inline std::vector<std::string> LinesOf(const std::vector<ReadItem>& items) {
   std::vector<std::string> lines;
   for (const ReadItem& one : items) {
@@ -55,7 +55,7 @@ inline std::vector<std::string> LinesOf(const std::vector<ReadItem>& items) {
   return lines;
 }
 
-// A row of JSON Lines with a sound curve of five points.
+// A row of JSON Lines with a valid curve of five points.
 inline std::string GoodRow(const std::string& id) {
   return R"({"id":")" + id +
          R"(","irradiance_W_m2":912,"cell_temperature_C":47,"cells_in_series":60,)"
@@ -65,7 +65,7 @@ inline std::string GoodRow(const std::string& id) {
 inline const std::vector<double> kVoltage = {0, 10, 20, 30, 36};
 inline const std::vector<double> kCurrent = {8.5, 8.49, 8.4, 6, 0.1};
 
-// The one curve that GoodRow says, in whatever shape.
+// Expects the curve of GoodRow, in any input shape.
 inline void ExpectGood(const BatchCurve& one, const std::string& id) {
   EXPECT_EQ(one.id, id);
   ASSERT_TRUE(one.curve) << MessageOf(one.curve);

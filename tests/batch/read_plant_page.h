@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-// The table of a plant's page read back, by what batch/plant_table.h says of it and nothing else.
+// Reader of the table in a plant page, written from the description in batch/plant_table.h only.
 namespace plant_page {
 
-// null, a text or a number.
+// Each cell is null, a text or a number.
 using Cells = std::vector<nlohmann::json>;
 
 inline std::string FromBase64(const std::string& text) {
@@ -88,7 +88,7 @@ inline Cells Part(const std::string& base64, std::size_t n) {
   return cells;
 }
 
-// What stands between two texts, from `place` on, which is moved behind it.
+// Text between `before` and `after`, searched from `*place`; moves `*place` to `after`.
 inline std::string Between(const std::string& text, const std::string& before,
                            const std::string& after, std::size_t* place) {
   const std::size_t from = text.find(before, *place);
@@ -99,7 +99,7 @@ inline std::string Between(const std::string& text, const std::string& before,
   return text.substr(start, end - start);
 }
 
-// The index, and the cells of every column.
+// The index of the table, as JSON.
 inline nlohmann::json Index(const std::string& html) {
   std::size_t place = 0;
   return nlohmann::json::parse(

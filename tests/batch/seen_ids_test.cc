@@ -9,7 +9,7 @@ namespace {
 
 TEST(SeenIds, FindsEveryRepetitionAlsoWhenTheTableHasGrown) {
   SeenIds ids;
-  constexpr int kMany = 2100000;  // beyond 1.9 million
+  constexpr int kMany = 2100000;  // the table grows at 1.9 million
   for (int i = 0; i < kMany; ++i) {
     ASSERT_FALSE(ids.Insert("site/inv/" + std::to_string(i), {i % 7, i + 1}));
   }

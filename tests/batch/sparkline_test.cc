@@ -10,7 +10,7 @@ namespace {
 TEST(Sparkline, ReadsBackWithinHalfAStep) {
   std::vector<double> voltage_V, current_A;
   for (int i = 0; i <= 40; ++i) {
-    voltage_V.push_back(40 - i);  // downwards
+    voltage_V.push_back(40 - i);  // falling voltage
     current_A.push_back(8 * (1 - std::pow((40.0 - i) / 40, 9)));
   }
   const std::string text = Sparkline(voltage_V, current_A, 40);
@@ -19,7 +19,8 @@ TEST(Sparkline, ReadsBackWithinHalfAStep) {
   ASSERT_EQ(parts.size(), static_cast<std::size_t>(kSparklinePoints));
   for (int i = 0; i < kSparklinePoints; ++i) {
     const double v = static_cast<double>(i) / (kSparklinePoints - 1);
-    EXPECT_NEAR(parts[i], 1 - std::pow(v, 9), 0.5 / 255 + 0.012) << i;  // and the readings' steps
+    // The tolerance includes the interpolation error between readings.
+    EXPECT_NEAR(parts[i], 1 - std::pow(v, 9), 0.5 / 255 + 0.012) << i;
   }
 }
 

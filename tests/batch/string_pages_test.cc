@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A task whose pages say the seed; every third curve fails.
+// A task with a page that shows the seed. A curve fails if its seed is divisible by three.
 BatchTaskType PagedTask() {
   BatchTaskType task = CountTask();
   task.run = [run = task.run](const BatchCurve& curve, std::uint64_t seed,
@@ -27,7 +27,7 @@ BatchTaskType PagedTask() {
   return task;
 }
 
-// Paths and bytes of all pages in a folder.
+// Paths and contents of all pages in a folder.
 std::string PagesIn(const std::string& folder) {
   std::set<std::string> all;
   std::error_code error;
@@ -122,7 +122,7 @@ TEST(StringPages, AreThoseThatWereAskedForWhateverTheThreads) {
   EXPECT_EQ(pages[0], "");
   EXPECT_GT(Count(pages[1], "<p>"), 0U);
   EXPECT_LT(Count(pages[1], "<p>"), Count(pages[2], "<p>"));
-  EXPECT_EQ(Count(pages[2], "<p>"), 36U);  // every ninth is broken and has none
+  EXPECT_EQ(Count(pages[2], "<p>"), 36U);  // every ninth row is broken and has no page
 }
 
 TEST(StringPages, StandAfterAStopAndInMergedShards) {
@@ -164,10 +164,10 @@ TEST(StringPages, ThatCannotBeWrittenAreARemarkOnTheirRow) {
   EXPECT_EQ(done->rows, 9);
   const std::string lines = FileText(folder.Path("out") + "/results.jsonl");
   EXPECT_EQ(Count(lines, "\"remark\":\"no page: expected a file, found a folder\""), 1U);
-  EXPECT_EQ(Count(lines, "\"page\":\"pages/"), 7U);  // without the broken one, too
+  EXPECT_EQ(Count(lines, "\"page\":\"pages/"), 7U);  // all but the blocked and the broken row
 }
 
-// Longer than a name may be once its bytes are coded, or than a path may be.
+// Ids longer than a file name may be after encoding, or than a path may be.
 TEST(StringPages, OfLongIdsHaveNamesThatFit) {
   const TempFolder folder;
   std::vector<std::string> ids;
@@ -198,7 +198,7 @@ TEST(StringPages, OfLongIdsHaveNamesThatFit) {
   }
   EXPECT_EQ(StringPagePath("site/" + ids[0]), "pages/site/" + StringPagePath(ids[0]).substr(6))
       << "a level alone";
-  // The name of an id is the same everywhere and for ever: links are made of it.
+  // Links refer to page names, so the name of an id must never change.
   EXPECT_EQ(StringPagePath(std::string(121, 'a')),
             "pages/~_169595bf-162f-50ba-ae22-331caa48fc1c.html");
 }

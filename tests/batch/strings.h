@@ -12,7 +12,8 @@
 
 namespace lyrefit {
 
-// Strings of combiners as JSON Lines, drawn by an explicit curve that no diode law is behind.
+// A string of a combiner, as one row of JSON Lines. The curve is an explicit function, not a diode
+// model.
 struct MadeString {
   std::string id;
   double isc_A = 9;
@@ -38,7 +39,7 @@ inline std::string RowOf(const MadeString& string) {
       string.id, string.irradiance_W_m2, voltages, currents);
 }
 
-// `count` of them in combiners of eight, every ninth broken.
+// `count` rows, eight per combiner; every ninth row is broken.
 inline std::string ManyRows(int count) {
   std::string rows;
   for (int i = 0; i < count; ++i) {
@@ -52,7 +53,7 @@ inline std::string ManyRows(int count) {
   return rows;
 }
 
-// A task that takes no time: how many readings a curve has, and its seed.
+// A fast task that returns the number of readings and the seed of a curve.
 inline BatchTaskType CountTask() {
   BatchTaskType task;
   task.name = "count";
@@ -83,13 +84,13 @@ inline BatchOptions Into(const std::string& folder, int threads = 2) {
   return options;
 }
 
-// The bytes of all results in a folder.
+// Contents of all result files in a folder.
 inline std::string ResultsIn(const std::string& folder) {
   return FileText(folder + "/results.csv") + FileText(folder + "/results.jsonl") +
          FileText(folder + "/results.schema.json");
 }
 
-// Stops as soon as so many rows are made, or written with the results: the two stages of a batch.
+// Stops at a number of rows, in the stage "batch" (rows computed) or "results" (rows written).
 inline Observer StopAfter(std::int64_t rows, const std::string& stage = "batch") {
   return [rows, stage](const Progress& progress) {
     const bool now = progress.stage == stage && progress.iteration >= rows;

@@ -13,7 +13,7 @@ namespace {
 constexpr char kOptimum[] = "two diodes, the optimum";
 constexpr char kLiterature[] = "one diode, which the literature reports for two";
 
-// Right-hand side at the readings less the measured current, in mA.
+// Right-hand side minus measured current at the readings, in mA.
 Series Residuals(const FitReport& report, const char* name, Look look) {
   Series series{SeriesKind::kLineAndPoints, look, 1.5};
   series.name = name;
@@ -37,7 +37,7 @@ Panel ResidualPanel(const CornerStudy& study) {
   return panel;
 }
 
-// Three strips a search: its own end, that of one bounded solve, and that of all starts.
+// Three strips per search: final RMSE of the search, after one bounded solve, and after all starts.
 struct Strip {
   const char* name;
   double RunRecord::*end_A;
@@ -48,7 +48,7 @@ const Strip kStrips[] = {{"search alone", &RunRecord::searched_A, {kGrey, 1, 7}}
                          {"and one bounded solve", &RunRecord::plain_polished_A, {kOrange, 1, 7}},
                          {"and all starts", &RunRecord::polished_A, {kBlue, 1, 7}}};
 
-// Runs lie beside each other in a strip, so that equal ends are seen as many.
+// Offset of a run within its strip, so that equal RMSE values of several runs stay visible.
 double PlaceInStrip(int run) {
   constexpr double kGoldenRatio = 0.6180339887498949;
   constexpr double kWidth = 0.22;
@@ -59,7 +59,7 @@ double PlaceInStrip(int run) {
 constexpr double kLowest_A = 1e-3;
 constexpr double kHighest_A = 1;
 
-// Above a line across the panel, at its right end.
+// Label above a horizontal line, at its right end.
 Note LineNote(const char* text, double rmse_A, const char* colour) {
   constexpr double kAboveLine = 0.028;
   const double height = std::log(rmse_A / kLowest_A) / std::log(kHighest_A / kLowest_A);
@@ -90,7 +90,7 @@ Panel StripPanel(const CornerStudy& study, std::int64_t budget) {
     }
   }
   panel.x.low = 0.4;
-  panel.x.high = place + 1.7;  // room for the names of the lines
+  panel.x.high = place + 1.7;  // space for the line labels
   panel.notes = {LineNote("the literature's figure", study.literature_A(), kVermilion),
                  LineNote("the optimum", study.optimum_A(), kBlue)};
   panel.height = 330;

@@ -9,13 +9,13 @@
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/study/report/documents.h"
 
-// Texts are Markdown.
+// All texts in this file are Markdown.
 namespace lyrefit {
 namespace {
 
 using block::Table;
 
-// What a diode carries at a terminal voltage of the solved model.
+// Current of a diode at a terminal voltage of the solved model, in A.
 double DiodeAmpere(const FitReport& report, int diode, double voltage_V) {
   const std::vector<double>& p = report.refined;
   const OperatingPoint at = SolveOperatingPoint(report.device, p.data(), voltage_V);
@@ -23,7 +23,7 @@ double DiodeAmpere(const FitReport& report, int diode, double voltage_V) {
   return -DiodeCurrent(p[SaturationCurrentIndex(diode)], per_volt, at.junction_voltage_V);
 }
 
-// The steep diode first, as order is free.
+// Index of the diode with the smaller n; a fit may return the diodes in any order.
 int Steep(const FitReport& report) {
   return report.refined[IdealityIndex(0)] < report.refined[IdealityIndex(1)] ? 0 : 1;
 }
@@ -121,10 +121,11 @@ constexpr Level kLevels[] = {{"search alone", &RunRecord::searched_A},
                              {"and the best candidate's polish", &RunRecord::own_polished_A},
                              {"and all starts", &RunRecord::polished_A}};
 
-// Of random points, of the searches that search, or of both.
+// Selects the random baseline, the actual searches, or both.
 enum class Whose { kRandom, kSearches, kAll };
 
-// Runs that end at the optimum, below the literature's figure but not there, at it, and all.
+// Runs with an RMSE at the optimum, between the optimum and the literature's RMSE, at the latter,
+// and all.
 struct Count {
   int optimum = 0;
   int between = 0;

@@ -7,10 +7,11 @@
 
 namespace lyrefit {
 
-// The page about PWP201 with two diodes, as Markdown.
+// Markdown page about the double-diode model on PWP201.
 std::string CornerPage(const CornerStudy& study);
 
-// Its picture: what both optima leave, and where every run of the last budget but one ends.
+// Figure of that page: the residuals at both optima, and the final RMSE of every run at the last
+// budget but one.
 Figure CornerFigure(const CornerStudy& study);
 
 }  // namespace lyrefit

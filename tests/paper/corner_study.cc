@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSame = 1e-6;  // relative
 
-// DE/rand/1/bin with the settings of the study that the page quotes.
+// DE/rand/1/bin with the settings of the study cited on the page.
 ComparedAlgorithm QuotedDe() {
   ComparedAlgorithm quoted = PlainAlgorithms({Algorithm::kDe}, {})[0];
   quoted.search.population = 50;

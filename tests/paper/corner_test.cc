@@ -23,7 +23,7 @@ std::vector<std::string> TableRows(const std::string& page, const std::string& h
   return rows;
 }
 
-// The cells of a row, without their blanks.
+// The cells of a table row, without surrounding blanks.
 std::vector<std::string> Cells(const std::string& row) {
   std::vector<std::string> cells;
   std::istringstream text(row.substr(1));
@@ -33,7 +33,7 @@ std::vector<std::string> Cells(const std::string& row) {
   return cells;
 }
 
-// Every search ends at the optimum with all starts, none alone.
+// No search reaches the optimum by itself; every search reaches it with all starts.
 void ExpectEnds(const std::string& page, const std::string& runs, std::size_t searches) {
   std::vector<std::string> rows = TableRows(page, "Where searches end");
   ASSERT_EQ(rows.size(), 1 + searches) << page;
@@ -45,7 +45,8 @@ void ExpectEnds(const std::string& page, const std::string& runs, std::size_t se
   }
 }
 
-// A small study says of the optimum what the page that ships says, and of the searches the like.
+// A small study reproduces the rows of the shipped page on the optimum and has the same pattern of
+// search results.
 TEST(Pwp201Page, StaysTrue) {
   SKIP_IF_SANITIZED();
   const TempFolder folder;

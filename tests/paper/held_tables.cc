@@ -24,7 +24,8 @@ Chosen Choose(const SoundStudy& study, const std::function<bool(const HeldCertif
   return chosen;
 }
 
-// The floor, or the bound of a model.
+// The floor for `diodes` 0, otherwise the bound of the model; nullptr if the model was not
+// certified.
 const HeldBound* BoundOf(const HeldCertificate& held, int diodes) {
   if (diodes == 0) return &held.floor;
   return diodes <= static_cast<int>(held.models.size()) ? &held.models[diodes - 1] : nullptr;
@@ -61,7 +62,7 @@ std::string SecondsText(const Chosen& chosen, double share) {
   return value < 10 ? Significant(value, 2) : fmt::format("{:.0f}", value);
 }
 
-// How many diodes the largest model asked for has.
+// Number of diodes of the largest model in the study.
 int MostDiodes(const SoundStudy& study) {
   return study.held.empty() ? 0 : static_cast<int>(study.held[0].models.size());
 }
@@ -70,13 +71,13 @@ std::string NameOf(int diodes) {
   return diodes == 0 ? "floor" : ToText(static_cast<Model>(diodes));
 }
 
-// A class of certificates, and who belongs to it.
+// A class of certificates and its membership test.
 struct Kind {
   std::string name;
   std::function<bool(const HeldCertificate&)> has;
 };
 
-// Shares certified and seconds: a row an objective and kind.
+// Certified shares and seconds, one row per objective and class.
 Table KindTable(const SoundStudy& study, const std::string& what, const std::vector<Kind>& kinds) {
   Table table = {"llr", {{"objective", what, "problems"}}};
   const int most = MostDiodes(study);

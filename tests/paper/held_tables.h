@@ -6,24 +6,25 @@
 #include "lyrefit/report/document.h"
 #include "paper/sound_study.h"
 
-// Tables of certificates that were held against what is known.
+// Tables of certificates that were checked against RMSE values reached by other means.
 namespace lyrefit {
 
-// The value below which a share of `values` lies, by rank; NaN of none.
+// The quantile of `values` at `share` (0 to 1), which is always one of the values. NaN if there are
+// none.
 double QuantileOf(std::vector<double> values, double share);
 
-// Bounds, violations, shares certified and gaps, by objective and model.
+// Number of bounds, violations, certified shares and gaps, by objective and model.
 block::Table BoundsTable(const SoundStudy& study);
 
-// Shares certified and seconds by objective and one more property.
+// Certified shares and seconds, by objective and one further property.
 block::Table NoiseTable(const SoundStudy& study);
 block::Table PointsTable(const SoundStudy& study);
 block::Table RangeTable(const SoundStudy& study);
 
-// What became of the planted optima under the objective that they were planted for.
+// Results of planted optima, under the objective that each was planted for.
 block::Table PlantedTable(const SoundStudy& study);
 
-// The certificates that took longest and those with the widest gaps of their own device's model.
+// The `count` certificates with the largest gaps for the model of their device.
 block::Table WorstTable(const SoundStudy& study, int count);
 
 int Violations(const SoundStudy& study);

@@ -1,4 +1,4 @@
-// Does the published tables over again and writes the page of results.
+// Repeats the published tables and writes the pages of results.
 //
 //   lyrefit_paper data/paper --update README.md
 //   lyrefit_paper data/paper --out page --batches 2 --peers ""
@@ -39,7 +39,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// pagmo2's algorithms of a list; none in a build without them.
+// Adds the algorithms of pagmo2 in `list`; adds none in a build without pagmo2.
 Expected<void> AddPeers(const std::string& list, PaperStudyOptions* options) {
   if (list.empty() || PagmoNames().empty()) return {};
   SearchOptions search;
@@ -69,7 +69,7 @@ constexpr Picture kPictures[] = {
     {"budget.svg", PlotBudget, &PaperStudy::budget},
 };
 
-// What other pages show between marks: `with` puts the blocks of a study into a page.
+// Updates the marked blocks of other pages; `with` inserts the blocks of a study into a page.
 template <class Study>
 Expected<void> Update(const Study& study, std::string (*with)(std::string, const Study&),
                       const std::vector<std::string>& pages) {
@@ -91,7 +91,7 @@ Expected<void> Write(const PaperStudy& study, const std::map<std::string, std::s
   return WriteTextFile((output / "README.md").string(), PaperPage(study, remarks));
 }
 
-// CMA-ES of pagmo2 beside our searches, at every budget; none in a build without it.
+// Options with CMA-ES of pagmo2 at every budget; without it in a build without pagmo2.
 Expected<CornerOptions> CornerOptionsOf(const PaperStudyOptions& options) {
   CornerOptions corner;
   corner.seed = options.seed;
@@ -113,13 +113,13 @@ Expected<CornerOptions> CornerOptionsOf(const PaperStudyOptions& options) {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-// The first one asks to stop, a second one ends the program.
+// The first signal requests a stop, a second one ends the program.
 void OnInterrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
 }
 
-// On a terminal one changing line.
+// Shows the progress on a terminal, in one line.
 ObserverAction Watch(const Progress& progress) {
   if (isatty(STDERR_FILENO) != 0 && progress.iterations > 0) {
     fmt::print(stderr, "\r{:<20}{:>8} of {:<8}", progress.stage, progress.iteration,
@@ -128,7 +128,7 @@ ObserverAction Watch(const Progress& progress) {
   return interrupted != 0 ? ObserverAction::kStop : ObserverAction::kContinue;
 }
 
-constexpr int kExitViolated = 2;  // a bound above what is attained
+constexpr int kExitViolated = 2;  // a bound lies above a reached RMSE
 constexpr int kExitInterrupted = 130;
 
 int SayInterrupted(const PaperArguments& arguments) {
@@ -198,7 +198,7 @@ Expected<int> RunSound(const PaperArguments& arguments) {
   return Violations(made) == 0 ? 0 : kExitViolated;
 }
 
-// Only where it is asked for: what it writes is a block of another page.
+// Runs only if a page to update or this part is given, as the result is a block of another page.
 Expected<int> RunWide(const PaperArguments& arguments) {
   if (arguments.only.empty() && arguments.pages.empty()) return 0;
   SoundOptions options;

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-// Runs that hit from 10, 1000 and 100000 evaluations.
+// Runs that reach the optimum with 10, 1000 and 100000 evaluations.
 block::Table BudgetSummary(const PaperStudy& study) {
   block::Table table = {"llrrrr",
                         {{"model", "search", "search alone", "and one plain solve",
@@ -34,7 +34,7 @@ block::Table BudgetSummary(const PaperStudy& study) {
   return table;
 }
 
-// Between the marks of a page, with a blank line behind.
+// Markdown text of the blocks, with a blank line at the end.
 std::string Drawn(std::vector<block::Any> blocks) {
   return DrawMarkdown({{}, {"", std::move(blocks)}}, Texts::kMarkdown) + "\n";
 }

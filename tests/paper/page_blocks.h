@@ -6,21 +6,21 @@
 #include "lyrefit/report/document.h"
 #include "paper/paper_study.h"
 
-// What other pages show of the study, besides its own.
+// Parts of the paper study that other pages include.
 namespace lyrefit {
 
-// The certified optima of each curve.
+// Certified optima of each curve.
 block::Table CertifiedTable(const PaperStudy& study);
 
-// Who ranks first, a table a problem.
+// Rankings of the algorithms, one table per problem.
 std::vector<block::Any> RankedTables(const PaperStudy& study);
 
-// `page` with these tables, and the hits of each budget, drawn anew between the marks "certified",
-// "ranked" and "budget", as far as it has them.
+// Replaces the blocks "certified", "ranked" and "budget" in `page` with new tables; the last one
+// holds the hits at each budget. Blocks that `page` does not have are skipped.
 std::string WithTables(std::string page, const PaperStudy& study);
 
-// The text between "<!-- NAME -->" and "<!-- end of NAME -->" in `page` replaced by `block`; the
-// page as it is where there is no such pair.
+// Replaces the text between "<!-- NAME -->" and "<!-- end of NAME -->" in `page` with `block`.
+// Returns `page` unchanged if it has no such pair.
 std::string ReplaceBlock(const std::string& page, const std::string& name,
                          const std::string& block);
 

@@ -81,7 +81,7 @@ Expected<double> WholeNumber(const std::string& flag, const std::string& text, d
 
 Expected<void> TakeFlag(const std::string& flag, const std::string& text,
                         PaperArguments* arguments) {
-  constexpr double kLargestSeed = 9007199254740992;  // beyond it doubles skip whole numbers
+  constexpr double kLargestSeed = 9007199254740992;  // 2^53; above it doubles skip integers
   if (flag == "--out") {
     arguments->output = text;
   } else if (flag == "--update") {

@@ -8,13 +8,13 @@
 
 namespace lyrefit {
 
-// What lyrefit_paper is asked for.
+// Command-line arguments of lyrefit_paper.
 struct PaperArguments {
   std::string folder;
-  std::string output;  // empty: the folder
+  std::string output;  // empty: `folder`
   std::vector<std::string> pages;
   std::string only;      // empty: all pages
-  std::string measured;  // empty: none
+  std::string measured;  // folder of measured curves; empty: none
   std::string peers = "de1220,sade,cmaes,pso,gwo,bee_colony";
   PaperStudyOptions options;
 };

@@ -7,7 +7,7 @@
 #include "lyrefit/study/report/documents.h"
 #include "paper/page_blocks.h"
 
-// Texts are Markdown, as those of remarks.csv.
+// All texts in this file are Markdown, as are the remarks in remarks.csv.
 namespace lyrefit {
 namespace {
 
@@ -30,7 +30,7 @@ std::string CheckText(const CheckedValue& value) {
 
 bool Reproduced(const CheckedValue& value) { return value.check == Check::kReproduced; }
 
-// A row of printed statistics beside ours.
+// A row with a printed statistic and the computed one.
 Table::Row ValueRow(const CheckedValue& value) {
   return {value.published.curve + ", " + ToText(value.published.model),
           value.published.algorithm,
@@ -62,7 +62,7 @@ Section TableSection(const PaperStudy& study, const Remarks& remarks, const std:
   return section;
 }
 
-// Tables 17 and 18 as the paper lays them out: paper / ours.
+// Tables 17 and 18 in the layout of the paper; cells are "paper / ours".
 void AddRateGrid(const PaperStudy& study, const std::string& name, Section* section) {
   Table table = {"lrrrrr", {{"paper / ours"}}};
   for (const CheckedValue& value : study.values) {
@@ -99,7 +99,7 @@ Section GridSection(const PaperStudy& study, const Remarks& remarks) {
   return section;
 }
 
-// Printed statistics of points that nobody has, beside ours on others: no verdict.
+// Printed statistics of unpublished points beside computed ones of other points, without a verdict.
 Section S75Section(const PaperStudy& study, const Remarks& remarks, const std::string& name,
                    const std::string& title) {
   Section section = TableSection(study, remarks, name, title);
@@ -113,7 +113,7 @@ Section S75Section(const PaperStudy& study, const Remarks& remarks, const std::s
   return section;
 }
 
-// The same searches with the polish behind them, which the paper has not.
+// Table of the S75 searches with the polish, which the paper does not use.
 void AddS75Runs(const PaperStudy& study, Section* section) {
   Table table = {"llrrrrrrr",
                  {{"curve", "algorithm", "min", "mean", "median", "max", "std",
@@ -176,7 +176,7 @@ Section RankedSection(const PaperStudy& study, const Remarks& remarks) {
   return section;
 }
 
-// One line a table of the paper.
+// One row per table of the paper.
 Table Overview(const PaperStudy& study) {
   std::map<std::string, std::pair<int, int>> counts;
   std::vector<std::string> order;

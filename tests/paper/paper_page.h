@@ -7,8 +7,8 @@
 
 namespace lyrefit {
 
-// The page of results as Markdown: what the paper prints, what came out here, whether that is the
-// same, and why not. `remarks` holds a paragraph for each table, by its name ("Table 12").
+// Markdown page of results: printed values, values computed here, whether they agree, and the
+// reason if not. `remarks` maps the name of a table ("Table 12") to a paragraph.
 std::string PaperPage(const PaperStudy& study, const std::map<std::string, std::string>& remarks);
 
 }  // namespace lyrefit

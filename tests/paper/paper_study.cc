@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 const std::vector<Model> kModels = {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode};
 
-// What the journal calls the studies.
+// Names of the studies in the journal.
 struct Section {
   const char* name;
   Comparison PaperStudy::*comparison;
@@ -50,7 +50,7 @@ class PaperRun {
     study_.version = Version();
     const auto published = ReadPublished((folder_ / "published.csv").string());
     if (!published) return tl::unexpected(published.error());
-    // Times first, while nothing else has grown the process.
+    // The timed searches run first, before other studies increase the memory of the process.
     for (const auto step : {&PaperRun::Time, &PaperRun::Audit, &PaperRun::Certify, &PaperRun::Msx60,
                             &PaperRun::RtcFrance, &PaperRun::Sensitivity, &PaperRun::S75,
                             &PaperRun::Rank, &PaperRun::Budget}) {
@@ -76,7 +76,7 @@ class PaperRun {
   }
 
  private:
-  // A curve beside the paper's folder, with bounds published for it.
+  // A curve in a folder beside that of the paper, with published bounds.
   Expected<CompareCurve> Subject(const std::string& name, const std::string& bounds) const {
     const fs::path folder = (folder_ / ".." / name).lexically_normal();
     Expected<IvCurve> curve = ReadCurve(folder.string());
@@ -87,7 +87,7 @@ class PaperRun {
     return MakeSubject(std::move(*curve), std::move(*spec));
   }
 
-  // The MSX-60 module as the paper ran it: at 75 C and with the literature's constants.
+  // The MSX-60 module at the 75 C used in the paper.
   Expected<CompareCurve> PaperMsx60() const {
     constexpr double kPaperTemperature_C = 75;
     Expected<CompareCurve> subject = Subject("msx60", "paper");
@@ -179,7 +179,7 @@ class PaperRun {
     Expected<AuditReport> audit = lyrefit::Audit((folder_ / "rows.csv").string(), {});
     if (!audit) return tl::unexpected(audit.error());
     study_.audit = std::move(*audit);
-    study_.audit.path = "rows.csv";  // wherever the folder lies
+    study_.audit.path = "rows.csv";  // independent of the location of the folder
     return {};
   }
 
@@ -209,7 +209,8 @@ class PaperRun {
   }
 
   Expected<void> RtcFrance() {
-    // Table 16's variants are the cells (Pm 0.25, gamma 0) and (Pm 0, gamma 0.5) of Table 17.
+    // The variants of Table 16 are the settings (Pm 0.25, gamma 0) and (Pm 0, gamma 0.5) of Table
+    // 17.
     std::vector<ComparedAlgorithm> algorithms = PlainAlgorithms(
         {Algorithm::kLo, Algorithm::kLoMblss, Algorithm::kLoDmlss, Algorithm::kMlo}, PaperSearch());
     algorithms[1].search.memory_rate = 0.25;
@@ -229,8 +230,8 @@ class PaperRun {
                  &PaperStudy::sensitivity);
   }
 
-  // The paper does not say how many diodes it fitted to the S75: one, as its spreads of 1e-17 A
-  // suggest.
+  // The paper does not state the number of diodes fitted to the S75. Its standard deviations of
+  // 1e-17 A suggest one.
   Expected<void> S75() {
     const fs::path folder = (folder_ / ".." / "s75_constructed").lexically_normal();
     Expected<CurveSet> set = ReadCurveSet(folder.string());

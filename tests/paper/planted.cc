@@ -16,19 +16,19 @@ namespace {
 
 using Eigen::VectorXd;
 
-// The device of a problem and where it is measured.
+// The device of a problem and the voltages of its measurement.
 struct Bench {
   Device device;
   std::vector<double> p;
   double isc = 0;
   double voc = 0;
-  VectorXd voltage;  // terminal, or of the junction where a measured-current optimum is planted
+  VectorXd voltage;  // at the terminals, or at the junction for a measured-current optimum
 
   int diodes() const { return DiodeCount(device); }
   double PerVolt(int d) const {
     return 1 / (p[IdealityIndex(d)] * device.module_thermal_voltage_V);
   }
-  // The device's law at junction voltages, and its slope.
+  // Current of the device at junction voltages, and its derivative.
   VectorXd Current(const VectorXd& vd) const {
     VectorXd current = VectorXd::Constant(vd.size(), p[kIph]) - vd / p[kRsh];
     for (int d = 0; d < diodes(); ++d) {
@@ -48,7 +48,7 @@ struct Bench {
   }
 };
 
-// n of a diode: within the range, or at an end of it, where optima often lie.
+// n of a diode: within the range, or at one of its ends, where optima often lie.
 double DrawIdeality(const CertifyOptions& ranges, RandomStream* random) {
   const double low = std::max(ranges.n_lower, 0.8), high = std::min(ranges.n_upper, 2.5);
   const double n = low + (high - low) * random->Uniform();
@@ -75,10 +75,10 @@ Bench DrawWeightedData(const MadeProblem& made, int number, RandomStream* random
     p[SaturationCurrentIndex(d)] =
         bench.isc / diodes / std::expm1(bench.voc / (n * bench.device.module_thermal_voltage_V));
   }
-  const int fewest = std::max(8, 2 * diodes + 7);  // more than an optimum has conditions
+  const int fewest = std::max(8, 2 * diodes + 7);  // more points than optimality conditions
   const int points = number % 10 == 9 ? 100 + static_cast<int>(random->Index(201))
                                       : fewest + static_cast<int>(random->Index(61 - fewest));
-  const auto reach = random->Index(3);  // some begin in reverse, some go far beyond Voc
+  const auto reach = random->Index(3);  // some curves begin in reverse, some extend far beyond Voc
   const double low = reach == 1 ? -0.4 * bench.voc : 0;
   bench.voltage = VectorXd::LinSpaced(points, low, (reach == 2 ? 1.05 : 1.01) * bench.voc);
   return bench;
@@ -94,14 +94,15 @@ double RootMeanSquare(const VectorXd& y) {
   return y.norm() / std::sqrt(static_cast<double>(y.size()));
 }
 
-// The conditions of an optimum at junction voltages `vd`. `weight` is what a change of the law at a
-// junction voltage changes the residual by; `rs_column` what Rs does.
+// Quantities of the optimality conditions at junction voltages `vd`. `weight` is the derivative of
+// the residual by the current at the junction voltage; `rs_column` is the derivative by Rs.
 struct Optimum {
   VectorXd vd, weight, rs_column;
   bool rs_fixed = false;
 };
 
-// Orthonormal: the columns of light, leak and diodes, and what moves n unless it lies at an end.
+// Orthonormal basis of the columns of photocurrent, shunt and diodes, and of the derivatives by n
+// for each n that is not at a bound. `with_rs` adds the derivative by Rs.
 Eigen::MatrixXd TightColumns(const MadeProblem& made, const Bench& bench, const Optimum& at,
                              bool with_rs) {
   std::vector<VectorXd> columns = {at.weight, at.weight.cwiseProduct(at.vd)};
@@ -127,7 +128,7 @@ VectorXd Cleared(const Eigen::MatrixXd& tight, VectorXd z) {
   return z;
 }
 
-// The column of a diode, one of `steps` + 1 that go through the range of n.
+// Diode column at point `step` of `steps` + 1 over the range of n (equal steps of 1/n).
 VectorXd RangeColumn(const MadeProblem& made, const Bench& bench, const Optimum& at, int step,
                      int steps) {
   const double vt = bench.device.module_thermal_voltage_V;
@@ -136,7 +137,8 @@ VectorXd RangeColumn(const MadeProblem& made, const Bench& bench, const Optimum&
   return at.weight.cwiseProduct(DiodeColumn(at.vd, at.vd.maxCoeff(), u));
 }
 
-// No diode of the range has a column along y, beyond rounding.
+// Whether no diode in the range has a positive product with y beyond rounding, so that none reduces
+// the residual.
 bool NoDiodeHelps(const MadeProblem& made, const Bench& bench, const Optimum& at,
                   const VectorXd& y) {
   constexpr int kSteps = 2000;
@@ -148,7 +150,8 @@ bool NoDiodeHelps(const MadeProblem& made, const Bench& bench, const Optimum& at
   return true;
 }
 
-// Turns y away from the columns that lie along it, the worst one first, and keeps what is tight.
+// Removes from y its components along diode columns with positive product, the largest first. The
+// result stays orthogonal to `tight`.
 VectorXd TurnedAway(const MadeProblem& made, const Bench& bench, const Optimum& at,
                     const Eigen::MatrixXd& tight, VectorXd y) {
   constexpr int kTurns = 100, kColumns = 200;
@@ -168,7 +171,7 @@ VectorXd TurnedAway(const MadeProblem& made, const Bench& bench, const Optimum& 
   return Cleared(tight, y);
 }
 
-// Residuals of the size asked for that fulfil the conditions.
+// Random residuals that satisfy the optimality conditions, scaled to the noise of the problem.
 std::optional<VectorXd> DrawResiduals(const MadeProblem& made, const Bench& bench,
                                       const Optimum& at, RandomStream* random) {
   constexpr int kDraws = 20;
@@ -183,8 +186,8 @@ std::optional<VectorXd> DrawResiduals(const MadeProblem& made, const Bench& benc
   return std::nullopt;
 }
 
-// The measured currents are part of what Rs does to the measured-current residual: moves y along the
-// one direction left until sum y slope (law + y) = 0.
+// The derivative of the measured-current residual by Rs contains the measured currents. Moves y
+// along the one remaining direction until sum y slope (law + y) = 0.
 VectorXd MadeStationary(const MadeProblem& made, const Bench& bench, const Optimum& at,
                         const VectorXd& y) {
   const VectorXd q = Cleared(TightColumns(made, bench, at, false), at.rs_column);
@@ -238,8 +241,8 @@ bool PlantSolved(const Bench& bench, MadeProblem* made, RandomStream* random) {
   return y.has_value();
 }
 
-// Ranges of Iph, Is and Rsh, which a planted optimum is inside of; a shunt that random errors are laid
-// upon lies beyond its own.
+// Sets ranges of Iph, Is and Rsh. A planted optimum lies inside them. For random errors the true
+// Rsh lies above its range, and the parameter is set to the upper bound.
 void DrawBox(const Bench& bench, MadeProblem* made) {
   CertifyOptions& ranges = made->ranges;
   ranges.iph_upper_A = 1.5 * bench.isc;

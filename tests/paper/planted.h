@@ -11,12 +11,14 @@
 
 namespace lyrefit {
 
-// What is known of the optimum of a made problem without any search.
+// Property of the optimum of a synthetic problem that is known without a search.
 enum class Planted {
-  kNothing,       // random errors on a random device: only that the device's own RMSE is attained
-  kMeasuredAtRs,  // the measured-current optimum over all mixtures, Rs being fixed: it is convex
-  kMeasured,      // the same, and stationary in Rs, which is free
-  kSolved,        // stationary in everything for the solved current, and no diode of any n helps
+  kNothing,       // random errors on a random device: the RMSE of the device is an upper bound of
+                  // the optimum
+  kMeasuredAtRs,  // measured-current optimum over all mixtures at fixed Rs, a convex problem
+  kMeasured,      // measured-current, optimal at fixed Rs and stationary in Rs, which is free
+  kSolved,        // solved-current, stationary in all parameters; an additional diode of any n
+                  // gives no descent
 };
 
 template <>
@@ -28,27 +30,32 @@ struct EnumTable<Planted> {
       {Planted::kSolved, "solved-current"}};
 };
 
-// A made problem for a proof.
+// A synthetic problem for the test of certificates.
 struct MadeProblem {
   IvCurve curve;
-  CertifyOptions ranges;  // of n, of Rs where that is fixed, of all else in a third of the problems
+  CertifyOptions ranges;  // of n; of Rs if fixed; of all other parameters in a third of the
+                          // problems
   Planted planted = Planted::kNothing;
   Model model = Model::kSingleDiode;  // of the device
-  std::vector<double> parameters;     // of the device, within the ranges: the planted optimum
-  double noise = 0;                   // root mean square of the residuals there, over Isc
+  std::vector<double> parameters;     // of the device, within `ranges`; the planted optimum if
+                                      // there is one
+  double noise = 0;                   // root mean square of the residuals at `parameters`, over Isc
 };
 
-// A random cell or module of one to three diodes with 8 to 60 points, in every tenth problem 100 to
-// 300; residuals from 1e-6 to 3e-2 of Isc; n in [1, 2] or [0.5, 4]. The residuals of a planted optimum
-// are random but for the conditions of an optimum: orthogonal to the columns of light, leak and the
-// diodes and to what moves their n and Rs, and with no column of a diode of any n in the range along
-// them. The measured points follow from them in closed form. Two fifths are planted for the solved
-// current, a fifth each is of the other kinds; the rare draw to which no such residuals are found has
-// random errors. A third of the problems have ranges of Iph, Is and Rsh too.
+// A random cell or module with one to three diodes and 8 to 60 points (100 to 300 in every tenth
+// problem). Residuals are 1e-6 to 3e-2 of Isc; n is in [1, 2] or [0.5, 4].
+// The residuals of a planted optimum are random except for the optimality conditions. They are
+// orthogonal to the columns of photocurrent, shunt and diodes and to the derivatives by n and Rs.
+// No column of a diode with n in the range has a positive product with them. The measured points
+// follow from the residuals in closed form.
+// Two fifths of the problems are planted for the solved current and a fifth for each other type. If
+// no such residuals are found, which is rare, the errors are random. A third of the problems have
+// ranges of Iph, Is and Rsh as well.
 MadeProblem MakeProblem(std::uint64_t seed, int number);
 
-// The same with Rs from 0 to 0.9 to 1.7 times the largest voltage over the largest current. Every third
-// curve ends before its open circuit, so that the order of its points says little of large Rs.
+// A problem of MakeProblem with a wide range of Rs. Its upper end is 0.9 to 1.7 times the largest
+// voltage over the largest current; the lower end is 0. Every third curve is cut before open
+// circuit, so that the order of its points gives little information on large Rs.
 MadeProblem MakeWideProblem(std::uint64_t seed, int number);
 
 }  // namespace lyrefit

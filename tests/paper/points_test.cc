@@ -1,5 +1,5 @@
-// Tables 4, 6 and 8 of the modified-lyrebird paper, point by point, and the ranges that its text
-// states of Figs. 18, 20 and 23: about.md says what comes out.
+// Point values of Tables 4, 6 and 8 of the modified-lyrebird paper, and the ranges that its text
+// states for Figs. 18, 20 and 23. The findings are in data/paper/about.md.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct Diode {
   double ideality;
 };
 
-// Resistances of the whole device.
+// Resistances are those of the whole device.
 struct Row {
   double photocurrent_A;
   double series_ohm;
@@ -31,7 +31,7 @@ struct Row {
   double temperature_K;
 };
 
-// Calculated minus measured, the measured current on the right-hand side.
+// Calculated minus measured current, with the measured current on the right-hand side.
 double Error(const Row& row, double voltage_V, double current_A) {
   const double junction_V = voltage_V + current_A * row.series_ohm;
   const double thermal_V = row.cells * ThermalVoltage(row.temperature_K, ConstantSet::kLiterature);
@@ -64,7 +64,8 @@ std::map<std::string, std::vector<Point>> PrintedPoints() {
   return points;
 }
 
-// MLO of Tables 3, 5 and 7: one diode carries all, resistances of one cell, 75 C (rows.csv).
+// MLO of Tables 3, 5 and 7: one diode carries the whole current; resistances are per cell, at 75 C
+// (rows.csv).
 Row Msx60Row() {
   return {3.803241225, 36 * 0.008009809, 36 * 6.8929271, {{1.21876e-8, 1}}, 36, 348.15};
 }
@@ -144,11 +145,11 @@ TEST(PrintedRanges, OfTwoDiodesAreThoseOfOneAndOfThreeThoseOfTwo) {
   EXPECT_NEAR(sd.largest_square, 6.287e-6, 0.002 * 6.287e-6);
   EXPECT_NEAR(sd.least_W, 1.97222e-6, 0.002 * 1.97222e-6);
   EXPECT_NEAR(sd.largest_W, 1.4626e-3, 0.002 * 1.4626e-3);
-  // Fig. 20, two diodes: nearer to one.
+  // Fig. 20 is stated for two diodes, but its values are closer to those of one.
   EXPECT_NEAR(sd.largest_square, 6.29321e-6, 0.003 * 6.29321e-6);
   EXPECT_GT(std::fabs(dd.largest_square / 6.29321e-6 - 1), 0.02);
   EXPECT_GT(6.6531e-9 / dd.least_square, 30);
-  // Fig. 23, three diodes: nearer to two.
+  // Fig. 23 is stated for three diodes, but its values are closer to those of two.
   EXPECT_NEAR(dd.largest_square, 6.50807e-6, 0.01 * 6.50807e-6);
   EXPECT_NEAR(dd.largest_W, 1.4881e-3, 0.01 * 1.4881e-3);
   EXPECT_GT(std::fabs(sd.largest_square / 6.50807e-6 - 1), 0.03);

@@ -9,7 +9,7 @@
 #include "lyrefit/report/text_parts.h"
 #include "paper/page_blocks.h"
 
-// Texts are Markdown.
+// All texts in this file are Markdown.
 namespace lyrefit {
 namespace {
 
@@ -24,10 +24,10 @@ std::string SecondsText(double seconds) {
   return seconds < 10 ? Significant(seconds, 2) : fmt::format("{:.0f}", seconds);
 }
 
-// Of a sum of squares.
+// RMSE from a sum of squares.
 double RootMean(double sum, int points) { return std::sqrt(std::max(sum, 0.0) / points); }
 
-// What another program proves within the same box.
+// The bound of another program for the same curve, model and box; nullptr if there is none.
 const ForeignProof* ForeignOf(const ProofTable& table, const ProofRow& row) {
   if (row.box != "literature" || row.options.objective != Objective::kMeasuredCurrent)
     return nullptr;
@@ -77,7 +77,7 @@ Table FullTable(const ProofTable& proofs, Objective objective) {
   return table;
 }
 
-// A line a curve and model within the box that publications search.
+// One row per curve and model, within the bounds that publications search.
 Table ShortTable(const ProofTable& proofs) {
   Table table = {"llrrrrr",
                  {{"curve, box", "model", "measured-current (A)", "gap, s", "solved-current (A)",
@@ -115,7 +115,7 @@ std::string Drawn(std::vector<block::Any> blocks) {
   return DrawMarkdown({{}, {"", std::move(blocks)}}, Texts::kMarkdown) + "\n";
 }
 
-// How many of the proofs of a table are complete.
+// Sentence with the number of complete proofs per objective.
 std::string Completeness(const ProofTable& proofs) {
   std::string text;
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// `page` with the blocks "proofs" (every row) and "proofs-short" (the boxes of publications) drawn
-// anew, as far as it has them.
+// Replaces the blocks "proofs" (all rows) and "proofs-short" (the bounds of publications) in
+// `page`. Blocks that `page` does not have are skipped.
 std::string WithProofs(std::string page, const ProofTable& proofs);
 
 }  // namespace lyrefit

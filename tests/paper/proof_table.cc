@@ -23,7 +23,7 @@ Expected<double> NumberIn(const NamedTable& table, int column) {
   return *value;
 }
 
-// The boxes of a curve: those published for it, and the one that is searched by default.
+// Names of the bounds of a curve: the published ones and the default search bounds.
 std::vector<std::string> BoxesOf(const fs::path& folder) {
   std::vector<std::string> boxes;
   for (const char* name : {"literature", "paper"}) {
@@ -46,7 +46,7 @@ Expected<void> Prove(const IvCurve& curve, const Observer& observer, ProofRow* r
   return {};
 }
 
-// The rows of a curve, yet without proofs.
+// Adds the rows of a curve, without results.
 Expected<void> AddRows(const IvCurve& curve, const fs::path& folder, std::int64_t effort,
                        std::vector<ProofRow>* rows) {
   for (const std::string& box : BoxesOf(folder)) {
@@ -89,7 +89,7 @@ Expected<std::vector<ForeignProof>> ReadForeignProofs(const std::string& path) {
         !proofs.empty() && proofs.back().curve == proof.curve && proofs.back().model == proof.model;
     if (!goes_on) {
       proofs.push_back(proof);
-    } else if (cells > cells_before) {  // runs that look at nothing prove nothing
+    } else if (cells > cells_before) {  // a run without new cells proves nothing
       proofs.back() = proof;
     }
     cells_before = cells;

@@ -68,7 +68,8 @@ TEST(ProofBlocks, ShowOpenGapsAndOthersProofsWhereTheyBelong) {
   EXPECT_THAT(page, Not(HasSubstr("stale")));
 }
 
-// Little effort leaves gaps open, but every bound is below what is attained and every box is there.
+// With little effort gaps stay open, but no bound exceeds the reached RMSE and every box has its
+// rows.
 TEST(ProofTable, HasEveryShippedCurveInEveryBox) {
   SKIP_IF_SANITIZED();
   const auto proofs = ProveShipped(LYREFIT_DATA_DIR, 10, 0);

@@ -16,7 +16,7 @@ const std::vector<std::string> kPublishedColumns = {"table",    "curve", "model"
                                                     "quantity", "value", "note"};
 enum PublishedColumn { kTable, kCurve, kModel, kAlgorithm, kQuantity, kValue, kNote };
 
-// One statistic of a batch of searched figures.
+// A statistic of the searched RMSE values of one batch; NaN for an unknown quantity.
 double Statistic(const std::vector<double>& values, const std::string& quantity) {
   const RunSpread spread = SpreadOf(values, 1);
   if (quantity == "min") return spread.min;
@@ -26,7 +26,7 @@ double Statistic(const std::vector<double>& values, const std::string& quantity)
   return kUnknown;
 }
 
-// The statistic of every whole batch of the runs.
+// The statistic of every complete batch of runs.
 std::vector<double> OverBatches(const AlgorithmResult& compared, const std::string& quantity,
                                 int batch) {
   std::vector<double> statistics;

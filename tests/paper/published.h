@@ -10,29 +10,30 @@
 
 namespace lyrefit {
 
-// A figure of a publication that repeated runs of a search should give again.
+// A published value that repeated runs of a search should reproduce.
 struct PublishedValue {
   std::string table;  // "Table 12"
   std::string curve;  // name of the data set, "rtc_france"
   Model model = Model::kSingleDiode;
-  std::string algorithm;  // name of the compared, "mlo" or "Pm=0.5 gamma=0.25"
-  std::string quantity;   // "min", "mean", "max", "std" of the searched RMSE in A; others are kept
+  std::string algorithm;  // name of the compared algorithm, "mlo" or "Pm=0.5 gamma=0.25"
+  std::string quantity;   // "min", "mean", "max" or "std" of the searched RMSE in A; others are
+                          // stored only
   std::string text;       // as printed
   double value = 0;
   std::string note;
 };
 
-// A table with the columns table, curve, model, algorithm, quantity, value, note in any order.
-// Errors carry file, line and column.
+// Reads a table with the columns table, curve, model, algorithm, quantity, value and note in any
+// order. Errors carry file, line and column.
 Expected<std::vector<PublishedValue>> ReadPublished(const std::string& path);
 
-// A table with the columns table, remark: what is to be said of each table, by its name.
+// Reads a table with the columns table and remark. Returns the remarks by table name.
 Expected<std::map<std::string, std::string>> ReadRemarks(const std::string& path);
 
 enum class Check {
   kReproduced,
   kNotReproduced,
-  kCannotTell,  // chance spans more than a factor of 10: almost any figure would do
+  kCannotTell,  // random variation spans more than a factor of 10, so almost any value would agree
 };
 
 template <>
@@ -42,19 +43,19 @@ struct EnumTable<Check> {
                                               {Check::kCannotTell, "cannot tell"}};
 };
 
-// What the same statistic of our runs is: the runs are taken in batches as long as the
-// publication's, and each batch gives one value.
+// A published statistic and the same statistic of the repeated runs. The runs are split into
+// batches of the size used in the publication; each batch gives one value.
 struct CheckedValue {
   PublishedValue published;
   double ours = kUnknown;  // geometric mean over the batches
-  double low = kUnknown;   // 99 % prediction interval for one more batch, on a logarithmic scale,
-  double high = kUnknown;  // widened by half a unit of the last digit printed
+  double low = kUnknown;   // 99 % prediction interval of one further batch, on a logarithmic scale,
+  double high = kUnknown;  // widened by half a unit of the last printed digit
   int batches = 0;
-  Check check = Check::kNotReproduced;  // reproduced: the printed value lies within
+  Check check = Check::kNotReproduced;  // kReproduced: the printed value lies in the interval
 };
 
-// Checks every value that `comparison` has a curve, model and compared for; the others are left
-// out. Needs at least two batches of `batch` runs.
+// Checks every value whose curve, model and algorithm `comparison` contains; others are left out.
+// Needs at least two batches of `batch` runs.
 std::vector<CheckedValue> CheckPublished(const std::vector<PublishedValue>& published,
                                          const Comparison& comparison, int batch);
 

@@ -40,7 +40,7 @@ TEST(ReadPublished, RefusesATableWithoutItsColumns) {
   EXPECT_THAT(values.error().ToString(), HasSubstr("expected a column 'model'"));
 }
 
-// Two batches of four runs of one compared.
+// Runs of one algorithm; the tests split them into two batches of four.
 Comparison TwoBatches(const std::vector<double>& searched) {
   Comparison comparison;
   ProblemResult problem;
@@ -75,7 +75,7 @@ TEST(CheckPublished, TakesTheStatisticOfEachBatch) {
   ASSERT_EQ(checked.size(), 1U);
   EXPECT_EQ(checked[0].batches, 2);
   EXPECT_NEAR(checked[0].ours, std::sqrt(1e-3 * 4e-3), 1e-12);
-  // ln 2 is the standard deviation of the two logarithms times sqrt 2 / 2; t(0.995, 1) = 63.657.
+  // Two logarithms ln 4 apart have the standard deviation ln 4 / sqrt 2; t(0.995, 1) = 63.657.
   const double reach = 63.6567 * std::log(4.0) / std::sqrt(2.0) * std::sqrt(1.5);
   EXPECT_NEAR(std::log(checked[0].high / checked[0].ours), reach, 1e-2 * reach);
   EXPECT_EQ(checked[0].check, Check::kCannotTell) << "two batches a factor of 4 apart";

@@ -8,7 +8,7 @@
 #include "paper/held_tables.h"
 #include "paper/page_blocks.h"
 
-// Texts are Markdown.
+// All texts in this file are Markdown.
 namespace lyrefit {
 namespace {
 

@@ -6,13 +6,13 @@
 
 namespace lyrefit {
 
-// The page of made problems.
+// Page of results on synthetic problems.
 std::string SoundPage(const SoundStudy& made);
 
-// `page` with the block "proofs-wide" drawn anew, if it has one.
+// Replaces the block "proofs-wide" in `page`, if it has one.
 std::string WithWide(std::string page, const SoundStudy& study);
 
-// `page` with the block "proofs-measured" drawn anew, if it has one.
+// Replaces the block "proofs-measured" in `page`, if it has one.
 std::string WithMeasured(std::string page, const SoundStudy& study);
 
 }  // namespace lyrefit

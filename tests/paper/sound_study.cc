@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The model's problem within the ranges of the proof.
+// Least-squares problem of the model within the ranges of the proof.
 RefineProblem ProblemOf(const Certificate& certificate, Model model) {
   const IvCurve& curve = certificate.curve;
   const CertifyOptions& ranges = certificate.options;
@@ -68,7 +68,7 @@ std::vector<double> RandomParameters(const RefineProblem& problem, double refere
   return p;
 }
 
-// The lowest RMSE that searches find of one model.
+// Lowest RMSE that searches find for one model.
 double SearchedRmse(const Certificate& certificate, Model model, const std::vector<double>& known,
                     RandomStream* random) {
   constexpr int kGridStarts = 3, kRandomStarts = 2, kPlainDraws = 20;
@@ -77,7 +77,7 @@ double SearchedRmse(const Certificate& certificate, Model model, const std::vect
   double best = kInfinity;
   const auto refine = [&](const std::vector<double>& start) {
     std::vector<double> end = RefineFrom(problem, start).p;
-    for (std::size_t i = 0; i < end.size(); ++i) {  // what leaves the ranges proves nothing
+    for (std::size_t i = 0; i < end.size(); ++i) {  // points outside the ranges do not count
       end[i] = std::min(std::max(end[i], problem.lower[i]), problem.upper[i]);
     }
     best = std::min(best, MeanSquare(problem, end));
@@ -102,7 +102,7 @@ HeldBound Held(double lower_bound_A, double gap, bool certified, double best_A, 
   return held;
 }
 
-// What `fit` reaches within the ranges it takes by itself; nothing where it cannot be used.
+// RMSE of `fit` with its default ranges; infinity if the fit fails.
 double FittedRmse(const Certificate& certificate, Model model) {
   FitOptions options;
   options.model = model;
@@ -128,7 +128,7 @@ Expected<HeldCertificate> HoldMade(const MadeProblem& made, Objective objective,
   return held;
 }
 
-// The names of a table of labels, one a line behind its head.
+// Names in the first column of labels.csv, without the header line.
 Expected<std::vector<std::string>> LabelledNames(const std::string& folder) {
   const std::string path = (fs::path(folder) / "labels.csv").string();
   std::ifstream table(path);
@@ -139,7 +139,7 @@ Expected<std::vector<std::string>> LabelledNames(const std::string& folder) {
   return names;
 }
 
-// Runs job(0) .. job(count - 1), side by side, until the observer stops them.
+// Runs job(0) .. job(count - 1) in parallel until the observer stops them.
 template <class Job>
 Expected<SoundStudy> RunJobs(int count, const SoundOptions& options, const char* stage,
                              const Observer& observer, const Job& job) {
@@ -189,7 +189,7 @@ Expected<HeldCertificate> HoldCertificate(const IvCurve& curve, const CertifyOpt
   held.n_upper = options.n_upper;
   held.seconds = certificate.seconds;
   held.diodes = static_cast<int>(model);
-  double best = kInfinity;  // fewer diodes are more diodes of which some are nothing
+  double best = kInfinity;  // carried over, as more diodes include fewer ones with Is = 0
   for (const ModelCertificate& proof : certificate.models) {
     const bool same = proof.model == model && !known.empty();
     if (same) {

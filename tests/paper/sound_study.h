@@ -18,10 +18,11 @@ struct SoundOptions {
   int threads = 0;
 };
 
-// One proved bound beside the lowest RMSE that is known to be attained within the same ranges.
+// A proved bound, and the lowest RMSE known to be reached within the ranges of the proof.
 struct HeldBound {
   double lower_bound_A = 0;
-  double best_A = kInfinity;  // of the planted parameters, of searches, of the certificate itself
+  double best_A = kInfinity;  // lowest of the planted parameters, searches and the certificate
+                              // itself
   double gap = 0;             // of the certificate
   bool certified = false;
   bool violated =
@@ -29,49 +30,50 @@ struct HeldBound {
   double above() const { return lower_bound_A / best_A - 1; }
 };
 
-// The certificate of a curve held against all that is known of it.
+// The certificate of a curve, checked against all known parameter sets.
 struct HeldCertificate {
   std::string name;
   Objective objective = Objective::kMeasuredCurrent;
   int points = 0;
   double n_upper = 0;  // of the range
   HeldBound floor;
-  std::vector<HeldBound> models;  // of one, two and three diodes, as many as were asked for
+  std::vector<HeldBound> models;  // one per number of diodes, from one on
   double seconds = 0;
-  // Of made problems alone.
+  // For synthetic problems only.
   double noise = 0;
   Planted planted = Planted::kNothing;
   int diodes = 0;                // of the device
-  double planted_A = kInfinity;  // RMSE of its parameters
+  double planted_A = kInfinity;  // RMSE of the parameters of the device
 
   int violations() const;
 };
 
-// Every certificate of a study, or what was done of it when it was interrupted.
+// All certificates of a study. Empty if it was interrupted.
 struct SoundStudy {
   std::string version;
   SoundOptions options;
   std::vector<HeldCertificate>
-      held;          // made: both objectives of the first problem, of the second ...
-  int unusable = 0;  // measured curves of which no certificate is to be had
+      held;          // synthetic: both objectives of the first problem, then of the second ...
+  int unusable = 0;  // measured curves without a certificate
   double seconds = 0;
   bool interrupted = false;
 };
 
-// Certifies and holds against searches of its own: refined starts of a grid and at random, and of
-// `known` parameters of one model; where there are none, against what `fit` reaches with n in [1, 2].
+// Certifies a curve and compares the bounds with searches: refined starts from a grid, at random,
+// and from the `known` parameters of `model`. If `known` is empty, also with the result of `fit`,
+// with n in [1, 2].
 Expected<HeldCertificate> HoldCertificate(const IvCurve& curve, const CertifyOptions& options,
                                           Model model, const std::vector<double>& known,
                                           std::uint64_t seed, const Observer& observer = {});
 
-// Made problems, both objectives of each.
+// Synthetic problems, both objectives of each.
 Expected<SoundStudy> StudyMade(const SoundOptions& options, const Observer& observer = {});
 
-// Made problems with wide ranges of Rs, measured-current.
+// Synthetic problems with wide ranges of Rs, measured-current.
 Expected<SoundStudy> StudyWide(const SoundOptions& options, const Observer& observer = {});
 
-// Every curve of `folder` that its labels.csv names, n in [1, 2], one and two diodes, both objectives;
-// what `fit` reaches is among what is known. Errors: no such table.
+// Every curve of `folder` listed in its labels.csv, with n in [1, 2], one and two diodes and both
+// objectives. The known values include the result of `fit`. Errors: no such table.
 Expected<SoundStudy> StudyMeasured(const std::string& folder, const SoundOptions& options,
                                    const Observer& observer = {});
 

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
   SKIP_IF_SANITIZED();
   SoundOptions options;
-  options.problems = Repeats(20);  // a thousand: lyrefit_paper --only sound
+  options.problems = Repeats(20);  // `lyrefit_paper --only sound` uses a thousand
   options.effort = 200;
   const auto study = StudyMade(options);
   ASSERT_TRUE(study) << study.error().ToString();
@@ -44,7 +44,7 @@ TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
   EXPECT_GT(certified, options.problems);
 }
 
-// What is planted is an optimum: nothing beside it is lower, under the objective it was planted for.
+// No parameters near a planted optimum have a lower RMSE under the objective it was planted for.
 TEST(Soundness, PlantedOptimaAreOptima) {
   int seen = 0;
   for (int number = 0; number < 60; ++number) {
@@ -87,8 +87,8 @@ TEST(Soundness, CountsABoundAboveWhatIsAttained) {
   study.held = {held, held};
   EXPECT_EQ(Violations(study), 4);
   EXPECT_EQ(BoundsHeld(study), 4);
-  // Parameters that are better than a certificate allows are noticed: a range of n that shuts them
-  // out makes an honest bound one that they lie below.
+  // A bound above a reached RMSE is detected. Here a narrow range of n excludes the true
+  // parameters, so their RMSE lies below a valid bound.
   const MadeProblem made = MakeProblem(3, 4);
   CertifyOptions narrow;
   narrow.n_lower = 1;

@@ -17,24 +17,25 @@
 #include "lyrefit/law/quote.h"
 #include "lyrefit/study/coverage.h"
 
-// What the catalogue walks over single curves and over sets have in common: drawing an effect and a
-// noise it stands out of, fitting it back, and counting how often its strength is held.
+// Shared parts of the rate tests of the catalogue for single curves and for sets of curves. They
+// draw an effect and suitable noise, fit the effect, and count how often the interval contains its
+// strength.
 namespace lyrefit {
 
-// Of each row: LYREFIT_WALK_CURVES, or as many as all rows together need to find broken intervals
-// in the time CI has.
+// Number of fits per row: LYREFIT_WALK_CURVES, or `usual`. All rows together then have enough fits
+// to detect wrong intervals in the time of a CI run.
 inline int WalkCurves(int usual) {
   const char* const asked = std::getenv("LYREFIT_WALK_CURVES");
   return asked != nullptr ? std::max(1, std::atoi(asked)) : usual;
 }
 
-// LYREFIT_WALK_ROWS: a part of the names of those that are walked ("transient, one sweep").
+// LYREFIT_WALK_ROWS selects rows by a part of their name, such as "transient, one sweep".
 inline bool IsWalked(const std::string& name) {
   const char* const asked = std::getenv("LYREFIT_WALK_ROWS");
   return asked == nullptr || name.find(asked) != std::string::npos;
 }
 
-// A seed of its own for every row, whatever rows there are (FNV-1a).
+// A seed for each row that is independent of the other rows (FNV-1a).
 inline std::uint64_t SeedOf(const std::string& effect, const std::string& data) {
   std::uint64_t seed = 14695981039346656037U;
   for (const char c : effect + "," + data) {
@@ -43,17 +44,17 @@ inline std::uint64_t SeedOf(const std::string& effect, const std::string& data) 
   return seed;
 }
 
-// An effect with all its values, and how a fit is asked for it: what is held unless it is asked for
-// is known, but for the strength.
+// An effect with all its true values, and its request for the fit. Parameters that are fixed by
+// default get their true values, except the strength.
 struct DrawnEffect {
   EffectUse truth;
   EffectUse asked;
-  std::string symbol;  // of the strength
+  std::string symbol;  // symbol of the strength
   double strength = 0;
 };
 
-// Somewhere between two of the places the effect is tried from, at up to twice or half that
-// strength, of either sign where it may have both. `device` has this one effect.
+// A random point between two probes of the effect, with the strength multiplied by 0.5 to 2 and of
+// random sign if both are possible. `device` must have this effect only.
 inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, RandomStream* random) {
   const std::vector<Probe> probes = effect.probes(device.extension->readings.traits);
   Probe p = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
@@ -81,9 +82,9 @@ inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, Random
   return drawn;
 }
 
-// Noise that the effect stands out of by 10 to 50 standard deviations, after all that the diodes
-// alone can do to look like it: `misfit` is the root of the sum of squares that they leave. Within
-// what instruments have of the largest current.
+// Noise in ampere for which the effect stands out by 10 to 50 standard deviations. `misfit`: root
+// of the sum of squares that a fit of the diodes alone leaves. The noise is limited to 2e-5 to 5e-3
+// of the largest current.
 inline double NoiseFor(double misfit, double largest_A, RandomStream* random) {
   const double noise = misfit / LogUniform(random, 10, 50);
   return std::min(std::max(noise, 2e-5 * largest_A), 5e-3 * largest_A);
@@ -92,13 +93,14 @@ inline double NoiseFor(double misfit, double largest_A, RandomStream* random) {
 struct WalkRow {
   int curves = 0;
   int held = 0;
-  int counted = 0;           // with an interval
-  int not_identifiable = 0;  // as the report says
+  int counted = 0;           // with an identifiable strength
+  int not_identifiable = 0;  // according to the report
   int failed = 0;
   double milliseconds = 0;
 };
 
-// Of a FitReport or a FamilyReport, with the time it took. LYREFIT_WALK_VERBOSE: a line for each.
+// Adds a FitReport or a FamilyReport and its duration to the row. With LYREFIT_WALK_VERBOSE, prints
+// a line for each fit.
 template <class Report>
 void CountFit(const Expected<Report>& report, std::chrono::duration<double, std::milli> took,
               const DrawnEffect& drawn, WalkRow* row) {
@@ -125,7 +127,8 @@ void CountFit(const Expected<Report>& report, std::chrono::duration<double, std:
   row->held += e.identifiable && held;
 }
 
-// Probability of at most `hits` of `trials` that come with probability p each.
+// Probability of at most `hits` successes in `trials`, each with probability p (binomial
+// distribution).
 inline double AtMost(int hits, int trials, double p) {
   double sum = 0;
   for (int k = 0; k <= hits; ++k) {
@@ -145,17 +148,17 @@ inline void PrintRow(const std::string& effect, const std::string& data, const W
   std::fflush(stdout);
 }
 
-// Whether intervals that hold the truth in 95 % of all cases give such counts.
+// Expects the counts of a row to be compatible with a coverage of 95 %.
 inline void JudgeRow(const WalkRow& row) {
-  constexpr double kVanishing = 1e-4;  // probability that they do not
+  constexpr double kVanishing = 1e-4;  // significance level of either test
   EXPECT_EQ(row.failed, 0);
   const int missed = row.counted - row.held;
   EXPECT_GT(AtMost(row.held, row.counted, 0.95), kVanishing) << "too narrow";
   EXPECT_GT(AtMost(missed, row.counted, 0.05), kVanishing) << "too wide";
 }
 
-// The table, and its judgement row by row and as a whole: a few curves of a row say little, those
-// of all rows much. `walk` makes the row of a place, which has its `effect`, Data() and Curves().
+// Prints the table, and tests each row and the sum of all rows, since the few fits of one row say
+// little. `walk` makes the row of a place; a place has `effect`, Data() and Curves().
 template <class Place, class Walk>
 void WalkAll(const std::vector<Place>& places, const Walk& walk) {
   std::printf("%-16s %-12s %6s %7s  %-15s %6s %6s %8s\n", "effect", "data", "fits", "held %",

@@ -14,7 +14,7 @@ std::string MessageOf(const Expected<T>& result) {
   return result ? "no error" : result.error().message;
 }
 
-// An error with its place, whose message holds the phrase.
+// Expects an error at this place whose message contains the phrase.
 template <class T>
 void ExpectErrorAt(const Expected<T>& result, const std::string& file, int line, int column,
                    const std::string& phrase) {

@@ -4,7 +4,7 @@
 
 namespace lyrefit {
 
-// While it lives, all that this process and those that it starts write ends at `bytes` a file.
+// While it exists, files written by this process and by its children are limited to `bytes` each.
 class FileLimit {
  public:
   explicit FileLimit(rlim_t bytes) {

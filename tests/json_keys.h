@@ -12,7 +12,7 @@ inline std::set<std::string> Keys(const nlohmann::json& object) {
   return keys;
 }
 
-// Times are the only figures that differ between two runs alike.
+// Removes the times, which alone differ between two identical runs.
 inline void RemoveSeconds(nlohmann::json* value) {
   if (value->is_object()) value->erase("seconds");
   for (auto& child : *value) {

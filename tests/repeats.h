@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-// Leaves out a test that takes long where the sanitizers make all slow, and whose code they see in others.
+// Skips a test that takes long under sanitizers and whose code other tests run under sanitizers.
 #ifdef LYREFIT_SANITIZED
 #define SKIP_IF_SANITIZED() \
   GTEST_SKIP() << "takes long under sanitizers, which see its code in other tests"
@@ -21,10 +21,11 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-// How often to repeat what only makes a claim surer: a tenth where the sanitizers make all slow.
+// Number of repeats where more repeats only make a test more certain: a tenth under sanitizers,
+// which are slow.
 constexpr int Repeats(int often) { return kSanitized ? std::max(1, often / 10) : often; }
 
-// At night (`cmake/check.sh --nightly`, which sets LYREFIT_NIGHTLY) studies run at full size.
+// Whether the tests run at full size (`cmake/check.sh --nightly`, which sets LYREFIT_NIGHTLY).
 inline bool AtNight() { return std::getenv("LYREFIT_NIGHTLY") != nullptr; }
 
 inline int Repeats(int at_night, int by_day) { return Repeats(AtNight() ? at_night : by_day); }

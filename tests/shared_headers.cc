@@ -1,2 +1,2 @@
-// Only there for the precompiled header to belong to a target.
+// This file only gives the precompiled header a target.
 #include "shared_headers.h"

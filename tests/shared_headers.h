@@ -1,6 +1,6 @@
 #pragma once
 
-// What nearly every test includes, compiled once for all of them.
+// Headers that nearly every test includes, precompiled once for all tests.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ inline std::string FileText(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A folder of its own for one test, gone with it.
+// A separate folder for one test, removed by the destructor.
 class TempFolder {
  public:
   TempFolder() {

@@ -20,7 +20,7 @@ constexpr AppendLog::Kind kDiary = {"diary", "this diary", "a diary", "dear", "n
 
 class AppendLogTest : public testing::Test {
  protected:
-  // What stands in the log, or why it cannot be taken up.
+  // The lines of the log, or the error why it cannot be resumed.
   Expected<std::vector<std::string>> TakeUp(bool* torn = nullptr) {
     auto log = AppendLog::Open(path_, kDiary);
     if (!log) return tl::unexpected(log.error());
@@ -74,7 +74,7 @@ TEST_F(AppendLogTest, NeverTouchesAFileOfAnotherKind) {
   folder_.Write("diary", "dear\nbad\nhal");
   ExpectErrorAt(TakeUp(), path_, 2, 0, "a bad line");
   EXPECT_EQ(FileText(path_), "dear\nbad\nhal");
-  folder_.Write("diary", "de");  // the first line of a diary, cut short
+  folder_.Write("diary", "de");  // first line of a log, cut short
   EXPECT_THAT(*TakeUp(), ElementsAre());
 }
 

@@ -24,7 +24,7 @@ TEST(ByteInput, ReadsAPipeToItsEndHoweverItComes) {
   EXPECT_FALSE(IsStream(folder.Write("file", "x")));
   EXPECT_FALSE(IsStream(folder.Path("nothing")));
   std::thread writer([&] {
-    std::ofstream pipe(path);  // waits for the reader
+    std::ofstream pipe(path);  // blocks until the reader opens it
     for (int i = 0; i < 1000; ++i) pipe << i << "\n" << std::flush;
   });
   const auto text = ReadFileBytes(path, kMostBytes);
@@ -35,7 +35,7 @@ TEST(ByteInput, ReadsAPipeToItsEndHoweverItComes) {
 
 TEST(StoppableReads, EndTheWaitingForAPipe) {
   const TempFolder folder;
-  const std::string path = folder.Path("pipe");  // nobody writes into it
+  const std::string path = folder.Path("pipe");  // no process writes into it
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   int asked = 0;
   const StoppableReads outer([&asked] { return ++asked > 3; });

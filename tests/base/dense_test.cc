@@ -68,7 +68,7 @@ TEST(DenseTest, SymmetricSystemsAreSolved) {
   EXPECT_LT((x - VectorXd::Unit(4, 0) + 3 * VectorXd::Unit(4, 2)).norm(), 1e-12);
   EXPECT_LT((SolveSymmetric(gram, y) - x).norm(), 1e-12);
   EXPECT_FALSE(SolvePositive(-gram, y, &x));
-  // b'b less what the columns of `a` explain of it.
+  // b'b after projection of `b` off the columns of `a`.
   MatrixXd rest = b;
   TakeOut(RankedBasis(a), &rest);
   const MatrixXd schur = SchurComplement(a, b, TransposedTimes(a, b));

@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-// Against printed tables.
+// Comparison with printed tables.
 TEST(DistributionsTest, TailsAndQuantilesAreThoseOfTheTables) {
   EXPECT_NEAR(NormalTail(1.959964), 0.025, 1e-8);
   EXPECT_NEAR(NormalAbove(0.025), 1.959964, 1e-6);
@@ -16,7 +16,7 @@ TEST(DistributionsTest, TailsAndQuantilesAreThoseOfTheTables) {
   EXPECT_NEAR(StudentQuantile(0.975, 10), 2.228, 5e-4);
 }
 
-// Against closed forms, to the digits of a double.
+// Comparison with closed forms, to double precision.
 TEST(DistributionsTest, TailsAndQuantilesAreExactInDoublePrecision) {
   constexpr double kPart = 1e-13;
   for (const double x : {-3.0, 0.5, 2.0, 6.0, 12.0}) {

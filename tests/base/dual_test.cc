@@ -26,7 +26,7 @@ TEST(DualTest, UnknownsHaveTheirOwn) {
   EXPECT_EQ(y.v[1], 1);
 }
 
-// Every operation against central differences, with duals and plain numbers on either side.
+// Compares every operation with central differences, with duals and plain numbers on either side.
 TEST(DualTest, OperationsDifferentiate) {
   const struct {
     const char* name;

@@ -86,7 +86,7 @@ TEST(OptionTable, EchoesEveryTypeThatIsNotAtItsDefaultInItsOrder) {
   paint.colour = Colour::kBlue;
   paint.edge = Colour::kRed;
   paint.stripes = {Colour::kBlue, Colour::kRed};
-  paint.threads = 4;  // changes nothing
+  paint.threads = 4;  // a row without echo
   paint.inner = {2, Colour::kBlue, true};
   EXPECT_THAT(Echoes(paint),
               ::testing::ElementsAre(
@@ -98,8 +98,8 @@ TEST(OptionTable, EchoesEveryTypeThatIsNotAtItsDefaultInItsOrder) {
 
 TEST(OptionTable, RefusesNumbersOutsideTheirRangeWhereTheLibraryIsHeldToIt) {
   Paint paint;
-  paint.litres = -5;    // unchecked
-  paint.threads = 100;  // a flag's alone
+  paint.litres = -5;    // its range is not checked here
+  paint.threads = 100;  // checked for the command's flag only
   EXPECT_TRUE(ValidateOptions(paint, kPaintTable));
   paint.coats = 6;
   const auto checked = ValidateOptions(paint, kPaintTable);

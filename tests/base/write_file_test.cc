@@ -69,11 +69,11 @@ TEST(WriteTextFileTest, RefusesFoldersAndFoldersThatDoNotExist) {
   ASSERT_FALSE(nowhere);
   EXPECT_EQ(nowhere.error().file, path);
   EXPECT_THAT(nowhere.error().message, HasSubstr("cannot write into the folder"));
-  // A folder that nobody may write into, not even root.
+  // Nobody can write into /proc, not even root.
   EXPECT_FALSE(WriteTextFile("/proc/lyrefit.txt", "text"));
 }
 
-// A process that is killed at any moment while it writes leaves whole files only.
+// A process that is killed at any moment while it writes leaves complete files only.
 TEST(WriteTextFileTest, AKilledProcessLeavesNoPartOfAFile) {
   const TempFolder folder;
   const int nameless = open(folder.Path("").c_str(), O_TMPFILE | O_WRONLY, 0600);
@@ -89,7 +89,7 @@ TEST(WriteTextFileTest, AKilledProcessLeavesNoPartOfAFile) {
         if (!WriteTextFile(folder.Path(name), text)) _exit(1);
       }
     }
-    // In the midst of one of the next files.
+    // Waits until some files exist, so that the kill interrupts the next one.
     while (FilesIn(folder.Path("")) <= turn % 3) std::this_thread::yield();
     kill(child, SIGKILL);
     int status = 0;
@@ -134,9 +134,9 @@ TEST(WriteTextFileTest, RemovesWhatDeadProcessesLeftOfTheSameFileOnly) {
   leave("a.txt." + id + "-17.tmp", 3600);
   const std::string kept[] = {
       "a.txt." + id + "-1.tmp",                         // too young
-      "a.txt." + std::to_string(getpid()) + "-9.tmp",   // its process lives
-      "b.txt." + id + "-0.tmp",                         // of another file
-      "a.txt." + id + ".tmp", "a.txt." + id + "-0.csv"  // not ours
+      "a.txt." + std::to_string(getpid()) + "-9.tmp",   // its process is alive
+      "b.txt." + id + "-0.tmp",                         // belongs to another file
+      "a.txt." + id + ".tmp", "a.txt." + id + "-0.csv"  // other name patterns
   };
   for (const std::string& name : kept) leave(name, name == kept[0] ? 0 : 3600);
   ASSERT_TRUE(WriteTextFile(folder.Path("a.txt"), "new"));

@@ -10,13 +10,13 @@
 
 namespace lyrefit::bench {
 
-// A curve of the data folder by its name, "rtc_france". Aborts if it cannot be read.
+// Reads data/NAME, such as "rtc_france". Aborts if it cannot be read.
 IvCurve LoadCurve(const std::string& name);
 
-// Its published bounds, data/NAME/bounds-KIND.json.
+// Published bounds of the curve, data/NAME/bounds-KIND.json.
 BoundsSpec LoadBounds(const std::string& name, const std::string& kind);
 
-// A model of a curve and everything a benchmark of it needs.
+// A model of a curve with the data that benchmarks of it use.
 struct Case {
   IvCurve curve;
   Device device;
@@ -26,13 +26,13 @@ struct Case {
 Case MakeCase(const std::string& curve, Model model, const BoundsSpec& bounds = {},
               ConstantSet constants = ConstantSet::kCodata);
 
-// `count` parameter vectors, one after the other, drawn uniformly from the box a search would see.
+// `count` parameter vectors, one after the other, drawn uniformly from the box of a search.
 std::vector<double> DrawParameters(const Case& subject, int count);
 
-// The proved optimum of RTC France in ampere, any box that holds n in [1, 2].
+// The proved optimum of RTC France in ampere, for any box that contains n in [1, 2].
 double CertifiedRmse(Model model, Objective objective);
 
-// Within 1e-9 relative of it.
+// Whether `rmse` is within 1e-9 (relative) of `certified`.
 bool IsHit(double rmse, double certified);
 
 std::string ModelName(Model model);          // "SD"

@@ -2,7 +2,7 @@
 
 namespace lyrefit::bench {
 
-// One a file: each registers its benchmarks and claims.
+// One function per source file, which registers the benchmarks and claims of that file.
 void RegisterExpBenchmarks();
 void RegisterKernelBenchmarks();
 void RegisterSolverBenchmarks();

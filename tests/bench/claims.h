@@ -10,22 +10,22 @@
 
 namespace lyrefit::bench {
 
-// What the project promises: the processor time per iteration of one benchmark over that of
-// another, both measured in the same run.
+// A speed that the project claims: the ratio of the processor times per iteration of two benchmarks
+// from one run.
 struct Claim {
   std::string text;
   std::string numerator;  // full names of the two benchmarks
   std::string denominator;
   double target;  // 0: for information only
-  bool at_least;  // else at most
+  bool at_least;  // otherwise at most
   // Benchmarks whose counter `hits` must equal their counter `runs` for the claim to hold.
   std::vector<std::string> must_all_hit;
 };
 
-// Claims are collected while the benchmarks register and judged when they have run.
+// Claims are collected while benchmarks are registered, and evaluated after the run.
 void AddClaim(Claim claim);
 
-// Passes everything on to the reporter that --benchmark_format asks for, and remembers the results.
+// Forwards everything to the reporter selected by --benchmark_format, and stores the results.
 class ClaimReporter : public benchmark::BenchmarkReporter {
  public:
   ClaimReporter();
@@ -33,7 +33,8 @@ class ClaimReporter : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& report) override;
   void Finalize() override;
 
-  // The table 'claim, target, measured, met'. Claims whose benchmarks did not run are left out.
+  // Prints the table 'claim, target, measured, met'. Claims whose benchmarks did not run are left
+  // out.
   void PrintClaims(std::ostream& out) const;
 
  private:

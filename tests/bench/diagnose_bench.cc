@@ -14,7 +14,8 @@
 namespace lyrefit::bench {
 namespace {
 
-// A 60-cell module as a tracer sees it, 0.1 % noise; `step`: the light jumps by that part halfway.
+// A synthetic 60-cell module with 0.1 % noise. `step`: relative change of the irradiance in the
+// middle of the sweep.
 IvCurve MadeCurve(double irradiance_W_m2, double temperature_K, int points, double step) {
   TranslationSpec spec;
   spec.shunt = ShuntLaw::kConstant;

@@ -1,4 +1,4 @@
-// Joint fits of families of curves on one thread: parts and whole.
+// Joint fits of families of curves on one thread: their stages, and whole reports.
 
 #include <benchmark/benchmark.h>
 
@@ -15,7 +15,8 @@
 namespace lyrefit::bench {
 namespace {
 
-// The constructed S75 as a tracer would see it over a day: `curves` of 50 points.
+// `curves` synthetic curves of 50 points of the constructed S75 module, over the irradiances and
+// temperatures of a day.
 CurveSet MadeFamily(int curves) {
   TranslationSpec spec;
   spec.cells_in_series = 36;

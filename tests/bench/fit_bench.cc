@@ -1,7 +1,6 @@
-// RTC France to the proved optimum on one thread: the default search and polish, the same with
-// intervals, and two optimisation libraries on the same box and the same kernels. A peer that is
-// "told" knows the optimum and stops the moment it is there; lyrefit and the others have to make
-// sure.
+// RTC France to the proved optimum on one thread: the default search and polish, with and without
+// intervals, and two optimisation libraries with equal box and kernels. Peers with the flag `told`
+// get the optimum and stop as soon as they reach it; lyrefit and the other peers do not.
 
 #include <benchmark/benchmark.h>
 #include <time.h>
@@ -27,7 +26,7 @@ namespace {
 constexpr int kRuns = 50;
 constexpr int kPeerRuns = 20;
 
-// Processor time of this thread: others on the machine do not count.
+// Processor time of this thread, which is independent of other processes.
 double ProcessorSeconds() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -63,7 +62,7 @@ void CompleteFit(benchmark::State& state, const IvCurve& curve, Model model, Obj
   options.model = model;
   options.objective = objective;
   options.intervals = intervals;
-  options.random_baseline = false;  // the peers print none either
+  options.random_baseline = false;  // the peers compute none either
   options.threads = 1;
   Tally tally(CertifiedRmse(model, objective));
   double search_s = 0, polish_s = 0, interval_s = 0, evaluations = 0;
@@ -103,7 +102,7 @@ void CompletePeer(benchmark::State& state, const Case& subject, Model model, Obj
   state.counters["evaluations"] = evaluations / static_cast<double>(state.iterations());
 }
 
-// A long sweep under light that wanders, voltages noisier than they lie apart.
+// A long sweep under wandering irradiance, with voltage noise larger than the voltage steps.
 IvCurve LongSweep(int readings) {
   IvCurve curve;
   curve.conditions.cells_in_series = 72;

@@ -1,4 +1,4 @@
-// One evaluation of the measured-current RMSE: the plain loop over std::exp against every kernel.
+// One evaluation of the measured-current RMSE: a plain loop over std::exp against every kernel.
 
 #include <benchmark/benchmark.h>
 
@@ -13,10 +13,10 @@
 namespace lyrefit::bench {
 namespace {
 
-constexpr int kSets = 256;  // parameter vectors, taken in turn
+constexpr int kSets = 256;  // parameter vectors, used in turn
 
-// What one writes first, and what the literature's codes do: a loop over the points and the diodes
-// with what does not depend on the voltage taken out of it.
+// Straightforward implementation, as in published codes: a loop over points and diodes, with terms
+// independent of the voltage computed before it.
 template <int diodes>
 double PlainRmse(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                  double module_thermal_voltage_V, const double* p) {

@@ -1,4 +1,4 @@
-// Every speed that lyrefit claims, measured on one thread in one run.
+// Measures every speed that lyrefit claims, on one thread in one run.
 
 #include <benchmark/benchmark.h>
 
@@ -10,7 +10,8 @@
 
 namespace {
 
-// Formats for programs keep standard output to themselves; the table then goes to standard error.
+// Whether standard output has a machine-readable format. The table of claims then goes to standard
+// error.
 bool OutputIsForPrograms(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--benchmark_format=json") == 0) return true;

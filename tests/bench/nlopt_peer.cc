@@ -25,7 +25,8 @@ double LocalObjective(unsigned, const double* unit, double* gradient, void* data
   return counted->problem->MeanSquareAndGradient(unit, gradient);
 }
 
-// Goes on from x; an end at the limit of rounding, or of SLSQP's patience, is an end as well.
+// Continues from x. Exceptions at the limit of rounding or of SLSQP's iterations count as a regular
+// end.
 void Optimize(nlopt::opt* optimizer, std::vector<double>* x) {
   optimizer->set_lower_bounds(0.0);
   optimizer->set_upper_bounds(1.0);

@@ -23,7 +23,7 @@ struct UnitBox {
   }
 };
 
-// No individual differs from another any more: evolution has come to its end.
+// Whether the population has converged: the objectives of all individuals are equal to 1e-12.
 bool StoodStill(const pagmo::population& population) {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (const pagmo::vector_double& f : population.get_f()) {
@@ -41,7 +41,7 @@ PagmoSettings TunedPagmo(Model model) {
 }
 
 PeerEnd RunPagmo(const PeerProblem& problem, std::uint64_t seed, const PagmoSettings& settings) {
-  constexpr unsigned kChunk = 20;  // generations between looks at the target
+  constexpr unsigned kChunk = 20;  // generations between checks of the target
   double best = HUGE_VAL;
   std::int64_t evaluations = 0;
   for (int round = 0; round < settings.rounds && best > problem.target(); ++round) {

@@ -8,9 +8,9 @@
 
 namespace lyrefit::bench {
 
-// The fit as any optimisation library sees it: minimise the RMSE over the unit box. Same box, same
-// logarithmic coordinates and same vector kernels as lyrefit's own search, so that methods are
-// compared and not loops.
+// The fit as a problem for any optimisation library: minimise the RMSE over the unit box. Box,
+// logarithmic coordinates and vector kernels are those of lyrefit's own search, so that only the
+// methods differ.
 class PeerProblem {
  public:
   PeerProblem(const Case& subject, Model model, Objective objective);
@@ -18,9 +18,10 @@ class PeerProblem {
   int dimensions() const { return space_.dimensions(); }
   // RMSE in mA, about 1 at the optimum.
   double Rmse(const double* unit) const;
-  // Mean square in mA^2 and, where asked for, its gradient by the implicit function theorem.
+  // Mean square in mA^2 and, unless `gradient` is null, its gradient by the implicit function
+  // theorem.
   double MeanSquareAndGradient(const double* unit, double* gradient) const;
-  // RMSE in mA at which a peer that is told the answer may stop. lyrefit is not told.
+  // RMSE in mA at which a peer with the flag `told` may stop; lyrefit never gets it.
   double target() const { return target_; }
 
  private:
@@ -30,8 +31,8 @@ class PeerProblem {
   PointSet points_;
   Objective objective_;
   SearchSpace space_;
-  std::vector<double> side_;       // of the search space's box
-  std::vector<bool> logarithmic_;  // sides that are searched in the logarithm
+  std::vector<double> side_;       // side lengths of the search box
+  std::vector<bool> logarithmic_;  // sides on a logarithmic scale
   double target_;
   mutable std::vector<double> x_;
   mutable std::vector<double> p_;
@@ -45,18 +46,19 @@ struct PeerEnd {
 
 struct NloptSettings {
   int population;           // of CRS2
-  int global_evaluations;   // at most, of one CRS2 run
-  double global_tolerance;  // ftol_rel that ends it
-  int rounds;               // of CRS2 and SLSQP with fresh random numbers
-  bool told;                // the answer, so that the first round to reach it is the last
+  int global_evaluations;   // upper limit for one CRS2 run
+  double global_tolerance;  // ftol_rel at which CRS2 ends
+  int rounds;               // of CRS2 and SLSQP, with new random numbers
+  bool told;                // stop in the first round that reaches the optimum
 };
 
-// The cheapest settings found with which every run of seeds 0 to 49 ends within 1e-9, apart for
-// each problem. Untold, that takes several rounds, since the single one often ends elsewhere.
+// The fastest settings found for each problem with which every run of seeds 0 to 49 ends within
+// 1e-9 of the optimum. Unless `told`, this takes several rounds, since a single round often ends
+// elsewhere.
 NloptSettings TunedNlopt(Model model, Objective objective, bool told);
 
-// One setting for every model and objective, as lyrefit has one: what the hardest of the six
-// problems (two diodes, measured-current) asks for.
+// One setting for every model and objective, as for lyrefit: the setting that the hardest of the
+// six problems (two diodes, measured-current) needs.
 NloptSettings UniformNlopt(Model model);
 
 // Controlled random search with local mutation (NLOPT_GN_CRS2_LM), then sequential quadratic
@@ -65,13 +67,13 @@ PeerEnd RunNlopt(const PeerProblem& problem, std::uint64_t seed, const NloptSett
 
 struct PagmoSettings {
   int population;
-  int generations;  // at most, of one round
+  int generations;  // upper limit for one round
   int adaptation;   // de1220's variant_adptv: 1 jDE, 2 iDE
-  int rounds;       // at most, with fresh random numbers
+  int rounds;       // upper limit, with new random numbers
 };
 
-// pagmo2's self-adaptive differential evolution (de1220), one population on one thread, told the
-// answer and started afresh when it has converged elsewhere.
+// pagmo2's self-adaptive differential evolution (de1220) with one population on one thread. It
+// stops at the optimum, and is restarted when it has converged elsewhere.
 PagmoSettings TunedPagmo(Model model);
 PeerEnd RunPagmo(const PeerProblem& problem, std::uint64_t seed, const PagmoSettings& settings);
 

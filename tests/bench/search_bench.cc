@@ -1,5 +1,6 @@
-// Complete searches of 100 candidates x 1000 iterations on the MSX-60's triple-diode model as the
-// modified-lyrebird paper ran it (75 C, its bounds and constants), against the bare evaluations.
+// Complete searches of 100 candidates x 1000 iterations on the MSX-60's triple-diode model, with
+// the settings of the modified-lyrebird paper (75 C, its bounds and constants), against the bare
+// evaluations.
 
 #include <benchmark/benchmark.h>
 
@@ -23,7 +24,7 @@ struct Subject {
   Device device;
   PointSet points;
   Box box;
-  ObjectiveFunction objective;  // linear in every parameter, as the published box is
+  ObjectiveFunction objective;  // every parameter on a linear scale, as in the paper
 };
 
 std::shared_ptr<Subject> MakeSubject() {

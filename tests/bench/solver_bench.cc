@@ -1,5 +1,5 @@
 // The current at 1000 terminal voltages: the scalar solver point by point against the vectorised
-// one.
+// solver.
 
 #include <benchmark/benchmark.h>
 
@@ -22,7 +22,8 @@ struct Subject {
   std::vector<double> voltage_V;
 };
 
-// A 57 mm silicon cell near its least-squares fit, from slight reverse bias to just past Voc.
+// A 57 mm silicon cell with parameters near its least-squares fit, from slight reverse bias to just
+// beyond Voc.
 Subject MakeSubject(Model model) {
   Subject subject;
   subject.device = MakeDevice(model, LoadCurve("rtc_france").conditions);

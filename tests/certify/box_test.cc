@@ -1,4 +1,4 @@
-// Certificates within a range for every parameter.
+// Certificates within a box, which has a range for every parameter.
 #include "lyrefit/certify/box.h"
 
 #include <gmock/gmock.h>
@@ -25,8 +25,8 @@ std::pair<double, double> RangeNear(double value, RandomStream* random) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// A box that has something to do with the curve; some diodes have their own ranges, some Is may
-// not vanish.
+// A box near plausible parameters of the curve. Some diodes have their own ranges, and some lower
+// limits of Is are above 0.
 CertifyOptions RandomBox(const IvCurve& curve, RandomStream* random) {
   const MixtureData data = DataOf(curve);
   const double vt = curve.conditions.ModuleThermalVoltage(ConstantSet::kCodata);
@@ -68,7 +68,7 @@ std::vector<double> PointInside(const RefineProblem& problem, const ModelRanges&
     p[i] = low > 0 && high > 10 * low ? low * std::pow(high / low, t) : low + t * (high - low);
   }
   for (std::size_t d = 0; d < ranges.diodes.size(); ++d) {
-    if (random->Uniform() < 0.5) continue;  // near what a diode is like
+    if (random->Uniform() < 0.5) continue;  // otherwise near a plausible diode
     const int is = SaturationCurrentIndex(static_cast<int>(d));
     const double n = p[IdealityIndex(static_cast<int>(d))];
     const double typical =
@@ -95,8 +95,8 @@ bool Inside(const std::vector<double>& p, const CertifyOptions& options, double 
   return inside;
 }
 
-// Points drawn from the box and refined in it never lie below what is proved, and what is attained
-// lies inside.
+// Points drawn from the box and refined in it never have an RMSE below the proved bound. The
+// parameters that reach the upper bound lie inside the box.
 void ExpectSound(const IvCurve& curve, const CertifyOptions& options, RandomStream* random,
                  int* certified) {
   const auto certificate = Certify(curve, options);
@@ -138,7 +138,7 @@ TEST(CertifyBox, NothingInsideUndercutsIt) {
   EXPECT_GE(certified, 3 * curves * 9 / 10);
 }
 
-// A mixture within ranges of Is, and the bound that its dual vector proves, by hand.
+// The bound that the dual vector of a mixture with ranges of Is proves, computed independently.
 TEST(SolveMixture, ProvesItsOwnValueWithinRangesOfIs) {
   RandomStream random(32);
   int held = 0;
@@ -196,10 +196,10 @@ TEST(AsDiodes, SharesAtomsAmongDiodesThatMayNotVanish) {
   EXPECT_NEAR((*both)[0].saturation_A + (*both)[1].saturation_A, 3e-8, 1e-20);
   EXPECT_GE(std::min((*both)[0].saturation_A, (*both)[1].saturation_A), 1e-8);
   mixture.atoms = {atom(30, 1.9e-8)};
-  EXPECT_FALSE(AsDiodes(mixture, {wide, wide}));  // too little for two
+  EXPECT_FALSE(AsDiodes(mixture, {wide, wide}));  // too little for two diodes
   mixture.atoms = {atom(30, 2.1e-6)};
   EXPECT_FALSE(AsDiodes(mixture, {wide, wide}));            // too much
-  EXPECT_FALSE(AsDiodes(mixture, {wide, {35, 40, 0, 1}}));  // the second may not stand there
+  EXPECT_FALSE(AsDiodes(mixture, {wide, {35, 40, 0, 1}}));  // outside of the second diode's range
   mixture.atoms = {atom(22, 1e-7), atom(38, 2e-7)};
   EXPECT_FALSE(AsDiodes(mixture, {wide}));
   const auto each = AsDiodes(mixture, {{35, 40, 0, 1}, wide});
@@ -238,7 +238,8 @@ TEST(CertifyBox, ProvesEveryModelInTheLiteraturesBoxes) {
   }
 }
 
-// The paper's box keeps both saturation currents at 1e-8 A and above: its optimum is no single diode.
+// The paper's box requires at least 1e-8 A of both saturation currents, which excludes the optimum
+// of a single diode.
 TEST(CertifyBox, ProvesThatDiodesWhichMayNotVanishCost) {
   IvCurve hot = Shipped("msx60");
   hot.conditions.cell_temperature_K = 348.15;

@@ -32,7 +32,8 @@ TEST(BranchOverResistance, BoundsEveryResistanceAndAttainsTheBest) {
   }
 }
 
-// A coarse tolerance leaves much excess in every mixture, which has to be priced in full.
+// A coarse tolerance leaves large infeasibility in the dual vectors of all mixtures, whose penalty
+// must be included in full.
 TEST(BranchOverResistance, HoldsWithCoarseMixturesToo) {
   for (int seed = 112; seed < 112 + Repeats(6); ++seed) {
     const IvCurve curve = RandomCurve(seed);

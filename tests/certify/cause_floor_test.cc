@@ -16,12 +16,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A diode, a shunt and up to two more leaks, written out.
+// A simulated device: a diode, a shunt and up to two more leaks, implemented independently of the
+// library.
 struct Planted {
   double photocurrent_A = 0.76, saturation_A = 3e-7, n_vt_V = 1.48 * 0.0264, rs = 0.036;
   double shunt_S = 0.0186;
-  double collection_A_V = 0;                         // Iph chi
-  double power_A[2] = {0, 0}, exponent[2] = {2, 2};  // at 0.6 V
+  double collection_A_V = 0;                         // photocurrent times collection parameter chi
+  double power_A[2] = {0, 0}, exponent[2] = {2, 2};  // current in A at 0.6 V
   double second_A = 0;                               // saturation current with n = 2
 
   double AtJunction(double v) const {
@@ -87,7 +88,8 @@ const ProvedCause& Of(const CauseFloors& floors, const std::string& cause) {
   return floors.without;
 }
 
-// Proofs over exponents of curves of very little noise may be given up; returns how many were.
+// Proofs over exponents may be incomplete for curves with very little noise. Returns the number of
+// incomplete ones.
 int ExpectTight(const CauseFloors& floors, const std::string& name) {
   const double base = floors.without.rmse_A;
   int given_up = 0;
@@ -114,7 +116,7 @@ TEST(CauseFloor, NoPlantedParametersUndercutIt) {
       cause = "second_diode";
       planted.second_A = 1e-5 * random.Uniform();
     }
-    if (seed % 4 > 1) {  // of one exponent, and of two
+    if (seed % 4 > 1) {  // with one or two exponents
       cause = "nonohmic_shunt";
       for (int k = 0; k < seed % 4 - 1; ++k) {
         planted.power_A[k] = 0.2 * random.Uniform();
@@ -129,7 +131,7 @@ TEST(CauseFloor, NoPlantedParametersUndercutIt) {
   }
 }
 
-// Whatever a descent comes to from anywhere.
+// Descents from random starts never end below the proved lower bound.
 TEST(CauseFloor, NoDescentUndercutsIt) {
   int given_up = 0;
   for (int seed = 30; seed < 30 + Repeats(20); ++seed) {
@@ -161,7 +163,7 @@ TEST(CauseFloor, NoDescentUndercutsIt) {
   EXPECT_LE(given_up, 3);
 }
 
-// The right cause comes down to the noise, the others stay above it.
+// The bound of the true cause is close to the noise; those of the others lie above it.
 TEST(CauseFloor, LeavesNoiseToTheRightCauseAlone) {
   SKIP_IF_SANITIZED();
   constexpr double kNoise = 1e-4;
@@ -185,7 +187,8 @@ TEST(CauseFloor, LeavesNoiseToTheRightCauseAlone) {
 TEST(CauseFloor, AgreesWithWhatIsKnownOfRtc) {
   const CauseFloors floors = ProveOrFail(Shipped("rtc_france"));
   EXPECT_NEAR(floors.without.rmse_A, 9.860219e-4, 1e-9);
-  // With n2 = 2 it is the best of two diodes within n <= 2, and an n1 from 0.5 to 4 helps no more.
+  // With n2 = 2 the floor is the best fit of two diodes with n up to 2; n1 from 0.5 to 4 gives no
+  // lower one.
   EXPECT_NEAR(Of(floors, "second_diode").rmse_A, 9.824849e-4, 1e-9);
   EXPECT_NEAR(Of(floors, "nonohmic_shunt").parameter, 1.35, 0.01);
   EXPECT_EQ(ExpectTight(floors, "RTC"), 0);

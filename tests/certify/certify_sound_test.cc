@@ -1,4 +1,4 @@
-// What nobody may ever find: parameters below a proved bound.
+// Tests that no parameters have an RMSE below a proved bound.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,8 +47,8 @@ std::vector<double> RandomPoint(const RefineProblem& problem, double reference_V
   return p;
 }
 
-// Random parameters of every model, as they are and refined, against the bounds of that model and
-// of the floor. Double arithmetic rounds at some 1e-15 of the current.
+// Compares random parameters of every model, before and after refinement, with the bounds of that
+// model and of the floor. Double arithmetic has errors of about 1e-15 of the current.
 void ExpectNotUndercut(const Certificate& certificate, std::uint64_t seed) {
   const double rounding = 1e-14 * LargestCurrent(certificate.curve);
   RandomStream random(seed);
@@ -99,7 +99,7 @@ TEST(CertifySound, NoFitUndercutsIt) {
   }
 }
 
-// The bounds of curves with next to no noise are limited by rounding, and say so.
+// For curves with almost no noise, rounding limits the bounds, and the gap includes it.
 TEST(CertifySound, HoldsWhereThereIsHardlyAnyNoise) {
   SKIP_IF_SANITIZED();
   for (const double noise : {0.0, 1e-9, 1e-7}) {
@@ -123,11 +123,11 @@ TEST(CertifySound, HoldsWhereThereIsHardlyAnyNoise) {
 struct Ugly {
   const char* name;
   std::vector<double> voltage_V, current_A;
-  bool exact;  // some model goes through all points
+  bool exact;  // some model fits all points exactly
 };
 
 TEST(CertifySound, TakesUglyCurves) {
-  constexpr int kFewProblems = 500;  // convex ones: the search ends soon, on any machine
+  constexpr int kFewProblems = 500;  // limit on convex subproblems, independent of the machine
   const Ugly curves[] = {
       {"two points", {0, 0.5}, {0.76, 0.5}, true},
       {"three points, unsorted", {0.5, 0, 0.4}, {0.5, 0.76, 0.7}, true},
@@ -159,8 +159,9 @@ TEST(CertifySound, TakesUglyCurves) {
   }
 }
 
-// Points around Isc alone shut out no resistance by their order: what is asked for is gone through, of
-// a range without an end a part, and the bound says so.
+// The order of points near Isc alone excludes no series resistance. A requested finite range is
+// searched completely. An infinite range is searched in part, and the bound includes the tail
+// beyond it.
 TEST(CertifySound, GoesThroughResistancesThatTheOrderOfThePointsDoesNotShutOut) {
   IvCurve curve;
   curve.voltage_V = {0, 0.02, 0.04, 0.06, 0.08};
@@ -184,7 +185,8 @@ TEST(CertifySound, GoesThroughResistancesThatTheOrderOfThePointsDoesNotShutOut) 
   EXPECT_FALSE(open->models[0].certified);
 }
 
-// Curves that end before their open circuit, where the order of the points says little.
+// Curves that end before open circuit, where the order of the points excludes few series
+// resistances.
 TEST(CertifySound, ProvesEveryRangeOfTheSeriesResistance) {
   for (int seed = 800; seed < 800 + Repeats(24); ++seed) {
     IvCurve curve = RandomCurve(seed);

@@ -35,8 +35,8 @@ struct Known {
   double rmse_A[3];  // SD, DD, TD
 };
 
-// n in [1, 2]: data/*/expected.json, found by other means. n in [0.5, 4]: SD is the same wherever
-// it lies inside [1, 2].
+// Expected values for n in [1, 2] are from data/*/expected.json, computed by other methods. For n
+// in [0.5, 4] the single-diode value is unchanged if its n lies inside [1, 2].
 class CertifyShipped : public ::testing::TestWithParam<Known> {};
 
 TEST_P(CertifyShipped, CertifiesOneTwoAndThreeDiodes) {
@@ -73,9 +73,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Known{"stp6_120_36", 0.5, 4, {1.660060313e-2, 0, 0}},
                       Known{"msx60", 0.5, 4, {1.575186424e-4, 2.216617042e-5, 0}}));
 
-// The box that the literature searches for PWP201, n from 1 to 50 of the module. The floor's third
-// diode is too steep for the law (n of a thirty-sixth), so the models stay above it; two are proved
-// nevertheless. Both values also by least squares in 40 digits.
+// The box of the literature for PWP201 has n from 1 to 50 for the module. The third diode of the
+// floor is at the lower bound, n = 1/36 per cell; the optimum of two diodes lies above the floor.
+// The RMSE of both agrees with least squares in 40 digits.
 TEST(Certify, ProvesTwoDiodesInTheLiteraturesBoxOfPwp201) {
   SKIP_IF_SANITIZED();
   CertifyOptions options;
@@ -91,7 +91,7 @@ TEST(Certify, ProvesTwoDiodesInTheLiteraturesBoxOfPwp201) {
   EXPECT_TRUE(two.certified);
   EXPECT_NEAR(two.rmse_A / 1.606387144468506e-3, 1, 1e-9);
   EXPECT_NEAR(two.parameters[2], 0.2700301, 1e-6);
-  // Three diodes reach the floor, the third in the corner at an exponent of 611 and more.
+  // Three diodes reach the floor, the third at the bound of n, with an exponent of at least 611.
   const ModelCertificate& three = certificate->models[2];
   EXPECT_TRUE(three.certified);
   EXPECT_NEAR(three.rmse_A / certificate->floor.rmse_A, 1, 1e-9);
@@ -99,10 +99,10 @@ TEST(Certify, ProvesTwoDiodesInTheLiteraturesBoxOfPwp201) {
               1e-12);
 }
 
-// The same box and the solved current: an unfinished floor's mixture is a model of three diodes, and one
-// that the models come to is the floor's.
+// Box of the literature for PWP201, solved current. The mixture of an unfinished floor is an upper
+// bound for the triple-diode model, and upper bounds of models apply to the floor.
 TEST(Certify, TakesWhatIsAttainedToEveryModelThatAdmitsIt) {
-  constexpr double kThree_A = 1.0797463265e-3, kTwo_A = 1.2082911855e-3;  // fit from many starts
+  constexpr double kThree_A = 1.0797463265e-3, kTwo_A = 1.2082911855e-3;  // fits from many starts
   CertifyOptions options;
   options.n_lower = 1.0 / 36;
   options.n_upper = 50.0 / 36;
@@ -127,7 +127,7 @@ TEST(Certify, TakesWhatIsAttainedToEveryModelThatAdmitsIt) {
   }
 }
 
-// Three diodes refined from a random point of the ranges.
+// RMSE of three diodes refined from a random point of the ranges.
 double RefinedAtRandom(const Certificate& certificate, RandomStream* random) {
   const IvCurve& curve = certificate.curve;
   const CertifyOptions& options = certificate.options;

@@ -15,18 +15,18 @@ namespace {
 
 constexpr int kHalvings = 60;
 
-// Two parts of a module of 60 cells, one darker and bridged by bypass diodes: voltages at given
-// currents, by plain formulas. `bypass_nvt_V` 0: an ideal diode.
+// Two substrings of a module of 60 cells, the darker one with bypass diodes. Voltages at given
+// currents are computed independently of the library. `bypass_nvt_V` 0 means an ideal diode.
 struct TwoParts {
   double share = 1.0 / 3, light = 0.6, drop_V = 0.5, bypass_nvt_V = 0;
   double photocurrent_A = 8, n_vt_V = 60 * 0.0257 * 1.1, saturation_A = 1e-9, rs = 0.25;
   double shunt_S = 1e-3;
 
-  // Current of a part at its junctions' voltage for all cells.
+  // Current of a substring; `vd`: junction voltage scaled to all cells.
   double Junction(double vd, double lit) const {
     return lit * photocurrent_A - saturation_A * std::expm1(vd / n_vt_V) - vd * shunt_S;
   }
-  // Of the whole module made of such cells, at a current.
+  // Voltage of a whole module under the light `lit`, at a current.
   double Alone(double i, double lit) const {
     double low = -1e5, high = 100;
     for (int k = 0; k < kHalvings; ++k) {
@@ -37,13 +37,13 @@ struct TwoParts {
   }
   double Dark(double i) const {
     if (bypass_nvt_V == 0) return std::max(share * Alone(i, light), -drop_V);
-    // The bypass diode carries what the cells do not, Isc at its drop.
+    // The bypass diode carries the current that the cells do not; at -drop_V it carries Isc.
     double low = -5, high = 100;
     const double unit = photocurrent_A / std::expm1(drop_V / bypass_nvt_V);
     for (int k = 0; k < kHalvings; ++k) {
       const double v = 0.5 * (low + high);
       const double diode = unit * std::expm1(-v / bypass_nvt_V);
-      const double cells = i - diode;  // which they would carry at this voltage
+      const double cells = i - diode;  // current of the cells at this voltage
       (share * Alone(cells, light) > v ? low : high) = v;
     }
     return low;
@@ -61,7 +61,7 @@ struct TwoParts {
 
 struct Drawn {
   std::vector<double> voltage_V, current_A;
-  double noise_A = 0;  // root mean square of what was drawn
+  double noise_A = 0;  // root mean square of the drawn errors
 };
 
 Drawn Draw(const TwoParts& parts, int points, double noise_A, std::uint64_t seed) {
@@ -91,7 +91,8 @@ TwoParts SomeParts(RandomStream* random) {
   return parts;
 }
 
-// What was drawn leaves its noise behind, and no proof may claim more.
+// The true parameters leave the drawn noise as residual, so that the proved floor must not exceed
+// it.
 TEST(ConcaveFloor, LiesBelowTwoPartsOfAnyKind) {
   RandomStream random(1);
   for (int seed = 0; seed < Repeats(20); ++seed) {
@@ -111,7 +112,7 @@ TEST(ConcaveFloor, LiesBelowEveryCurveWithoutAStep) {
     const IvCurve curve = RandomCurve(seed);
     const auto floor = FindConcaveFloor(curve.voltage_V, curve.current_A, 0);
     EXPECT_LE(floor.step_A, floor.smooth_A * (1 + 1e-9)) << seed;
-    // Against straight lines and bends that are no curve's best: none is lower.
+    // Random broken lines, which are concave curves without a step, have no smaller RMSE.
     double largest = 0;
     for (const double v : curve.voltage_V) largest = std::max(largest, v);
     RandomStream random(seed);
@@ -130,7 +131,7 @@ TEST(ConcaveFloor, LiesBelowEveryCurveWithoutAStep) {
   }
 }
 
-// A step is far from every curve without one, and near one that has it.
+// Data with a step are far from every smooth curve and close to a curve with a step.
 TEST(ConcaveFloor, TellsAStepFromNone) {
   const Drawn drawn = Draw(TwoParts(), 100, 0.01, 3);
   const auto floor = FindConcaveFloor(drawn.voltage_V, drawn.current_A, 1);
@@ -148,7 +149,7 @@ TEST(ConcaveFloor, TellsAStepFromNone) {
 }
 
 TEST(ConcaveFloor, IsExactWhereItCanBeReckonedByHand) {
-  // Rising currents: their mean is the best; a dent: the mean of both.
+  // Rising currents: their mean fits best; one dent: the mean of its two points.
   EXPECT_NEAR(FindConcaveFloor({0, 1, 2, 3}, {1, 2, 3, 4}, 0).smooth_A, std::sqrt(5.0 / 4), 1e-12);
   EXPECT_NEAR(FindConcaveFloor({2, 0, 1}, {0, 4, 1}, 0).smooth_A, std::sqrt(2.0 / 9), 1e-12);
   EXPECT_NEAR(FindConcaveFloor({0, 1, 2, 3}, {4, 3.5, 2, 0}, 0).smooth_A, 0, 1e-12);

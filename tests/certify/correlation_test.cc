@@ -43,22 +43,22 @@ TEST(BoundCorrelation, IsNeverBelowTheLargestValueAndNotFarAboveIt) {
       const double largest = LargestOnGrid(vd, data.reference_voltage_V, y, windows);
       const auto found = BoundCorrelation(vd, data.reference_voltage_V, y, windows, {}, 1e-9);
       EXPECT_GE(found.bound, largest * (1 - 1e-12));
-      // Where there is an excess, it is bounded on the coarse scale of the first pieces.
+      // A positive correlation is bounded with the coarse relative accuracy of the first pieces.
       EXPECT_LE(found.bound, std::max(1e-9, 1.6 * std::max(largest, 0.0)));
       EXPECT_GE(found.best, std::max(0.0, 0.9 * largest));
     }
   }
 }
 
-// `y` moved as little as possible to make its products with the columns what is wanted.
+// `y` with the smallest change that makes its products with the columns equal to `wanted`.
 Eigen::VectorXd Moved(const Eigen::VectorXd& y, const Eigen::MatrixXd& columns,
                       const Eigen::VectorXd& wanted) {
   return y +
          columns * (columns.transpose() * columns).ldlt().solve(wanted - columns.transpose() * y);
 }
 
-// One look at a window where the correlation is zero at both ends and bulges between them: there
-// the bound is tight.
+// A single evaluation on a window where the correlation is zero at both ends and positive between
+// them. There the bound is tight.
 TEST(BoundCorrelation, IsNotBelowABulgeBetweenTheEndsOfAPiece) {
   const IvCurve curve = Shipped("rtc_france");
   const Eigen::VectorXd vd = DataOf(curve).voltage_V;
@@ -81,7 +81,7 @@ TEST(BoundCorrelation, IsNotBelowABulgeBetweenTheEndsOfAPiece) {
   EXPECT_GT(seen, 50);
 }
 
-// A correlation that is negative at both ends and positive between them may not be left out.
+// The bound must cover a correlation that is negative at both ends and positive between them.
 TEST(BoundBend, SeesWhatRisesAboveZeroBetweenTwoResistances) {
   const IvCurve curve = Shipped("rtc_france");
   const MixtureData data = DataOf(curve);

@@ -10,15 +10,15 @@
 namespace lyrefit {
 namespace {
 
-// 335 bits: more than any product or sum of two of the doubles below needs, and for the rest an
-// error that no double interval can miss.
+// 335 bits represent every product and sum of two of the doubles below exactly. For other
+// operations the error is far smaller than the width of any double interval.
 using Truth = boost::multiprecision::cpp_bin_float_100;
 
 bool Holds(const Interval& x, const Truth& value) {
   return Truth(x.lower) <= value && value <= Truth(x.upper);
 }
 
-// Of any size between 1e-60 and 1e60, of short and of long mantissas, now and then zero.
+// A random number of magnitude 1e-60 to 1e60, with a long or short mantissa, sometimes zero.
 double AnyNumber(RandomStream* random) {
   if (random->Uniform() < 0.03) return 0;
   double x = (random->Uniform() - 0.5) * std::pow(10, 120 * (random->Uniform() - 0.5));
@@ -104,7 +104,7 @@ TEST(Interval, HoldsTheExponential) {
     check(2 * random.Uniform() - 1);
     check(std::ldexp(random.Uniform() - 0.5, -static_cast<int>(random.Index(300))));
   }
-  // Next to the ends of the reduced argument's range, where k jumps.
+  // Near the ends of the reduced argument's range, where the integer k changes.
   for (int k = -930; k <= 1005; ++k) {
     double x = (k + 0.5) * 0.6931471805599453;
     for (int step = 0; step < 4; ++step) {
@@ -121,7 +121,7 @@ TEST(Interval, HoldsTheExponential) {
   EXPECT_EQ(exp(Interval::Anything()).upper, kInfinity);
 }
 
-// The error found is well within the 2.8 half units in the last place that are proved.
+// The observed error is well within the proved 2.8 half units in the last place.
 TEST(Interval, ExponentialIsBetterThanItsBounds) {
   SKIP_IF_SANITIZED();
   RandomStream random(4);

@@ -15,7 +15,7 @@ inline IvCurve Shipped(const std::string& name) {
   return *ReadCurve(std::string(LYREFIT_DATA_DIR) + "/" + name);
 }
 
-// The data of a curve as the modules below Certify() take it.
+// The data of a curve in the type that the functions below Certify() take.
 inline MixtureData DataOf(const IvCurve& curve) {
   return CurveData(curve.voltage_V, curve.current_A);
 }
@@ -25,8 +25,9 @@ inline Window WindowOf(const IvCurve& curve, double n_lower, double n_upper) {
   return {1 / (n_upper * vt), 1 / (n_lower * vt)};
 }
 
-// A made curve of a cell or a module with one to three diodes, 8 to 60 points, noise between 1e-5
-// and 3e-2 of Isc; some with reverse bias, some far beyond Voc, some unsorted with duplicates.
+// A synthetic curve of a cell or a module with one to three diodes: 8 to 60 points, noise between
+// 1e-5 and 3e-2 of Isc. Some have reverse bias, some reach far beyond Voc, some are unsorted with
+// duplicates.
 inline IvCurve RandomCurve(std::uint64_t seed) {
   RandomStream random(seed, 77);
   IvCurve curve;

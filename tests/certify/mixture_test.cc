@@ -11,8 +11,8 @@ constexpr double kMixtureTolerance = 1e-10;
 
 double ComputeDualGain(const MixtureData& data) { return 2 * data.current_A.cwiseAbs().maxCoeff(); }
 
-// Half the sum of squares of a good mixture on a grid of n, by projected coordinate descent:
-// slow, simple, and never below the truth.
+// Half the sum of squares of a good mixture on a grid of n, by projected coordinate descent. It is
+// an upper bound of the minimum.
 double OnGrid(const MixtureData& data, const Window& window, double rs, int diodes) {
   const Eigen::VectorXd vd = data.voltage_V + rs * data.current_A;
   Eigen::MatrixXd a(vd.size(), 2 + diodes);

@@ -1,5 +1,5 @@
-// Bounds that no rounding may have raised above the truth: what is compared with them here is
-// rounded outwards from 113 bits, and nothing is allowed for.
+// Bounds that are valid despite rounding errors. They are compared, without a tolerance, with
+// values rounded outwards from 113 bits.
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
@@ -32,7 +32,7 @@ double ExactRmse(const IvCurve& curve, const Device& device, const std::vector<d
                           p[kIph], p[kRs], WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
-// A curve of two diodes with so little noise that double arithmetic is in the way.
+// A curve of two diodes with so little noise that the errors of double arithmetic matter.
 IvCurve NearlyExact(const std::string& name, double noise, std::uint64_t seed) {
   IvCurve curve = Shipped(name);
   const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
@@ -94,7 +94,7 @@ TEST(Rigorous, NothingRefinedUndercutsItAtAll) {
   }
 }
 
-// Half the sum of squares of a mixture, from above.
+// Half the sum of squares of a mixture, rounded up.
 double ExactPrimal(const IvCurve& curve, const MixtureData& data, const Mixture& mixture) {
   const WideInterval reference(data.reference_voltage_V), rs(mixture.rs);
   WideInterval sum(0);
@@ -112,8 +112,8 @@ double ExactPrimal(const IvCurve& curve, const MixtureData& data, const Mixture&
   return 0.5 * Upper(Hull(sum));
 }
 
-// Where the residuals are next to nothing beside the currents, the bound in doubles is now and then
-// larger than the sum of squares of a mixture there is.
+// With residuals far smaller than the currents, a bound computed in doubles sometimes exceeds the
+// sum of squares of an actual mixture.
 TEST(Rigorous, HoldsWhereDoublesClaimMoreThanIsTrue) {
   SKIP_IF_SANITIZED();
   int claimed = 0, close = 0;
@@ -137,7 +137,8 @@ TEST(Rigorous, HoldsWhereDoublesClaimMoreThanIsTrue) {
   EXPECT_GT(close, 120);
 }
 
-// In doubles the RMSE that is said to be reached is not; here it is, and no gap is hidden.
+// In double arithmetic the reported RMSE is slightly too small. In rigorous mode it is exact, and
+// the gap includes all errors.
 TEST(Rigorous, SaysWhatNearlyExactDataLeaveOpen) {
   SKIP_IF_SANITIZED();
   const IvCurve curve = NearlyExact("rtc_france", 1e-8, 7);
@@ -218,7 +219,7 @@ TEST(Rigorous, BoundsLargerResistancesNoHigherThanDoublesDo) {
     const double rs = data.reference_voltage_V / data.current_A.maxCoeff();
     const double plain = BoundTail(data, rs), safe = BoundTail<Interval>(data, rs);
     EXPECT_LE(safe, plain);
-    EXPECT_GT(safe, plain * 0.99);  // two of the points may be tied, to rounding
+    EXPECT_GT(safe, plain * 0.99);  // two points may be tied up to rounding
   }
 }
 

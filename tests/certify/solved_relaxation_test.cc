@@ -29,7 +29,7 @@ struct KnownOptimum {
   double rmse_A;
 };
 
-// To the digits that two other computations give (data/README.md).
+// Expected values have the digits on which two other computations agree (data/README.md).
 TEST(SolvedRelaxation, ProvesTheKnownOptimaOfTheShippedCurves) {
   SKIP_IF_SANITIZED();
   const KnownOptimum optima[] = {
@@ -52,7 +52,8 @@ TEST(SolvedRelaxation, ProvesTheKnownOptimaOfTheShippedCurves) {
   }
 }
 
-// A mixture with diodes at random places of the part, as good as it can be there or a little off.
+// A random mixture with diodes inside the windows of the part, optimal for its places or slightly
+// perturbed.
 Mixture DrawnMixture(const MixtureData& data, const BranchPart& part, RandomStream* random) {
   std::vector<Window> places;
   for (const Window& window : part.windows) {
@@ -67,8 +68,8 @@ Mixture DrawnMixture(const MixtureData& data, const BranchPart& part, RandomStre
   return drawn;
 }
 
-// The claim of every part, tried on mixtures of that part: as good as the best known, and below the
-// bound, is none.
+// The bound of a part holds for its mixtures: none that is at least as good as the best known lies
+// below the bound.
 TEST(SolvedRelaxation, NoMixtureOfAPartUndercutsIt) {
   int competing = 0;
   for (int seed = 900; seed < 900 + Repeats(16); ++seed) {
@@ -87,7 +88,7 @@ TEST(SolvedRelaxation, NoMixtureOfAPartUndercutsIt) {
       incumbent.diodes = 1;
       incumbent.tolerance = 1e-6;
       incumbent.primal = best.best.primal * (1 + std::pow(10, -3 + 4 * random.Uniform()));
-      incumbent.best.primal = 0;  // notes nothing
+      incumbent.best.primal = 0;  // prevents an update of the best mixture
       const double known = incumbent.primal;
       const double width = std::pow(10, -4 * random.Uniform());
       BranchPart part;
@@ -163,7 +164,7 @@ TEST(SlopeBounds, HoldForEveryLawThroughTheValues) {
   }
 }
 
-// With more points than are bounded on their own, the others follow from them.
+// Only some of the many points are bounded individually; the bounds of the others follow from them.
 TEST(SlopeBounds, HoldBetweenThePointsThatAreBounded) {
   const IvCurve curve = Shipped("rtc_france");
   const MixtureData data = DataOf(curve);

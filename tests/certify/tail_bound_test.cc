@@ -40,7 +40,8 @@ TEST(BoundTail, IsTheMeanOfTwoPointsInTheWrongOrder) {
   EXPECT_EQ(BoundTail(data, 1.1), 0.25);
 }
 
-// At any larger Rs the order is that of the currents, and no mixture beats their mean.
+// Beyond a sufficiently large Rs, the order of the points is that of their currents, and no mixture
+// fits better than the mean current.
 TEST(BoundTail, IsTheSpreadOfTheCurrentsFarOut) {
   for (std::uint64_t seed = 310; seed < 320; ++seed) {
     MixtureData data = DataOf(RandomCurve(seed));

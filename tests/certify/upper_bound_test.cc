@@ -43,8 +43,8 @@ TEST(FindUpperBound, KeepsWhatIsBetterAlready) {
   EXPECT_EQ(best.p, (std::vector<double>{1, 2, 3, 4, 5}));
 }
 
-// A module with so small an n that the device cuts exponents: those parameters would have an RMSE
-// that Shockley's equation does not give.
+// A module with so small an n that the device cuts exponents. With cut exponents, the RMSE would
+// differ from that of Shockley's equation.
 TEST(FindUpperBound, ClaimsNothingThatShockleysEquationDoesNotGive) {
   const IvCurve curve = Shipped("stp6_120_36");
   const MixtureData data = DataOf(curve);

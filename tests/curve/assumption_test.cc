@@ -44,7 +44,7 @@ TEST(AssumptionTest, EveryWayToTakeAConditionSaysWhatItIsAbout) {
   for (const char* sentence : {"taken from", "in the head", "in the table", "the column of"}) {
     EXPECT_THAT(SentencesOf(curve.assumptions), Contains(HasSubstr(sentence)));
   }
-  EXPECT_EQ(curve.assumptions.size(), 9U);  // four of each and the cells
+  EXPECT_EQ(curve.assumptions.size(), 9U);  // four from each source, and the cells
   Forget(About::kIrradiance, &curve.assumptions);
   EXPECT_THAT(SentencesOf(curve.assumptions), Not(Contains(HasSubstr("rradiance"))));
   Forget(About::kTemperature, &curve.assumptions);

@@ -1,4 +1,5 @@
-// Real curves, which nothing may be said against; built only where LYREFIT_FIELD_DATA names them.
+// Real curves, for which no finding may be reported. Built only if LYREFIT_FIELD_DATA is set to
+// their folder.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

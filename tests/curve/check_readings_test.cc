@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// As it would be with `voc_V` in place of the module's open-circuit voltage.
+// Scales the voltages so that the open-circuit voltage is `voc_V`.
 void ScaleVoc(double voc_V, IvCurve* curve) {
   const double factor =
       voc_V / FindKeyPoints(curve->voltage_V, curve->current_A).open_circuit_voltage_V;

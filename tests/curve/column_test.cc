@@ -129,7 +129,7 @@ TEST(RecogniseColumnTest, CurrentDensityIsNotCurrent) {
     const char* label;
     double factor;
   } kCases[] = {
-      {"J", 1e-3},  // what everybody writes
+      {"J", 1e-3},  // the usual unit, mA/cm2, is assumed
       {"J (mA/cm2)", 1e-3},
       {"Current density (mA/cm\u00b2)", 1e-3},
       {"current_density", 1e-3},

@@ -17,7 +17,7 @@ TEST(CurveFilesTest, ATableIsReadWithItsSidecarIndexAndBounds) {
   EXPECT_EQ(RoleOf(table, table), FileRole::kRead);
   for (const char* name : {"module.json", "module-index.csv", "bounds-paper.json"}) {
     EXPECT_EQ(RoleOf(folder.Path(name), table), FileRole::kConditions) << name;
-    folder.Write(name, "{}");  // there or not
+    folder.Write(name, "{}");  // the file need not exist
     EXPECT_EQ(RoleOf(folder.Path(name), table), FileRole::kConditions) << name;
   }
   for (const char* name : {"fit.json", "module.svg", "modules.json", "sub/module.json"}) {
@@ -36,7 +36,8 @@ TEST(CurveFilesTest, OneFileHasManyPaths) {
        {"./module.csv", "sub/../module.csv", "sub/back/module.csv", "soft.csv", "hard.csv"}) {
     EXPECT_EQ(RoleOf(folder.Path(name), table), FileRole::kRead) << name;
   }
-  // Read through a link, conditions beside the link and beside the table are both theirs.
+  // When the table is read through a link, sidecars beside the link and beside the table both
+  // apply.
   EXPECT_EQ(RoleOf(folder.Path("soft.json"), folder.Path("soft.csv")), FileRole::kConditions);
   EXPECT_EQ(RoleOf(folder.Path("module.json"), folder.Path("soft.csv")), FileRole::kConditions);
   EXPECT_EQ(RoleOf(folder.Path("sub/back/Module.JSON"), table), FileRole::kConditions);

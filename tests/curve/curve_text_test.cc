@@ -18,7 +18,8 @@ namespace {
 
 const std::string kData = LYREFIT_DATA_DIR;
 
-// Calls `read` with a pipe that gives `text`, and `beside` as the sidecar of that pipe.
+// Calls `read` with the path of a pipe that delivers `text`, and with `beside` as the sidecar of
+// that pipe.
 void WithPipe(const std::string& text, const std::string& beside,
               const std::function<void(const std::string& path)>& read) {
   const TempFolder folder;

@@ -1,4 +1,4 @@
-// The project's own data: every folder holds what data/README.md promises.
+// Checks that the project's own data folders contain what data/README.md states.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

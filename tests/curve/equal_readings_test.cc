@@ -53,7 +53,7 @@ TEST(EqualReadingsTest, ALimitOfTheVoltageIsFoundWhereCurrentsGoOn) {
   IvCurve curve = MadeModule();
   for (double& voltage : curve.voltage_V) voltage = std::min(voltage, 36.0);
   ExpectLimit(curve, {"exactly the same voltage 36 V", "high end"});
-  // One state read again and again.
+  // Repeated readings of one operating point are no voltage limit.
   curve = MadeModule();
   for (int k = 0; k < 8; ++k) {
     curve.voltage_V.push_back(curve.voltage_V.back());

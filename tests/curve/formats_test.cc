@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFormats = fs::path(LYREFIT_DATA_DIR) / "formats";
 
-// A line of the table in data/formats/README.md, by its columns.
+// A row of the table in data/formats/README.md, by its columns.
 struct Format {
   std::string file, what, options, points, isc, voc, irradiance, temperature, cells, area, curves;
 };
@@ -159,7 +159,7 @@ TEST(FormatsTest, EveryFileHasItsLine) {
   EXPECT_GE(listed.size(), 40U);
   for (const fs::directory_entry& entry : fs::directory_iterator(kFormats)) {
     const std::string name = entry.path().filename().string();
-    if (name == "README.md" || name == "batch") continue;  // many curves: tests/batch
+    if (name == "README.md" || name == "batch") continue;  // many curves, read in tests/batch
     EXPECT_THAT(listed, ::testing::Contains(name));
   }
 }

@@ -81,7 +81,8 @@ TEST(FindKeyPointsTest, ReverseBranchAloneIsExtrapolatedToShortCircuit) {
 }
 
 TEST(FindKeyPointsTest, NoisyEndIsNotExtrapolatedOnTwoNeighbours) {
-  // The last two readings, 1 mV apart, rise by noise; the trend before them counts.
+  // The last two readings, 1 mV apart, rise by noise; the trend of the readings before them is
+  // extrapolated.
   const KeyPoints key =
       FindKeyPoints({0, 1, 2, 3, 4, 5, 5.8, 5.801}, {6, 5, 4, 3, 2, 1, 0.198, 0.2});
   EXPECT_NEAR(key.open_circuit_voltage_V, 6, 0.01);

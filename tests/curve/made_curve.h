@@ -8,8 +8,8 @@
 
 namespace lyrefit {
 
-// The junctions of `cells` cells in series at 25 C, n = 1.1, 0.64 V each at 9 A of light. Their
-// voltage at a current, with a bypass diode across them that takes over at -0.5 V.
+// Voltage of `cells` cells in series at a current, without series resistance, at 25 C. n = 1.1 and
+// Voc is 0.64 V per cell at 9 A. A bypass diode limits the voltage to about -0.5 V.
 inline double SubstringVoltage(double current_A, double photocurrent_A, int cells) {
   const double thermal_V = 1.1 * 0.0257 * cells, saturation_A = 9 / std::exp(0.64 / (1.1 * 0.0257));
   const double shunt_ohm = 8.0 * cells;
@@ -23,8 +23,8 @@ inline double SubstringVoltage(double current_A, double photocurrent_A, int cell
   return low - current_A * 0.005 * cells;
 }
 
-// A 60-cell module of three substrings with a light each (1: 9 A), `points` even voltages from 0 to
-// 39 V, Gaussian noise of 2 mA.
+// A 60-cell module of three substrings, each with its own light (1 means 9 A): `points` equidistant
+// voltages from 0 to 39 V, Gaussian noise of 2 mA.
 inline IvCurve MadeModule(double first = 1, double second = 1, double third = 1, int points = 100) {
   IvCurve curve;
   curve.name = "made";
@@ -47,7 +47,8 @@ inline IvCurve MadeModule(double first = 1, double second = 1, double third = 1,
   return curve;
 }
 
-// A single cell from -0.1 to 0.69 V in steps of 10 mV, 0.15 A of light, noise of 30 uA.
+// A single cell from -0.1 to 0.69 V in steps of 10 mV; photocurrent 0.15 A times `light`, noise of
+// 30 uA.
 inline IvCurve MadeCell(double light = 1) {
   IvCurve curve;
   curve.name = "cell";

@@ -28,7 +28,7 @@ CurveSet Four() {
 }
 
 TEST(NearestCurve, CountsAKelvinAsMuchAsTenWatts) {
-  // a: 12.75 W/m2 and 0.4 K, 0.0134 away; b: 2 K, 0.02 away.
+  // Distances: a differs by 12.75 W/m2 and 0.4 K, 0.0134; b by 2 K, 0.02.
   EXPECT_EQ(*NearestCurve(Four(), 1000, 25), 0U);
   EXPECT_EQ(*NearestCurve(Four(), 1000, 26.6), 1U);
   EXPECT_EQ(*NearestCurve(Four(), 200, 25), 2U);

@@ -1,4 +1,5 @@
-// Measurements that are not part of the project; built only where LYREFIT_FIELD_DATA names them.
+// Field measurements that are not part of the project. Built only if LYREFIT_FIELD_DATA is set to
+// their folder.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ TEST(FieldDataTest, EverySingleCurveIsReadWithItsSign) {
     EXPECT_GE(tables.size(), 8U);
     for (const fs::path& table : tables) {
       SCOPED_TRACE(table);
-      ReadOptions options;  // of a lit and a dark sweep the first
+      ReadOptions options;  // file with a lit and a dark sweep: the first
       if (table.filename() == "isfh_litdark.csv") options.curve = 0;
       const auto curve = ReadCurve(table.string(), options);
       ASSERT_TRUE(curve) << curve.error().ToString();
@@ -98,7 +99,7 @@ TEST(FieldDataTest, EveryPanelCaseIsReadWholeOrSweepBySweep) {
     for (options.curve = 0; (curve = ReadCurve(table.string(), options)); ++*options.curve) {
       EXPECT_FALSE(SaysThatTheSignWasTurned(*curve));
       EXPECT_GE(curve->size(), 10U);
-      // The sweep's own conditions, not the nominal ones.
+      // The conditions are those of the sweep, not the nominal ones.
       EXPECT_NEAR(curve->conditions.irradiance_W_m2, curve->irradiance_W_m2.front(),
                   0.02 * curve->irradiance_W_m2.front());
     }

@@ -1,4 +1,5 @@
-// Measured sets that are not part of the project; built only where LYREFIT_FIELD_DATA names them.
+// Measured sets that are not part of the project. Built only if LYREFIT_FIELD_DATA is set to their
+// folder.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -186,7 +186,7 @@ TEST(ReadCurveTest, BrokenSidecarsGiveACurveOrAnError) {
   }
 }
 
-// What grows faster than the file would run into the time limit of every test.
+// A cost that grows faster than the file would exceed the time limit of the test.
 TEST(ReadCurveTest, AMillionNumbersInOneLineAreRefused) {
   std::string line;
   for (int i = 0; i < 1000000; ++i) line += std::to_string(i % 10) + ',';

@@ -147,13 +147,14 @@ TEST(ReadSidecarTest, AReportInItsPlaceGivesItsConditions) {
   ASSERT_TRUE(sidecar) << sidecar.error().ToString();
   EXPECT_EQ(sidecar->cells_in_series, 36);
   EXPECT_EQ(sidecar->temperature_C, 51);
-  EXPECT_FALSE(sidecar->irradiance_W_m2);  // the report had to assume it
+  EXPECT_FALSE(sidecar->irradiance_W_m2);  // it was assumed in the report
   EXPECT_FALSE(sidecar->strings_in_parallel);
   EXPECT_THAT(SentencesOf(sidecar->assumptions),
               ::testing::ElementsAre(HasSubstr("module.json is a report of lyrefit")));
 }
 
-// Reports of older versions do not list what they assumed.
+// Reports of older versions do not list which conditions were assumed. Their conditions are used
+// only if nothing was assumed.
 TEST(ReadSidecarTest, AReportThatDoesNotSayWhichStatesConditionsIfItAssumedNothing) {
   const TempFolder folder;
   const auto read = [&](const std::string& assumptions) {

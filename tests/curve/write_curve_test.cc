@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-// A light curve whose numbers have all their digits.
+// A lit curve whose numbers need all digits of a double.
 IvCurve MakeCurve(RandomStream* random, bool all_columns) {
   IvCurve curve;
   curve.name = "made";

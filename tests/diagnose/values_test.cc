@@ -31,7 +31,7 @@ ValueFindings Look(const IvCurve& curve) {
   return LookAtValues(*made);
 }
 
-// dI/dV| of a cell, in 1/V of its largest current.
+// |dI/dV| of a cell divided by its largest current, in 1/V.
 double Slope(const IvCurve& curve, std::size_t k) {
   const double dv = curve.voltage_V[k + 2] - curve.voltage_V[k - 2];
   return std::fabs((curve.current_A[k + 2] - curve.current_A[k - 2]) / dv / curve.current_A[0]);

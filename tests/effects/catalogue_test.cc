@@ -17,7 +17,7 @@ class CatalogueTest : public ::testing::TestWithParam<const Effect*> {
   const Effect& effect() const { return *GetParam(); }
   bool IsUnknown() const { return effect().found_by == FoundBy::kWaves; }
 
-  // Every probe that some kind of data asks for.
+  // Every probe of the effect in any kind of data that can show it.
   std::vector<Probe> AllProbes() const {
     std::vector<Probe> all;
     for (const DataKind kind : kDataKinds) {
@@ -87,7 +87,8 @@ TEST_P(CatalogueTest, ProbesAreFullAndInsideTheBounds) {
   }
 }
 
-// What has parameters can be seen in some kind of data, and has stages and probes to be fitted.
+// An effect with parameters is testable in some kind of data, and has the stages and probes of a
+// fit.
 TEST_P(CatalogueTest, CanBeFittedWhereItHasParameters) {
   const Effect& e = effect();
   EXPECT_EQ(e.HasStage(), !e.parameters.empty());
@@ -147,7 +148,7 @@ TEST(CatalogueListTest, InseparableCausesSayWhatTheyBias) {
   EXPECT_EQ(ids.count("lead_resistance"), 1U);
 }
 
-// What a person reads is in the units of the equation: the whole device, ampere, volt, second.
+// Reporting units are those of the effect's equation for the whole device: ampere, volt, second.
 TEST(ReportedFactorTest, MatchesTheEquationsOfAModule) {
   ReadingScale scale;
   scale.current_A = 8;
@@ -157,16 +158,16 @@ TEST(ReportedFactorTest, MatchesTheEquationsOfAModule) {
   const auto reported = [&](const char* id, int parameter, const std::vector<double>& p) {
     return p[parameter] * FindEffect(id)->parameters[parameter].ReportedFactor(p.data(), scale);
   };
-  // k |Vj|^m is 0.1 scales at the reach.
+  // At the largest voltage, k |Vj|^m is 0.1 of the current scale.
   EXPECT_NEAR(reported("nonohmic_shunt", 0, {0.1, 2}) * 16, 0.1 * 8, 1e-12);
-  // a Vj (1 - Vj / Vbr)^-3.4 is 0.2 scales at the most negative voltage.
+  // At the most negative voltage, a Vj (1 - Vj / Vbr)^-3.4 is 0.2 of the current scale.
   const double a = reported("breakdown", 0, {0.2, 0.5}), vbr = reported("breakdown", 1, {0.2, 0.5});
   EXPECT_NEAR(vbr, -8, 1e-12);
   EXPECT_NEAR(a * 4 * std::pow(1 - 4.0 / 8, -3.4), 0.2 * 8, 1e-12);
-  // The charge current of the device: C dV/dt, 60 cells at 0.5 V/s each.
+  // Charging current of the device: C dV/dt, for 60 cells at 0.5 V/s each.
   EXPECT_NEAR(reported("capacitance", 0, {0.01, 0}) * 60 * 0.5, 0.01 * 8, 1e-12);
   EXPECT_NEAR(reported("timing_skew", 0, {0.001}) * 0.5, 0.001, 1e-15);
-  // Rs1 I |I| at the scale is 60 cells' drop.
+  // At the current scale, Rs1 I |I| is the voltage drop of 60 cells.
   EXPECT_NEAR(reported("rs_current", 0, {0.01}) * 64, 60 * 0.01, 1e-12);
   EXPECT_NEAR(reported("distributed_rs", 0, {0.02}) * 8, 60 * 0.02, 1e-12);
   EXPECT_NEAR(reported("photoshunt", 0, {0.3, 0}) * 60, 0.3 * 8, 1e-12);

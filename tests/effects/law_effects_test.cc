@@ -15,8 +15,8 @@
 namespace lyrefit {
 namespace {
 
-// One effect of the catalogue in one kind of data that can show it: effects yet to be written are
-// tested the day they are listed.
+// One effect of the catalogue in one kind of data that can show it. Effects added to the catalogue
+// are tested automatically.
 struct Place {
   const Effect* effect;
   DataKind kind;
@@ -56,13 +56,14 @@ class LawEffectsTest : public ::testing::TestWithParam<Place> {
   const Effect& effect() const { return *GetParam().effect; }
   const Readings readings_ = MadeReadings(GetParam().kind, GetParam().cells);
 
-  // About a dozen of the probes, spread over their list.
+  // About a dozen probes, evenly spread over all.
   std::vector<Probe> SomeProbes() const {
     const std::vector<Probe> all = effect().probes(readings_.traits);
     const std::size_t stride = std::max<std::size_t>(1, all.size() / (kSanitized ? 2 : 12));
     std::vector<Probe> some;
     for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
-    // In half-cut modules as well: of what the substring lacks, one chain's cell lacks the double.
+    // Includes half-cut modules: with two parallel chains, the weak cell lacks twice the
+    // substring's deficit.
     const std::size_t chains = effect().parameters.size() - 1;
     if (std::string(effect().parameters.back().symbol) != "chains") return some;
     for (std::size_t k = some.size(); k-- > 0;) {
@@ -74,11 +75,11 @@ class LawEffectsTest : public ::testing::TestWithParam<Place> {
   }
 };
 
-// One parameter's column of the Jacobian, and central differences of fourth order beside it.
+// One parameter's column of the Jacobian, and central differences of fourth order for comparison.
 struct Column {
   std::vector<double> exact;
   std::vector<double> difference;
-  std::vector<char> kinked;  // where the slope jumps between the places of the differences
+  std::vector<char> kinked;  // where the slope jumps within the difference
   double largest = 1e-9;
 };
 
@@ -93,7 +94,8 @@ std::vector<double> ExactColumn(const Settled& at, const Readings& readings, int
 
 Column CompareColumn(const Settled& at, const Readings& readings, int parameter, double part) {
   const double range = at.law.Upper(parameter) - at.law.Lower(parameter);
-  // The photocurrent may be 10,000 times what it is, which says nothing of how it bends the curve.
+  // The upper bound of the photocurrent is 10,000 times its value, so that its range says nothing
+  // about suitable steps.
   const double step = part * std::max(std::fabs(at.p[parameter]), 1e-2 * std::min(range, 20.0));
   const auto moved = [&](double steps) {
     Settled there = at;
@@ -124,8 +126,9 @@ TEST_P(LawEffectsTest, DerivativesAreThoseOfTheCurrents) {
     const Settled at = WithEffect(effect(), probe);
     for (int parameter = 0; parameter < at.law.size(); ++parameter) {
       const int own = parameter - at.law.base_size();
-      if (own >= 0 && probe[own] == effect().parameters[own].absent_at) continue;  // not there
-      // The longer steps fail at sharp bends, the shorter ones on rounding.
+      // the parameter has no influence
+      if (own >= 0 && probe[own] == effect().parameters[own].absent_at) continue;
+      // Long steps fail at sharp bends, short steps at rounding.
       const Column column = CompareColumn(at, readings_, parameter, 1e-3);
       const Column close = CompareColumn(at, readings_, parameter, 5e-5);
       ASSERT_EQ(column.exact.size(), readings_.points.size());
@@ -165,7 +168,7 @@ TEST_P(LawEffectsTest, IsNotThereAtItsNeutralValue) {
   const std::vector<double> current = Currents(at.law, readings_, at.p);
   ASSERT_FALSE(current.empty());
   for (std::size_t k = 0; k < base.size(); ++k) {
-    // Bypass diodes conduct in reverse even where nothing is shaded.
+    // Bypass diodes conduct in reverse even without shading.
     if (readings_.points[k].voltage < 0.02 && readings_.traits.module) continue;
     EXPECT_NEAR(current[k], base[k], 1e-6) << k;
   }
@@ -199,7 +202,7 @@ TEST_P(DeviceEffectsTest, CurrentsNeverRiseWithVoltage) {
   }
 }
 
-// Models with more than six or ten parameters take another number type through the same stages.
+// Models with more than six or ten parameters use a wider number type in each stage.
 TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
   const std::vector<const Effect*> idle = {FindEffect("drift"), FindEffect("temp_drift"),
                                            FindEffect("voltage_offset"),
@@ -209,7 +212,7 @@ TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
     Settled wide = narrow;
     wide.law.effects.insert(wide.law.effects.end(), idle.begin(), idle.end());
     wide.p.resize(narrow.p.size() + idle.size(), 0.0);
-    if (narrow.law.size() > 10) return;  // only ever wide
+    if (narrow.law.size() > 10) return;  // has the widest type already
     ASSERT_TRUE(narrow.law.size() <= 6 ? wide.law.size() > 6 : wide.law.size() > 10);
     const std::vector<double> a = Jacobian(narrow.law, readings_, narrow.p);
     const std::vector<double> b = Jacobian(wide.law, readings_, wide.p);
@@ -223,7 +226,7 @@ TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
   }
 }
 
-// Anything inside the bounds has finite currents or none at all, and always an end.
+// With any parameters inside their bounds, an evaluation ends, and gives finite currents or none.
 TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
   RandomStream random(17);
   int fine = 0;

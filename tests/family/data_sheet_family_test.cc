@@ -35,7 +35,8 @@ double CurrentAt(const TranslatedDevice& at, double voltage) {
   return SolveOperatingPoint(at.device, at.parameters.data(), voltage).current_A;
 }
 
-// Of a share of Isc and Voc, at all three points; the largest power too stands where it should.
+// Expects the member's curve to pass through all three points, to 1e-10 of Isc, and to have its
+// maximum power at Vmp.
 void ExpectThroughThePoints(const DataSheet& sheet, const DataSheetMember& member) {
   const DataSheetValues& v = sheet.values;
   const double isc = v.short_circuit_current_A;
@@ -57,7 +58,8 @@ DataSheet FamilySheet(const DataSheetValues& values, int cells) {
   return sheet;
 }
 
-// Silicon of two makes, one of them with many cells; thin film; a bare cell; a shunted module.
+// Silicon modules of different makes, one of them with 144 cells; a thin-film module; a single
+// cell; a module with a low shunt resistance.
 const DataSheet kFamilySheets[] = {
     FamilySheet({8.21, 32.9, 7.61, 26.3, 0.00318, -0.123}, 54),
     FamilySheet({13.98, 49.6, 13.29, 41.4, 0.0063, -0.134}, 144),
@@ -84,7 +86,8 @@ TEST(DataSheetFamily, PassesThroughTheThreePoints) {
   }
 }
 
-// Beyond the last member one of the resistances would be negative: it is nothing there, exactly.
+// The last member has a series resistance or a shunt conductance of exactly 0. Beyond it one of the
+// two would be negative.
 TEST(DataSheetFamily, EndsWhereAResistanceIsNothing) {
   int series = 0, shunt = 0;
   for (const DataSheet& sheet : kFamilySheets) {
@@ -110,8 +113,8 @@ TEST(DataSheetFamily, EndsWhereAResistanceIsNothing) {
   EXPECT_GT(shunt, 0);
 }
 
-// A device's own curve without its shunt or without its series resistance is the last of its
-// family: the end is known beforehand.
+// A device without a shunt or without series resistance is the last member of its own family, so
+// that the expected end is known.
 TEST(DataSheetFamily, EndsAtDevicesWithoutOneOfTheResistances) {
   RandomStream random(17);
   for (int k = 0; k < 100; ++k) {
@@ -144,7 +147,7 @@ TEST(DataSheetFamily, EndsAtDevicesWithoutOneOfTheResistances) {
   }
 }
 
-// The curves of small n are the broken line that is said to be their limit.
+// For small n the curves and parameters approach the sharp knee, a broken line.
 TEST(DataSheetFamily, GoesToASharpKnee) {
   for (const DataSheet& sheet : kFamilySheets) {
     const auto family = FindDataSheetFamily(sheet);
@@ -159,7 +162,7 @@ TEST(DataSheetFamily, GoesToASharpKnee) {
     closer(knee.photocurrent_A, first.photocurrent_A, second.photocurrent_A);
     closer(knee.resistance_series_ohm, first.resistance_series_ohm, second.resistance_series_ohm);
     closer(knee.resistance_shunt_ohm, first.resistance_shunt_ohm, second.resistance_shunt_ohm);
-    // The knee's own line: Iph - (V + I Rs) / Rsh below Voc at the junction.
+    // The knee's line below Voc at the junction: I = Iph - (V + I Rs) / Rsh.
     const DataSheetValues& v = sheet.values;
     const auto off = [&](double voltage, double current) {
       return knee.photocurrent_A -
@@ -173,7 +176,7 @@ TEST(DataSheetFamily, GoesToASharpKnee) {
   }
 }
 
-// Any device is a member of the family of its own three points.
+// Any device is a member of the family of its own three points, at its own n.
 TEST(DataSheetFamily, HoldsEveryDeviceAtItsIdeality) {
   RandomStream random(29);
   int picked = 0;
@@ -203,9 +206,10 @@ TEST(DataSheetFamily, HoldsEveryDeviceAtItsIdeality) {
     EXPECT_NEAR(member->resistance_series_ohm, device.resistance_series_ohm, 1e-6 * unit) << k;
     EXPECT_NEAR(1 / member->resistance_shunt_ohm, 1 / device.resistance_shunt_ohm, 1e-6 / unit)
         << k;
-    // Its coefficient picks it out of the family.
+    // The device's own beta_oc selects it from the family.
     sheet.values.beta_oc_V_K = member->beta_oc_V_K;
-    if (member->beta_oc_V_K < -0.009 * points.open_circuit_voltage_V) continue;  // of no sheet
+    // no data sheet has this value
+    if (member->beta_oc_V_K < -0.009 * points.open_circuit_voltage_V) continue;
     const auto fit = FitDataSheet(sheet);
     ASSERT_TRUE(fit.has_value()) << k << ' ' << fit.error().message;
     ASSERT_TRUE(fit->family.picked.has_value());
@@ -216,8 +220,9 @@ TEST(DataSheetFamily, HoldsEveryDeviceAtItsIdeality) {
   EXPECT_GT(picked, 200);
 }
 
-// A larger n makes Voc fall faster with temperature, so one coefficient picks one member; all
-// curves lie between the knee and the last one, which is why these tell how far any two are apart.
+// A larger n makes Voc fall faster with temperature, so that one coefficient selects one member.
+// All curves lie between the sharp knee and the last member, whose difference is thus the largest
+// difference of any two.
 TEST(DataSheetFamily, IsInOrderOfItsIdeality) {
   for (const DataSheet& sheet : kFamilySheets) {
     const auto family = FindDataSheetFamily(sheet);
@@ -252,7 +257,7 @@ TEST(DataSheetFamily, IsInOrderOfItsIdeality) {
   }
 }
 
-// What beta_oc and its rounding leave is a part of the family.
+// With beta_oc and its rounding only a part of the family is left.
 TEST(DataSheetFamily, IsNarrowerWithTheCoefficient) {
   DataSheet sheet = kFamilySheets[0];
   sheet.half_unit = {0.005, 0.05, 0.005, 0.05, 0.000005, 0.0005};
@@ -275,14 +280,14 @@ TEST(DataSheetFamily, IsNarrowerWithTheCoefficient) {
   }
   sheet.half_unit = {};
   EXPECT_FALSE(FitDataSheet(sheet)->family.rounding_spread.has_value());
-  // Of a coefficient that no member has, the last one is picked.
+  // For a coefficient that no member has, the last member is selected.
   sheet.values.beta_oc_V_K = -0.25;
   const auto border = FitDataSheet(sheet);
   ASSERT_TRUE(border.has_value());
   EXPECT_NEAR(border->family.picked->n, border->family.members.back().n, 1e-7);
 }
 
-// Any three points that a falling, concave curve may pass through, sharp knees apart.
+// Any three points that a falling, concave curve may have, apart from very sharp knees.
 TEST(DataSheetFamily, PassesThroughAnyThreePoints) {
   SKIP_IF_SANITIZED();
   RandomStream random(43);
@@ -297,7 +302,7 @@ TEST(DataSheetFamily, PassesThroughAnyThreePoints) {
     const auto family = FindDataSheetFamily(sheet);
     if (!family) {
       EXPECT_THAT(family.error().message, HasSubstr("n would have to be below"));
-      // At the borders of what the points may be every knee is sharp.
+      // Near the limits of possible points every knee is sharp.
       const auto inside = [](double share) { return std::min(share - 0.5, 1 - share); };
       EXPECT_LT(std::min(inside(imp), inside(vmp)), 0.05) << imp << ' ' << vmp;
       ++sharp;
@@ -310,7 +315,7 @@ TEST(DataSheetFamily, PassesThroughAnyThreePoints) {
     const DataSheetMember& last = family->members.back();
     EXPECT_TRUE(last.resistance_series_ohm == 0 || std::isinf(last.resistance_shunt_ohm));
     EXPECT_FALSE(FindDataSheetMember(sheet, last.n * (1 + 1e-9)).has_value());
-    // Whatever its coefficient picks is one of them.
+    // The member selected by the coefficient belongs to the family.
     const auto fit = FitDataSheet(sheet);
     ASSERT_TRUE(fit.has_value()) << fit.error().message;
     ExpectThroughThePoints(sheet, *fit->family.picked);
@@ -320,7 +325,7 @@ TEST(DataSheetFamily, PassesThroughAnyThreePoints) {
   EXPECT_GT(sharp, 3);
 }
 
-// Of a bare diode both resistances are nothing at the end.
+// For a bare diode, series resistance and shunt conductance of the last member are both 0.
 TEST(DataSheetFamily, EndsAtABareDiode) {
   DataSheetMember device;
   device.n = 1.3;
@@ -349,7 +354,7 @@ TEST(DataSheetFamily, SaysWhyThereIsNone) {
   EXPECT_THAT(complaint({8, 33, 3.9, 28}, 54), HasSubstr("half of Isc or Voc"));
   EXPECT_THAT(complaint({8, 33, 7.6, 26}, 0), HasSubstr("at least 1 cell"));
   EXPECT_THAT(complaint({8, 33, 7.6, 26, 0.05}, 54), HasSubstr("in percent"));
-  // 0.997 of Isc at 0.677 of Voc: the knee of no diode.
+  // 0.997 of Isc at 0.677 of Voc: a knee that no diode has.
   EXPECT_THAT(complaint({1, 1, 0.9972, 0.6764}, 1), HasSubstr("n would have to be below"));
   const auto member = FindDataSheetMember(kFamilySheets[0], -1);
   ASSERT_FALSE(member.has_value());

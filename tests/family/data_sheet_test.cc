@@ -27,7 +27,7 @@ KeyPoints PointsAt(const Translation& translation, const std::vector<double>& sh
   return ModelKeyPoints(at.device, at.parameters.data());
 }
 
-// The data sheet that a device would print with all its digits.
+// The data sheet of a device, with all digits.
 DataSheet SheetOf(const Translation& translation, const std::vector<double>& shared) {
   const KeyPoints now = PointsAt(translation, shared, 298.15);
   const KeyPoints warm = PointsAt(translation, shared, 300.15);
@@ -50,7 +50,7 @@ TEST(FitDataSheet, RecoversRandomDevicesFromTheirOwnKeyPoints) {
     const double n = 0.85 + 0.7 * random.Uniform();
     const double voc = spec.cells_in_series * (0.5 + 0.2 * random.Uniform());
     const double a = n * spec.cells_in_series * 0.025693;
-    // In units of what the module itself sets: Voc / Isc.
+    // Relative to Voc / Isc.
     const double rs = voc / isc * (0.002 + 0.05 * random.Uniform());
     const double rsh = voc / isc * std::pow(10, 1 + 1.5 * random.Uniform());
     const std::vector<double> shared = {
@@ -113,7 +113,7 @@ TEST(FitDataSheet, GivesKnownModulesACurveThroughTheirPoints) {
   }
 }
 
-// The values that pvlib's own test expects of its fit_desoto, to the digits printed there.
+// Expected values of pvlib's own test of fit_desoto, to the digits printed there.
 TEST(FitDataSheet, FindsWhatPvlibFinds) {
   DataSheet sheet;
   sheet.values = {9.43, 38.3, 8.71, 31.0, 0.005658, -0.13788};

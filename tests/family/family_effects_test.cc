@@ -33,7 +33,8 @@ const Estimate& Of(const FamilyReport& report, const std::string& symbol) {
   return kNone;
 }
 
-// The truth within 1.5 half widths of the 95 % interval, which is short beside the value.
+// Expects the estimate within 1.5 half widths of the 95 % interval from the truth, and the interval
+// shorter than `width` times the truth.
 void ExpectFound(const FamilyReport& report, const std::string& symbol, double truth,
                  double width = 0.3) {
   const Estimate& e = Of(report, symbol);
@@ -58,8 +59,8 @@ TEST_F(FamilyEffectsTest, ADarkCurveMayBeNoisy) {
   EXPECT_EQ(report.curves.back().role, CurveRole::kFitted) << report.curves.back().reason;
 }
 
-// Of two light levels alone either law of the photoshunt gives the same curves, at another
-// strength.
+// With two irradiances only, both laws of the photoshunt give identical curves, with different
+// strengths.
 TEST_F(FamilyEffectsTest, AnIntervalReachesOverEverySettingThatFitsAsWell) {
   TranslationSpec spec = law_.spec;
   spec.shunt = ShuntLaw::kConstant;
@@ -108,7 +109,7 @@ TEST_F(FamilyEffectsTest, ANonOhmicShuntIsFound) {
   }
 }
 
-// What is reported of the strength depends on the exponent, whose uncertainty counts.
+// The reported strength depends on the exponent, whose uncertainty must be included.
 TEST_F(FamilyEffectsTest, StandardErrorsAreThoseOfWhatIsReported) {
   SKIP_IF_SANITIZED();
   options_.with = {UseOf("nonohmic_shunt")};
@@ -145,7 +146,7 @@ TEST_F(FamilyEffectsTest, AShadedModuleIsFoundWhereOneInsists) {
   ExpectFound(report, "shading.d", 0.3);
   ExpectFound(report, "shading.w", 1.0 / 3);
   EXPECT_NEAR(report.rmse.refined.solved_current_A, 1e-3, 1e-4);
-  // Three substrings, the bypassed one does without its voltage.
+  // The bypassed one of three substrings delivers no voltage.
   EXPECT_LT(report.reference.max_power_W, 55);
 }
 
@@ -168,7 +169,7 @@ TEST_F(FamilyEffectsTest, ADarkCurveTellsAPhotoshuntFromTheShunt) {
   set_ = MadeSet(law_, truth_, {{1000, 25}, {1000, 60}}, 40, 0);
   set_.curves.push_back(DarkCurve(law_, truth_, 25, 40));
   options_.shunt = ShuntLaw::kConstant;
-  EXPECT_EQ(Fit().curves.back().role, CurveRole::kLeftOut);  // no effect asks for it
+  EXPECT_EQ(Fit().curves.back().role, CurveRole::kLeftOut);  // no effect needs it
   Make({UseOf("photoshunt", {{"Gph", {0.004, 0.004}}})}, 3e-4);
   options_.with = {UseOf("photoshunt", {{"law", {0, 0}}})};
   options_.weights = FamilyWeights::kIsc;

@@ -27,7 +27,7 @@ CurveSet WhiteSet(int curves) {
   return MadeSet(law, MadeTruth(law), ManyPlaces(curves), 60, 2e-3);
 }
 
-// The light of each curve wanders by a few per mille.
+// A set in which the irradiance of each curve wanders by 3e-3.
 CurveSet WanderingSet(int curves) {
   CurveSet set = WhiteSet(curves);
   RandomStream random(9);

@@ -1,5 +1,5 @@
-// Whole sets of measured curves: a module over weeks of weather, an array whose irradiance was not
-// logged together with the sweeps, and the families of the diagnosis panel.
+// Sets of measured curves: a module over weeks of weather, an array with irradiance that was not
+// logged with the sweeps, and the families of the diagnosis panel.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ CurveSet ReadOrFail(const fs::path& path) {
   return set ? std::move(*set) : CurveSet();
 }
 
-// Values usually quoted for the Mitsubishi PV-UE125MF5N, coefficients as its data set states them.
+// Common values for the Mitsubishi PV-UE125MF5N, with the coefficients of its data set.
 NamedParameters DataSheetOfThePvue125() {
   DataSheet sheet;
   sheet.values = {7.90, 21.8, 7.23, 17.3, 0.0054, -0.0774};
@@ -82,7 +82,7 @@ TEST(FamilyOfTheNistArray, WarnsThatTheIrradianceDoesNotBelongToTheSweeps) {
   const CurveSet set = ReadOrFail(kRoot / "field" / "nist_ground_2015-07-20");
   ASSERT_EQ(set.curves.size(), 241U);
   FamilyOptions options;
-  options.fit_curves = 30;  // no law settles on them quickly
+  options.fit_curves = 30;  // no law fits them quickly
   options.intervals = false;
   const Expected<FamilyReport> report = FitFamily(set, options);
   ASSERT_TRUE(report.has_value()) << report.error().ToString();
@@ -114,7 +114,7 @@ TEST(FamiliesOfThePanel, AreAllReadAndFittedWithIntervals) {
     const CurveSet set = ReadOrFail(kRoot / ".." / "panel" / "cases" / (name + ".csv"));
     EXPECT_TRUE(set.rejected.empty());
     FamilyOptions options;
-    options.shunt = ShuntLaw::kConstant;  // the law of the panel
+    options.shunt = ShuntLaw::kConstant;  // shunt law of the panel
     options.individual_fits = false;
     options.folds = 0;
     const Expected<FamilyReport> report = FitFamily(set, options);

@@ -11,7 +11,7 @@
 
 namespace lyrefit {
 
-// A family of six curves by De Soto's law, and how it is to be fitted.
+// A family of six curves by De Soto's law, and the options of its fit.
 class FamilyFixture : public ::testing::Test {
  protected:
   FamilyFixture(int points, double noise_A) {

@@ -1,5 +1,5 @@
-// The catalogue walk over many curves of one device: families of lit curves, and lit ones beside a
-// dark one. All rows with more sets each than CI has time for:
+// Rate test of the catalogue over several curves of one device: families of lit curves, and lit
+// curves with a dark one. More sets per row than CI runs:
 //   LYREFIT_WALK_CURVES=300 tests/family_rate_test --gtest_filter='FamilyWalk*'
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ struct Place {
   int Curves() const { return WalkCurves(4); }
 };
 
-// A shunt that does not follow the light: one that does takes the place of `photoshunt`.
+// A shunt that is independent of irradiance. One that depends on it would replace the effect
+// `photoshunt`.
 Translation ConstantShunt() {
   TranslationSpec spec;
   spec.law = TranslationLaw::kDeSoto;
@@ -40,7 +41,7 @@ struct Made {
   CurveSet set;
 };
 
-// A module like others under six skies, or under one and in the dark.
+// A random module under six operating conditions, or at one temperature and in the dark.
 Made DrawSet(const Place& place, RandomStream* random) {
   Made made;
   const auto vary = [&](int i, double part) {
@@ -107,7 +108,7 @@ void Count(const Place& place, RandomStream* random, WalkRow* row) {
   for (IvCurve& curve : made.set.curves) {
     for (double& current : curve.current_A) current += noise * random->Normal();
   }
-  // An effect may bend the curves so that it no longer shows itself.
+  // The effect may have changed the curves so much that it is no longer testable.
   Translation again = made.law;
   if (!ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {drawn.asked},
                          /*force=*/false, &again)) {

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Noise of one size, or in proportion to each curve's Isc.
+// Noise of one size for all curves or, with `relative`, in proportion to the Isc of each curve.
 CurveSet NoisySet(bool relative, std::uint64_t seed) {
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
   CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 40, 0, seed);
@@ -52,7 +52,7 @@ TEST(SettleWeights, TakesWhatTheResidualsSpeakFor) {
   }
 }
 
-// The answer is that of a fit which was told the weights.
+// The automatically selected weights give the result of a fit with these weights requested.
 TEST(SettleWeights, FitsWithTheWeightsItTakes) {
   for (const bool relative : {false, true}) {
     const CurveSet set = NoisySet(relative, 1);
@@ -78,7 +78,8 @@ TEST(SettleWeights, SaysWhichAndWhy) {
               HasSubstr("every point alike"));
 }
 
-// A law that misses its curves in proportion to their light says nothing of the readings' noise.
+// If the law deviates from the curves in proportion to their irradiance, the residuals contain no
+// information on noise.
 TEST(SettleWeights, KeepsEqualWeightsWhereTheLawMisses) {
   CurveSet set = NoisySet(true, 1);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {

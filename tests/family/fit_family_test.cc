@@ -22,7 +22,7 @@ class FitFamilyTest : public FamilyFixture {
   }
 };
 
-// |value - truth| within `factor` half widths of the 95 % interval.
+// Expects |value - truth| within `factor` half widths of the 95 % interval.
 void ExpectHolds(const Interval& interval, double truth, double factor = 1.5) {
   EXPECT_LT(std::fabs(interval.value - truth), factor * 0.5 * (interval.high_95 - interval.low_95))
       << interval.value << " " << truth;
@@ -180,7 +180,8 @@ TEST_F(FitFamilyTest, MarksOnlyWhatTheDataDoNotShow) {
 }
 
 TEST_F(FitFamilyTest, KnowsCoefficientsWhoseParametersTradePlaces) {
-  // EgRef and dEgdT act as one number; what the device does with temperature is known all the same.
+  // EgRef and dEgdT act as one parameter; the temperature coefficients of the device are determined
+  // nevertheless.
   const FamilyReport plain = Fit();
   options_.freed = {"dEgdT"};
   const FamilyReport report = Fit();

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// Every number of a report that does not tell the time.
+// Every number of a report except times.
 class Numbers {
  public:
   explicit Numbers(const FamilyReport& report) {
@@ -91,7 +91,7 @@ TEST(FitFamily, GivesTheSameBitsOnEveryNumberOfThreads) {
     const std::vector<double> many = Numbers(*FitFamily(set, options)).all();
     ASSERT_EQ(one.size(), many.size());
     for (std::size_t k = 0; k < one.size(); ++k) {
-      if (std::isnan(one[k]) && std::isnan(many[k])) continue;  // their sign means nothing
+      if (std::isnan(one[k]) && std::isnan(many[k])) continue;  // the sign of NaN is arbitrary
       ASSERT_EQ(std::memcmp(&one[k], &many[k], sizeof(double)), 0) << k << " of " << one.size();
     }
   }
@@ -133,7 +133,8 @@ TEST(FitFamily, StopsInTheMiddleOfAJointSolve) {
   FamilyOptions options = Small();
   options.threads = 1;
   options.temperature_accuracy_K = 1;
-  // The observer is asked at every step, at most every 50 ms: it wants to stop from the third on.
+  // The fit calls the observer at every step, at most every 50 ms; from the third call on the
+  // observer stops the fit.
   for (const std::string stage : {"joint fit", "jackknife"}) {
     int asked = 0;
     const FamilyReport report = *FitFamily(set, options, [&](const Progress& now) {
@@ -164,7 +165,7 @@ TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {
   ASSERT_EQ(report.candidates.size(), 4U);
   EXPECT_EQ(report.translation.spec.law, TranslationLaw::kDeSoto);
   EXPECT_TRUE(report.candidates[0].chosen || report.candidates[1].chosen);
-  // Nothing held out: the simplest stays.
+  // Without held-out curves, the simplest law is chosen.
   options.folds = 0;
   EXPECT_TRUE(FitFamilyAuto(set, options)->candidates[0].chosen);
   const Observer stop = [](const Progress&) { return ObserverAction::kStop; };

@@ -10,7 +10,7 @@
 
 namespace lyrefit {
 
-// The dark curve of a device of 36 cells, from below 0 V to beyond the knee.
+// The dark curve of a device of 36 cells, from -4 V to beyond the knee.
 inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shared,
                          double temperature_C, int points) {
   const double kelvin = temperature_C + 273.15;
@@ -25,12 +25,12 @@ inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shar
   return curve;
 }
 
-// Gives the curves of a set the currents that the device has with the effects, each of whose
-// parameters is held at one value, and noise.
+// Replaces the currents of a set by those of the device with effects, plus noise of noise_A. Every
+// parameter of the effects must be fixed.
 inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
                            std::vector<double> shared, double noise_A, CurveSet* set,
                            std::uint64_t seed = 3) {
-  shared.resize(law.size());  // without the sensors' errors
+  shared.resize(law.size());  // without offsets of the sensors
   const Expected<void> extended =
       ExtendTranslation(*set, shared[law.bandgap_slope], uses, /*force=*/true, &law);
   ASSERT_TRUE(extended) << extended.error().ToString();

@@ -13,7 +13,7 @@
 
 namespace lyrefit {
 
-// Irradiance and cell temperature of a made curve.
+// Irradiance and cell temperature of a synthetic curve.
 struct MadeAt {
   double irradiance_W_m2;
   double temperature_C;
@@ -33,7 +33,7 @@ inline Translation MadeLaw(TranslationLaw law, Model model = Model::kSingleDiode
   return *MakeTranslation(spec);
 }
 
-// A plausible 36-cell module under the law, sensor errors of 0 behind.
+// Parameters of a plausible 36-cell module under the law, followed by sensor offsets of 0.
 inline std::vector<double> MadeTruth(const Translation& at) {
   std::vector<double> shared(at.size() + 2, 0);
   const auto set = [&](int i, double value) {
@@ -58,7 +58,8 @@ inline std::vector<double> MadeTruth(const Translation& at) {
   return shared;
 }
 
-// The device under these conditions at `points` voltages from 0 to a little past Voc, with noise.
+// The curve of the device under these conditions at `points` voltages from 0 to slightly beyond
+// Voc, with noise.
 inline IvCurve MadeCurve(const Translation& law, const std::vector<double>& shared,
                          const MadeAt& at, int points, double noise_A, RandomStream* random) {
   const double kelvin = at.temperature_C + 273.15;
@@ -87,7 +88,7 @@ inline CurveSet MadeSet(const Translation& law, const std::vector<double>& share
   return set;
 }
 
-// `count` places all over the usual range.
+// `count` conditions spread over 100 to 1000 W/m2 and 10 to 60 C.
 inline std::vector<MadeAt> ManyPlaces(int count) {
   std::vector<MadeAt> places;
   for (int k = 0; k < count; ++k) {
@@ -96,7 +97,8 @@ inline std::vector<MadeAt> ManyPlaces(int count) {
   return places;
 }
 
-// The joint problem on a set, wide bounds, what a family fit holds held.
+// The joint problem of a set with wide bounds. Parameters that a family fit fixes by default are
+// fixed.
 inline JointProblem MadeProblem(const CurveSet& set, const Translation& law,
                                 const std::vector<double>& truth) {
   JointProblem problem;
@@ -132,7 +134,7 @@ inline JointProblem MadeProblem(const CurveSet& set, const Translation& law,
   return problem;
 }
 
-// Where the curves' own unknowns are 0.
+// A point whose local unknowns of the curves are 0.
 inline JointPoint PointAt(const JointProblem& problem, std::vector<double> shared) {
   return {std::move(shared), std::vector<JointLocal>(problem.curves.size(), {0, 0})};
 }

@@ -12,7 +12,7 @@ inline TranslationSpec DeSoto60() {
   return spec;
 }
 
-// The values of a silicon module by De Soto's law.
+// Shared parameters of a silicon module by De Soto's law.
 inline const std::vector<double> kSilicon = {9.1, 3e-10,  1.01,  0.29,
                                              380, 0.0046, 1.121, -0.0002677};
 

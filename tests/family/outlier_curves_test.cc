@@ -40,7 +40,7 @@ TEST_P(OutlierCurve, IsNamedAndOnlyIt) {
   EXPECT_NEAR(report.without_outliers->rmse.solved_current_A, 2e-3, 4e-4);
   for (const FamilyCurve& row : report.curves) EXPECT_EQ(row.outlier, row.id == id);
   EXPECT_THAT(report.warnings, testing::Contains(HasSubstr("Curve " + id + " does not belong")));
-  // The same set without a stranger accuses nobody.
+  // Without the exchanged curve, no curve is an outlier.
   options.leave_out = {id};
   EXPECT_FALSE(FitFamily(set, options)->without_outliers.has_value());
 }

@@ -4,7 +4,7 @@
 
 namespace lyrefit {
 
-// A family fit without what takes time and a test does not look at.
+// Options of a family fit without its slow results that the test does not use.
 inline FamilyOptions Quick() {
   FamilyOptions options;
   options.search.population = 12;

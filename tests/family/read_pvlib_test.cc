@@ -78,7 +78,7 @@ TEST(ReadPvlibParameters, TakesBackWhatPvlibJsonWroteOfPvsyst) {
   }
 }
 
-// As earlier versions wrote them.
+// Files of earlier versions have all keywords in one object.
 TEST(ReadPvlibParameters, TakesFilesWithAllKeywordsInOnePlace) {
   const TempFolder folder;
   const Translation thin = *MakeTranslation(Pvsyst106(ShuntLaw::kExponential, true));
@@ -107,7 +107,7 @@ json Keywords(const Translation& translation, const std::vector<double>& shared)
   return json::parse(Written(translation, shared))["parameters"];
 }
 
-// pvlib's fit_desoto gives no cells, and its defaults need not be written.
+// A dictionary from pvlib's fit_desoto has no number of cells, and default values may be missing.
 TEST(ReadPvlibParameters, TakesADictionaryOfAPvlibUser) {
   const TempFolder folder;
   const Translation desoto = *MakeTranslation(DeSoto60());
@@ -136,7 +136,7 @@ class BadPvlibFile : public ::testing::Test {
     return read ? "" : read.error().ToString();
   }
 
-  // The complaint about the dictionary once `key` is `value`.
+  // The error for the dictionary with `value` at `key`.
   std::string With(const char* key, const json& value) const {
     json changed = good_;
     changed[key] = value;

@@ -26,7 +26,7 @@ TEST(GroupNeighbours, LeavesAFewHundredReadingsAlone) {
 TEST(GroupNeighbours, MakesAFewHundredOfManyAndNoWideOnes) {
   std::vector<double> voltage = Ramp(20000, 40);
   const std::vector<double> again = voltage;
-  voltage.insert(voltage.end(), again.begin(), again.end());  // begins anew at 0 V
+  voltage.insert(voltage.end(), again.begin(), again.end());  // second sweep from 0 V
   const std::vector<int> first = GroupNeighbours(voltage, 40);
   EXPECT_EQ(first.front(), 0);
   EXPECT_EQ(first.back(), 40000);
@@ -37,7 +37,8 @@ TEST(GroupNeighbours, MakesAFewHundredOfManyAndNoWideOnes) {
   }
 }
 
-// Of means, by the covariance of every reading.
+// The shape for averages gives the covariance of averages that follows exactly from the covariance
+// of all readings.
 TEST(AverageShape, HasTheCovarianceOfMeans) {
   constexpr int kReadings = 1200, kOfEach = 3;
   constexpr double kPath = 2e-3;
@@ -60,15 +61,16 @@ TEST(AverageShape, HasTheCovarianceOfMeans) {
   for (int c = 0; c < 3; ++c) unit(at[c], c) = 1;
   const RowMatrix found = CovarianceTimes(MakeErrorModel(AverageShape(first, shape), sizes), unit);
 
-  RowMatrix spread = RowMatrix::Zero(kReadings, 3);  // a mean's weights of the readings
+  RowMatrix spread = RowMatrix::Zero(kReadings, 3);  // weights of the readings in a mean
   for (int c = 0; c < 3; ++c)
     spread.middleRows(first[at[c]], kOfEach).col(c).setConstant(1.0 / kOfEach);
   const RowMatrix exact = AverageRows(first, CovarianceTimes(MakeErrorModel(shape, sizes), spread));
-  // What tells them apart is what neighbours do not share: 1e-3 of the covariance.
+  // The part of the error that neighbours do not share, 1e-3 of the covariance, is not averaged
+  // exactly.
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 2e-6 * exact.maxCoeff());
 }
 
-// The voltages are noisier than they lie apart.
+// The voltage noise is larger than the voltage steps.
 TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
   IvCurve curve = WanderingCurve(3, 30000);
   RandomStream random(4);
@@ -99,7 +101,8 @@ TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold)
     options.errors = {ErrorKind::kField, {}, "field"};
     const auto field = Fit(curve, options);
     ASSERT_TRUE(white && field);
-    const ErrorSizes& sizes = field->errors->sizes;  // of a long path: what neighbours differ by
+    // long path: only differences between neighbours are determined
+    const ErrorSizes& sizes = field->errors->sizes;
     EXPECT_NEAR(std::log(sizes.path / std::sqrt(sizes.length) / 1e-3), 0, 0.3);
     EXPECT_EQ(field->residual_A.size(), curve.size());
     plain += std::pow(white->refined[2] - kSingleTruth[2], 2);

@@ -1,6 +1,6 @@
-// The catalogue walk: whatever effect is simulated is fitted back, and its strength lies in its 95
-// % interval as often as that says. All rows in one table, with more curves each than CI has time
-// for:
+// Rate test of the catalogue: every effect is simulated and fitted back, and its 95 % interval must
+// contain the true strength in 95 % of the cases. All rows in one table, with more curves per row
+// than CI runs:
 //   LYREFIT_WALK_CURVES=300 tests/fit_rate_test --gtest_filter='CatalogueWalk*'
 
 #include <gtest/gtest.h>
@@ -20,12 +20,12 @@
 namespace lyrefit {
 namespace {
 
-// How a curve is taken: the voltages in parts of Voc, in order.
+// The voltages of a sweep, in order of measurement.
 struct Sweep {
   const char* name;
-  std::vector<double> turns;  // in parts of Voc
-  int points;                 // of each stretch between two turns
-  double seconds;             // of the whole
+  std::vector<double> turns;  // turning points, relative to Voc
+  int points;                 // number between two turning points
+  double seconds;             // duration of the sweep
 };
 
 const std::vector<Sweep>& Sweeps() {
@@ -42,11 +42,11 @@ struct Place {
   const Sweep* sweep;
 
   const char* Data() const { return sweep->name; }
-  // Unlike cells take ten times as long as others.
+  // Effects with separate cell groups take ten times as long to fit as others.
   int Curves() const { return WalkCurves(effect->groups ? 1 : 4); }
 };
 
-// A crystalline cell or module of one or two diodes at some temperature.
+// A crystalline silicon cell or module of one or two diodes, at a random temperature.
 SimulateOptions DrawDevice(const Effect& effect, RandomStream* random) {
   SimulateOptions made;
   const bool two = effect.diode != 2 && random->Index(2) == 1;
@@ -58,7 +58,7 @@ SimulateOptions DrawDevice(const Effect& effect, RandomStream* random) {
   const double vt = ThermalVoltage(made.conditions.cell_temperature_K);
   const double isc = Between(random, 3, 11), voc = Between(random, 0.56, 0.68);
   const double n = two ? Between(random, 1.0, 1.1) : Between(random, 1.05, 1.4);
-  const double part = two ? LogUniform(random, 0.05, 0.5) : 0;  // of the second diode, at Voc
+  const double part = two ? LogUniform(random, 0.05, 0.5) : 0;  // share of the second diode at Voc
   const double is2 = part * isc / std::expm1(voc / (2 * vt));
   made.parameters = {{"Iph", isc},
                      {"Is1", (1 - part) * isc / std::expm1(voc / (n * vt))},
@@ -72,7 +72,7 @@ SimulateOptions DrawDevice(const Effect& effect, RandomStream* random) {
   return made;
 }
 
-// Readings of the device as the sweep takes them, as yet without effects.
+// Simulates the sweep of a device without effects.
 Expected<IvCurve> Take(const SimulateOptions& device, const Sweep& sweep) {
   SimulateOptions options = device;
   options.points = 2;
@@ -114,7 +114,7 @@ double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
                   random);
 }
 
-// Nothing where data of this kind cannot show the effect in this device.
+// Empty if data of this kind cannot show the effect in this device.
 std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   SimulateOptions device = DrawDevice(*place.effect, random);
   const auto taken = Take(device, *place.sweep);
@@ -132,7 +132,7 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   device.noise_A = DrawNoise(*clean, device.model, random);
   device.seed = random->Bits() >> 12;
   made.curve = *Simulate(device);
-  // An effect may bend the curve so that it no longer shows itself.
+  // The effect may have changed the curve so much that it is no longer testable.
   if (!Extend(base, device.model, device.constants, made.curve, {made.drawn.asked},
               /*force=*/false)) {
     return std::nullopt;

@@ -16,7 +16,8 @@
 namespace lyrefit {
 namespace {
 
-// A module of four substrings under a light each, made, and what a fit by name makes ready of it.
+// A simulated module of four substrings, each under its own light, and the prepared fit of the
+// effect `substrings` without ranges.
 class DescentsTest : public ::testing::Test {
  protected:
   DescentsTest() : made_(MakeLandscape("strings_4", 1, 3).value().front()) {
@@ -25,7 +26,7 @@ class DescentsTest : public ::testing::Test {
     EXPECT_TRUE(ready) << ready.error().ToString();
   }
 
-  // The values it was made with, under the variant where shades cover all cells of a substring.
+  // The true parameters, in the variant in which shades cover all cells of a substring.
   PolishStart Truth() const {
     std::vector<double> p = job_.variants[0].usual;
     p.insert(p.begin(), job_.base_size(), 1);
@@ -36,7 +37,7 @@ class DescentsTest : public ::testing::Test {
     }
     return {"truth", Inner(report_.device, p), 0};
   }
-  // The same under other lights.
+  // The true parameters with other shading depths.
   PolishStart Changed(double d1, double d2, double d3) const {
     PolishStart start = Truth();
     double* const own = start.p.data() + job_.base_size();
@@ -79,7 +80,7 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
-  // Equal groups may change places: the same local optimum twice.
+  // Equal cell groups are interchangeable, so both starts end in one local optimum.
   descents.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
   OptimumCount count = descents.Count();
   EXPECT_EQ(count.ends, 2);
@@ -87,9 +88,9 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 0);
   EXPECT_EQ(count.independent.twice, 1);
-  EXPECT_FALSE(std::isfinite(count.unseen));  // of two
+  EXPECT_FALSE(std::isfinite(count.unseen));  // two ends are too few
   EXPECT_EQ(descents.visits(), 2);
-  // Far away: given up, and in no count.
+  // A start far from the truth is given up, and not counted unless it was finished.
   descents.Descend({Changed(0.02, 0.02, 0.02)});
   ASSERT_EQ(descents.ends().size(), 3u);
   count = descents.Count();
@@ -149,7 +150,7 @@ TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
 TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   std::vector<PolishStart> starts = ShapeStarts(job_);  // two variants
   for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));
-  // One into each of three local optima, by where it ends.
+  // One start that leads into each of three local optima, keyed by the objective at its end.
   std::map<double, PolishStart> into;
   for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
     const PolishStart& start = starts[k];
@@ -162,7 +163,7 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
     if (!known) into[end] = start;
   }
   ASSERT_EQ(into.size(), 3u);
-  // The worst first: none is out of reach of what is known by then.
+  // The worst first, so that no descent is given up for a better known end.
   Descents descents(job_.problem, job_.variants, &job_.watch);
   for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
   OptimumCount count = descents.Count();

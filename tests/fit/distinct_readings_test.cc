@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// Every reading so often in a row.
+// The curve with every reading repeated `times` times in a row.
 IvCurve Repeated(const IvCurve& curve, int times) {
   IvCurve repeated = curve;
   repeated.voltage_V.clear();

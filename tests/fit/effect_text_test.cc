@@ -39,7 +39,7 @@ TEST(FitOptionTable, EchoesWhatIsNotUsual) {
   options.fixed["n1"] = 1.5;
   options.loss = Loss::kHuber;
   options.polish = false;
-  options.threads = 3;  // never changes a result
+  options.threads = 3;  // the result does not depend on it
   EXPECT_EQ(Echoes(options),
             (std::vector<std::string>{"bound Rs=0:0.5", "fix n1=1.5", "polish no", "loss huber"}));
 }

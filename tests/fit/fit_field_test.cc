@@ -1,5 +1,5 @@
-// Measured curves of every kind, from a cell in the dark to a module with a bypass step: the polish
-// must settle, and a richer model must never end above a poorer one.
+// Measured curves, from a cell in the dark to a module with a bypass step. The polish must
+// converge, and a model with more diodes must not end with a larger RMSE.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(FitOfFieldCurves, SettlesAndGetsNoWorseWithMoreDiodes) {
   }
 }
 
-// The contest sets hold curves of 1 to 140 cells , computed to many digits.
+// The contest sets hold curves of 1 to 140 cells, computed to many digits.
 TEST(FitOfContestCurves, FitsExactCurvesToTheRoundingOfTheirNumbers) {
   const std::string folder = LYREFIT_FIELD_DATA_DIR "/ivcurves/";
   for (const char* name : {"case1", "case2"}) {
@@ -65,8 +65,8 @@ TEST(FitOfContestCurves, FitsExactCurvesToTheRoundingOfTheirNumbers) {
   }
 }
 
-// The score of the contest for the noisy sets: the sum of |fitted / true - 1| over the five
-// parameters. What is submitted of a set is the mean over its 50 fits, of 1 / Rsh for Rsh.
+// Contest score of the noisy sets: the sum of |fitted / true - 1| over the five parameters. The
+// fitted value of a set is the mean over its 50 fits; for Rsh the mean is taken over 1 / Rsh.
 TEST(FitOfContestCurves, ScoresOnTheNoisySets) {
   const struct {
     const char* name;

@@ -43,7 +43,7 @@ TEST(Fit, SaysWhatIsWrongWithOptions) {
   EXPECT_EQ(ErrorOf(Rtc(), options), "every parameter is fixed: nothing is left to fit");
 }
 
-// Puts all its evaluations on one point.
+// A search that evaluates only the middle of the box.
 SearchSummary StandStill(const ObjectiveFunction& objective, const Box& box,
                          const SearchOptions& options, const Observer& /*observer*/) {
   Candidate candidate;
@@ -173,7 +173,7 @@ TEST(Fit, GivesEqualSigmasNoEffectAndUnequalOnesTheRightOne) {
   const FitReport plain = *Fit(curve, {});
   curve.sigma_A.assign(curve.size(), 5e-3);
   EXPECT_EQ(Fit(curve, {})->refined, plain.refined);
-  // Spoil ten points and admit it: the fit must come back to the truth.
+  // Ten readings with an error of 0.2 A and a stated sigma of 50 A must not change the fit.
   for (int k = 10; k < 20; ++k) {
     curve.current_A[k] += 0.2;
     curve.sigma_A[k] = 50;
@@ -212,7 +212,7 @@ TEST(Fit, IntervalsCoverTheTruthAsOftenAsTheyClaim) {
       covered[i] += e.low_95 <= kSingleTruth[i] && kSingleTruth[i] <= e.high_95;
     }
   }
-  // 95 % of 300 with four standard deviations of the count itself.
+  // The tolerance of 15 is four standard deviations of a count of 300 with probability 95 %.
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(covered[i], 0.95 * kCurves, 15) << i;
 }
 
@@ -258,11 +258,11 @@ TEST(Fit, WarnsOfACurrentThatRisesWithVoltage) {
 
 TEST(Fit, CallsAFitUnusableThatAStraightLineBeats) {
   IvCurve curve = Rtc();
-  // A resistor: the current falls in a straight line through the origin's far side.
+  // Currents alternate about a rising line, which no diode model fits.
   for (std::size_t k = 0; k < curve.size(); ++k) {
     curve.current_A[k] = (k % 2 == 0 ? 1.0 : -1.0) + 2 * curve.voltage_V[k];
   }
-  curve.as_is = true;  // these signs fit no generator
+  curve.as_is = true;  // a generator has no such signs
   const auto report = Fit(curve, {});
   ASSERT_TRUE(report);
   EXPECT_FALSE(report->usable);
@@ -286,8 +286,8 @@ TEST(Fit, EchoesEveryOptionThatDiffersFromItsDefault) {
   EXPECT_EQ(echo, "bound=Rs=0:0.5;seed=7;intervals=none;");
 }
 
-// A source-meter that held the current at its limit beyond open circuit: no diode does that, and
-// the linear stand-in of the descent leads astray.
+// A source meter held the current at its limit beyond open circuit. No diode model fits that, and
+// the linearised steps of the descent are misleading.
 IvCurve Clipped(int points = 83, double limit_A = -0.05) {
   IvCurve curve;
   curve.conditions.cells_in_series = 1;
@@ -311,7 +311,7 @@ TEST(Fit, NeverPolishesACandidateIntoSomethingWorse) {
   }
 }
 
-// Held at its limit but once: the fit is usable, just so, and a parameter at its bound.
+// The limit holds the last reading only: the fit is barely usable, with a parameter at its bound.
 IvCurve ClippedOnce() { return Clipped(73, -0.06); }
 
 TEST(Fit, HasTheSameParametersWithAndWithoutIntervals) {

@@ -122,7 +122,7 @@ TEST(FitWith, LeavesOutliersAsideWhereItIsToldTo) {
   EXPECT_LT(error(*huber), 0.3 * error(*squared));
 }
 
-// An effect of one's own: a shunt that grows with the square of the voltage.
+// A user-defined effect: a shunt that grows with the square of the voltage.
 Effect SquareShunt() {
   Effect e;
   e.id = "square_shunt";
@@ -157,7 +157,7 @@ TEST(FitWith, TakesAnEffectOfOnesOwn) {
   EXPECT_GE(s.high_95, 0.5);
 }
 
-// The same as plain functions of numbers, without a derivative.
+// The effect above as a plain function of numbers, differentiated by differences.
 Effect PlainSquareShunt() {
   Effect e = SquareShunt();
   e.junction = {};

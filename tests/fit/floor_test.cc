@@ -30,7 +30,7 @@ TEST(Floor, OfOneDiodeIsWhatTwoDiodesReach) {
   EXPECT_EQ(report->floor->n_upper, 2);
 }
 
-// 7.326480809e-4 A, see the table of data/README.md.
+// The solved-current floor is 7.326480809e-4 A, see the table of data/README.md.
 TEST(Floor, IsOfTheObjectiveThatIsFitted) {
   FitOptions options;
   options.intervals = Intervals::kNone;

@@ -11,7 +11,7 @@ namespace {
 
 IvCurve Curve() { return ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3); }
 
-// Comes back with the middle of the box after `change`.
+// A user-defined search that returns the middle of the box, after `change`.
 FitOptions WithSearcher(const std::function<void(const Box&, SearchSummary*)>& change) {
   FitOptions options;
   options.intervals = Intervals::kNone;

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-// The problem of a report on all its points.
+// The refinement problem of a report on all its points.
 RefineProblem ProblemOf(const FitReport& report) {
   std::vector<double> lower, upper;
   for (const Estimate& e : report.estimates) {
@@ -35,7 +35,7 @@ TEST(ManyPoints, EndAtTheOptimumOfAllOfThem) {
       const FitReport report =
           *Fit(ModuleCurve(Model::kDoubleDiode, kDoubleTruth, 3e-3, 5, 5000), options);
       const RefineProblem problem = ProblemOf(report);
-      // From the truth, on all points, without any thinning.
+      // The reference optimum starts from the truth and uses all points, without coarsening.
       std::vector<double> start = kDoubleTruth;
       start.resize(problem.device.size());
       const RefineEnd best = RefineFrom(problem, start);

@@ -9,7 +9,7 @@
 
 namespace lyrefit {
 
-// A module of 60 cells, read with noise; effects are put beside it.
+// A module of 60 cells with measurement noise, to which tests add effects.
 inline SimulateOptions Module() {
   SimulateOptions options;
   options.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};

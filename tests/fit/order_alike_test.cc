@@ -33,7 +33,7 @@ TEST(OrderAlike, LeavesDiodesWithBoundsOfTheirOwnAlone) {
   EXPECT_EQ(p, before);
 }
 
-// A device of one or two diodes in the measurement of some curve, with an effect.
+// A device of one or two diodes with an effect.
 Device Extended(Model model, const char* effect) {
   SimulateOptions options;
   options.parameters = {{"Iph", 8}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.2}, {"Rsh", 300}};
@@ -61,7 +61,7 @@ TEST(OrderAlike, LeavesDiodesThatFollowTheTemperatureEachInItsOwnWay) {
   EXPECT_EQ(p, (std::vector<double>{8, 2e-9, 1.1, 0.2, 300, 1e-6, 1.9, 5}));
 }
 
-// Groups of cells stand in the order of what they miss, those that are not there last.
+// Cell groups are sorted by their missing light; groups with a share of 0 come last.
 TEST(OrderAlike, SortsGroupsOfCells) {
   const Device device = Extended(Model::kSingleDiode, "substrings");
   const double third = 1.0 / 3;

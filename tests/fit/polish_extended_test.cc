@@ -27,7 +27,7 @@ LandscapeCase Made(const std::string& problem) {
   return cases ? cases->front() : LandscapeCase{};
 }
 
-// Effects by their names alone.
+// Options with the named effect and no ranges for its parameters.
 FitOptions ByName(const char* effect) {
   FitOptions options;
   options.with = {{FindEffect(effect), {}}};
@@ -55,7 +55,7 @@ TEST(PolishExtended, FindsAWeakCellAndItsReverseLaw) {
     EXPECT_EQ(variant.bic_above, 0);
     EXPECT_TRUE(variant.finished);
     EXPECT_NEAR(variant.rmse_A / report->rmse.refined.solved_current_A, 1, 1e-9);
-    EXPECT_THAT(variant.what, HasSubstr("A free"));  // the soft law
+    EXPECT_THAT(variant.what, HasSubstr("A free"));  // soft reverse law
   }
   EXPECT_EQ(chosen, 1);
   EXPECT_TRUE(Find(*report, "weak_cell.a").fixed);
@@ -84,7 +84,7 @@ TEST_P(StringsByName, ALightForEachSubstring) {
 
 INSTANTIATE_TEST_SUITE_P(Counted, StringsByName, ::testing::Values(3, 5));
 
-// Effects held as they are, in a module whose bypass diodes are counted.
+// A simulated module with a known number of bypass diodes and with fixed parameters of the effect.
 IvCurve ModuleOf(int substrings, const EffectUse& use) {
   SimulateOptions options = Module();
   options.noise_A = 0;
@@ -110,7 +110,7 @@ TEST(PolishExtended, TriesSharesOfWholeSubstrings) {
   EXPECT_DOUBLE_EQ(share.refined, 0.4);
   EXPECT_DOUBLE_EQ(share.bounds.whole, 0.2);
   ExpectNear(*report, "substrings.d1", 0.45);
-  EXPECT_TRUE(report->variants.empty());  // ranges leave one
+  EXPECT_TRUE(report->variants.empty());  // the ranges leave one variant
 }
 
 TEST(PolishExtended, AShadesShareOfCountedSubstringsIsExactAndHasNoInterval) {

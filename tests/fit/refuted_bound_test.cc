@@ -21,7 +21,7 @@ FitReport FitOf(const IvCurve& curve, const FitOptions& options = {}) {
   return report ? std::move(*report) : FitReport();
 }
 
-const std::vector<double> kSteepTruth = {3.8, 1e-3, 2.7, 0.05, 300};  // n beyond the range
+const std::vector<double> kSteepTruth = {3.8, 1e-3, 2.7, 0.05, 300};  // n is above its bound
 
 TEST(RefutedBound, LeavesNoIntervalThatHoldsUnderItAlone) {
   for (const double noise_A : {0.0, 1e-3}) {
@@ -53,7 +53,7 @@ TEST(RefutedBound, ASecondDiodeAtTwoKeepsItsIntervals) {
   EXPECT_GT(report.estimates[kRs].high_95, report.estimates[kRs].low_95);
 }
 
-// Where the truth is the bound itself, one in twenty is refuted by chance.
+// If the true value is at the bound, one fit in twenty refutes it by chance.
 TEST(RefutedBound, TruthsAtTheBoundAreSeldomRefuted) {
   constexpr int kCurves = 60;
   std::vector<double> truth = kSingleTruth;

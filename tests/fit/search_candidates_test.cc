@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kCertified_A = 9.860218778918e-4;  // data/rtc_france/expected.json
 
-// A fit made ready, and its candidates.
+// A prepared fit for search candidates.
 struct Nest {
   Nest(const IvCurve& curve, FitOptions how)
       : options(std::move(how)), job{curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}} {
@@ -49,7 +49,8 @@ std::vector<double> RandomPoint(const Box& box, RandomStream* random) {
   return x;
 }
 
-// Three substrings under lights of their own, as the fit below knows their number.
+// Three substrings under different lights. With `truth` the depths are fixed at their true values;
+// otherwise they are free.
 std::vector<EffectUse> Substrings(bool truth) {
   const std::pair<double, double> third = {1.0 / 3, 1.0 / 3};
   EffectUse use{FindEffect("substrings"), {{"w1", third}, {"w2", third}}};
@@ -84,7 +85,8 @@ TEST(HardCandidates, HaveTheCertifiedOptimumWhereItsRsAndNAre) {
   EXPECT_NEAR(places.RmseAt(x.data()) / kCertified_A, 1, 1e-9);
 }
 
-// A random hard candidate, and the lowest of many complete ones of the same hard parameters.
+// RMSE of a random candidate of the hard parameters, and the smallest RMSE of many complete
+// candidates with equal hard parameters.
 struct Pair {
   double hard = 0;
   double complete = HUGE_VAL;
@@ -101,7 +103,7 @@ std::vector<Pair> RandomPairs(const IvCurve& curve, const FitOptions& options) {
     const std::vector<double> solved = hard.DeviceAt(at.data());
     const std::vector<double> here = space.FromParameters(solved.data(), 0);
     Pair pair{hard.RmseAt(at.data())};
-    for (int draw = 0; draw < 300; ++draw) {  // every second one close to what was solved for
+    for (int draw = 0; draw < 300; ++draw) {  // every second one near the solution
       std::vector<double> x = RandomPoint(space.box(), &random);
       for (std::size_t j = 0; j < x.size() && draw % 2 == 1; ++j) {
         x[j] = here[j] + 1e-3 * (x[j] - here[j]);
@@ -127,14 +129,15 @@ TEST(HardCandidates, AreNoWorseThanAnyCompleteCandidateOfTheSameRsAndN) {
     for (const Pair& pair : RandomPairs(RtcFrance(), Hard(model, Objective::kMeasuredCurrent))) {
       EXPECT_LE(pair.hard, pair.complete * (1 + 1e-12));
     }
-    // A diode that the readings have no use for fades step by step, and the last ones are not gone.
+    // A diode without use to the fit is removed step by step, so that a remainder of it may be
+    // left.
     for (const Pair& pair : RandomPairs(RtcFrance(), Hard(model, Objective::kSolvedCurrent))) {
       EXPECT_LE(pair.hard, pair.complete * 1.005);
     }
   }
 }
 
-// Another minimum may be lower, but only where the place is far from any fit.
+// A lower local optimum may be missed, but only where the candidate is far from any fit.
 TEST(HardCandidates, AreNoWorseThanAnyCompleteCandidateOfTheSameEffectsThatCouldWin) {
   SKIP_IF_SANITIZED();
   FitOptions options = Hard(Model::kSingleDiode, Objective::kSolvedCurrent);
@@ -155,7 +158,7 @@ TEST(HardCandidates, ComeToTheNoiseWhereTheEffectsAreTrue) {
   options.with = Substrings(false);
   const Nest nest(curve, options);
   SearchCandidates places(nest.job, nest.job.problem);
-  ASSERT_EQ(places.box().lower.size(), 5U);  // n, Rs, two lights, Vb
+  ASSERT_EQ(places.box().lower.size(), 5U);  // n, Rs, two depths, Vb
   const auto best = Fit(curve, options);
   ASSERT_TRUE(best);
   EXPECT_LT(best->rmse.searched.solved_current_A, 0.2);
@@ -213,7 +216,7 @@ TEST(Knees, StandInTheBoxOfTheSearchThatAsksForThem) {
   options.search.algorithm = Algorithm::kMloKnees;
   const auto knees = Fit(curve, options);
   ASSERT_TRUE(plain && knees);
-  // A place of the shape is evaluated once to be ranked.
+  // A suggested place is evaluated once more, for its rank.
   EXPECT_GT(knees->curve_evaluations, knees->search.evaluations);
   EXPECT_LE(knees->search.trace[0].best, plain->search.trace[0].best);
   const Nest nest(curve, options);

@@ -46,11 +46,11 @@ TEST(SearchSpace, GivesEveryWholeNumberAsMuchRoom) {
   }
   EXPECT_EQ(met, (std::map<double, int>{{2, 100}, {3, 100}, {4, 100}, {5, 100}}));
   double p = 0;
-  space.ToParameters(&space.box().upper[0], &p);  // the end belongs to the last
+  space.ToParameters(&space.box().upper[0], &p);  // the upper end maps to the last number
   EXPECT_EQ(p, 5);
 }
 
-// A module of three substrings, and an effect beside its diodes that is asked for by name.
+// A module of three substrings with the named effect and no ranges.
 Device ModuleWith(const char* effect) {
   auto curve = Simulate(Module());
   EXPECT_TRUE(curve) << curve.error().ToString();
@@ -69,7 +69,8 @@ TEST(SearchSpace, HasASideForTheVariantsOfEffects) {
   ASSERT_GT(variants.size(), 2u);
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
   const SearchSpace space(base, std::vector<double>(5, std::nan("")), extension, variants);
-  // Five of the diode, all that is free in some variant (d, Vb, a, Vbr, m, A), and the variant.
+  // Five parameters of the diode, all that are free in some variant (d, Vb, a, Vbr, m, A), and the
+  // variant.
   ASSERT_EQ(space.dimensions(), 12);
   EXPECT_EQ(space.box().upper.back(), static_cast<double>(variants.size()));
   std::vector<double> x, p(device.size());
@@ -127,7 +128,8 @@ TEST(SearchSpace, LeadsBackFromParameters) {
   EXPECT_EQ(space.FromParameters(outside, 0), (std::vector<double>{3, 0, 5}));
 }
 
-// A weak cell by its name alone: several variants, whole numbers, shares that leave a rest.
+// Effects without ranges have several variants, whole numbers of substrings and shares that limit
+// each other.
 TEST(SearchSpace, LeadsBackFromTheParametersOfEveryVariant) {
   SimulateOptions made;
   made.parameters = {{"Iph", 8.2}, {"Is1", 2e-9}, {"n", 1.15}, {"Rs", 0.25}, {"Rsh", 300}};

@@ -1,4 +1,5 @@
-// Errors that neighbours share over a few readings: what intervals and estimates are worth then.
+// Errors that are correlated over a few neighbouring readings: coverage and length of intervals,
+// and spread of estimates.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ IvCurve CurveWith(double kept, int seed) {
   return curve;
 }
 
-// On the scale on which an estimate is closest to normal.
+// Transforms an estimate to the scale on which it is closest to normal: ln Is and 1 / Rsh.
 double OnScale(int i, double value) {
   return i == 1 ? std::log(value) : i == 4 ? 1 / value : value;
 }
@@ -45,7 +46,7 @@ struct Tally {
   }
   double Spread() const { return std::sqrt(squares / kCurves); }
   double Percent() const { return 100.0 * holds / kCurves; }
-  // The median length in parts of that of an exact 95 % interval.
+  // Median interval length relative to an exact 95 % interval.
   double Length() {
     std::nth_element(lengths.begin(), lengths.begin() + kCurves / 2, lengths.end());
     return lengths[kCurves / 2] / (2 * 1.96 * Spread());
@@ -83,7 +84,7 @@ TEST_P(ShortPath, IsFoundAndCostsLittle) {
         std::vector<const char*>{"Iph", "Is", "n", "Rs", "Rsh"}[i], plain[i].Percent(),
         offered[i].Percent(), weighed[i].Percent(), ratio, plain[i].Length(), length, field_length);
     EXPECT_LT(ratio, 1.15) << i;
-    if (GetParam() < 0.4) continue;  // too little for a test to see it in every curve
+    if (GetParam() < 0.4) continue;  // too weak to be detected in every curve
     EXPECT_GE(offered[i].Percent(), 92) << i;
     EXPECT_GE(weighed[i].Percent(), 86) << i;
     EXPECT_LT(length, 2.5) << i;

@@ -28,7 +28,7 @@ TEST(ReadFitForSimulation, RefusesWhatIsNoFitReport) {
   }
 }
 
-// A report of two curves with one law, as small as it can be.
+// A minimal report of two curves with one law.
 json Shared() {
   const auto value = [](const char* symbol, double refined) {
     return json{{"symbol", symbol}, {"refined", refined}};

@@ -12,7 +12,8 @@ namespace lyrefit {
 inline const std::vector<double> kSingleTruth = {3.8, 2e-8, 1.2, 0.25, 300};
 inline const std::vector<double> kDoubleTruth = {3.8, 5e-10, 1.02, 0.2, 300, 2e-5, 2};
 
-// A 36-cell module at 25 C, `points` readings from 0 V to a little past Voc, Gaussian noise.
+// A 36-cell module at 25 C with `points` readings from 0 V to slightly beyond Voc and Gaussian
+// noise of the current, in ampere.
 inline IvCurve ModuleCurve(Model model, const std::vector<double>& p, double noise_A,
                            std::uint64_t seed = 1, int points = 60) {
   IvCurve curve;
@@ -25,7 +26,8 @@ inline IvCurve ModuleCurve(Model model, const std::vector<double>& p, double noi
   return curve;
 }
 
-// A single diode under a light that wanders by a per mille during the sweep, voltages read to 3e-4.
+// A single diode whose irradiance wanders by 1e-3 during the sweep (autoregressive, with the length
+// of the sweep). The voltages have relative noise of 3e-4.
 inline IvCurve WanderingCurve(int seed, int points = 100) {
   IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0, 1, points);
   RandomStream random(seed, 0);

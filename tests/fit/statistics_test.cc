@@ -14,7 +14,7 @@ TEST(StudentT95, HasTheTabulatedValues) {
   EXPECT_NEAR(StudentT95(10), 2.22814, 1e-5);
   EXPECT_NEAR(StudentT95(1000), 1.96234, 1e-5);
   EXPECT_EQ(StudentT95(0), StudentT95(1));
-  EXPECT_NEAR(StudentT95(10), 2.22814, 1e-5);  // whatever was asked before
+  EXPECT_NEAR(StudentT95(10), 2.22814, 1e-5);  // earlier calls have no influence
 }
 
 TEST(FTestPValue, HasTheTabulatedValues) {

@@ -7,7 +7,7 @@
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/law/term.h"
 
-// Diodes so steep that their exponents are cut at a reading.
+// Diodes with an n so small that their exponents are cut at a reading.
 namespace lyrefit {
 namespace {
 
@@ -26,7 +26,7 @@ FitReport FitIn(const BoundsSpec& bounds, Model model) {
   return *Fit(*ReadCurve(kFolder), options);
 }
 
-// The third diode is an exponent of 283 at the last reading.
+// The exponent of the third diode is 283 at the last reading.
 TEST(SteepDiodes, ReachTheBestThreeOfTheSolvedCurrent) {
   FitOptions options;
   options.model = Model::kTripleDiode;
@@ -39,7 +39,8 @@ TEST(SteepDiodes, ReachTheBestThreeOfTheSolvedCurrent) {
   }
 }
 
-// No sum of diodes with n in these bounds is lower: what is, has a step among them.
+// Lower bound of the RMSE for any sum of diodes with n in these bounds. A lower RMSE takes a step
+// function among them.
 constexpr double kFloor_A = 1.603618380e-3;
 
 TEST(SteepDiodes, AreLeftOutWhereTheirExponentIsCut) {

@@ -1,4 +1,4 @@
-// The certified optima of data/*/expected.json, from every seed.
+// Every seed reaches the certified optima of data/*/expected.json.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ FitOptions OptionsOf(const nlohmann::json& row) {
   return options;
 }
 
-// RMSE of the objective that was fitted, for each seed.
+// RMSE of the fitted objective, for each seed.
 std::vector<double> RefinedFromAllSeeds(const IvCurve& curve, FitOptions options) {
   std::vector<double> rmse;
   for (int seed = 0; seed < kSeeds; ++seed) {
@@ -61,7 +61,8 @@ std::vector<double> RefinedFromAllSeeds(const IvCurve& curve, FitOptions options
     EXPECT_TRUE(report.has_value());
     if (!report) return rmse;
     EXPECT_LE(report->search.evaluations, 5000);
-    // A cosine; on MSX-60 the residuals are only 1e10 roundings of the current high.
+    // The projected gradient is a cosine. On MSX-60 the residuals are only 1e10 times the rounding
+    // errors of the current.
     EXPECT_LE(report->refine.projected_gradient, curve.name == "msx60" ? 1e-5 : 1e-6);
     rmse.push_back(report->rmse.refined.Of(options.objective));
   }
@@ -82,7 +83,7 @@ TEST_P(CertifiedOptimum, IsReachedFromEverySeed) {
   for (const auto& [key, range] : row["bounds"].items()) {
     options.bounds.table[key] = {range[0], range[1]};
   }
-  // Once in the bounds of the row, and at the curve's own conditions once more in the default ones.
+  // Fits in the bounds of the row. At the curve's own conditions, fits again in the default bounds.
   std::vector<std::string> boxes = {"published"};
   if (!row.contains("temperature_C") && !row.value("these_bounds_only", false)) {
     boxes.push_back("physical");
@@ -106,8 +107,8 @@ std::string RowName(const ::testing::TestParamInfo<Row>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Data, CertifiedOptimum, ::testing::ValuesIn(ExpectedRows()), RowName);
 
-// What the search contributes to the certified optimum of the RTC France cell: the best candidate with
-// its own polish alone, and the whole set of starts, for MLO, for differential evolution and for
+// How often the search leads to the certified optimum of the RTC France cell: from the best
+// candidate alone, and from the whole set of starts. Compared are MLO, differential evolution and
 // random points.
 TEST(Baseline, OfRandomPointsReachesTheOptimumAsOftenAsMlo) {
   const IvCurve curve = DataSet("rtc_france");

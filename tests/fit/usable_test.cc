@@ -33,7 +33,7 @@ TEST(UsableTest, AStepIsNamedFirstAndMakesAFitUseless) {
     const auto report = Fit(MadeModule(1, 1, 0.5), options);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->usable);
-    // Two substrings of 12.1 V at that current, less what the bypass diode takes.
+    // Two substrings of 12.1 V at that current, minus the voltage of the conducting bypass diode.
     EXPECT_THAT(report->not_usable_because, HasSubstr("a step near 23."));
     EXPECT_THAT(report->not_usable_because, HasSubstr("% of Isc"));
     EXPECT_EQ(report->warnings.at(0), "the fit is not usable: " + report->not_usable_because);
@@ -83,7 +83,7 @@ TEST(UsableTest, ALineIsNoCurveWhetherItFallsOrRises) {
     for (const double noise_A : {0.0, 1e-3, 0.05}) {
       for (int seed = 1; seed <= 3; ++seed) {
         IvCurve curve = line(slope_A_V, noise_A, seed);
-        curve.as_is = true;  // a rising current is refused before it is fitted
+        curve.as_is = true;  // otherwise a rising current is refused
         const auto report = Fit(curve, Quick());
         ASSERT_TRUE(report) << report.error().ToString();
         EXPECT_FALSE(report->usable) << slope_A_V << ' ' << noise_A;

@@ -6,9 +6,9 @@
 namespace lyrefit {
 namespace {
 
-// The best fits to these points lie outside of the published boxes, which ask for an Is of 10 nA or
-// more and of 1 uA or less. What is reached within them is the certified optimum (lyrefit certify
-// data/msx60 --bounds paper).
+// The unbounded best fits lie outside of the published boxes, which limit Is to at least 10 nA or
+// at most 1 uA. The values are the certified optima within them (lyrefit certify data/msx60
+// --bounds paper).
 TEST(WithinBox, KeepsToTheRangeOfSaturationCurrents) {
   const struct {
     const char* curve;

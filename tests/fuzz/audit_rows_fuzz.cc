@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/study/read_audit_rows.h"
 
-// Rows of published parameters.
+// Reader of published parameter rows.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lyrefit::ReadAuditRows(lyrefit::FuzzFile("rows.csv", lyrefit::Bytes(data, size)));
   return 0;

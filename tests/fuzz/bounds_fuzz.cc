@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/fit/bounds.h"
 
-// A file of bounds.
+// Reader of a file of bounds.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lyrefit::ReadBoundsFile(lyrefit::FuzzFile("bounds.json", lyrefit::Bytes(data, size)));
   return 0;

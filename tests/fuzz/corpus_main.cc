@@ -1,4 +1,5 @@
-// Runs one target over the files of folders, without libFuzzer: what once was found stays found.
+// Runs one fuzz target over the files of folders, without libFuzzer, so that inputs found earlier
+// are tested again.
 
 #include <algorithm>
 #include <cstdint>
@@ -22,7 +23,7 @@ int main(int argc, char** argv) {
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    std::fprintf(stderr, "%s\n", file.c_str());  // the last one is the one that broke it
+    std::fprintf(stderr, "%s\n", file.c_str());  // after a crash, the last line names the input
     std::ifstream stream(file, std::ios::binary);
     const std::vector<char> bytes((std::istreambuf_iterator<char>(stream)), {});
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -11,8 +11,7 @@
 
 namespace lyrefit {
 
-// Where the readers that want files find what is being tried: a folder of this process, in memory
-// where the system has such a place.
+// Folder of this process for inputs of readers that need a file; in memory (/dev/shm) if available.
 inline const std::filesystem::path& FuzzFolder() {
   static const std::filesystem::path folder = [] {
     const std::filesystem::path memory("/dev/shm");
@@ -29,7 +28,7 @@ inline const std::filesystem::path& FuzzFolder() {
   return folder;
 }
 
-// Writes the bytes into that folder and returns the path.
+// Writes the bytes into a file of FuzzFolder() and returns the path.
 inline std::string FuzzFile(const char* name, const std::string& bytes) {
   const std::string path = (FuzzFolder() / name).string();
   std::FILE* file = std::fopen(path.c_str(), "wb");

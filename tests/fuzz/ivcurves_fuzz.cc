@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/curve/read_curve.h"
 
-// An ivcurves file.
+// Reader of an ivcurves JSON file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;
   const auto curves = ReadIvCurvesJson(FuzzFile("curves.json", Bytes(data, size)));

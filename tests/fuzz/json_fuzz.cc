@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/curve/curve_set.h"
 
-// Curves in any other JSON.
+// Reader of curves in JSON formats other than ivcurves.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;
   ReadOptions options;

@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/family/read_pvlib.h"
 
-// Parameters in pvlib's names.
+// Reader of parameters with pvlib's names.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lyrefit::ReadPvlibParameters(lyrefit::FuzzFile("pvlib.json", lyrefit::Bytes(data, size)));
   return 0;

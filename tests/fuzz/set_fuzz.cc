@@ -1,5 +1,5 @@
-// A set in a folder: a table, its index and what holds for all, one behind the other with a form
-// feed between them.
+// Reader of a set in a folder. The input holds a table, its index and the sidecar of all curves,
+// separated by form feeds.
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "fuzz_file.h"
 #include "lyrefit/curve/read_curve.h"
 
-// What lies beside a table.
+// Reader of the sidecar of a table.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;
   FuzzFile("a.json", Bytes(data, size));

@@ -1,4 +1,4 @@
-// A table, a curve of JSON, whatever standard input may bring. What is read has to be sound.
+// Reader of any curve text, as from standard input. A curve that is read must pass Validate().
 
 #include <cstdlib>
 

@@ -20,14 +20,14 @@ using Quad = boost::multiprecision::cpp_bin_float_quad;
 constexpr int kMost = 9;
 using Unknowns = Dual<kMost>;
 
-// A device, its parameters and a voltage, drawn from far beyond anything physical.
+// A device, its parameters and a voltage, drawn from ranges far wider than physical ones.
 struct Draw {
   Device device;
   std::vector<double> p;
   double voltage_V = 0;
 };
 
-// Junction voltage at which no current flows, by bisection in double.
+// Junction voltage without current, by bisection in double precision.
 double OpenCircuit(const Device& device, const double* p) {
   double low = 0, high = 1;
   while (JunctionCurrent(device, p, high) > 0) high *= 2;
@@ -57,8 +57,8 @@ Draw DrawDevice(RandomStream* random) {
   return draw;
 }
 
-// The current in 113 bits, written from the equation alone: I - F(V + I Rs) = 0 solved for Vd by
-// Newton's method, which cannot miss, since the function is convex and rises.
+// The current in 113 bits, independently of the library: I - F(V + I Rs) = 0 solved for Vd by
+// Newton's method. It always converges, since the function is convex and increasing.
 Quad ExactCurrent(const Device& device, const std::vector<Quad>& p, double voltage_V,
                   double start) {
   Quad vd = start;
@@ -134,7 +134,8 @@ TEST(ImplicitFactor, GivesDerivativesThatAgreeWithMultiprecisionDifferences) {
           (ExactCurrent(draw.device, up, draw.voltage_V, point.junction_voltage_V) -
            ExactCurrent(draw.device, down, draw.voltage_V, point.junction_voltage_V)) /
           (2 * step);
-      // Derivatives that move the current by less than its own rounding are compared to that.
+      // A derivative that changes the current by less than its rounding error is compared on the
+      // scale of that error.
       const double floor =
           1e-5 * (std::fabs(point.current_A) + draw.p[kIph]) / (draw.p[i] + (i == kRs ? 1e-3 : 0));
       const double expected = static_cast<double>(exact);

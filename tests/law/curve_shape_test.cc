@@ -7,7 +7,7 @@
 namespace lyrefit {
 namespace {
 
-// A step from 1 to 0.6 at half of the open-circuit voltage, which is 0.6 V.
+// A current step from 1 to 0.6 at 0.3 V, half of the open-circuit voltage.
 Readings Stepped(int points) {
   Readings readings;
   readings.pivot_voltage = 0.6;

@@ -16,7 +16,8 @@ struct Base {
   double bandgap_slope;
 };
 
-// The law of De Soto stands twice, for whole curves and reading by reading.
+// De Soto's law is implemented twice: for whole curves (Translation) and for single readings
+// (ExtendedCurrents).
 class ExtendedSetTest : public ::testing::TestWithParam<Base> {
  protected:
   void SetUp() override {
@@ -36,7 +37,7 @@ class ExtendedSetTest : public ::testing::TestWithParam<Base> {
                                                   {UseOf("nonohmic_shunt")}, true, &extended_);
     ASSERT_TRUE(done) << done.error().ToString();
     shared_ = truth_;
-    shared_.insert(shared_.end(), {0, 2.5});  // no such shunt
+    shared_.insert(shared_.end(), {0, 2.5});  // strength 0: no shunt effect
     p_ = ExtendedParameters(extended_, shared_.data());
   }
 
@@ -64,7 +65,7 @@ TEST_P(ExtendedSetTest, IsTheTranslatedDeviceWhereItsEffectIsNotThere) {
 
 TEST_P(ExtendedSetTest, HasTheSlopesOfCentralDifferences) {
   const int size = extended_.extended->size();
-  p_[size - 2] = 0.01;  // some of the shunt
+  p_[size - 2] = 0.01;  // strength of the shunt effect
   const std::size_t count = set_.curves.size() * 25;
   std::vector<double> current_A(count), slopes(count * size), up(count), down(count);
   const Device& device = *extended_.extended;

@@ -67,7 +67,7 @@ TEST_P(ExtensionTest, IsTheDeviceAloneWhereItsEffectIsNotThere) {
   std::vector<double> current_A(curve.size());
   ASSERT_TRUE(ExtendedCurrents(*device, p.data(), current_A.data(), nullptr));
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    // Below 0 V bypass diodes conduct; of cells in a string each leaks a little.
+    // Below 0 V bypass diodes conduct, and each cell in a string has a small leak.
     if (GetParam()->groups && curve.voltage_V[k] < 0) continue;
     const double slack = GetParam()->groups ? 1e-6 : 1e-10;
     EXPECT_NEAR(current_A[k], curve.current_A[k], slack) << curve.voltage_V[k] << " V";
@@ -104,7 +104,7 @@ TEST_P(ExtensionTest, DifferentiatesByTheDevicesOwnParameters) {
 std::vector<const Effect*> WithParameters() {
   std::vector<const Effect*> effects;
   for (const Effect* effect : Catalogue()) {
-    // A limit at no current is no limit: clip has a place of its own where it is absent.
+    // clip is absent not at a limit of zero current, but at a separate value.
     if (!effect->parameters.empty() && std::string(effect->id) != "clip") effects.push_back(effect);
   }
   return effects;
@@ -173,14 +173,14 @@ TEST(Extend, KeepsToWholeNumbers) {
     EXPECT_TRUE(device) << device.error().ToString();
     return device ? device->extension->bounds[1] : ParameterBounds{};
   };
-  const ParameterBounds any = share_of(0.2, 0.9);  // bounds of one's own move to whole substrings
+  const ParameterBounds any = share_of(0.2, 0.9);  // the bounds move to whole substrings
   EXPECT_DOUBLE_EQ(any.lower, 1.0 / 3);
   EXPECT_DOUBLE_EQ(any.upper, 2.0 / 3);
   EXPECT_DOUBLE_EQ(any.whole, 1.0 / 3);
-  const ParameterBounds typed = share_of(0.33333, 0.66666);  // as they are typed
+  const ParameterBounds typed = share_of(0.33333, 0.66666);  // rounded values of thirds
   EXPECT_DOUBLE_EQ(typed.lower, 1.0 / 3);
   EXPECT_DOUBLE_EQ(typed.upper, 2.0 / 3);
-  const ParameterBounds one = share_of(0.3, 0.4);  // which leaves nothing to try
+  const ParameterBounds one = share_of(0.3, 0.4);  // one value only, so nothing to try
   EXPECT_EQ(one.lower, one.upper);
   EXPECT_DOUBLE_EQ(one.lower, 1.0 / 3);
   const ParameterBounds held = share_of(0.4, 0.4);
@@ -192,12 +192,12 @@ TEST(Extend, KeepsToWholeNumbers) {
   EXPECT_THAT(error_of(UseOf("weak_cell", {{"chains", {1.2, 1.8}}})),
               HasSubstr("weak_cell: chains = 1.2:1.8 holds no whole number of them: expected a "
                         "range around 2"));
-  curve.notes.bypass_diodes.reset();  // shares of substrings that nobody has counted
+  curve.notes.bypass_diodes.reset();  // number of substrings unknown
   EXPECT_EQ(error_of(UseOf("shading", {{"w", {0.4, 0.5}}})), "no error");
 }
 
-// One of two chains side by side can lack all of its light, which is half of the substring's: less
-// than no light there is not.
+// With two parallel chains, a weak cell without any light lacks half of the substring's light. A
+// larger deficit changes nothing.
 TEST(Extend, AWeakCellIsDarkAtMost) {
   const auto currents = [](double deficit, double chains) {
     const auto device = ExtendModule({UseOf("weak_cell")});

@@ -73,8 +73,8 @@ TEST(MeanSquare, GivesTheSameBitsOnEveryKernel) {
   }
 }
 
-// The portable kernel uses additions, multiplications and divisions only, in a fixed order: these
-// bits hold on every IEEE 754 machine.
+// The portable kernel consists of additions, multiplications and divisions in a fixed order, so
+// that these bits hold on every IEEE 754 machine.
 TEST(MeanSquare, OfThePortableKernelHasTheseBits) {
   std::vector<double> v, i;
   for (int k = 0; k < 20; ++k) {

@@ -10,7 +10,8 @@
 
 namespace lyrefit {
 
-// Every kernel gives the bits of the first, and that one the currents of the scalar solver.
+// Expects bit-identical currents from all kernels, and agreement with the scalar solver to 1e-12 of
+// |I| + Iph.
 inline void ExpectKernelsAgree(const Device& device, const std::vector<double>& p,
                                const std::vector<double>& voltage_V) {
   const std::vector<double> first =

@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-// The base law's parameters as those of a device at the reference.
+// Parameters of the base law, converted to those of a device under reference conditions.
 std::vector<double> DeviceParameters(const Law& law, const Readings& readings,
                                      const std::vector<double>& p) {
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
@@ -86,7 +86,7 @@ TEST(LawTest, BaseOfAFamilyIsTheTranslationOfDeSoto) {
   }
 }
 
-// Where f, which rises, is 0.
+// Root of the increasing function f, by bisection.
 double Bisect(const std::function<double(double)>& f, double low, double high) {
   for (int k = 0; k < 200; ++k) {
     const double middle = 0.5 * (low + high);
@@ -96,10 +96,10 @@ double Bisect(const std::function<double(double)>& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// An ordinary cell written down once more.
+// An ordinary cell, implemented independently of the library.
 struct PlainCell {
   const Readings& readings;
-  double leak = 1e-8;  // that every cell of a string has
+  double leak = 1e-8;  // leak conductance of each cell in a string
   std::vector<double> p = OrdinaryCell();
 
   double Junction(double voltage, double light) const {
@@ -134,7 +134,7 @@ TEST(LawTest, UnequalCellsAreTwoCellsInSeries) {
   }
 }
 
-// The shaded cells' bypass diode takes what they cannot carry.
+// The bypass diode carries the current that the shaded cells cannot.
 TEST(LawTest, ShadedCellsAreBypassed) {
   Readings readings = MadeReadings(DataKind::kForward, 60);
   readings.traits.substrings = 3;
@@ -142,7 +142,7 @@ TEST(LawTest, ShadedCellsAreBypassed) {
   const double drop = 0.5, share = 1.0 / 3, depth = 0.6;
   const double n_vt = 1.2 * ThermalVoltage(readings.reference_temperature_K);
   const auto dim = [&](double own) { return cell.Voltage(own, 1 - depth); };
-  // What the shaded cells carry of a current, the diode carries the rest.
+  // Current through the shaded cells at a string current; the bypass diode carries the rest.
   const auto carried = [&](double current) {
     return Bisect(
         [&](double own) {
@@ -162,7 +162,7 @@ TEST(LawTest, ShadedCellsAreBypassed) {
         -20, 1.1);
     EXPECT_NEAR(found[k], expected, 1e-5);
   }
-  EXPECT_GT(found.front(), 0.9);  // the lit substrings' current
+  EXPECT_GT(found.front(), 0.9);  // photocurrent of the lit substrings
 }
 
 TEST(LawTest, SpreadResistanceIsTwoHalfCells) {
@@ -195,7 +195,7 @@ TEST(LawTest, RefusesImpossibleTemperatures) {
   EXPECT_TRUE(Currents(at.law, readings, at.p).empty());
 }
 
-// A module that is said to have one cell: the diode's exponent at the pivot is huge.
+// A module measured as one cell has a huge exponent at the pivot voltage.
 TEST(LawTest, DerivativesAreFiniteAtAnyPivot) {
   Readings readings = MadeReadings(DataKind::kForward, 1);
   for (const double pivot : {0.05, 6.0, 40.0, 400.0}) {
@@ -230,7 +230,8 @@ TEST(LawTest, KnowsWhereEachEffectBegins) {
   EXPECT_FALSE(law.Searched(8));
 }
 
-// The junction voltages of another place are only a start.
+// The workspace holds junction voltages of the previous evaluation, which serve as starting values
+// only.
 TEST(LawTest, DoesNotHangOnWhereTheLastEvaluationEnded) {
   const Readings readings = MadeReadings(DataKind::kUpDown, 60);
   LawWorkspace workspace;
@@ -243,8 +244,8 @@ TEST(LawTest, DoesNotHangOnWhereTheLastEvaluationEnded) {
   for (std::size_t k = 0; k < fresh.size(); ++k) EXPECT_NEAR(current[k], fresh[k], 1e-11);
 }
 
-// A shade that covers a whole substring leaves two kinds of cells, one that covers less of it
-// three: of the third the evaluation before knows nothing, whatever the memory of it held.
+// Shading of whole substrings has two cell groups, partial shading three. The workspace has no
+// valid starting value for the third group, whatever its memory holds.
 TEST(LawTest, AKindOfCellsThatWasNotThereStartsLikeAFreshOne) {
   const Readings readings = MadeReadings(DataKind::kUpDown, 60);
   Law law;
@@ -257,7 +258,7 @@ TEST(LawTest, AKindOfCellsThatWasNotThereStartsLikeAFreshOne) {
   ASSERT_TRUE(EvaluateLaw(law, readings, two.data(), &kept, current.data(), nullptr));
   ASSERT_TRUE(EvaluateLaw(law, readings, three.data(), &kept, current.data(), nullptr));
   ASSERT_TRUE(EvaluateLaw(law, readings, three.data(), &new_one, fresh.data(), nullptr));
-  EXPECT_EQ(current, fresh);  // to the bit: both began from the same guess
+  EXPECT_EQ(current, fresh);  // bit-identical: both started from the default
 }
 
 }  // namespace

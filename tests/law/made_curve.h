@@ -12,7 +12,8 @@
 
 namespace lyrefit {
 
-// A silicon cell of 8 A or a string of such cells, as measured.
+// A synthetic measurement of a silicon cell of 8 A, or of a string of such cells. Voltages are per
+// cell; noise_relative is relative to each current.
 struct Recipe {
   std::string name = "made";
   int points = 60;

@@ -14,7 +14,7 @@
 
 namespace lyrefit {
 
-// Measurements laid out by hand, one of every kind that decides what effects can show.
+// Synthetic readings, one kind for each set of traits on which the testable effects depend.
 enum class DataKind { kForward, kReverse, kUpDown, kLightAndDark, kFamily };
 inline constexpr DataKind kDataKinds[] = {DataKind::kForward, DataKind::kReverse, DataKind::kUpDown,
                                           DataKind::kLightAndDark, DataKind::kFamily};
@@ -24,7 +24,8 @@ inline std::string NameOf(DataKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-// Base parameters of an ordinary cell (with the second diode where a sixth is asked for).
+// Base parameters of an ordinary cell in internal units; with `second_diode`, a sixth parameter for
+// the second diode.
 inline std::vector<double> OrdinaryCell(bool second_diode = false) {
   std::vector<double> p = {1, -0.1, 1.25, 0.02, 0.04};
   if (second_diode) p.push_back(0.1);
@@ -87,7 +88,7 @@ inline void AppendSweeps(DataKind kind, Readings* readings) {
   }
 }
 
-// The currents are those of the ordinary cell.
+// Readings whose currents are those of the ordinary cell.
 inline Readings MadeReadings(DataKind kind, int cells) {
   Readings readings;
   AppendSweeps(kind, &readings);
@@ -122,7 +123,7 @@ inline Readings MadeReadings(DataKind kind, int cells) {
   return readings;
 }
 
-// The law of the base and some effects at a cell's and the effects' parameters.
+// A law with effects, and its parameters: those of the ordinary cell and of the effects.
 struct Settled {
   Law law;
   std::vector<double> p;
@@ -142,7 +143,7 @@ inline std::vector<double> NeutralValues(const Effect& effect) {
   return values;
 }
 
-// Currents of all readings; empty where the law refuses.
+// Currents of all readings; empty if the law cannot be evaluated.
 inline std::vector<double> Currents(const Law& law, const Readings& readings,
                                     const std::vector<double>& p) {
   LawWorkspace workspace;
@@ -151,7 +152,7 @@ inline std::vector<double> Currents(const Law& law, const Readings& readings,
   return fine ? current : std::vector<double>();
 }
 
-// Derivatives of all readings, row by row; empty where the law refuses.
+// Derivatives of all readings, row by row; empty if the law cannot be evaluated.
 inline std::vector<double> Jacobian(const Law& law, const Readings& readings,
                                     const std::vector<double>& p) {
   LawWorkspace workspace;

@@ -143,7 +143,7 @@ TEST(MakeReadingsTest, TheDataDecideWhatIsDark) {
   EXPECT_EQ(stated_dark.readings.points.front().irradiance, 1);
 }
 
-// Little light is light.
+// Curves from 5 W/m2 on count as lit.
 TEST(MakeReadingsTest, ACurveUnderLittleLightIsLitByIt) {
   for (const double irradiance : {5.0, 10.0, 20.0}) {
     Recipe recipe;

@@ -10,8 +10,8 @@
 namespace lyrefit {
 namespace {
 
-// One effect three times: as templates, as plain functions with derivatives of their own, and with
-// differences. It looks at everything that a plain function is told.
+// One effect, implemented three times: as templates, as plain functions with derivatives, and as
+// plain functions with differences. It uses every field of StageInput.
 Effect Named() {
   Effect e;
   e.id = "shunt_and_contact";
@@ -118,7 +118,7 @@ void ExpectRelative(const std::vector<double>& a, const std::vector<double>& b, 
   }
 }
 
-// Inside the ranges and where the differences have to turn inwards.
+// Parameters inside their ranges and at the bounds, where differences become one-sided.
 const std::vector<double> kPlaces[] = {{0.2, 2.5, 0.02}, {0, 1, 0}, {1, 4, 0.1}};
 
 TEST(PlainStage, IsTheTemplateOfTheSameLaw) {
@@ -144,7 +144,7 @@ TEST(PlainStage, IsDifferentiatedWhereItSaysNoDerivatives) {
       const Evaluated found = Evaluate(differences, readings, place);
       ASSERT_TRUE(expected.found && found.found) << NameOf(kind);
       ExpectRelative(found.current, expected.current, 1e-13);
-      // Readings at 0 V lie on the kink of |V|, where no difference is exact.
+      // At 0 V, |V| has a kink and differences are inexact.
       ExpectRelative(found.jacobian, expected.jacobian, 2e-9);
     }
   }

@@ -20,7 +20,7 @@ using Quad = boost::multiprecision::cpp_bin_float_quad;
 constexpr int kMostUnknowns = 9;
 using Unknowns = Dual<kMostUnknowns>;
 
-// A device with recombination as PVsyst has it: d2mutau 0 to 2 V, NsVbi 0.9 V a cell.
+// A device with the recombination loss of PVsyst: d2mutau 0 to 2 V, NsVbi 0.9 V per cell.
 struct LossyDraw {
   Device plain;
   Device device;
@@ -50,7 +50,7 @@ LossyDraw DrawLossyDevice(RandomStream* random) {
   return draw;
 }
 
-// The right-hand side in 113 bits, from the equations alone, for vd below the pole.
+// F(Vd) in 113 bits, independently of the library, for vd below the pole.
 Quad ExactRightHandSide(const LossyDraw& draw, const Quad& vd) {
   const auto p = [&](int i) { return Quad(draw.p[i]); };
   const int last = draw.device.size();
@@ -62,8 +62,8 @@ Quad ExactRightHandSide(const LossyDraw& draw, const Quad& vd) {
   return f;
 }
 
-// The current by bisection on the junction voltage, which only the root's uniqueness asks for.
-// `start` is a guess to begin around.
+// The current by bisection on the junction voltage, which needs only a unique root. `start`: a
+// guess of the junction voltage.
 Quad ExactCurrent(const LossyDraw& draw, double voltage_V, double start) {
   const auto g = [&](const Quad& vd) {
     return vd - Quad(voltage_V) - Quad(draw.p[kRs]) * ExactRightHandSide(draw, vd);

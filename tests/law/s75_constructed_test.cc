@@ -1,4 +1,4 @@
-// data/s75_constructed is what its about.md says: the data sheet, and De Soto's equations.
+// Checks data/s75_constructed against its about.md: the data sheet, and De Soto's equations.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

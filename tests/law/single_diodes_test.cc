@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One row a device: Iph, Is, Rs, Rsh, nNsVth.
+// Many single diodes, one per row. Columns: Iph, Is, Rs, Rsh, nNsVth.
 struct Many {
   std::vector<double> column[5];
 
@@ -36,7 +36,7 @@ struct Many {
   }
 };
 
-// From cells in the dusk to modules in the sun, by the logarithm.
+// Devices from dimly lit cells to modules in full sun, logarithmically distributed.
 Many Spread(int count) {
   RandomStream random(5);
   const auto between = [&](double low, double high) {
@@ -66,7 +66,7 @@ long double Excess(const Many& many, std::size_t k, long double v, long double i
 }
 
 TEST(SingleDiodes, CurrentsSolveTheEquation) {
-  if (std::exp(1.0L) == std::exp(1.0)) {  // musl's, where long double is 128 bits wide
+  if (std::exp(1.0L) == std::exp(1.0)) {  // musl, with a long double of 128 bits
     GTEST_SKIP() << "long double has only the exponential of double here: no truth to compare with";
   }
   const Many many = Spread(3001);
@@ -81,9 +81,10 @@ TEST(SingleDiodes, CurrentsSolveTheEquation) {
     const long double slope =
         1 + many.column[2][k] * (1 / many.column[3][k] + many.column[1][k] / many.column[4][k] *
                                                              std::exp(vd / many.column[4][k]));
-    // How far the current is from the root, by one Newton step in long double.
+    // Distance of the current from the root, by one Newton step in long double.
     const long double off = Excess(many, k, voltage[k], current[k]) / slope;
-    // Voltages are right to their last digits, which the device's conductance makes currents of.
+    // Voltages have rounding errors in the last digits, which the conductance converts to errors of
+    // the current.
     const double conductance = static_cast<double>((slope - 1) / many.column[2][k] / slope);
     const double volts = std::fabs(voltage[k]) + std::fabs(static_cast<double>(vd));
     EXPECT_LE(std::fabs(off),

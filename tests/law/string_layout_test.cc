@@ -96,7 +96,7 @@ TEST(StringLayoutTest, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_THAT(ErrorOf(many + "]}]]}"), HasSubstr("at most 8 kinds of cells"));
 }
 
-// Currents of a device whose cells are laid out so.
+// Currents of a device with this layout of cells.
 std::vector<double> CurrentsOf(const Readings& readings, const std::string& text) {
   Law law;
   if (!text.empty()) law.layout = std::make_shared<const StringLayout>(Layout(text));
@@ -112,15 +112,15 @@ void ExpectNear(const std::vector<double>& a, const std::vector<double>& b, doub
 TEST(StringLayoutTest, CellsThatAreAlikeAreTheDevice) {
   const Readings readings = MadeReadings(DataKind::kForward, 36);
   const std::vector<double> plain = CurrentsOf(readings, "");
-  // What a string's cells always leak is 1e-8 of the scale per volt.
+  // Each cell in a string has a leak of 1e-8 of the current scale per volt.
   ExpectNear(CurrentsOf(readings, R"({"strings": [[{"cells": [{"count": 36}]}]]})"), plain, 2e-8);
   ExpectNear(CurrentsOf(readings, R"({"strings": [[{"cells": [{"count": 36}]}],
                                                   [{"times": 3, "cells": [{"count": 12}]}]]})"),
              plain, 2e-8);
 }
 
-// A string's current is its light's as long as its cells are in reverse without conducting; two
-// strings deliver the mean, since each is reckoned as if it had all cells.
+// While cells are in reverse without conducting, the current of a string is its photocurrent.
+// Strings are computed with all cells each, so that two strings deliver the mean.
 TEST(StringLayoutTest, StringsInParallelAddUp) {
   const Readings readings = MadeReadings(DataKind::kForward, 36);
   const std::string cells = R"([{"cells": [{"count": 36, "light": 0.5}]}])";
@@ -133,10 +133,10 @@ TEST(StringLayoutTest, StringsInParallelAddUp) {
   }
 }
 
-// The more ideal the diode, the nearer a bypassed part stays to its voltage: the current of the
-// others at the voltage that is left for them.
+// With an ideal bypass diode, a bypassed substring stays at the diode's voltage. The others carry
+// the current at the remaining voltage.
 TEST(StringLayoutTest, AnIdealBypassDiodeKeepsItsVoltage) {
-  constexpr double kVoltage = 0.37;  // near open circuit of those in the light
+  constexpr double kVoltage = 0.37;  // near open circuit of the lit substrings
   Readings readings = MadeReadings(DataKind::kForward, 36);
   for (Reading& r : readings.points) r.voltage = kVoltage;
   const auto bypassed = [&](const char* ideality) {
@@ -145,7 +145,7 @@ TEST(StringLayoutTest, AnIdealBypassDiodeKeepsItsVoltage) {
            {{"bypass": true, "cells": [{{"count": 12, "light": 0}}]}}]]}})",
                                             ideality));
   };
-  // The 24 cells in the light carry what all 36 are at, and the diode's voltage.
+  // The 24 lit cells take the terminal voltage plus the bypass diode's voltage.
   const double ideal = bypassed("0.05").front();
   Readings lit = readings;
   for (Reading& r : lit.points) r.voltage = (36 * kVoltage + 0.4) / 24;
@@ -153,8 +153,8 @@ TEST(StringLayoutTest, AnIdealBypassDiodeKeepsItsVoltage) {
   EXPECT_GT(std::fabs(bypassed("1.2").front() - ideal), 5e-3);
 }
 
-// Two strings, a weak and leaky cell in soft reverse, bypass diodes: derivatives by the slopes at
-// the root against differences.
+// Derivatives from the slopes at the root against differences, for two strings with a weak and
+// leaky cell in soft reverse and bypass diodes.
 TEST(StringLayoutTest, DerivativesAreThoseOfTheCurrents) {
   const Readings readings = MadeReadings(DataKind::kUpDown, 36);
   Law law;

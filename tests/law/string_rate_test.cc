@@ -24,7 +24,8 @@ Pack Draw(F draw) {
   return every_processor::Load(block);
 }
 
-// Eight strings of one shape, each with values of its own, drawn from far beyond real modules.
+// Eight strings of one layout, one per lane. Each has its own values, drawn from ranges far wider
+// than those of real modules.
 class Strings {
  public:
   explicit Strings(RandomStream* random) : random_(*random) {
@@ -33,7 +34,8 @@ class Strings {
     DrawShape();
     DrawReverse();
     voltage_ = Draw([&] { return Between(-0.7, 0.78); });
-    // A string whose parts all have bypass diodes is a short circuit beyond what these drop.
+    // A string in which every substring has a bypass diode is a short circuit beyond the sum of
+    // their voltages.
     for (int string = 0; string < cell_.strings; ++string) {
       bool open = false;
       Pack lowest = 0.0, weight = 0.0;
@@ -110,15 +112,15 @@ class Strings {
   Pack voltage_;
 };
 
-// One lane of such strings, written down once more over any number type.
+// One lane of the strings, implemented independently of the library over any number type.
 template <class T>
 class Lane {
  public:
   Lane(const Cell<Pack>& cell, const Pack& voltage, int lane)
       : cell_(cell), lane_(lane), voltage_(voltage[lane]) {}
 
-  // What is left of the equations at (junction voltages of each kind near and far, J and U of each
-  // part, I of each string).
+  // Residuals of the equations. Order of the unknowns: junction voltages of each cell group, near
+  // and far; current J and voltage U of each substring; current I of each string.
   std::vector<T> Residuals(const std::vector<T>& x) const {
     const T* u = x.data();
     const T* far = u + cell_.kinds;
@@ -212,7 +214,7 @@ std::vector<double> StateOf(const Cell<Pack>& cell, const StringState& state,
   return x;
 }
 
-// How far the strings' currents are from the root, by Newton's steps with residuals in 113 bits.
+// Error of the strings' currents, by Newton steps with residuals in 113 bits.
 double CurrentError(const Strings& strings, const StringState& state, const StringRoot& root,
                     int lane) {
   const Cell<Pack>& cell = strings.cell();

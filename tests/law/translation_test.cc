@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kBoltzmann_J_K = 1.380649e-23;
 constexpr double kCharge_C = 1.602176634e-19;
-// pvlib cuts it to ten digits, which moves Io by 1e-10 at most.
+// pvlib rounds Boltzmann's constant to ten digits, which changes Io by 1e-10 at most.
 constexpr double kBoltzmann_eV_K = kBoltzmann_J_K / kCharge_C;
 
-// What pvlib's calcparams_... functions answer with.
+// Return values of pvlib's calcparams_... functions.
 struct FiveParameters {
   double photocurrent;
   double saturation_current;
@@ -39,7 +39,7 @@ FiveParameters CalcparamsDesoto(const DeSotoModule& m, double g, double temp_cel
           m.R_s, m.R_sh_ref * (1000 / g), m.a_ref * (t / tref)};
 }
 
-// The CEC model is De Soto's with alpha_sc turned down by Adjust percent.
+// The CEC model is De Soto's with alpha_sc reduced by Adjust percent.
 FiveParameters CalcparamsCec(DeSotoModule m, double adjust, double g, double temp_cell) {
   m.alpha_sc *= 1.0 - adjust / 100;
   m.EgRef = 1.121;
@@ -77,7 +77,7 @@ Translation Make(TranslationLaw law, ShuntLaw shunt, int cells, Model model = Mo
   return *MakeTranslation(spec);
 }
 
-// By name; every parameter of the law must be named.
+// Shared parameters from values by name; every parameter of the law must be named.
 std::vector<double> Shared(const Translation& translation,
                            const std::vector<std::pair<std::string, double>>& values) {
   std::vector<double> shared(translation.size(), std::nan(""));
@@ -202,7 +202,8 @@ TEST(TranslateTo, GivesBackTheSharedValuesAtTheReference) {
   EXPECT_EQ(at.device.module_thermal_voltage_V, translation.device.module_thermal_voltage_V);
 }
 
-// n Ns Vt is what the physics sees: the fixed device's n T / Tref must mean the same.
+// Only n Ns Vt enters the equations. The reference device, with Vt at Tref, therefore takes n T /
+// Tref.
 TEST(Translate, HandsTheReferenceDeviceTheSameCurve) {
   const Translation translation =
       Make(TranslationLaw::kPvsyst, ShuntLaw::kExponential, 38, Model::kDoubleDiode, true);

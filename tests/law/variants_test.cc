@@ -16,8 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
-// One sweep of a module, cut off at half of its current from the middle on, whose bypass diodes
-// somebody has counted (0: nobody).
+// One sweep of a module whose second half is limited to half of the current. `diodes`: number of
+// bypass diodes, or 0 for unknown.
 IvCurve SteppedModule(int diodes) {
   const std::vector<double> module = {8.2, 2e-9, 1.15, 0.25, 300};
   IvCurve curve;
@@ -63,7 +63,7 @@ TEST_P(SubstringsVariants, HaveALightForEachThatIsCountedButTheBrightest) {
   const int groups = diodes - 1;
   const Extension extension = Extended(SteppedModule(diodes), {UseOf("substrings")});
   const std::vector<Variant> variants = VariantsOf(extension);
-  // Shades on all of a substring's cells and, where there are few enough groups, on a part of them.
+  // Shading covers all cells of a substring or, with fewer than four groups, also a part of them.
   ASSERT_EQ(variants.size(), groups < 4 ? 2u : 1u);
   EXPECT_EQ(variants[0].free, groups + 1);
   EXPECT_EQ(variants.back().free, groups + (groups < 4 ? 2 : 1));
@@ -88,7 +88,7 @@ TEST(Variants, ASharesWholeSubstringsStayFree) {
     EXPECT_DOUBLE_EQ(variant.bounds[1].upper, 0.8);
     EXPECT_DOUBLE_EQ(variant.bounds[1].whole, 0.2);
   }
-  // Where nobody has counted the substrings any share will do.
+  // With an unknown number of substrings, the share is continuous.
   for (const Variant& variant : VariantsOf(Extended(SteppedModule(0), {UseOf("shading")}))) {
     EXPECT_EQ(variant.bounds[1].whole, 0);
   }
@@ -107,7 +107,7 @@ TEST(Variants, RangesLeaveOne) {
 TEST(Variants, OfTwoEffectsAreAllPairs) {
   const Extension extension =
       Extended(SteppedModule(3), {UseOf("shading"), UseOf("nonohmic_shunt")});
-  EXPECT_EQ(VariantsOf(extension).size(), 2u);  // a shunt has no shape, and one variant
+  EXPECT_EQ(VariantsOf(extension).size(), 2u);  // a shunt has one variant
   for (const std::string& what : Descriptions(extension)) {
     EXPECT_THAT(what, HasSubstr("shading.d, shading.w, shading.Vb"));
     EXPECT_THAT(what, HasSubstr("nonohmic_shunt.k"));
@@ -139,8 +139,8 @@ TEST(Variants, APlaceOfAShapeSeesTheStep) {
   const std::vector<std::vector<double>> places =
       ShapePlaces(extension, VariantsOf(extension).front());
   ASSERT_EQ(places.size(), 1u);
-  EXPECT_NEAR(places[0][0], 0.5, 0.03);  // half of the light is missing
-  EXPECT_DOUBLE_EQ(places[0][1], 0.5);   // in half of the cells
+  EXPECT_NEAR(places[0][0], 0.5, 0.03);  // deficit: half of the light
+  EXPECT_DOUBLE_EQ(places[0][1], 0.5);   // share: half of the cells
 }
 
 TEST(Variants, SharesLeaveARest) {
@@ -160,7 +160,7 @@ TEST(Variants, SharesLeaveARest) {
   using ::testing::DoubleNear;
   using ::testing::ElementsAre;
   const auto about = [](double share) { return DoubleNear(share, 1e-12); };
-  // One substring less of the largest, until one is left.
+  // The largest share loses one substring at a time until one substring remains without a share.
   EXPECT_THAT(leave(0.8, 0.2, 0.2), ElementsAre(about(0.4), about(0.2), about(0.2)));
   EXPECT_THAT(leave(0.2, 0.2, 0.6), ElementsAre(about(0.2), about(0.2), about(0.4)));
   EXPECT_THAT(leave(0.4, 0.2, 0.2), ElementsAre(0.4, 0.2, 0.2));

@@ -6,9 +6,9 @@
 #include "lyrefit/lyrefit.h"
 #include "lyrefit/search/search.h"
 
-// What goes over the border of a shared library: exceptions of the user's through the library, the
-// library's error thrown by a header of the user's, and a class that one side derives and the other
-// one calls.
+// Language features across the boundary of a shared library: a user's exception thrown through the
+// library, the library's error thrown by an inline function of a header, and a class derived on one
+// side and called on the other.
 namespace {
 
 struct Enough : std::runtime_error {

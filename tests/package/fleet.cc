@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string>
 
-// Fits every curve of the strings given into the folder given, writes the page of them, and succeeds
-// if every one has its row and none is broken.
+// Arguments: a batch of strings and a folder. Fits every curve into the folder and writes the HTML
+// page of the results. Succeeds if every curve has its row and none is broken.
 int main(int argc, char** argv) {
   if (argc != 3) return std::puts("batch STRINGS FOLDER"), 1;
   const auto source = lyrefit::OpenBatch({argv[1]});

@@ -3,7 +3,7 @@
 
 #include "lyrefit/lyrefit.h"
 
-// Reads the curve in the folder given, fits it and succeeds if the error is the certified one.
+// Argument: the folder of a curve. Fits it and succeeds if the RMSE is the certified one.
 int main(int argc, char** argv) {
   const auto curve = lyrefit::ReadCurve(argc > 1 ? argv[1] : ".");
   if (!curve) return std::puts(curve.error().ToString().c_str()), 1;

@@ -1,8 +1,9 @@
 #include <lyrefit/lyrefit.h>
 #include <iostream>
 
-// A shunt that grows with the square of the voltage. Every stage of an effect is written once, over
-// its number type; a parameter has bounds; at 0, unless it says otherwise, no effect is there.
+// A user-defined effect: a shunt that grows with the square of the voltage. Each stage of an effect
+// is one template over the number type. Each parameter has bounds, and 0 means no effect unless
+// stated otherwise.
 lyrefit::Effect SquareShunt() {
   lyrefit::Effect e;
   e.id = "square_shunt";

@@ -3,7 +3,8 @@
 #include "lyrefit/lyrefit.h"
 #include "lyrefit/study.h"
 
-// Compares two searches on the curve in the folder given and succeeds if each did its runs.
+// Argument: the folder of a curve. Compares two searches on it and succeeds if both did all their
+// runs.
 int main(int argc, char** argv) {
   auto curve = lyrefit::ReadCurve(argc > 1 ? argv[1] : ".");
   if (!curve) return std::puts(curve.error().ToString().c_str()), 1;

@@ -11,7 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// By a number of the point itself.
+// Derivative of the mean square with respect to *x, which must be a number of `point`; central
+// difference.
 double GradientAt(const FitModel& model, const FitPoint& point, double* x) {
   const double middle = *x, step = 1e-6;
   *x = middle + step;

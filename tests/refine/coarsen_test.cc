@@ -42,8 +42,8 @@ TEST(Coarsen, KeepsTheSumOfSquaresAroundTheOptimum) {
   }
 }
 
-// The current at given voltages is smooth along them: quadrature keeps its sum of squares to far
-// better than straight pieces could.
+// The current is a smooth function of the voltage, so that quadrature keeps its sum of squares far
+// more accurately than piecewise linear interpolation.
 TEST(Coarsen, KeepsTheSumOfSquaresOfASmoothCurrent) {
   const RefineProblem problem =
       ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode, kDoubleTruth, 3e-3,
@@ -94,8 +94,8 @@ struct Case {
   std::vector<double> p;
 };
 
-// The interval on the few points is that on all to 1 % of its half width, where the profile ends
-// inside the bounds, and ends at the bound where the other does.
+// The interval on the coarsened data is that on all points to 1 % of its half width. Ends at bounds
+// agree exactly.
 TEST(Coarsen, GivesTheProfileOfAllPoints) {
   const Case cases[] = {
       {"sd", Model::kSingleDiode, Model::kSingleDiode, kSingleTruth},
@@ -104,7 +104,8 @@ TEST(Coarsen, GivesTheProfileOfAllPoints) {
       {"td", Model::kDoubleDiode, Model::kTripleDiode, kDoubleTruth},
   };
   for (const Case& c : cases) {
-    if (kSanitized && c.fitted != Model::kSingleDiode) continue;  // half a minute more of the same
+    // half a minute more without new code
+    if (kSanitized && c.fitted != Model::kSingleDiode) continue;
     for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
       const RefineProblem all = ModuleProblem(c.truth, c.fitted, c.p, 3e-3, objective, 2, kMany);
       std::vector<double> start = c.p;

@@ -98,7 +98,7 @@ TEST(Coordinates, KeepADarkShuntBetweenTheShuntAndWhatTheExponentAllows) {
   EXPECT_EQ(coordinates.upper(kDark), 1);
   EXPECT_NEAR(coordinates.lower(kDark), std::exp(-5.5), 1e-15);
   EXPECT_EQ(coordinates.AtBound(kDark, /*lower=*/false, kAt), 300);
-  // Held, it keeps its ratio to the shunt.
+  // A fixed dark shunt keeps its ratio to the shunt.
   std::vector<bool> held = kNone;
   held[kDark] = true;
   const Coordinates rest(shape, kAt, held);
@@ -116,7 +116,7 @@ TEST(Coordinates, SayWhereABoundLiesExactly) {
     EXPECT_EQ(coordinates.AtBound(i, true, kAt), shape.parameters[i].lower) << i;
     EXPECT_EQ(coordinates.AtBound(i, false, kAt), shape.parameters[i].upper) << i;
   }
-  for (const int i : {kN, kShunt}) {  // these fall
+  for (const int i : {kN, kShunt}) {  // coordinates that fall with the parameter
     EXPECT_EQ(coordinates.AtBound(i, true, kAt), shape.parameters[i].upper) << i;
     EXPECT_EQ(coordinates.AtBound(i, false, kAt), shape.parameters[i].lower) << i;
   }

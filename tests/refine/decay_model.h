@@ -10,8 +10,8 @@ namespace lyrefit {
 constexpr double kDecayNoise = 1e-3;
 constexpr int kDecayPoints = 30;
 
-// A model that knows nothing of diodes: y = height exp(-rate x) in every block, each with an offset
-// of its own.
+// A model without photovoltaics: y = height exp(-rate x) + offset in two blocks, each with its own
+// offset.
 class Decay : public FitModel {
  public:
   explicit Decay(std::uint64_t seed, double least_rate = 0) : FitModel(MakeShape(least_rate)) {

@@ -40,7 +40,7 @@ TEST(RemoveFaded, LeavesADiodeWhoseBoundIsAbove0) {
 }
 
 TEST(FindDiodeToAdd, FindsTheDiodeThatTheResidualsAskFor) {
-  for (const int points : {40, 2000}) {  // the latter by few that stand for them
+  for (const int points : {40, 2000}) {  // 2000 points are coarsened
     const RefineProblem problem = Problem(Model::kDoubleDiode, points);
     const CurveModel model(problem);
     FitPoint without{kDoubleTruth, {}};
@@ -58,7 +58,7 @@ TEST(FindDiodeToAdd, FindsNoneWhereTheDiodesAreAllThere) {
   const RefineProblem problem = Problem(Model::kSingleDiode);
   const CurveModel model(problem);
   std::vector<double> p = kSingleTruth;
-  p[kIph] *= 1.1;  // more current everywhere: a diode would have to give it back
+  p[kIph] *= 1.1;  // the current is too large everywhere, so that a diode reduces the residual
   p.insert(p.end(), {0, 1.5});
   EXPECT_GT(FindDiodeToAdd(model, nullptr, {p, {}}, 5).cosine, 0);
   p[kIph] *= 0.8;

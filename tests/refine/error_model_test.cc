@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRows = 60;
 
-// Two chains, white noise that grows, a path that differs from reading to reading.
+// Two chains, white noise that grows along the readings, and a path of varying size.
 ErrorModel MadeErrors() {
   ErrorModel errors;
   for (int k = 0; k < kRows; ++k) {
@@ -99,7 +99,7 @@ TEST(ErrorModel, RestrictedLikelihoodIsThatOfTheDenseCovariance) {
   const Eigen::MatrixXd information = slopes.transpose() * inverse * slopes;
   const Eigen::VectorXd rest =
       residual - slopes * information.ldlt().solve(slopes.transpose() * inverse * residual);
-  const auto dense = [&](double scale) {  // of covariance x scale
+  const auto dense = [&](double scale) {  // with the covariance times `scale`
     return -0.5 * (kRows * std::log(scale) + std::log(covariance.determinant()) +
                    std::log(information.determinant()) - 3 * std::log(scale) +
                    rest.dot(inverse * rest) / scale);

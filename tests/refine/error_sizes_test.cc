@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kIsc = 8, kVoc = 40;
 
-// A curve that is flat, then falls; `points` readings.
+// A curve of `points` readings that is flat, then falls.
 ErrorShape MadeShape(int points) {
   ErrorShape shape;
   for (int k = 0; k < points; ++k) {
@@ -26,7 +26,7 @@ ErrorShape MadeShape(int points) {
   return shape;
 }
 
-// Five smooth functions: what a fit takes out.
+// Five smooth functions as parameter derivatives, which a fit removes from the residual.
 RowMatrix MadeJacobian(int points) {
   RowMatrix jacobian(points, 5);
   for (int k = 0; k < points; ++k) {
@@ -57,13 +57,14 @@ TEST(ErrorSizes, AreFoundFromErrorsOfThatSize) {
   const RowMatrix jacobian = MadeJacobian(150);
   const ErrorSizes truth = {8e-4, 0.012, 1.5e-3};
   constexpr int kDraws = 40;
-  double current = 0, voltage = 0, path = 0, length = 0;  // mean squares, mean of ln
+  double current = 0, voltage = 0, path = 0, length = 0;  // mean squares; length: mean of ln
   for (int seed = 0; seed < kDraws; ++seed) {
     const FoundErrors found =
         FindErrorSizes(shape, UsualErrors(kIsc, kVoc), DrawErrors(shape, truth, seed), jacobian);
     current += std::pow(found.sizes.current_A / truth.current_A, 2) / kDraws;
     voltage += std::pow(found.sizes.voltage_V / truth.voltage_V, 2) / kDraws;
-    // Of a path as long as the sweep, what neighbours differ by: its size and length are one number.
+    // For a path as long as the sweep, only differences between neighbours are determined: the
+    // ratio of its squared size and its length.
     path += std::pow(found.sizes.path / truth.path, 2) / found.sizes.length / kDraws;
     length += std::log(found.sizes.length) / kDraws;
     EXPECT_GT(found.gain, 20) << seed;
@@ -98,7 +99,7 @@ TEST(ErrorSizes, WhiteErrorsDoNotAskForMore) {
   for (int seed = 0; seed < 200; ++seed) {
     const Eigen::VectorXd errors = DrawErrors(shape, {8e-3, 0, 0}, seed);
     const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc), errors, jacobian);
-    // A path of a few readings is hard to tell from noise of each.
+    // A path of a few readings is hard to distinguish from white noise.
     const bool short_path = found.sizes.length < 3 * shape.position[1];
     const double path_A = short_path ? kIsc * found.sizes.path : 0;
     EXPECT_NEAR(std::hypot(found.sizes.current_A, path_A), 8e-3, 2.5e-3);

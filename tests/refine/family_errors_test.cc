@@ -12,7 +12,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kPoints = 30;  // of a curve
+constexpr int kPoints = 30;  // per curve
 
 FamilyErrorShape MadeFamilyShape(int curves) {
   FamilyErrorShape shape;

@@ -18,7 +18,8 @@ double CostAt(const JointProblem& problem, const JointPoint& point) {
   return Linearize(model, model.Pack(point), held).residual.squaredNorm();
 }
 
-// A problem with all four kinds of own unknowns.
+// A problem with all four combinations of local unknowns of a curve: irradiance free, temperature
+// free, both with priors, none.
 JointProblem WithLocals(JointProblem problem) {
   problem.curves[1].irradiance_sd = HUGE_VAL;
   problem.curves[2].temperature_sd_K = HUGE_VAL;
@@ -45,7 +46,7 @@ TEST_P(EveryLaw, LinearizeAgreesWithCentralDifferences) {
     JointProblem problem =
         WithLocals(MadeProblem(MadeSet(law_, truth_, kSixPlaces, 9, 2e-3), law_, truth_));
     problem.objective = objective;
-    for (int i = 0; i < problem.shared(); ++i) {  // what a fit holds has a slope as well
+    for (int i = 0; i < problem.shared(); ++i) {  // fixed parameters need derivatives as well
       if (problem.lower[i] < problem.upper[i]) continue;
       problem.lower[i] = truth_[i] - 0.1 - 0.3 * std::fabs(truth_[i]);
       problem.upper[i] = truth_[i] + 0.1 + 0.3 * std::fabs(truth_[i]);

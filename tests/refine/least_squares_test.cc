@@ -18,7 +18,7 @@ LeastSquaresProblem Unbounded(int parameters, int residuals) {
   return problem;
 }
 
-// Rosenbrock's local optimum: optimum at (1, 1).
+// Rosenbrock's valley: optimum at (1, 1).
 LeastSquaresProblem LocalOptimum() {
   LeastSquaresProblem problem = Unbounded(2, 2);
   problem.evaluate = [](const double* p, double* r, double* jacobian) {
@@ -61,8 +61,8 @@ TEST(LeastSquaresTest, MovesAStartInsideTheBounds) {
   EXPECT_NEAR(end.p[0], 1, 1e-5);
 }
 
-// Whichever side of zero its step is rounded to, and whether it is nearer the upper bound or the
-// lower one.
+// A parameter without influence stays unchanged, whatever the sign of its zero derivative and
+// whichever bound is nearer.
 TEST(LeastSquaresTest, WhatNothingHangsOnStays) {
   LeastSquaresProblem problem = Unbounded(3, 2);
   problem.lower[2] = -1;
@@ -110,7 +110,7 @@ TEST(LeastSquaresTest, AnUnusableStartIsSaidToBe) {
   EXPECT_EQ(end.p, (std::vector<double>{-1.2, 1}));
 }
 
-// Where the model ends on the way down, steps are shortened.
+// Where the model cannot be evaluated, steps are shortened.
 TEST(LeastSquaresTest, StepsBackFromWhereTheModelEnds) {
   LeastSquaresProblem problem = Unbounded(1, 1);
   problem.evaluate = [](const double* p, double* r, double* jacobian) {

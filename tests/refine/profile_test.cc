@@ -14,7 +14,8 @@
 namespace lyrefit {
 namespace {
 
-// One residual x, or (x - 1/2) / 2 where the setting behind x is 1: what descends stays in either.
+// One residual: x, or (x - 1/2) / 2 where the second parameter is 1. The second parameter has no
+// derivative, so that a descent stays at its value.
 class TwoOptima : public FitModel {
  public:
   TwoOptima() : FitModel(Shape()) {}
@@ -63,7 +64,8 @@ TEST(FindProfileSide, ReachesOverTheOtherOptimaToo) {
   EXPECT_NEAR(limit(true, {}), 2, 0.02);
   EXPECT_NEAR(limit(false, {{{0.5, 1}, {}}}), -3.5, 0.03);
   EXPECT_NEAR(limit(true, {{{0.5, 1}, {}}}), 4.5, 0.03);
-  // Beyond what the best allows, across places that nothing allows.
+  // The interval extends to what the other optimum allows, across values that neither optimum
+  // allows.
   best.p = {0.5, 1};
   EXPECT_NEAR(limit(false, {{{0, 0}, {}}}), -3.5, 0.03);
 }
@@ -87,7 +89,7 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
       held.lower[i] = held.upper[i] = side.value;
       const double risen = Refine(held, SeparableDescent(held, best.p)).mean_square;
       EXPECT_NEAR(std::sqrt((risen / best.mean_square - 1) * degrees), t, 0.01 * t) << i;
-      // This well-measured curve is nearly linear: the symmetric interval is close.
+      // The model is nearly linear for this curve, so that the symmetric interval is close.
       EXPECT_NEAR(std::fabs(side.value - best.p[i]) / (t * spread.standard_error[i]), 1, 0.4) << i;
     }
   }
@@ -115,7 +117,8 @@ TEST(FindProfileSide, EndsOutsideWhenItIsStopped) {
   EXPECT_GE(stopped.value, whole.value);
 }
 
-// Every optimum that is none, with every refit below it: the profile must reach beyond all it saw.
+// The start is no optimum, and every refit has a lower sum of squares. The interval must reach
+// beyond all refits.
 TEST(FindProfileSide, IsNeverNarrowerThanWhatItSaw) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);
@@ -152,7 +155,7 @@ TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold)
       EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
       EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
       EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
-      // Nothing on the way crosses the threshold.
+      // The threshold is not crossed before the end of the interval.
       const double middle = 0.5 * (side.value + best.point.shared[i]);
       EXPECT_LT(rise(i, middle), t) << law.parameters[i].name;
     }

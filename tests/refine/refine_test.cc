@@ -73,7 +73,7 @@ TEST(Refine, TakesOutADiodeThatIsNotThere) {
 TEST(Refine, LetsADiodeInWhereTheResidualsAskForOne) {
   const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
                                               kDoubleTruth, 1e-5, Objective::kSolvedCurrent);
-  // Started dead, where the gradient in its n vanishes.
+  // The second diode starts at Is = 0, where the gradient with respect to its n vanishes.
   const RefineEnd end = Refine(problem, {3.8, 2e-8, 1.2, 0.25, 300, 0, 1.5});
   EXPECT_GT(end.p[5], 0);
   EXPECT_LT(std::sqrt(end.mean_square), 2e-5);
@@ -105,7 +105,7 @@ TEST(SeparableStarts, AreSortedDistinctAndInsideTheBounds) {
   }
 }
 
-// A cell whose current was held at a limit beyond open circuit: no diode does that.
+// A cell whose current was held at a limit beyond open circuit, which no diode model fits.
 RefineProblem ClippedProblem() {
   Conditions conditions;
   const std::vector<double> truth = {0.038, 4e-10, 1.2, 0.3, 2900};
@@ -130,7 +130,7 @@ TEST(RefineFrom, NeverEndsAboveItsStart) {
       astray += MeanSquare(problem, SeparableDescent(problem, start)) > before;
     }
   }
-  EXPECT_GT(astray, 0);  // else this curve shows nothing
+  EXPECT_GT(astray, 0);  // otherwise this curve tests nothing
 }
 
 TEST(Refine, HandsNothingToTheSolverThatIsNotFinite) {

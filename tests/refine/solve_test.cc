@@ -32,7 +32,7 @@ TEST(SolveModel, FindsWhatIsSharedAndWhatIsNotWhicheverIsHeld) {
   ASSERT_EQ(all.theta.size(), 2U);
   EXPECT_NEAR(all.theta[0], 2, 0.02);
   EXPECT_NEAR(all.theta[1], 0.7, 0.02);
-  // From there what is shared need not move: the own unknowns alone end where they were.
+  // From the optimum, the local unknowns alone end at their optimal values.
   const SolveEnd own = SolveFrom(model, all.theta, {true, true}, Thorough());
   EXPECT_TRUE(own.converged);
   EXPECT_TRUE(own.theta.empty());
@@ -94,7 +94,7 @@ TEST(SolveModel, EndsAlikeByEitherSolver) {
   options.stop = [] { return true; };
   EXPECT_TRUE(SolveModel(model, coordinates, {}, options).stopped);
   options.stop = {};
-  options.cutoff = 1;  // of some 35: what noise there is
+  options.cutoff = 1;  // the noise alone leaves about 35
   const SolveEnd out_of_reach = SolveModel(model, coordinates, {}, options);
   EXPECT_TRUE(out_of_reach.hopeless);
   EXPECT_FALSE(out_of_reach.converged);

@@ -69,7 +69,8 @@ TEST(FindJointSpread, IsTheScatterOfRepeatedMeasurements) {
   EXPECT_NEAR(prior.Ratio(), 1, 0.15);
 }
 
-// Standard errors with parameters `open` free are those with them held, and theirs are unknown.
+// Expects the standard errors with parameters `open` free to equal those with `open` fixed, and NaN
+// for `open`.
 void ExpectOnlyOpen(const JointProblem& problem, const std::vector<double>& truth,
                     const std::vector<int>& open) {
   const JointEnd end = RefineJointly(problem, PointAt(problem, truth));
@@ -103,7 +104,7 @@ TEST(FindJointSpread, LosesOnlyWhatTheDataDoNotShow) {
 }
 
 TEST(FindJointSpread, LosesWhatTradesPlacesWithoutATrace) {
-  // At one temperature away from the reference photocurrent and alpha are one number.
+  // At one temperature other than the reference, photocurrent and alpha act as one parameter.
   const Translation law = MadeLaw(TranslationLaw::kDeSoto);
   const std::vector<double> truth = MadeTruth(law);
   const JointProblem problem =
@@ -166,7 +167,8 @@ TEST(FindSpread, UnderOtherErrorsIsTheSandwich) {
   const Spread plain = FindSpread(model, end, end.held, 4e-6);
   const Spread same = FindSpread(model, end, end.held,
                                  [](const RowMatrix& rows) { return RowMatrix(4e-6 * rows); });
-  // Errors of one shape and nothing else move the parameters by what they are worth.
+  // A single error of the shape `ramp` shifts the parameters by its projection; the standard errors
+  // are these shifts.
   const Linearization now = Linearize(model, end, end.held);
   const Eigen::MatrixXd inverse = (now.jacobian.transpose() * now.jacobian).inverse();
   Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(now.residual.size(), 0, 1e-3);

@@ -12,8 +12,7 @@
 
 namespace lyrefit {
 
-// A 36-cell module measured at `points` points from 0 to a little past Voc, with noise of
-// `noise_A`.
+// A 36-cell module at `points` voltages from 0 to slightly beyond Voc, with noise of `noise_A`.
 inline RefineProblem ModuleProblem(Model truth, Model fitted, const std::vector<double>& p,
                                    double noise_A, Objective objective, std::uint64_t seed = 1,
                                    int points = 40) {
@@ -34,7 +33,7 @@ inline RefineProblem ModuleProblem(Model truth, Model fitted, const std::vector<
   return MakeRefineProblem(device, objective, voltage, current, {}, lower, upper);
 }
 
-// Of a residual of weight 1.
+// Variance of a residual of weight 1.
 inline double VarianceOf(const RefineProblem& problem, const RefineEnd& end, int degrees) {
   return end.mean_square * static_cast<double>(problem.voltage_V.size()) / degrees;
 }

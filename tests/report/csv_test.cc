@@ -123,7 +123,7 @@ TEST(IndividualFitsCsv, KeepsTheRowOfACurveWithoutParameters) {
   EXPECT_THAT(IndividualFitsCsv(report), HasSubstr("\n1,,,,,,60\n"));
 }
 
-// Every row of a table has as many fields as its head; fields of these samples hold no comma.
+// Every row has as many fields as the header; fields of these samples hold no comma.
 void ExpectRectangular(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','),

@@ -31,7 +31,8 @@ TEST(DataSheetFigure, MarksWhatIsPickedAndTheRounding) {
     EXPECT_TRUE(marked) << panel.title;
     EXPECT_GE(panel.x.high, fit.family.members.back().n);
   }
-  // The last member's shunt is perfect, and the knee's resistances stand at n = 0.
+  // The last member of the family has no shunt (conductance 0). The resistances of the sharp knee
+  // are drawn at n = 0.
   const Panel& ohms = figure.panels.back();
   const auto shunt = std::find_if(ohms.series.begin(), ohms.series.end(),
                                   [](const Series& series) { return series.right_axis; });
@@ -41,7 +42,8 @@ TEST(DataSheetFigure, MarksWhatIsPickedAndTheRounding) {
   EXPECT_EQ(ohms.series.back().rows[0][1], 1e3 / fit.family.sharp_knee.resistance_shunt_ohm);
 }
 
-// All curves go through the three points, so none differs there from the picked one.
+// The panel shows differences from the picked curve. All curves of the family pass through the
+// three points of the data sheet, so that the differences vanish there.
 TEST(DataSheetFigure, DrawsCurvesThatMeetAtThreePoints) {
   const DataSheetFit fit = *FitDataSheet(SampleSheet());
   const Figure figure = DataSheetFigure(fit);

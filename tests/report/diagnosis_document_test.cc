@@ -71,7 +71,7 @@ TEST(DiagnosisText, TellsWhatToMeasureNextWhereThatWasAskedFor) {
   EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("between ")));
 }
 
-// A bound is rounded so that it stays one.
+// Bounds are rounded outwards, so that they remain valid.
 TEST(DiagnosisText, SaysWhatCausesCanExplainAtMost) {
   Diagnosis diagnosis = SampleDiagnosis();
   EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("What a cause can explain at most")));
@@ -116,7 +116,7 @@ TEST(DiagnosisText, NamesNoCauseWhereThereIsNone) {
   EXPECT_THAT(text, Not(HasSubstr("What a fit that ignores")));
 }
 
-// What was seen in the values has no fit behind it.
+// A cause found in the values has no p-value and no strength.
 TEST(DiagnosisText, TakesCausesSeenInTheValues) {
   Diagnosis diagnosis = SampleDiagnosis();
   Cause& cause = diagnosis.verdict.causes[0];

@@ -54,7 +54,7 @@ TEST(PlotDiagnosis, DrawsNoModelWithCausesWhereNoneWasFound) {
   EXPECT_THAT(svg, Not(HasSubstr("with the causes")));
 }
 
-// No model, no points: a picture nevertheless.
+// A diagnosis without a model or without points still gives a figure.
 TEST(PlotDiagnosis, LeavesOutWhatIsNotKnown) {
   const TempFolder folder;
   Diagnosis diagnosis = SampleDiagnosis();

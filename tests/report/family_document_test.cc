@@ -63,7 +63,7 @@ TEST(FamilyText, TellsEachCurveAndWhatWasNotFitted) {
   EXPECT_THAT(text, HasSubstr("desoto  sd <-"));
 }
 
-// 1.8 mA of 5.0026 A are 0.036 %.
+// 1.8 mA is 0.036 % of 5.0026 A.
 TEST(FamilyText, TellsTheTestOnCurvesNotSeenBesideParametersFromElsewhereAndTheFloor) {
   FamilyReport report = MakeSampleFamily(8).report;
   std::string text = FamilyText(report);

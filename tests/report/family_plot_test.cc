@@ -32,7 +32,7 @@ TEST(PlotFamily, DrawsCurvesFittedOneByOne) {
   EXPECT_THAT(Svg(MakeFreeSample(5), folder.Path("free.svg")), HasSubstr("sample_module: free sd"));
 }
 
-// A set that holds other curves, values that nobody knows: a picture nevertheless.
+// Missing curves and unknown values still give a figure.
 TEST(PlotFamily, LeavesOutWhatIsNotKnown) {
   const TempFolder folder;
   SampleFamily sample = MakeSampleFamily(5);

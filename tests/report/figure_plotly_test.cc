@@ -19,7 +19,7 @@ using ::testing::Not;
 
 Json Chart(const Figure& figure) { return Json::parse(PlotlyJson(figure)); }
 
-// The traces that have points.
+// The traces with at least two points.
 std::vector<Json> Traces(const Json& chart) {
   std::vector<Json> traces;
   for (const Json& trace : chart.at("data")) {
@@ -55,7 +55,7 @@ TEST(PlotlyJson, ShowsTheSameReadingsInTheSameColours) {
   EXPECT_EQ(traces[2].at("x").size(), 500u);
   EXPECT_EQ(traces[3].at("line").at("dash"), "dash");
   EXPECT_EQ(traces[4].at("yaxis"), "y2");
-  // The axis in % of Isc has nothing of its own, and is shown nevertheless.
+  // The axis in % of Isc has no trace of its own; an additional one makes Plotly show it.
   EXPECT_EQ(chart.at("data").back().at("yaxis"), "y4");
 }
 
@@ -166,7 +166,7 @@ TEST(PlotlyJson, MakesRoomBeyondTheDataWhereTheFigureDoes) {
   EXPECT_DOUBLE_EQ(range[1], 16);
 }
 
-// Panels do not overlap, side by side or below each other.
+// Panels do not overlap, in one column or in several.
 TEST(PlotlyJson, PlacesPanelsForWideAndNarrowPages) {
   const SampleFamily family = MakeSampleFamily(8);
   const Json chart = Chart(FamilyFigure(family.report, family.set));

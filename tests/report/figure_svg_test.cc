@@ -44,7 +44,7 @@ TEST(InlineSvgs, GivesEveryPictureOfAPageItsOwnNames) {
   EXPECT_THAT(svgs->at(0), HasSubstr("xlink:href='#one-gpPt5'"));
   EXPECT_THAT(svgs->at(1), HasSubstr("xlink:href='#two-gpPt"));
   EXPECT_THAT(page, Not(HasSubstr("href='#gp")));
-  // One run draws what two would.
+  // Drawing two figures in one gnuplot run gives the result of two runs.
   EXPECT_EQ(InlineSvgs({{&diagnosis, "two", ""}})->front(), svgs->at(1));
 }
 
@@ -54,7 +54,7 @@ TEST(InlineSvgs, TakesItsColoursFromThePage) {
   ASSERT_TRUE(svgs);
   const std::string& svg = svgs->front();
   EXPECT_THAT(svg, HasSubstr("var(--c-0072b2,#0072b2)"));
-  EXPECT_THAT(svg, HasSubstr("fill=\"var(--t-0072b2,#0072b2)\""));  // letters
+  EXPECT_THAT(svg, HasSubstr("fill=\"var(--t-0072b2,#0072b2)\""));  // text
   EXPECT_THAT(svg, HasSubstr("currentColor"));
   EXPECT_THAT(svg, Not(HasSubstr("rgb(")));
   EXPECT_THAT(svg, Not(HasSubstr("\"black\"")));

@@ -31,7 +31,7 @@ std::string Svg(const Figure& figure) {
   return svg.value_or("");
 }
 
-// The rows of the data in a script, without those that end a line.
+// Number of data rows in a gnuplot script, without the rows that end a line.
 int Rows(const std::string& script) {
   int rows = 0;
   std::size_t at = 0;
@@ -86,7 +86,7 @@ TEST(Figure, WithoutDataIsAnEmptyPanel) {
   EXPECT_THAT(Svg(figure), HasSubstr(">panel<"));
 }
 
-// A panel says all that holds for it, so that nothing of the one before is left.
+// Each panel sets or unsets all its properties, so that none is inherited from the panel before.
 TEST(Figure, HasPanelsThatKnowNothingOfEachOther) {
   const Figure plain = SampleFigure();
   Figure figure = SampleFigure();
@@ -129,7 +129,7 @@ TEST(Figure, StandsPanelsRowByRow) {
   EXPECT_EQ(page.top[2], page.top[3]);
   EXPECT_EQ(page.top[4] - page.top[2], page.top[2] - page.top[0] - 200);
   EXPECT_GT(page.height, page.top[4] + 300);
-  figure.columns = 9;  // more than there are panels
+  figure.columns = 9;  // more columns than panels
   EXPECT_EQ(LayOut(figure).columns, 5);
 }
 
@@ -194,7 +194,7 @@ TEST(LargeFigure, OfUpToTwoThousandReadingsIsDrawnWhole) {
   EXPECT_EQ(Rows(FigureScript(LargeFigure(1, 2000), "svg")), 12000);
 }
 
-// What is evenly far apart on the paper is so on a logarithmic axis too.
+// Thinning spaces the marks evenly on the drawn axis, also on a logarithmic one.
 TEST(LargeFigure, KeepsTheBeginningOfALogarithmicAxis) {
   Figure figure = SampleFigure();
   Panel& panel = figure.panels[0];

@@ -25,7 +25,7 @@ std::string LineWith(const std::string& report, const std::string& text) {
   return "";
 }
 
-// With single spaces in the place of breaks and margins.
+// The text with every run of white space replaced by one space.
 std::string OneLine(const std::string& report) {
   std::istringstream words(report);
   std::string line;
@@ -231,7 +231,7 @@ TEST(FullReport, CountsTheOptimaOfAModelWithEffects) {
               HasSubstr("few descents to estimate how many local optima were not seen"));
   report.refine.local_optima = OptimumCount{5, 1, 0, {5, 1, 0, 0, 0}, 0};  // interrupted
   EXPECT_THAT(FullReport(report), HasSubstr("in 1 local optimum, none of them the best"));
-  EXPECT_EQ(text.find("random "), text.rfind("random "));  // the baseline: no line for each start
+  EXPECT_EQ(text.find("random "), text.rfind("random "));  // random baseline: no line per start
   report.refine.starts.resize(14);
   report.refine.local_optima = OptimumCount{14, 1, 14, {14, 1, 14, 0, 0}, 0};
   EXPECT_THAT(

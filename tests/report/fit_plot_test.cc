@@ -46,7 +46,7 @@ TEST(FitFigure, LeavesOutWhatIsNotFinite) {
   EXPECT_THAT(FigureScript(FitFigure(report), "svg"), Not(HasSubstr("nan")));
 }
 
-// Where zero lies on an axis, from 0 to 1.
+// Position of zero on an axis: 0 at its lower end, 1 at its upper end.
 double ZeroOf(const Axis& axis) { return -axis.low / (axis.high - axis.low); }
 
 // Whether the zero of the right axis is drawn.
@@ -55,14 +55,14 @@ bool HasZeroOfTheRight(const Panel& panel) {
                      [](const Rule& rule) { return rule.right_axis && rule.y == 0; });
 }
 
-// A long tail beyond open circuit, where power falls further than current.
+// A long tail beyond open circuit, where the power is more negative than the current.
 TEST(FitFigure, HasTheZerosOfBothAxesAtOneHeightOrDrawsBoth) {
   FitReport report = SampleReport();
   report.curve.current_A.back() = -4;
   const Panel tail = FitFigure(report).panels[0];
   EXPECT_NEAR(ZeroOf(tail.y), ZeroOf(*tail.right), 1e-9);
   EXPECT_FALSE(HasZeroOfTheRight(tail));
-  // Deep reverse bias: much negative power, no negative current.
+  // Deep reverse bias: large negative power without negative current.
   report = SampleReport();
   report.curve.voltage_V.front() = -40;
   EXPECT_TRUE(HasZeroOfTheRight(FitFigure(report).panels[0]));
@@ -73,7 +73,7 @@ TEST(FitFigure, ShowsResidualsInPercentOfTheShortCircuitCurrent) {
   const Panel residuals = FitFigure(report).panels[1];
   ASSERT_TRUE(residuals.right);
   EXPECT_EQ(residuals.right->label, "% of Isc");
-  // 0.76 A, and the left axis in mA.
+  // Isc is 0.76 A, and the left axis is in mA.
   EXPECT_NEAR(residuals.right->high / residuals.y.high, 0.1 / 0.7603, 1e-4);
   EXPECT_NEAR(ZeroOf(*residuals.right), ZeroOf(residuals.y), 1e-12);
 }

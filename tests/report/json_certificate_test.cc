@@ -49,7 +49,8 @@ TEST(CertificateJson, HoldsExactlyTheKeysOfTheContract) {
                  "saturation_current_2", "n_2"}));
 }
 
-// The check that the header describes, from the JSON alone.
+// The check that the header describes, done with the JSON alone: the dual vector is feasible and
+// proves the floor.
 TEST(CertificateJson, ProvesTheFloorToAnyoneWhoCanMultiply) {
   const json j = json::parse(CertificateJson(RtcCertificate()));
   const auto voltage = j["data"]["voltage_V"].get<std::vector<double>>();

@@ -63,7 +63,7 @@ TEST(PvlibJson, NamesTheFunctionAndItsKeywords) {
   EXPECT_EQ(j["cec_reason"], "");
 }
 
-// Another keyword would be a TypeError in Python.
+// Any other key would be an unexpected keyword argument of pvlib's function, a TypeError.
 TEST(PvlibJson, ParametersAreTheArgumentsOfTheFunction) {
   const auto written = [](TranslationLaw law, ShuntLaw shunt, bool recombination) {
     TranslationSpec spec;

@@ -102,7 +102,7 @@ TEST(JsonReport, NamesParametersAsPvlibDoes) {
   EXPECT_TRUE(Parsed(report)["singlediode"].is_null());
 }
 
-// One shape wherever a parameter stands.
+// Every parameter, also one of an effect, has an object with equal keys.
 TEST(JsonReport, SaysOfAParameterWhatItIs) {
   FitReport report = SampleReport();
   Estimate depth;

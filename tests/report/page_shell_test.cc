@@ -53,7 +53,7 @@ TEST(PageShell, HoldsWhatItIsGivenAndFetchesNothing) {
   }
   EXPECT_THAT(html, Not(HasSubstr("src=")));
   EXPECT_THAT(html, Not(HasSubstr("https://")));
-  const std::size_t name = html.find("http://");  // of what SVG is, which is no place to fetch from
+  const std::size_t name = html.find("http://");  // the XML namespace of SVG, which is not fetched
   EXPECT_EQ(name, html.find("http://www.w3.org/2000/svg"));
   EXPECT_EQ(html.find("http://", name + 1), std::string::npos);
 }

@@ -22,7 +22,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What stands in a script element of a page.
+// Text of the script element with this id.
 std::string ScriptOf(const std::string& html, const std::string& id) {
   const std::size_t at = html.find("id=\"" + id + "\">");
   EXPECT_NE(at, std::string::npos) << id;

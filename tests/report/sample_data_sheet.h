@@ -6,7 +6,7 @@
 
 namespace lyrefit {
 
-// The device behind a sheet made by hand, every section filled.
+// A data sheet result written by hand, with every section filled.
 inline DataSheetFit SampleDataSheetFit() {
   DataSheetFit fit;
   TranslationSpec spec;
@@ -22,7 +22,8 @@ inline DataSheetFit SampleDataSheetFit() {
   return fit;
 }
 
-// A sheet as it is printed, whose family ends at a perfect shunt.
+// Printed values of a data sheet. The family of devices with these values ends at infinite shunt
+// resistance.
 inline DataSheet SampleSheet() {
   DataSheet sheet;
   sheet.values = {8.21, 32.9, 7.61, 26.3, 0.00318, -0.123};

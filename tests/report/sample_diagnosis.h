@@ -8,10 +8,10 @@
 #include "lyrefit/law/kernel.h"
 #include "sample_report.h"
 
-// Diagnoses made by hand: no engine has seen them.
+// Diagnoses written by hand, without running the library.
 namespace lyrefit {
 
-// One curve of a module of 36 cells and where its readings were taken.
+// One sweep of a module of 36 cells and its operating conditions.
 struct SampleSweep {
   std::string name;
   double irradiance_W_m2 = 1000;
@@ -21,7 +21,8 @@ struct SampleSweep {
   int points = 60;
 };
 
-// Adds the sweep; the base model misses it by `misfit(k, voltage, up)`, the extended one by noise.
+// Adds the sweep. The base model deviates from the data by `misfit(k, voltage, up)` in ampere, the
+// extended model by noise.
 template <class Misfit>
 void AddSampleSweep(const SampleSweep& sweep, Misfit misfit, Diagnosis* diagnosis) {
   Conditions conditions;
@@ -77,7 +78,7 @@ inline Trial SampleUntried(const std::string& id, const std::string& title,
   return trial;
 }
 
-// What is the same in all of them.
+// Fields that all sample diagnoses share.
 inline Diagnosis SampleDiagnosisHead() {
   Diagnosis d;
   d.version = "1.2.3";
@@ -144,7 +145,7 @@ inline Cause SampleStepCause() {
   return cause;
 }
 
-// One sweep with a step, found.
+// One sweep with an irradiance step, which was found.
 inline Diagnosis SampleDiagnosis() {
   Diagnosis d = SampleDiagnosisHead();
   AddSampleSweep(
@@ -161,7 +162,7 @@ inline Diagnosis SampleDiagnosis() {
   return d;
 }
 
-// Up and down, with two causes.
+// Further measurements that distinguish two causes.
 inline Plan SamplePlan() {
   return {{"irr_step", "drift"},
           {{"reverse_sweep",
@@ -208,7 +209,7 @@ inline Diagnosis SampleUpDown() {
   return d;
 }
 
-// Curves under that many irradiances.
+// Curves under `curves` irradiances.
 inline Diagnosis SampleDiagnosisOfFamily(int curves) {
   Diagnosis d = SampleDiagnosisHead();
   d.name = "sample_family";
@@ -234,7 +235,7 @@ inline Diagnosis SampleDiagnosisOfFamily(int curves) {
   return d;
 }
 
-// A lit and a dark curve; something is there, but nobody knows what.
+// A lit and a dark curve with a misfit that no cause explains.
 inline Diagnosis SampleLitAndDark() {
   Diagnosis d = SampleDiagnosisHead();
   d.name = "lit_and_dark";

@@ -4,7 +4,7 @@
 
 namespace lyrefit {
 
-// Every kind of block, and names that mean something to Markdown and HTML.
+// Every kind of block, with text that contains markup of Markdown and HTML.
 inline Document HostileDocument() {
   Document document;
   document.banners = {"DOUBTFUL: is <b>this</b> a *curve*?"};

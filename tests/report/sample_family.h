@@ -22,8 +22,8 @@ inline Estimate SharedEstimate(const ParameterInfo& info, double value) {
   return e;
 }
 
-// A module of 36 cells under `curves` irradiances, and its report made by hand, every section
-// filled: the first curve is held out, the second left out, the third looks like another device.
+// A module of 36 cells under `curves` irradiances, and its report, written by hand with every
+// section filled. The first curve is held out, the second left out, the third an outlier.
 struct SampleFamily {
   CurveSet set;
   FamilyReport report;
@@ -141,7 +141,7 @@ inline SampleFamily MakeSampleFamily(int curves) {
   return sample;
 }
 
-// The same curves fitted one by one.
+// The sample curves with an individual fit of each.
 inline SampleFamily MakeFreeSample(int curves) {
   SampleFamily sample = MakeSampleFamily(curves);
   FamilyReport& report = sample.report;

@@ -5,7 +5,7 @@
 
 namespace lyrefit {
 
-// Pmax of two inputs, one of them small, propagated for real.
+// Uncertainty budget of Pmax with three inputs, one of them negligible, propagated by the library.
 inline UncertaintyBudget SampleBudget(int draws = 20000) {
   UncertainModel model;
   model.outputs = {{"max_power", "Pmax", "W"}};

@@ -7,7 +7,7 @@
 
 namespace lyrefit {
 
-// A doubtful fit, a file without one, and a search that was not polished.
+// A doubtful fit, a file without a fit, and a search without polish.
 inline std::vector<FittedFile> SampleFits() {
   FitReport warned = SampleReport();
   warned.warnings = {"first, of two", "second"};

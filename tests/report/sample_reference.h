@@ -5,7 +5,7 @@
 
 #include "lyrefit/diagnose/reference.h"
 
-// Comparisons made by hand: no engine has seen them.
+// Comparisons written by hand, without running the library.
 namespace lyrefit {
 
 inline ReferenceComparison SampleReference() {

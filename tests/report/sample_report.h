@@ -8,7 +8,7 @@
 
 namespace lyrefit {
 
-// A report made by hand: RTC-like cell, single diode, every section filled.
+// A report written by hand: a cell similar to RTC France, single diode, every section filled.
 inline FitReport SampleReport() {
   FitReport report;
   report.version = "1.2.3";

@@ -5,7 +5,8 @@
 
 namespace lyrefit {
 
-// A made module of 60 cells from 800 W/m2, 45 C to standard conditions, without a diagnosis.
+// A simulated module of 60 cells, translated from 800 W/m2, 45 C to standard conditions, without a
+// diagnosis.
 inline TranslationReport SampleTranslation(int draws = 300) {
   const MadeModule module;
   TranslateOptions options;

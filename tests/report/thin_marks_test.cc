@@ -30,7 +30,7 @@ TEST(MarksToDraw, KeepTheExtremesAndTheEnds) {
   EXPECT_GT(kept.size(), kMostMarks / 3);
   for (const std::size_t i : {0, 31417, 70001, 99999}) EXPECT_THAT(kept, Contains(i));
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
-  // No gap that an eye would see.
+  // No visible gap: 0.3 of an axis of 100.
   for (std::size_t k = 1; k < kept.size(); ++k) EXPECT_LT(x[kept[k]] - x[kept[k - 1]], 0.3);
 }
 
@@ -44,7 +44,7 @@ TEST(MarksToDraw, LeaveOutWhatIsNotFinite) {
   for (const std::size_t i : kept) EXPECT_TRUE(i != 17 && i != 18);
 }
 
-// The extremes alone would show twice the spread that there is.
+// Keeping only the extremes would exaggerate the spread.
 TEST(MarksToDraw, ShowWhatIsUsualToo) {
   std::vector<double> x(50000), y(50000);
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -10,7 +10,7 @@ namespace lyrefit {
 
 inline bool HasXmlLint() { return std::system("command -v xmllint > /dev/null") == 0; }
 
-// What a parser that forgives nothing says of a page; nothing if all is well.
+// Errors that xmllint reports for a page; empty if there are none.
 inline std::string Complaints(const std::string& html) {
   const TempFolder folder;
   const std::string page = folder.Write("page.html", html);

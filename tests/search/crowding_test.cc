@@ -49,7 +49,7 @@ TEST(Crowding, FindsTheLargestDistanceOfManyCandidatesInLittleMemory) {
   RandomStream random(5);
   std::vector<double> unit(kCandidates);
   for (double& x : unit) x = random.Uniform();
-  // A table of all distances would have 3.2 GB.
+  // A table of all distances would take 3.2 GB.
   const auto in_little_memory = [&] {
     const rlimit limit = {1U << 30, 1U << 30};
     if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(1);
@@ -59,7 +59,7 @@ TEST(Crowding, FindsTheLargestDistanceOfManyCandidatesInLittleMemory) {
       return *ends.second - *ends.first;
     };
     if (crowding.LargestDistance() != largest()) std::_Exit(2);
-    for (int move = 0; move < 20; ++move) {  // the outermost candidate to the middle
+    for (int move = 0; move < 20; ++move) {  // moves the outermost candidate to the middle
       const auto end = std::max_element(unit.begin(), unit.end());
       *end = 0.5;
       crowding.Move(static_cast<int>(end - unit.begin()), &*end);

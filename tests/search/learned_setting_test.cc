@@ -27,7 +27,7 @@ TEST(LearnedSetting, BeginsAroundItsFirstValue) {
 TEST(LearnedSetting, RemembersTheMeanOfWhatGainedWeightedByTheGain) {
   LearnedSetting weighted(0.5);
   LearnedSetting plain(0.5);
-  for (int iteration = 0; iteration < 5; ++iteration) {  // as many as it remembers
+  for (int iteration = 0; iteration < 5; ++iteration) {  // the length of its memory
     weighted.Gained(0.2, 3);
     weighted.Gained(0.6, 1);
     weighted.EndIteration();
@@ -45,7 +45,7 @@ TEST(LearnedSetting, KeepsWhatItKnowsWhereNothingGained) {
   EXPECT_EQ(MeanDraw(setting), MeanDraw(LearnedSetting(0.4)));
 }
 
-// Moves that gain the more, the larger their value is.
+// The gain of a move grows with the value of the setting.
 TEST(LearnedSetting, FollowsTheGain) {
   LearnedSetting setting(0.2);
   RandomStream random(3);

@@ -1,5 +1,5 @@
-// The published level of LO and MLO on the three-diode model of the RTC France cell, from the
-// literature's bounds: population 100, 1000 iterations, measured-current RMSE.
+// Compares LO and MLO with their published results on the three-diode model of the RTC France cell,
+// in the bounds of the literature: population 100, 1000 iterations, measured-current RMSE.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr double kCurrent[] = {0.764, 0.762,  0.7605, 0.7605, 0.76,   0.759,  0.
                                0.754, 0.7505, 0.7465, 0.7385, 0.728,  0.7065, 0.6755, 0.632, 0.573,
                                0.499, 0.413,  0.3165, 0.212,  0.1035, -0.01,  -0.123, -0.21};
 
-// Written here from the equation, so that this module stays free of photovoltaics.
+// Implemented here from the equation, since the module `search` contains no photovoltaics.
 double Rmse(const double* x) {
   const double vt = 1.380649e-23 * 306.15 / 1.602176634e-19;
   double sum = 0;
@@ -61,7 +61,7 @@ Spread OverSeeds(Algorithm algorithm, int seeds, int population = 100, int itera
   return spread;
 }
 
-// Four standard errors of both means: ours over 20 seeds and the paper's over 50.
+// Four standard errors of the difference of both means: `seeds` own runs and 50 of the paper.
 double Allowance(const Spread& ours, double their_deviation, int seeds) {
   return 4 * std::sqrt(ours.deviation * ours.deviation / seeds +
                        their_deviation * their_deviation / 50);
@@ -80,8 +80,8 @@ TEST(Lyrebird, ReachesThePublishedMeanOfTheModification) {
 }
 
 struct Dispersals {
-  double share = 0;  // of the moves of the hiding phase
-  int equal = 0;     // runs that end where LO does, to the bit
+  double share = 0;  // relative to the moves of the hiding phase
+  int equal = 0;     // runs that end bit-identical to LO
 };
 
 Dispersals CountDispersals(double gamma, int runs) {
@@ -111,7 +111,7 @@ Dispersals CountDispersals(double gamma, int runs) {
   return counted;
 }
 
-// README.md of lib/lyrefit/search has these figures.
+// These figures are in README.md of lib/lyrefit/search.
 TEST(Lyrebird, HardlyEverDispersesAtThePapersGamma) {
   SKIP_IF_SANITIZED();
   const Dispersals at_papers = CountDispersals(0.25, 30);
@@ -123,7 +123,7 @@ TEST(Lyrebird, HardlyEverDispersesAtThePapersGamma) {
   EXPECT_EQ(at_twice.equal, 0);
 }
 
-// A thousand evaluations, where fixed settings have not converged yet.
+// A thousand evaluations, after which fixed settings have not converged yet.
 TEST(Lyrebird, TunesItselfToABetterEndThanTheFixedSettings) {
   const Spread fixed = OverSeeds(Algorithm::kMlo, 100, 32, 30);
   const Spread tuned = OverSeeds(Algorithm::kMloTuned, 100, 32, 30);

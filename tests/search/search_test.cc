@@ -195,7 +195,7 @@ TEST(Lyrebird, WithoutMemoryOneNumberAMoveAndOneACoordinateAreTheSame) {
   EXPECT_NE(Search(Sphere, kBox, options).best.x, vector.best.x);
 }
 
-// Two local optima of one width; the lower one, at the second corner, 0.1 below.
+// Two local optima of equal width, at (-1, -1, -1) and (2, 2, 2); the second is lower by 0.1.
 double TwoBowls(const double* x) {
   double first = 0, second = -0.1;
   for (int j = 0; j < 3; ++j) {
@@ -227,7 +227,7 @@ TEST(Knees, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
     return candidates;
   };
   Box box = kBox;
-  box.suggested.assign(9, {1, 9, -9});  // out of the box: at its walls
+  box.suggested.assign(9, {1, 9, -9});  // outside of the box: clipped to its bounds
   const auto mlo = first_population(Algorithm::kMlo, box);
   const auto knees = first_population(Algorithm::kMloKnees, box);
   ASSERT_EQ(knees.size(), 20U);

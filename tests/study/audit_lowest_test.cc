@@ -1,4 +1,4 @@
-// How low claims can go, and what they are the least of.
+// Lower bounds and optima that the audit compares with claimed RMSE, and the objectives of claims.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST_F(AuditLowestTest, SaysWhenNoParametersGiveTheClaim) {
   EXPECT_NEAR(finding.temperatures->best_C, 45, 0.1);
 }
 
-// A bad row whose claim others could meet.
+// The row's parameters do not give the claimed RMSE, but other parameters could.
 TEST_F(AuditLowestTest, SaysNothingOfTheOptimumWhereOtherParametersGiveTheClaim) {
   const AuditFinding finding =
       Find("pwp201", "2.5123e-3", "1.0305143,1.31127101,981.98228,3.48226294,1.35119128,,");
@@ -69,7 +69,7 @@ TEST_F(AuditLowestTest, SaysWhereOnlyAWiderRangeOfNMeetsTheClaim) {
                         "the claim can be met, down to 6.981947e-04 A."));
 }
 
-// A bound far below what was found says nothing of a claim between them.
+// A claim between the proved lower bound and the best known RMSE is not refuted.
 TEST(AuditLowest, TellsBelowTheProvedFromBelowTheBestKnown) {
   AuditFinding finding;
   finding.row.rmse.value = 9e-4;
@@ -102,21 +102,21 @@ TEST_F(AuditLowestTest, HoldsAClaimWithoutParametersAgainstTheLowestThereIs) {
     return finding.verdict;
   };
   EXPECT_EQ(verdict("2.42507e-3"), AuditVerdict::kNoParameters);
-  EXPECT_EQ(verdict("2.4250e-3"), AuditVerdict::kNoParameters);  // cut off
+  EXPECT_EQ(verdict("2.4250e-3"), AuditVerdict::kNoParameters);  // digits cut off
   EXPECT_EQ(verdict("2.4249e-3"), AuditVerdict::kBelowProved);
   EXPECT_EQ(verdict("3e-3"), AuditVerdict::kNoParameters);
   EXPECT_THAT(Find("pwp201", "2.42507e-3", ",,,,,,").sentence, HasSubstr("the least there is"));
   EXPECT_THAT(Find("pwp201", "3e-3", ",,,,,,").sentence, HasSubstr("can be met"));
 }
 
-// The optimum of one objective given out as one of the other.
+// The optimum of the solved-current RMSE, published as a measured-current RMSE.
 TEST_F(AuditLowestTest, NamesTheObjectiveThatAClaimIsTheLeastOf) {
   const AuditFinding mixed = Find("rtc_france", "7.73006e-4", ",,,,,,");
   EXPECT_EQ(mixed.verdict, AuditVerdict::kBelowProved) << mixed.sentence;
   EXPECT_THAT(mixed.sentence, HasSubstr("the least solved-current RMSE"));
 }
 
-// Rows may say what their claims are of.
+// A row may state the objective of its claim.
 TEST_F(AuditLowestTest, TakesTheObjectiveOfTheRow) {
   const std::string header =
       "source,device,model,algorithm,objective,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_uA,n1\n";
@@ -154,7 +154,7 @@ TEST_F(AuditLowestTest, TakesTheRootOfASumOfSquares) {
   EXPECT_EQ(finding.row.rmse.text, "1.470247e-4");
 }
 
-// The parameters that are best for one Newton step from the measured current, RTC France.
+// Parameters that minimise the RMSE after one Newton step from the measured current, RTC France.
 TEST_F(AuditLowestTest, FindsThatTheEquationWasNotSolvedToItsEnd) {
   AuditOptions solved;
   solved.objective = Objective::kSolvedCurrent;
@@ -168,7 +168,8 @@ TEST_F(AuditLowestTest, FindsThatTheEquationWasNotSolvedToItsEnd) {
   EXPECT_NEAR(finding.stated.rmse.solved_current_A, 7.73006e-4, 1e-8);
 }
 
-// What the audit finds by itself: the same optimum, without parameters to begin with.
+// The audit finds the minimum of the RMSE after one Newton step by itself, also for a row without
+// parameters.
 TEST_F(AuditLowestTest, FindsTheLeastThatOneNewtonStepComesTo) {
   SKIP_IF_SANITIZED();
   AuditOptions solved;
@@ -185,7 +186,7 @@ TEST_F(AuditLowestTest, FindsTheLeastThatOneNewtonStepComesTo) {
   EXPECT_NEAR(least("rtc_france", "dd"), 7.326299666e-4, 2e-10);  // n2 at 2, other constants
 }
 
-// The claim is 2.42507487e-3 A, cut off.
+// The claim is 2.42507487e-3 A with its digits cut off instead of rounded.
 TEST_F(AuditLowestTest, FindsDigitsThatAreCutOff) {
   const AuditFinding finding =
       Find("pwp201", "2.4250748e-3", "1.030514299,1.201271017,981.982214,3.482262678,1.351189850,,",

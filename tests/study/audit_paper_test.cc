@@ -1,4 +1,5 @@
-// The parameter rows of J. Ind. Manag. Optim. 22(1), 642-690, as data/paper/rows.csv has them.
+// Audit of the parameter rows of J. Ind. Manag. Optim. 22(1), 642-690, stored in
+// data/paper/rows.csv.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,7 +74,7 @@ TEST(PaperAudit, ReproducesTheseRowsAndNoOthers) {
   EXPECT_EQ(RowsWith(AuditVerdict::kReproduces), expected);
 }
 
-// The curve is one of 25 C; the rows were fitted at 75 C, with resistances per cell.
+// The curve was measured at 25 C; the rows were fitted at 75 C, with resistances per cell.
 TEST(PaperAudit, FindsThatMsx60WasFittedAt75CWithResistancesPerCell) {
   for (const char* table : {"Table 3", "Table 5", "Table 7"}) {
     for (const char* algorithm : {"LO", "MLO"}) {
@@ -91,8 +92,8 @@ TEST(PaperAudit, FindsThatMsx60WasFittedAt75CWithResistancesPerCell) {
   }
 }
 
-// The paper prints k = 1.38065e-23 J/K and q = 1.60217e-19 C; with these come out only three rows,
-// whose printed digits leave room for all sets.
+// The paper prints k = 1.38065e-23 J/K and q = 1.60217e-19 C. Only three rows reproduce with these
+// constants, since their printed digits are compatible with every set.
 TEST(PaperAudit, FindsTheConstantsOfTheLiteratureBehindEveryRowThatReproduces) {
   std::ptrdiff_t with_paper = 0;
   for (const AuditFinding& finding : Paper().findings) {
@@ -166,7 +167,7 @@ TEST(PaperAudit, FindsTheWrongUnitInTheTextOfSection422) {
   EXPECT_THAT(finding.explanations[0].reading.changes, ElementsAre("with Is2 in A instead of uA"));
 }
 
-// Table 1 has Rs 0.2 to 0.4 ohm, Rsh 150 to 3000 ohm, Is 1e-8 to 1e-6 A.
+// Bounds of the paper's table 1: Rs 0.2 to 0.4 ohm, Rsh 150 to 3000 ohm, Is 1e-8 to 1e-6 A.
 TEST(PaperAudit, NamesTheBoundsThatTheRowsLeave) {
   const auto changed = [](const char* table, const char* algorithm) {
     return SymbolsOf(Row(table, algorithm).explanations[0].reading.left_bounds);
@@ -181,7 +182,8 @@ TEST(PaperAudit, NamesTheBoundsThatTheRowsLeave) {
   EXPECT_THAT(SymbolsOf(Row("Table 11", "MLO").stated.left_bounds), IsEmpty());
 }
 
-// No row but one, whose Is has three digits, passes by being printed coarsely.
+// No row reproduces merely because its printed digits are few, except one row whose Is has three
+// digits.
 TEST(PaperAudit, JudgesByThePrintedDigits) {
   for (const AuditFinding& finding : Paper().findings) {
     if (finding.verdict != AuditVerdict::kReproduces) continue;

@@ -15,7 +15,7 @@ inline constexpr char kAuditHeader[] =
     "source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_uA,n1,Is2_uA,n2,temperature_C,"
     "cells,constants,bounds\n";
 
-// Optima of measured-current RMSE with CODATA constants, rounded.
+// Rounded optima of measured-current RMSE in ampere with CODATA constants.
 // Photowatt-PWP201, 36 cells at 45 C: 2.425075e-3
 inline constexpr char kPwp[] = "1.0305143,1.20127101,981.98228,3.48226294,1.35119128,,";
 // STM6-40/36, 36 cells at 51 C: 1.729814e-3
@@ -30,7 +30,7 @@ class AuditTest : public ::testing::Test {
     return report.value_or(AuditReport{});
   }
 
-  // The finding of one row without further conditions.
+  // The finding for one row.
   AuditFinding Find(const std::string& device, const std::string& claim,
                     const std::string& parameters, const std::string& conditions = ",,,",
                     const AuditOptions& options = {}, const char* model = "sd") {
@@ -45,7 +45,7 @@ class AuditTest : public ::testing::Test {
   TempFolder folder_;
 };
 
-// The changes of the only explanation.
+// The changes in the only explanation of a finding.
 inline std::vector<std::string> ChangesOf(const AuditFinding& finding) {
   EXPECT_EQ(finding.verdict, AuditVerdict::kReproducesChanged) << finding.sentence;
   EXPECT_THAT(finding.explanations, ::testing::SizeIs(1)) << finding.sentence;

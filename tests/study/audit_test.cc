@@ -98,7 +98,7 @@ TEST_F(AuditTest, FindsTwoAndThreeChangesAtOnce) {
 }
 
 TEST_F(AuditTest, HoldsARowToItsConstants) {
-  // With n at its bound the constants show.
+  // With n at its bound, the RMSE depends on the constants.
   constexpr char kRow[] = "0.760781079,0.03674043,55.48544096,7.49347E-1,2,2.25974E-1,1.45101678";
   const AuditFinding open = Find("rtc_france", "9.82485E-04", kRow, ",,,", {}, "dd");
   EXPECT_EQ(open.verdict, AuditVerdict::kReproduces);
@@ -137,7 +137,7 @@ TEST_F(AuditTest, SaysWhenDigitsAreTooFew) {
 }
 
 TEST_F(AuditTest, TakesAGoodMatchOfFewDigits) {
-  // Is1 has three digits; what they leave open is a fifth of the claim.
+  // Is1 has three digits, which make the RMSE uncertain by a fifth of the claim.
   const AuditFinding finding =
       Find("rtc_france", "9.8602E-04", "0.760776,0.036377,53.71852,3.2E-1,1.48,,");
   EXPECT_NE(finding.verdict, AuditVerdict::kReproduces) << finding.sentence;
@@ -162,7 +162,8 @@ TEST_F(AuditTest, RecognisesARowThatOnlyLooksLikeAnotherDevice) {
 
 TEST_F(AuditTest, NamesParametersOutsideTheBounds) {
   const AuditFinding paper =
-      Find("rtc_france", "1e-3", "0.760776,0.036377,153.7,3.23E-1,2.5,,");  // bounds-paper.json
+      // bounds: bounds-paper.json
+      Find("rtc_france", "1e-3", "0.760776,0.036377,153.7,3.23E-1,2.5,,");
   EXPECT_EQ(paper.bounds_name, "paper");
   ASSERT_THAT(paper.stated.left_bounds, SizeIs(2));
   EXPECT_EQ(paper.stated.left_bounds[0].info.symbol, "n1");
@@ -173,7 +174,8 @@ TEST_F(AuditTest, NamesParametersOutsideTheBounds) {
   EXPECT_EQ(literature.bounds_name, "literature");
   ASSERT_THAT(literature.stated.left_bounds, SizeIs(1));
   EXPECT_EQ(literature.stated.left_bounds[0].info.name, "resistance_series");
-  EXPECT_EQ(Find("pwp201", "2.425075e-3", kPwp).bounds_name, "");  // there are no paper bounds
+  // this curve has no file bounds-paper.json
+  EXPECT_EQ(Find("pwp201", "2.425075e-3", kPwp).bounds_name, "");
 }
 
 TEST_F(AuditTest, ListsRowsItCannotAuditAndGoesOn) {
@@ -226,7 +228,7 @@ TEST_F(AuditTest, SurvivesAbsurdNumbers) {
   }
 }
 
-// Claims out of the blue: hardly any may find an explanation, whatever is tried.
+// For arbitrary claims, hardly any explanation may be found among all that are tried.
 TEST_F(AuditTest, ExplainsNothingByAccident) {
   SKIP_IF_SANITIZED();
   std::ostringstream rows;

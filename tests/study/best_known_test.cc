@@ -36,7 +36,7 @@ TEST(FindBestKnown, IsAtMostAsHighAsTheTruth) {
     const BestKnown known = FindBestKnown(subject, problem, options);
     EXPECT_EQ(known.points, 6);
     EXPECT_LE(known.visits, 6);
-    // What is fitted may follow the noise: it ends below what the device was made with.
+    // A fit follows the noise, so that its RMSE lies below the noise of the device.
     EXPECT_LT(known.best.rmse_A, 1.2 * (*cases)[d].noise_A);
     EXPECT_EQ(known.best.parameters.size(), problem.parameters.size());
     EXPECT_FALSE(known.found_by.empty());

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// The same bits, NaN included.
+// Bitwise equality, also of NaN.
 bool Same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 void ExpectSameRuns(const Comparison& a, const Comparison& b) {
@@ -87,7 +87,8 @@ TEST(Compare, GivesAllAlgorithmsTheSameBudget) {
   for (const AlgorithmResult& compared : comparison.problems[0].algorithms) {
     for (const RunRecord& run : compared.runs) {
       EXPECT_LE(run.evaluations, 210) << compared.name;
-      // The best lyrebird has nobody to flee to: half of its moves cost nothing.
+      // The best candidate of MLO has no better one to move to, so that half of its moves take no
+      // evaluation.
       EXPECT_GE(run.evaluations, compared.name == "mlo" ? 185 : 210) << compared.name;
     }
   }
@@ -165,7 +166,7 @@ TEST(Compare, TakesASearchOfTheUsersOwn) {
     summary.best.objective = objective(summary.best.x.data());
     summary.elites = {summary.best};
     summary.evaluations = 1;
-    return summary;  // keeps no trace
+    return summary;  // without a trace
   };
   const Comparison comparison = Compared({own, SmallAlgorithms()[0]}, SmallOptions());
   const AlgorithmResult& result = comparison.problems[0].algorithms[0];
@@ -205,7 +206,7 @@ Observer StopAfter(std::int64_t runs) {
 TEST(Compare, KeepsEveryFinishedRunWhenStopped) {
   CompareOptions options = SmallOptions();
   const Comparison whole = Compared(SmallAlgorithms(), options);
-  options.threads = 1;  // two could be beyond the run that ends it
+  options.threads = 1;  // two threads could have passed the run that stops
   const Comparison part = Compared(SmallAlgorithms(), options, StopAfter(12 + 8));
   EXPECT_TRUE(part.interrupted);
   ASSERT_EQ(part.problems.size(), 2U);
@@ -253,7 +254,7 @@ TEST(Compare, StopsInsideALongRun) {
   EXPECT_TRUE(stopped.problems.empty()) << "none is done";
 }
 
-// The sentence with which a comparison is refused; no run may have been made before.
+// The error of a comparison that is refused. No run may have started before.
 std::string Refusal(const std::vector<CompareCurve>& curves,
                     const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options) {
   bool ran = false;
@@ -302,7 +303,7 @@ TEST(Compare, FindsTheMistakeInTheLastProblemBeforeTheFirstRun) {
   reversed.bounds.overrides["n"] = {2, 1};
   EXPECT_THAT(Refusal({RtcFrance(), reversed}, SmallAlgorithms(), SmallOptions()),
               HasSubstr("sd cannot be compared on rtc_france: "));
-  CompareCurve few = RtcFrance();  // enough for five parameters, not for seven
+  CompareCurve few = RtcFrance();  // enough for five parameters, too few for seven
   few.curve.voltage_V.resize(6);
   few.curve.current_A.resize(6);
   EXPECT_THAT(Refusal({RtcFrance(), few}, SmallAlgorithms(), SmallOptions()),

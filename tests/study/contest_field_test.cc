@@ -1,5 +1,5 @@
 // The contest sets of github.com/cwhanse/ivcurves: exact curves with known parameters, and noisy
-// ones of one device each.
+// curves of one device per set.
 
 #include <gtest/gtest.h>
 
@@ -46,8 +46,8 @@ INSTANTIATE_TEST_SUITE_P(Contest, ExactSet, ::testing::Values("case1", "case2"))
 
 class NoisySet : public ::testing::TestWithParam<const char*> {};
 
-// Their noise hangs together from point to point: the report must say so, and whole curves must be
-// what the joint fit's intervals rest on.
+// The noise of neighbouring points is correlated. The report must warn of it, and the intervals of
+// the joint fit must be based on whole curves.
 TEST_P(NoisySet, IsFittedTogetherAndItsNoiseIsNamed) {
   if (std::string(GetParam()) != "case3a") SKIP_IF_SANITIZED();
   const CurveSet set = ContestSet(GetParam());

@@ -28,7 +28,7 @@ CoverageOptions Small(int sets = 20) {
 
 int IndexOf(const CurveSet& set) { return std::stoi(set.name.substr(4)); }
 
-// A report whose intervals hold the truth of set s but where `miss` says otherwise.
+// A report whose intervals contain the truth of the set, unless `change` alters them.
 Expected<FamilyReport> Pretend(const CoverageOptions& options, const CurveSet& set,
                                const std::function<void(int, FamilyReport*)>& change) {
   const auto made = SimulateSet(options, IndexOf(set));
@@ -78,7 +78,8 @@ TEST(Coverage, CountsHitsMissesHeldAndNotIdentifiable) {
   const CoverageOptions options = Small();
   const auto report = Coverage(options, Fitter(options, [](int set, FamilyReport* r) {
                                  std::vector<Estimate>& e = r->estimates;
-                                 if (set < 5) e[0].low_95 = e[0].refined * 1.001;  // misses
+                                 // the interval misses the truth
+                                 if (set < 5) e[0].low_95 = e[0].refined * 1.001;
                                  if (set == 7) e[0].high_95 = e[0].refined * 0.999;
                                  if (set % 2 == 0) e[1].identifiable = false;
                                  if (set == 3) e[2].low_95 = kUnknown;
@@ -121,7 +122,8 @@ TEST(Coverage, HoldsTheFittedOffsetAgainstTheHiddenError) {
   options.temperature_error_K = 2;
   options.family.temperature_offset = true;
   const auto report = Coverage(options, Fitter(options, [](int set, FamilyReport* r) {
-                                 const double value = set < 15 ? -2.1 : 2.1;  // wrong sign: a miss
+                                 // a wrong sign counts as a miss
+                                 const double value = set < 15 ? -2.1 : 2.1;
                                  r->temperature_offset_K = {value, 0.1, value - 0.2, value + 0.2};
                                }));
   ASSERT_TRUE(report);

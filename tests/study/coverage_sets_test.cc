@@ -75,7 +75,8 @@ TEST(SimulateSet, CurvesAreTheTranslatedModelPlusNoiseOfTheStatedSize) {
     }
     EXPECT_NEAR(exact.back(), 0, 1e-6) << "the last point is open circuit";
   }
-  // 2200 draws know their standard deviation to 1.5 %; five times that.
+  // With 2200 draws the standard deviation has a standard error of 1.5 %; the tolerance is five
+  // times that.
   EXPECT_NEAR(std::sqrt(square / count), options.noise_relative, 0.075 * options.noise_relative);
 }
 

@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-// A shaded module read without noise.
+// A shaded module measured without noise by this tracer.
 LandscapeCase ReadWith(Tracer tracer) {
   RandomStream random(3);
   DrawnDevice device = DrawModule(3, &random);
@@ -22,7 +22,8 @@ LandscapeCase ReadWith(Tracer tracer) {
   return read ? *read : LandscapeCase{};
 }
 
-// Smallest and largest of f(dV, dI, I) over the steps, all in parts of Voc and Isc.
+// Smallest and largest value of f(dV, dI, I) over the steps, in units of Voc and Isc. NaN values
+// are left out.
 template <class F>
 std::pair<double, double> Steps(const IvCurve& curve, const F& f) {
   const double voc = curve.voltage_V.back(), isc = curve.current_A.front();
@@ -54,14 +55,14 @@ TEST(Measure, StepsTheLengthAlongTheCurveEvenly) {
   EXPECT_NEAR(curve.current_A.back(), 0, 1e-3 * curve.current_A.front());
   const auto [least, most] =
       Steps(curve, [](double dv, double di, double) { return std::hypot(dv, di); });
-  EXPECT_GT(least, 0.9 * most);  // a step over a knee is a chord
+  EXPECT_GT(least, 0.9 * most);  // across a knee the step is a chord
 }
 
 TEST(Measure, ReadsACapacitorThatTheDeviceChargesAtEvenTimes) {
   const IvCurve curve = ReadWith(Tracer::kCharge).curve;
   ASSERT_EQ(curve.size(), 120U);
   EXPECT_NEAR(curve.current_A.back(), 0, 1e-3 * curve.current_A.front());
-  // In even times, until hardly any current flows.
+  // Equal time steps, checked until the current falls to 0.1 Isc.
   const auto [least, most] =
       Steps(curve, [](double dv, double, double i) { return i > 0.1 ? dv / i : NAN; });
   EXPECT_GT(least, 0.9 * most);

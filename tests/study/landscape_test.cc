@@ -31,7 +31,8 @@ std::vector<IvCurve> CurvesOf(const LandscapeCase& device) {
   return device.set ? device.set->curves : std::vector<IvCurve>{device.curve};
 }
 
-// The truth in the fit's own law, and how many parameters of it the law has; each known by name.
+// The true values of the parameters in the order of the fit's law; every name of `truth` must occur
+// in it.
 std::vector<double> TruthIn(const std::vector<ParameterInfo>& infos, std::vector<double> usual,
                             const std::map<std::string, double>& truth) {
   std::size_t used = 0;
@@ -48,7 +49,7 @@ std::vector<double> TruthIn(const std::vector<ParameterInfo>& infos, std::vector
 struct TruthFit {
   double rmse_A = 0;
   std::size_t points = 0;
-  std::vector<std::string> outside;  // parameters that the fit would not let be what they are
+  std::vector<std::string> outside;  // symbols of parameters whose truth is outside of the bounds
 };
 
 TruthFit OfCurve(const LandscapeCase& device) {
@@ -72,7 +73,7 @@ TruthFit OfCurve(const LandscapeCase& device) {
   p = Inner(fitted, p);
   TruthFit result{std::sqrt(MeanSquare(job.problem, p)), device.curve.size(), {}};
   for (int i = 0; i < fitted.size(); ++i) {
-    // Which law a weak cell follows, and so what is held, is for the fit to say.
+    // The fit itself selects the reverse law of a weak cell, and with it the fixed parameters.
     const bool held = job.problem.lower[i] == job.problem.upper[i];
     if (held && fitted.parameters[i].symbol.rfind("weak_cell.", 0) == 0) continue;
     const double slack = 1e-9 * std::fabs(p[i]);
@@ -137,8 +138,9 @@ TEST_P(EveryProblem, BeginsAlikeWhateverTheCount) {
   }
 }
 
-// That the fit's law and the one a device was made by are the same shows in what the truth leaves:
-// the noise, whose root mean square varies by 1 / sqrt(2 N).
+// At the true parameters the fit's law leaves only noise, whose root mean square has a relative
+// standard deviation of 1 / sqrt(2 N). This shows that the device was simulated by the law of the
+// fit.
 TEST_P(EveryProblem, LeavesTheNoiseAtTheTruth) {
   double squares = 0, points = 0;
   for (const LandscapeCase& device : Made(GetParam(), 20)) {
@@ -160,7 +162,7 @@ TEST_P(EveryProblem, HasItsTruthWithinTheBoundsOfItsFit) {
   }
 }
 
-// A passive device delivers up to its open-circuit voltage and little beyond it is read.
+// A passive device delivers current up to its open-circuit voltage; few readings lie beyond it.
 TEST_P(EveryProblem, DeliversCurrentUpToOpenCircuit) {
   for (const LandscapeCase& device : Made(GetParam(), 50)) {
     for (const IvCurve& curve : CurvesOf(device)) {

@@ -7,7 +7,8 @@
 
 namespace lyrefit {
 
-// One run of made figures: RMSE in units of the reference, seconds in ms.
+// Synthetic results of one run: RMSE after the search, after the polish of its best candidate and
+// after all starts, relative to the reference.
 struct MadeRun {
   double searched;
   double own;
@@ -25,7 +26,7 @@ inline AlgorithmResult SyntheticAlgorithm(const std::string& algorithm, std::int
   for (const MadeRun& made : runs) {
     RunRecord run;
     run.run = static_cast<int>(compared.runs.size());
-    run.searched_A = 2e-3 * made.searched;  // 2 mA: the reference of every made device
+    run.searched_A = 2e-3 * made.searched;  // 2 mA: reference of every synthetic device
     run.plain_polished_A = run.searched_A;
     run.own_polished_A = 2e-3 * made.own;
     run.polished_A = 2e-3 * made.hybrid;

@@ -11,8 +11,8 @@ namespace {
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 
-// Two problems of two devices and one of one run each; mlo is below de by the search alone in all
-// three blocks, and beside it after the polish but in one.
+// Two problems, with two devices and one device, one run each. By the search alone, mlo ends below
+// de in all three blocks; after the polish they are equal in two blocks.
 Comparison ThreeBlocks() {
   const auto device = [](const char* name, const char* problem, double de_own) {
     return MadeDevice(
@@ -41,7 +41,7 @@ TEST(RankPools, RanksAllProblemsTogetherThenEach) {
 TEST(RankPools, TakesEndsOfABlockWithin1e6AsEqual) {
   const Comparison comparison = ThreeBlocks();
   const auto rankings = RankPools(SummariseProblems(comparison));
-  // 1.5 twice and 1 for mlo: 4 / 3.
+  // Mean rank of mlo: (1.5 + 1.5 + 1) / 3 = 4 / 3.
   EXPECT_THAT(rankings[0].own.friedman.mean_rank,
               ElementsAre(DoubleEq(4.0 / 3), DoubleEq(5.0 / 3)));
   EXPECT_EQ(rankings[0].own.signed_ranks[0].test.pairs, 1);

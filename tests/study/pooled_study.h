@@ -11,7 +11,7 @@
 
 namespace lyrefit {
 
-// The first devices of a made problem.
+// The first devices of a landscape problem.
 inline std::vector<CompareCurve> MadeSubjects(const std::string& problem, int devices) {
   auto cases = MakeLandscape(problem, devices, 0);
   EXPECT_TRUE(cases) << cases.error().ToString();
@@ -20,7 +20,7 @@ inline std::vector<CompareCurve> MadeSubjects(const std::string& problem, int de
   return subjects;
 }
 
-// Two searches of two budgets, and the shape's starts.
+// Two searches with two budgets each, the starts from the curve's shape, and the default fit.
 inline std::vector<ComparedAlgorithm> PooledAlgorithms() {
   std::vector<ComparedAlgorithm> algorithms =
       BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 40});

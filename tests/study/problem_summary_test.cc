@@ -58,8 +58,8 @@ TEST(SummariseProblems, HasNoTimeWhereARunHasNone) {
   EXPECT_FALSE(pools[0].algorithms[0].At(PolishLevel::kPlain)) << "not every run was taken there";
 }
 
-// Ends of five runs on one device and two on another: wrong local optima at 1.5 (twice, to 1e-7) and 3,
-// and at 1.5 on the other device, which is another local optimum.
+// Five runs on one device and two on another. The first device has wrong local optima at 1.5 (two
+// runs, equal to 1e-7) and at 3. The second has one at 1.5, which counts separately.
 TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const double near = 1.5 * (1 + 1e-7);
   Comparison comparison = MadeComparison(

@@ -10,8 +10,8 @@
 namespace lyrefit {
 namespace {
 
-// Expected figures are those of rank_tests_reference.py beside this file: SciPy 1.10, and all signs
-// counted one by one.
+// Expected values from rank_tests_reference.py in this folder: SciPy 1.10, and enumeration of all
+// signs.
 
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
@@ -130,8 +130,8 @@ TEST(FriedmanTestDeathTest, WantsFiniteValuesInEqualNumbers) {
   EXPECT_DEATH(FriedmanTest({{1, NAN}, {1, 2}}), "finite");
 }
 
-// Tables 13 and 14 of J. Ind. Manag. Optim. 22(1), 642-690: 30 runs of 12 algorithms, whose printed
-// mean ranks are whole rank sums divided by 30.
+// Tables 13 and 14 of J. Ind. Manag. Optim. 22(1), 642-690: 30 runs of 12 algorithms. The printed
+// mean ranks are integer rank sums divided by 30.
 TEST(ComparePairs, ReproducesThePublishedTable) {
   enum { kMsa, kDmo, kNna, kHts, kEvo, kGo, kKoa, kIkoa, kRmo, kIrmo, kLo, kMlo };
   const std::vector<double> printed = {4.87, 10.17, 8.60, 9.23, 9.63, 3.13,
@@ -141,7 +141,7 @@ TEST(ComparePairs, ReproducesThePublishedTable) {
   friedman.blocks = 30;
   for (const double rank : printed) friedman.mean_rank.push_back(std::round(30 * rank) / 30);
   EXPECT_DOUBLE_EQ(std::accumulate(friedman.mean_rank.begin(), friedman.mean_rank.end(), 0.0), 78);
-  // Of the values only their ties count, and there are none.
+  // Only ties within the values matter, and there are none.
   Blocks values(12);
   for (int c = 0; c < 12; ++c) values[c].assign(30, c);
 
@@ -227,7 +227,8 @@ TEST(WilcoxonTest, AgreesWithCountedSignsAndSciPy) {
   }
 }
 
-// Table 15 of the same paper prints 1.7344e-6 for nine of its eleven comparisons.
+// Table 15 of J. Ind. Manag. Optim. 22(1), 642-690 prints 1.7344e-6 for nine of its eleven
+// comparisons.
 TEST(WilcoxonTest, ThirtyPairsOfOneSignGiveThePublishedFloor) {
   std::vector<double> worse(30);
   std::iota(worse.begin(), worse.end(), 1.0);
@@ -268,7 +269,7 @@ TEST(WilcoxonTest, SaysNothingWithoutDifferences) {
 }
 
 TEST(HolmCorrection, NeverFallsAlongTheOrder) {
-  // p.adjust of R
+  // Expected values from R's p.adjust.
   EXPECT_THAT(HolmCorrection({0.01, 0.04, 0.03, 0.04, 0.2, 1e-5}),
               Pointwise(DoubleNear(1e-15), {0.05, 0.12, 0.12, 0.12, 0.2, 6e-5}));
   EXPECT_THAT(HolmCorrection({0.9, 0.8}), ElementsAre(1, 1));

@@ -23,7 +23,7 @@ class ReadAuditRowsTest : public ::testing::Test {
     return ReadAuditRows(folder_.Write("rows.csv", text));
   }
 
-  // The complaint about the only row below the usual header.
+  // The error of the only row below the usual header.
   Error BadRow(const std::string& row) {
     const auto rows = Read(kRowsHeader + row + "\n");
     if (!rows) return rows.error();

@@ -33,7 +33,7 @@ TEST(Reference, IsWhatTheProofFoundWhereNoRunCameNear) {
 }
 
 TEST(Reference, IsThatOfTheBoxWhereItCutsTheOptimumOff) {
-  constexpr double kLeaky_A = 4.023779e-3;  // what a fit with --bound Rsh=0:20 comes to
+  constexpr double kLeaky_A = 4.023779e-3;  // result of a fit with --bound Rsh=0:20
   CompareCurve subject = Rtc(2);
   subject.bounds.table["Rsh"] = {0, 20};
   const Reference reference = FindReference(subject, Model::kSingleDiode, {}, {5e-3, {}});

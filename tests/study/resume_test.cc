@@ -39,7 +39,7 @@ class ResumeTest : public testing::Test {
   const TempFolder folder_;
   CompareOptions options_ = SmallOptions();
   int runs_told_ = 0;
-  std::int64_t first_ = -1;  // runs done when the observer first heard
+  std::int64_t first_ = -1;  // number of finished runs in the first report
 };
 
 TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {

@@ -83,7 +83,7 @@ TEST(CompareWithTruth, AveragesTheShuntAsAConductance) {
   const TruthComparison all = CompareWithTruth(ThreeFits(), {kOne});
   const TruthParameter& shunt = all.parameters[4];
   EXPECT_EQ(shunt.truth, 2000);
-  // Conductances of 0.5, 0 and 1 mS: their mean is the truth.
+  // Conductances of 0.5, 0 and 1 mS, whose mean is the true 0.5 mS (2000 ohm).
   EXPECT_NEAR(shunt.mean, 2000, 1e-9);
   EXPECT_NEAR(shunt.mean_error, 0, 1e-12);
   EXPECT_NEAR(shunt.root_mean_square, std::sqrt(2.0 / 3), 1e-12);

@@ -10,7 +10,8 @@
 namespace lyrefit {
 namespace {
 
-// Ten runs, so many of which hit by the best candidate's own polish and with all starts.
+// Ten runs: `own` of them hit after the polish of the best candidate, `hybrid` of them with all
+// starts.
 AlgorithmResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
                      double search_ms = 10) {
   std::vector<MadeRun> runs;
@@ -82,7 +83,7 @@ TEST(JudgeProblem, SetsRandomPointsBesideTheWinner) {
   EXPECT_EQ(verdict.random->level, PolishLevel::kHybrid);
 }
 
-// A run of a peer takes its search and 5 ms, one of the default fit 30 ms.
+// A run of a peer takes its search and 5 ms; a run of the default fit takes 30 ms.
 TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
   const Comparison comparison =
       OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:cmaes", 10, 2, 10, 1),

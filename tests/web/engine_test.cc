@@ -38,7 +38,7 @@ json Ask(const std::string& verb, const std::string& file, const json& options =
   return json::parse(lyrefit_run(request.dump().c_str()));
 }
 
-// The texts of a report without the times in it.
+// A JSON record without its times.
 json Timeless(const std::string& text) {
   json record = json::parse(text);
   RemoveSeconds(&record);
@@ -138,7 +138,7 @@ TEST(Engine, FormsAreTheOptionTables) {
   for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan", "proofs"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
-  // Every text that a form offers is understood.
+  // Every choice that a form offers is accepted.
   for (const json& row : forms["fit"]) {
     for (const json& choice : row["choices"]) {
       const json answer = Ask("fit", "none.csv", {{row["name"], choice}});

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// The text with its wrapped lines joined again.
+// The text with wrapped lines joined.
 std::string WithoutWraps(std::string text) {
   for (std::size_t at; (at = text.find("\n    ")) != std::string::npos;) text.replace(at, 5, " ");
   return text;

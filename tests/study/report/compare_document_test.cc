@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-// Line breaks as blanks, so that sentences can be looked for.
+// The text with line breaks replaced by spaces, to search for whole sentences.
 std::string Unwrapped(const std::string& text) {
   std::istringstream words(text);
   std::string line, word;
@@ -38,7 +38,7 @@ void ExpectFitsTheTerminal(const std::string& text) {
   EXPECT_EQ(text.back(), '\n');
 }
 
-// Twelve algorithms, with the longest names there are.
+// Twelve algorithms with the longest possible names.
 Comparison LargeComparison() {
   std::vector<ComparedAlgorithm> algorithms;
   for (int i = 0; i < 12; ++i) {
@@ -53,7 +53,7 @@ TEST(CompareText, FitsATerminalOf100Columns) {
   ExpectFitsTheTerminal(CompareText(LargeComparison()));
 }
 
-// The sample on three curves of a set.
+// Results of a sample comparison, repeated for three curves of a set.
 Comparison OfASet(Comparison comparison) {
   std::vector<ProblemResult> problems;
   for (const char* name :
@@ -226,7 +226,8 @@ TEST(BudgetText, LeavesACellOpenWhereNoRunWasDone) {
   EXPECT_THAT(BudgetText(comparison), testing::ContainsRegex("random +- +[0-4] +[0-4]\n"));
 }
 
-// mlo and random at three budgets; `missed` runs of random at the largest one.
+// MLO and random points with three budgets each. `missed`: number of runs of random points with the
+// largest budget that did not hit.
 Comparison BudgetComparison(int missed) {
   Comparison comparison =
       SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100, 1000}));

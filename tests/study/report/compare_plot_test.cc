@@ -24,7 +24,7 @@ Comparison BudgetComparison() {
   return SampleComparison(BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 100}));
 }
 
-// Opening and closing tags balance.
+// Expects an SVG with balanced opening and closing tags.
 void ExpectSoundSvg(const std::string& svg) {
   EXPECT_THAT(svg, HasSubstr("<svg"));
   EXPECT_THAT(svg, EndsWith("</svg>\n\n"));
@@ -125,7 +125,7 @@ TEST(ComparePlots, RefuseOtherExtensionsAndEmptyComparisons) {
 }
 
 TEST(ComparePlots, KeepTheirLowestLineOffZero) {
-  // A logarithmic axis has no place for runs that end on the reference itself.
+  // A logarithmic axis cannot show runs that end at the reference, with an excess of 0.
   EXPECT_THAT(FigureScript(BoxFigure(SampleComparison()), "svg"), Not(HasSubstr("\n0 0\n")));
 }
 

@@ -50,7 +50,7 @@ CoverageReport Sample() {
   return report;
 }
 
-// The line of the table that begins with `symbol`.
+// The row of the table that begins with `symbol`.
 std::string Row(const std::string& text, const std::string& symbol) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

@@ -8,7 +8,7 @@
 namespace lyrefit {
 namespace {
 
-// Fifty devices with a run each, of which so many hit.
+// Synthetic results of one algorithm with one budget: fifty devices with one run each.
 struct PooledRow {
   const char* algorithm;
   std::int64_t budget;

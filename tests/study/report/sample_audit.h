@@ -37,7 +37,8 @@ inline AuditFinding SampleFinding(const std::string& source, const std::string& 
   return finding;
 }
 
-// Two tables with one row of several verdicts, and one row that could not be read.
+// An audit written by hand: two tables with rows of different verdicts, and one row that could not
+// be read.
 inline AuditReport SampleAudit() {
   AuditReport report;
   report.version = "1.2.3";

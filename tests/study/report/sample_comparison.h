@@ -8,7 +8,8 @@
 
 namespace lyrefit {
 
-// Three algorithms with four runs each on two problems, made up; all polished runs agree but one.
+// Results written by hand: three algorithms with four runs each. All polished runs but one end at
+// one value.
 inline ProblemResult SampleProblem(Model model, const std::vector<ComparedAlgorithm>& algorithms) {
   constexpr double kBest = 9.8602187789e-4;
   ProblemResult problem;

@@ -63,7 +63,7 @@ Expected<std::vector<std::int64_t>> ParseBudgets(const std::string& text) {
 }
 
 Expected<std::vector<ComparedAlgorithm>> BudgetAlgorithms(const StudyFlags& study,
-                                                  const std::string& budget_list) {
+                                                          const std::string& budget_list) {
   TRY(const auto names, ParseList("--algorithms", study.algorithms));
   TRY(const auto budgets, ParseBudgets(budget_list));
   std::vector<ComparedAlgorithm> algorithms;

@@ -47,9 +47,10 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
 
 void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request) {
   constexpr char kGroup[] = "Against its own history";
-  verb->AddOption("--reference", &request->reference_files,
-                  "reference sweeps of the same module or its neighbours, files or folders: CURVE is "
-                  "compared with them, and diagnosed without what they all have")
+  verb->AddOption(
+          "--reference", &request->reference_files,
+          "reference sweeps of the same module or its neighbours, files or folders: CURVE is "
+          "compared with them, and diagnosed without what they all have")
       .ReadsCurves()
       .Group(kGroup);
   verb->AddSwitch("--module", &request->module,
@@ -61,7 +62,8 @@ void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request) {
 Expected<void> CheckReferenceFlags(const DiagnoseRequest& request) {
   const bool module = request.module;
   if (!module && request.reference_files.empty()) return {};
-  if (module && !request.reference_files.empty()) return Fail("only one of --reference and --module");
+  if (module && !request.reference_files.empty())
+    return Fail("only one of --reference and --module");
   if (request.together || !request.answers_file.empty()) {
     return Fail("--together and --answers are not for --reference and --module");
   }
@@ -80,9 +82,12 @@ Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
   TRY(const OutlierSweeps outlier, FindOutlierSweeps(sweeps, request.reference));
   TRY(WriteWanted(output.json_file, [&] { return OutlierSweepsJson(outlier); }));
   TRY(WriteWanted(output.csv_file, [&] { return OutlierSweepsCsv(outlier); }));
-  TRY(WriteWanted(output.html_file,
-                  [&] { return DrawPage(OutlierSweepsDocument(outlier), OutlierSweepsJson(outlier)); }));
-  TRY(WriteText(verb, [&] { return output.brief ? BriefOutlierSweeps(outlier) : OutlierSweepsText(outlier); }));
+  TRY(WriteWanted(output.html_file, [&] {
+    return DrawPage(OutlierSweepsDocument(outlier), OutlierSweepsJson(outlier));
+  }));
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefOutlierSweeps(outlier) : OutlierSweepsText(outlier);
+  }));
   return kExitFine;
 }
 

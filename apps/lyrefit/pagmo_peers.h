@@ -19,7 +19,7 @@ struct PagmoPlan {
 struct PagmoPeer {
   const char* name;
   int per_candidate;  // evaluations of a generation for each candidate
-  int fixed;     // further evaluations of a generation
+  int fixed;          // further evaluations of a generation
   pagmo::algorithm (*make)(const PagmoPlan&);
 };
 

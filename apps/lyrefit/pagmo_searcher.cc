@@ -56,7 +56,8 @@ void Evolve(const PagmoPeer& peer, const SearchOptions& options, Recorder* recor
   plan.level = *std::min_element(values.begin(), values.end());
   pagmo::population population(pagmo::problem(UnitBox{recorder}), 0U,
                                static_cast<unsigned>(random.Bits() >> 32));
-  for (std::size_t i = 0; i < candidates.size(); ++i) population.push_back(candidates[i], {values[i]});
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    population.push_back(candidates[i], {values[i]});
   const std::int64_t cost =
       static_cast<std::int64_t>(peer.per_candidate) * options.population + peer.fixed;
   // One call suffices for most algorithms; one that ends early continues from its population.
@@ -126,7 +127,7 @@ Expected<ComparedAlgorithm> PagmoAlgorithm(const std::string& name, const Search
   }
   ComparedAlgorithm compared{"pagmo:" + name, "pagmo:" + name, search, {}};
   compared.searcher = [&peer = *peer](const ObjectiveFunction& objective, const Box& box,
-                                       const SearchOptions& options, const Observer& observer) {
+                                      const SearchOptions& options, const Observer& observer) {
     return RunPeer(peer, objective, box, options, observer);
   };
   return compared;
@@ -140,7 +141,8 @@ namespace lyrefit {
 
 std::string PagmoNames() { return ""; }
 
-Expected<ComparedAlgorithm> PagmoAlgorithm(const std::string& name, const SearchOptions& /*search*/) {
+Expected<ComparedAlgorithm> PagmoAlgorithm(const std::string& name,
+                                           const SearchOptions& /*search*/) {
   return Fail(fmt::format(
       "pagmo:{}: this build has no pagmo2: install libpagmo-dev and build again", name));
 }

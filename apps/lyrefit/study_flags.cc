@@ -70,7 +70,7 @@ Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::s
 }
 
 Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
-                                   SearchVariables candidates) {
+                                           SearchVariables candidates) {
   for (const AlgorithmKind kind : {AlgorithmKind::kShape, AlgorithmKind::kDefault}) {
     if (name == ToText(kind)) return OwnAlgorithm(kind);
   }

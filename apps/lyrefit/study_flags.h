@@ -7,8 +7,8 @@
 #include "command_line.h"
 #include "flags.h"
 #include "lyrefit/report/document.h"
-#include "lyrefit/study/compare.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare.h"
 
 namespace lyrefit {
 
@@ -25,8 +25,8 @@ struct StudyFlags {
   CompareOptions options;
   SearchOptions search;
   SearchVariables candidates = SearchVariables::kAll;  // for --algorithms that are searches
-  std::string landscape;      // synthetic problems, not curves: "strings_2,strings_3", "all"
-  int devices = 50;           // for each problem
+  std::string landscape;  // synthetic problems, not curves: "strings_2,strings_3", "all"
+  int devices = 50;       // for each problem
   ReportFlags output;
 };
 
@@ -42,7 +42,8 @@ inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&StudyFlags::ranges>(), OptionTrait::kNoFlag},
     OptionRow<StudyFlags>("Search"),
-    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&StudyFlags::candidates>(), OptionTrait::kNoFlag},
+    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&StudyFlags::candidates>(),
+     OptionTrait::kNoFlag},
 };
 
 // Declares the flags of curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
@@ -79,7 +80,7 @@ Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // An algorithm by its name, and all those of --algorithms, with these settings.
 Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
-                                   SearchVariables candidates);
+                                           SearchVariables candidates);
 Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags);
 
 // A picture that is written at the end.

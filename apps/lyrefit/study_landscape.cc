@@ -17,10 +17,11 @@ constexpr int kMultistart = 100;
 void AddLandscapeFlags(VerbLine* verb, StudyFlags* flags) {
   std::string names;
   for (const LandscapeProblem& problem : LandscapeProblems()) names += problem.name + ", ";
-  verb->AddOption("--landscape", &flags->landscape,
-                  "instead of curves a list of made problems with many local optima, summed up over "
-                  "their devices: " +
-                      names + "or all")
+  verb->AddOption(
+          "--landscape", &flags->landscape,
+          "instead of curves a list of made problems with many local optima, summed up over "
+          "their devices: " +
+              names + "or all")
       .Type("LIST")
       .Group("Curves");
   AddNamedFlags(verb, kStudyFlagTable, {"devices"}, flags);

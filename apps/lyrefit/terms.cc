@@ -75,7 +75,8 @@ const Chapter kFit = {
       "current at the measured V, less I. Papers mix the two: compare like with like"},
      {"RMSE", "root mean square of the residuals of all readings, in A"},
      {"searched", "the best that the search found, before any polish"},
-     {"refined", "after the polish: bounded least squares from the best candidates and other starts"},
+     {"refined",
+      "after the polish: bounded least squares from the best candidates and other starts"},
      {"candidate",
       "one candidate of a search; a population moves for so many iterations. Evaluations count "
       "how often the objective was asked for"},

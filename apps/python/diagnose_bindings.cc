@@ -27,7 +27,7 @@ Record RecordOf(const Found& found) {
   Record record;
   record.json = [found](JsonPoints) {
     return found->reference ? ReferenceJson(*found->reference, found->diagnosis)
-                          : DiagnosisJson(found->diagnosis);
+                            : DiagnosisJson(found->diagnosis);
   };
   record.text = [found] {
     const std::string own = DiagnosisText(found->diagnosis);
@@ -39,7 +39,7 @@ Record RecordOf(const Found& found) {
   };
   record.document = [found] {
     return found->reference ? ReferenceDocument(*found->reference, found->diagnosis)
-                          : DiagnosisDocument(found->diagnosis);
+                            : DiagnosisDocument(found->diagnosis);
   };
   record.csv = [found] {
     const std::string& name = found->reference ? found->reference->name : found->diagnosis.name;
@@ -81,7 +81,8 @@ class DiagnoseResult : public Result {
 
 class OutlierSweepsResult : public Result {
  public:
-  explicit OutlierSweepsResult(const std::shared_ptr<const OutlierSweeps>& outlier) : Result(RecordOf(outlier)) {}
+  explicit OutlierSweepsResult(const std::shared_ptr<const OutlierSweeps>& outlier)
+      : Result(RecordOf(outlier)) {}
 
  private:
   static Record RecordOf(const std::shared_ptr<const OutlierSweeps>& outlier) {
@@ -167,8 +168,8 @@ py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle ref
 py::object DiagnoseModule(py::handle curves, const CurveKeywords& said,
                           const DiagnoseAsked& asked) {
   const std::vector<IvCurve> sweeps = SweepsOf(curves, said);
-  OutlierSweeps outlier = Must(
-      Work(asked.progress, [&](const Observer&) { return FindOutlierSweeps(sweeps, asked.reference); }));
+  OutlierSweeps outlier = Must(Work(
+      asked.progress, [&](const Observer&) { return FindOutlierSweeps(sweeps, asked.reference); }));
   return py::cast(OutlierSweepsResult(std::make_shared<const OutlierSweeps>(std::move(outlier))));
 }
 
@@ -262,7 +263,7 @@ void BindDiagnose(py::module_* module) {
           [](const DiagnoseResult& result) { return FrameOfCsv(result.record().csv()); },
           "cause_frame($self)\n--\n\nA pandas.DataFrame with a row a cause (--csv).");
   py::class_<OutlierSweepsResult, Result>(*module, "OutlierSweepsResult",
-                                      "What diagnose(module=True) found.")
+                                          "What diagnose(module=True) found.")
       .def(
           "frame", [](const OutlierSweepsResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame with a row a sweep, the oddest first (--csv).");

@@ -90,7 +90,8 @@ py::dict ParametersOf(const FitResult& result) {
 
 constexpr char kFitDoc[] =
     "Fit diode-model parameters to a measured I-V curve.\n\n"
-    "A global search within bounds, then bounded least squares from its best candidates and from a\n"
+    "A global search within bounds, then bounded least squares from its best candidates and from "
+    "a\n"
     "grid, then what is known and how well: intervals, identifiability, residuals. The same seed\n"
     "gives the same bits on any number of threads.\n\n"
     "Parameters\n----------\n"
@@ -106,7 +107,8 @@ constexpr char kFitDoc[] =
     "    'literature' (published beside the curve's file), a JSON file, or a range for every\n"
     "    parameter, {'Iph': (0, 2), ...}. Single ranges are replaced by `bound`.\n"
     "searcher : callable, optional\n"
-    "    A search of your own, called as compare() calls one; the polish goes on from its candidates.\n"
+    "    A search of your own, called as compare() calls one; the polish goes on from its "
+    "candidates.\n"
     "progress : callable, optional\n"
     "    Called at most ten times a second with a :class:`Progress`; returning False ends the fit\n"
     "    with what was found so far.\n";

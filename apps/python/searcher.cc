@@ -45,7 +45,9 @@ class Run {
   SearchSummary Summary(const Points& candidates) {
     SearchSummary summary;
     const auto last = candidates.ndim() == 0 ? 0 : candidates.shape(candidates.ndim() - 1);
-    const py::ssize_t count = candidates.ndim() == 1 ? 1 : candidates.ndim() == 2 ? candidates.shape(0) : 0;
+    const py::ssize_t count = candidates.ndim() == 1   ? 1
+                              : candidates.ndim() == 2 ? candidates.shape(0)
+                                                       : 0;
     if (count == 0 || static_cast<std::size_t>(last) != sides_) {
       Raise({"a search has to return its best point, shape (" + std::to_string(sides_) +
                  ",), or several, best first, (m, " + std::to_string(sides_) + ")",
@@ -57,8 +59,9 @@ class Run {
       candidate.objective = objective_(candidate.x.data());
       summary.elites.push_back(std::move(candidate));
     }
-    std::stable_sort(summary.elites.begin(), summary.elites.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
+    std::stable_sort(
+        summary.elites.begin(), summary.elites.end(),
+        [](const Candidate& a, const Candidate& b) { return a.objective < b.objective; });
     summary.best = summary.elites.front();
     summary.evaluations = evaluations_;
     summary.iterations = evaluations_ / options_.population;
@@ -142,7 +145,8 @@ SearchSummary Searched(const py::object& search, const ObjectiveFunction& object
     }
   });
   try {
-    const py::object candidates = search(at, SideOf(box.lower), SideOf(box.upper), OptionsOf(options));
+    const py::object candidates =
+        search(at, SideOf(box.lower), SideOf(box.upper), OptionsOf(options));
     return run->Summary(Points::ensure(candidates));
   } catch (const py::error_already_set&) {
     if (!stopped) throw;

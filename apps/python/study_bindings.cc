@@ -5,8 +5,8 @@
 #include "effects.h"
 #include "frames.h"
 #include "lyrefit/fit/bounds.h"
-#include "lyrefit/study/compare.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare.h"
 #include "lyrefit/study/report/compare_csv.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/report/compare_plot.h"
@@ -133,7 +133,9 @@ CompareAsked ReadCompareKeywords(Keywords* keywords) {
     const std::string text = TextOf("candidates", *candidates);
     const auto found = FromText<SearchVariables>(text);
     if (!found)
-      Raise({"candidates: expected one of " + AllTexts<SearchVariables>() + ", found '" + text + "'", {}});
+      Raise(
+          {"candidates: expected one of " + AllTexts<SearchVariables>() + ", found '" + text + "'",
+           {}});
     asked.candidates = *found;
   }
   if (const auto journal = keywords->Take("resume")) options.journal = TextOf("resume", *journal);

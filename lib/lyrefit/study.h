@@ -6,9 +6,9 @@
 // Coverage counts how often the confidence intervals of joint fits contain the true values.
 // CompareTruth compares a fit with known parameters. As in lyrefit.h nothing throws or prints.
 
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/coverage.h"
 #include "lyrefit/study/landscape.h"
 #include "lyrefit/study/report/audit_csv.h"

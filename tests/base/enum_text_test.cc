@@ -8,7 +8,8 @@ enum class Candidate { kLyrebird, kEmu };
 
 template <>
 struct EnumTable<Candidate> {
-  static constexpr EnumText<Candidate> kRows[] = {{Candidate::kLyrebird, "lyrebird"}, {Candidate::kEmu, "emu"}};
+  static constexpr EnumText<Candidate> kRows[] = {{Candidate::kLyrebird, "lyrebird"},
+                                                  {Candidate::kEmu, "emu"}};
 };
 
 namespace {

@@ -186,7 +186,8 @@ TEST_F(Unfinished, IsNotGoneOnWithByAnotherVersion) {
 TEST_F(Unfinished, IsNotWrittenByTwo) {
   auto head = nlohmann::ordered_json::parse(part_.substr(0, part_.find('\n')));
   head.erase("crc");
-  const auto held = CheckpointFile::Open(options_.folder + "/results.part", head, PartStart::kResume);
+  const auto held =
+      CheckpointFile::Open(options_.folder + "/results.part", head, PartStart::kResume);
   ASSERT_TRUE(held) << held.error().ToString();
   ExpectRefusal(CountTask(), "another process is writing these rows");
 }

@@ -44,9 +44,9 @@ inline std::vector<ResultColumn> MadePlantColumns() {
        {"cause", "cause_title", "cause_sentence", "equivalents", "separate_by"}) {
     columns.push_back({name, "", kText, "of the diagnosis"});
   }
-  for (const char* name :
-       {"lack_of_fit_percent", "recoverable_power_W", "Pmax_stc_W", "Pmax_stc_U_W", "rated_power_W",
-        "performance_factor", "wrong_decision_probability", "group_deviation_percent", "history_p"}) {
+  for (const char* name : {"lack_of_fit_percent", "recoverable_power_W", "Pmax_stc_W",
+                           "Pmax_stc_U_W", "rated_power_W", "performance_factor",
+                           "wrong_decision_probability", "group_deviation_percent", "history_p"}) {
     columns.push_back({name, "", kNumber, "of the field test"});
   }
   columns.push_back({"zone", "", kText, "of four"});
@@ -138,7 +138,7 @@ class MadePlantRow {
     Set("Pmax_W", stc * light / 1000 * 0.94);
     Set("FF", 0.775 * (1 - loss / 2) + 0.003 * random_.Normal());
     Set("sparkline", MadeSparkline(14 + random_.Normal() - (ill && cause.id[0] == 's' ? 6 : 0),
-                             ill && cause.id[0] == 'm' ? loss : 0, 0.03));
+                                   ill && cause.id[0] == 'm' ? loss : 0, 0.03));
     Set("Iph_A", 9.61 * light / 1000 * (1 + 0.003 * random_.Normal()));
     Set("Is1_A", 1e-9 * std::exp(random_.Normal()));
     Set("n1", 1.1 + 0.03 * random_.Normal());

@@ -165,7 +165,8 @@ std::string Score(const ScoreRequest& request, std::string* text) {
       "%d of %zu hidden faults found, %d under a right name\n"
       "%d false alarms among %d healthy strings (cause %d, neighbours %d, zone %d); %d of "
       "them of the instrument alone\n",
-      found, truths.size(), right, false_alarms, reference, by_cause, by_group, by_zone, instrument);
+      found, truths.size(), right, false_alarms, reference, by_cause, by_group, by_zone,
+      instrument);
   *text =
       buffer + ("hidden:\n" + lines) + (false_lines.empty() ? "" : "false alarms:\n" + false_lines);
   return "";

@@ -4,9 +4,9 @@
 
 #include "certify/made.h"
 #include "error_of.h"
-#include "lyrefit/certify/upper_bound.h"
-#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"

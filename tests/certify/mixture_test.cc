@@ -41,7 +41,8 @@ TEST(SolveMixture, ProvesItsOwnValue) {
     const MixtureData data = DataOf(curve);
     const Window window = WindowOf(curve, 1, 2);
     const double rs = 0.05 * data.reference_voltage_V / data.current_A.maxCoeff();
-    const Mixture mixture = SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
+    const Mixture mixture =
+        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
     EXPECT_LT(mixture.relative_gap, 1e-8) << curve.name;
     EXPECT_NEAR(mixture.dual / mixture.primal, 1, 1e-8) << curve.name;
     const Eigen::VectorXd vd = data.voltage_V + rs * data.current_A;
@@ -64,7 +65,8 @@ TEST(SolveMixture, IsNoWorseThanTheBestOnAGrid) {
   const MixtureData data = DataOf(curve);
   const Window window = WindowOf(curve, 1, 2);
   for (const double rs : {0.0, 0.02, 0.0367, 0.05}) {
-    const Mixture mixture = SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
+    const Mixture mixture =
+        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
     const double grid = OnGrid(data, window, rs, 21);
     EXPECT_LE(mixture.primal, grid * (1 + 1e-9)) << rs;
     EXPECT_LE(mixture.dual, grid * (1 + 1e-12))
@@ -77,7 +79,8 @@ TEST(SolveMixture, DoesNotDependOnWhereItStarts) {
   const IvCurve curve = Shipped("msx60");
   const MixtureData data = DataOf(curve);
   const Window window = WindowOf(curve, 1, 2);
-  const Mixture cold = SolveMixture(data, {window}, 0.29, {}, kMixtureTolerance, ComputeDualGain(data));
+  const Mixture cold =
+      SolveMixture(data, {window}, 0.29, {}, kMixtureTolerance, ComputeDualGain(data));
   const std::vector<Atom> elsewhere = {{window.lower, 1}, {window.upper, 1}};
   const Mixture warm =
       SolveMixture(data, {window}, 0.29, elsewhere, kMixtureTolerance, ComputeDualGain(data));

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/certify/upper_bound.h"
-#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/part_bound.h"
 #include "lyrefit/certify/real_data.h"
 #include "lyrefit/certify/safe_values.h"
+#include "lyrefit/certify/tail_bound.h"
+#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 #include "repeats.h"
@@ -28,8 +28,8 @@ double ExactRmse(const IvCurve& curve, const Device& device, const std::vector<d
   for (int d = 0; d < DiodeCount(device); ++d) {
     diodes.push_back({p[IdealityIndex(d)], p[SaturationCurrentIndex(d)]});
   }
-  return SafeUpperRmse(curve, SafeThermalVoltage(curve.conditions, ConstantSet::kCodata),
-                          p[kIph], p[kRs], WideInterval(1) / WideInterval(p[kRsh]), diodes);
+  return SafeUpperRmse(curve, SafeThermalVoltage(curve.conditions, ConstantSet::kCodata), p[kIph],
+                       p[kRs], WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
 // A curve of two diodes with so little noise that the errors of double arithmetic matter.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "../file_limit.h"
 #include "../batch/strings.h"
+#include "../file_limit.h"
 #include "run_app.h"
 
 namespace lyrefit {

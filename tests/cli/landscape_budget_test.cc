@@ -46,8 +46,10 @@ TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("Which search, from which budget, or none\n  strings_2: "));
   EXPECT_THAT(result.out, HasSubstr("starts from the curve's shape alone hit "));
-  EXPECT_THAT(result.out, HasSubstr("best candidate: hits of 2 runs, median time of a run (solved-"));
-  EXPECT_THAT(result.out, HasSubstr("best candidate: hits of 2 runs, median time of a run (measured-"));
+  EXPECT_THAT(result.out,
+              HasSubstr("best candidate: hits of 2 runs, median time of a run (solved-"));
+  EXPECT_THAT(result.out,
+              HasSubstr("best candidate: hits of 2 runs, median time of a run (measured-"));
   EXPECT_THAT(result.out, HasSubstr("All problems, 4 blocks"));
   EXPECT_THAT(result.out, Not(HasSubstr("nan")));
   const json j = json::parse(FileText(folder.Path("a.json")), nullptr, false);
@@ -76,7 +78,8 @@ TEST(LandscapeBudget, SumsUpTheDevicesOfEachProblem) {
   EXPECT_EQ(j["pools"]["rankings"].size(), 6U) << "all and two problems, two budgets each";
   const std::string csv = FileText(folder.Path("a.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 5);
-  EXPECT_THAT(csv, HasSubstr("refine_seconds,problem,reference_A,plain_seconds,best_candidate_seconds"));
+  EXPECT_THAT(csv,
+              HasSubstr("refine_seconds,problem,reference_A,plain_seconds,best_candidate_seconds"));
   EXPECT_THAT(csv, HasSubstr("strings_2 1,sd,solved-current,"));
 }
 

@@ -58,7 +58,8 @@ TEST(DiagnoseReference, RefusesWithOneSentence) {
           {kNow + " --module", "takes 5 or more"},
           {kSweeps + " --module --plot x.svg", "--plot and --extend are not for --module"},
           {kNow + " --reference " + kSweeps + " --answers x.json", "--answers"},
-          {"'" + DataFolder("diagnosis/shaded_module.csv") + "' --reference " + kSweeps, "96 cells"},
+          {"'" + DataFolder("diagnosis/shaded_module.csv") + "' --reference " + kSweeps,
+           "96 cells"},
       });
 }
 

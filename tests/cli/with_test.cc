@@ -127,9 +127,10 @@ TEST(With, HardCandidatesAreSaidAndCounted) {
   EXPECT_THAT(fit.out, HasSubstr(" of the"));
   const json search = json::parse(ReadFile(file))["search"];
   EXPECT_GT(search["curve_evaluations"], search["evaluations"]);
-  const AppResult budget = RunApp("budget " + kShaded +
-                                  " --with shading:w=0.3333 --models sd --algorithms random,shape "
-                                  "--budgets 20 --runs 2 --multistart 2 --candidates hard --json -");
+  const AppResult budget =
+      RunApp("budget " + kShaded +
+             " --with shading:w=0.3333 --models sd --algorithms random,shape "
+             "--budgets 20 --runs 2 --multistart 2 --candidates hard --json -");
   ASSERT_EQ(budget.exit_code, 0) << budget.err;
   const json algorithms = json::parse(budget.out)["problems"][0]["algorithms"];
   EXPECT_EQ(algorithms[0]["candidates"], "hard");

@@ -101,7 +101,8 @@ TEST(Plausibility, DoubtsAPowerFarFromTheRating) {
   EXPECT_FALSE(PlausibilityProblem(curve));
   EXPECT_FALSE(PlausibilityProblem(curve, 250));
   EXPECT_FALSE(PlausibilityProblem(curve, 2500)) << "a string in deep shade";
-  EXPECT_THAT(PlausibilityProblem(curve, 70).value_or(""), HasSubstr("times the rated power of 70 W"));
+  EXPECT_THAT(PlausibilityProblem(curve, 70).value_or(""),
+              HasSubstr("times the rated power of 70 W"));
   EXPECT_THAT(PlausibilityProblem(ModuleWith(0.009), 300).value_or(""),
               HasSubstr("times the rated power of 300 W"));
   IvCurve dusk = ModuleWith(0.09);

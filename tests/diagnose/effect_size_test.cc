@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/made_diagnosis.h"
+#include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/cause_text.h"
-#include "synthetic_data.h"
 #include "repeats.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {

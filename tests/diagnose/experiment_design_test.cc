@@ -27,8 +27,8 @@ FittedCandidate FittedCandidateOf(const char* id, double statistic) {
 TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
   ChosenCause cause;
   cause.effect = FindEffect("drift");
-  cause.fitted_candidates = {FittedCandidateOf("shading", 52), FittedCandidateOf("drift", 50), FittedCandidateOf("clip", 45),
-                  FittedCandidateOf("transient", 43)};
+  cause.fitted_candidates = {FittedCandidateOf("shading", 52), FittedCandidateOf("drift", 50),
+                             FittedCandidateOf("clip", 45), FittedCandidateOf("transient", 43)};
   const auto equivalents = EquivalentsOf(cause);
   ASSERT_EQ(equivalents.size(), 2U);
   EXPECT_STREQ(equivalents[0]->score.effect->id, "shading");

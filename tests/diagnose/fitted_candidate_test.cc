@@ -22,7 +22,8 @@ FittedCandidate Of(double statistic, double charge, double freedom, int place) {
 }
 
 TEST(FittedCandidateTest, WhatIsPaidCountsAndEqualsKeepTheirOrder) {
-  std::vector<FittedCandidate> fitted_candidates = {Of(10, 4, 0, 0), Of(30, 2, 25, 1), Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
+  std::vector<FittedCandidate> fitted_candidates = {Of(10, 4, 0, 0), Of(30, 2, 25, 1),
+                                                    Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
   PutBestFirst(&fitted_candidates);
   std::vector<int> order;
   for (const FittedCandidate& fitted : fitted_candidates) order.push_back(fitted.score.outlier);

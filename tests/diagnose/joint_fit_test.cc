@@ -27,7 +27,7 @@ struct Reference {
 Reference FitReferences() {
   Reference reference{OnTheData(MadeCurve({})), {}};
   reference.fit = FitBase(reference.made.weighted,
-                        StartingLaw(reference.made.measurement.readings, Model::kSingleDiode));
+                          StartingLaw(reference.made.measurement.readings, Model::kSingleDiode));
   return reference;
 }
 

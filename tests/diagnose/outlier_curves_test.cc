@@ -79,7 +79,8 @@ TEST(OutlierCurvesTest, BackwardsIsTheSameVerdict) {
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
   std::vector<int> order(curve.size());
   std::iota(order.rbegin(), order.rend(), 0);
-  const Diagnosis forward = DiagnoseOutlier(curve), backward = DiagnoseOutlier(Reordered(curve, order));
+  const Diagnosis forward = DiagnoseOutlier(curve),
+                  backward = DiagnoseOutlier(Reordered(curve, order));
   ASSERT_EQ(forward.verdict.causes.size(), backward.verdict.causes.size());
   EXPECT_EQ(forward.verdict.causes.front().id, backward.verdict.causes.front().id);
   EXPECT_NEAR(forward.gain.rmse_after_A, backward.gain.rmse_after_A,

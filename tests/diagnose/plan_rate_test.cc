@@ -10,8 +10,8 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/diagnose/choose_base.h"
-#include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/experiment_design.h"
+#include "lyrefit/diagnose/fit_effect.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {
@@ -108,10 +108,11 @@ Made Make(const Pair& pair, RandomStream* random) {
 // support neither.
 std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
   constexpr double kApart = 6, kFound = 12;
-  const LawFit base = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
+  const LawFit base =
+      FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
   std::vector<PlanCandidate> candidates;
-  for (const Score& score :
-       ScoreEffects(made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)}, 300, 1)) {
+  for (const Score& score : ScoreEffects(
+           made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)}, 300, 1)) {
     if (!score.testable) return {};
     const LawFit fit = FitEffect(made.weighted, base, score);
     if (!fit.usable) return {};

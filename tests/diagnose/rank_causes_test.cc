@@ -18,8 +18,8 @@ Recipe SweptModule(bool and_back = false) {
 
 // An effect with given parameter values beside an ordinary base model; its currents are not
 // evaluated.
-FittedCandidate FittedCandidateOf(const char* id, const std::vector<double>& values, double statistic,
-              double n = kOrdinary) {
+FittedCandidate FittedCandidateOf(const char* id, const std::vector<double>& values,
+                                  double statistic, double n = kOrdinary) {
   FittedCandidate fitted;
   fitted.score.effect = FindEffect(id);
   fitted.statistic = statistic;
@@ -55,19 +55,23 @@ TEST(HasPossibleSize, RefusesWhatCannotBe) {
   EXPECT_FALSE(possible(FittedCandidateOf("mismatch", kUnequal, 50, 0.7)));
   EXPECT_TRUE(possible(FittedCandidateOf("mismatch", kUnequal, 50, 0.7), Before(0.6)));
   // The first of the darker substrings may reach the light of the brightest; a later one may not.
-  EXPECT_TRUE(possible(FittedCandidateOf("substrings", {0, 0.3, 0.4, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
+  EXPECT_TRUE(
+      possible(FittedCandidateOf("substrings", {0, 0.3, 0.4, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
   EXPECT_FALSE(possible(FittedCandidateOf("substrings", {0, 0.3, 0, 0.3, 0, 0, 0, 0, 0.5, 1}, 50)));
 }
 
-std::size_t Ranked(const SyntheticData& made, const std::vector<FittedCandidate>& fitted_candidates) {
+std::size_t Ranked(const SyntheticData& made,
+                   const std::vector<FittedCandidate>& fitted_candidates) {
   return RankCauses(made.weighted, fitted_candidates, kMisfit, kFloor);
 }
 
 TEST(RankCauses, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
   const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100), FittedCandidateOf("mismatch", kUnequal, 92)}),
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100),
+                          FittedCandidateOf("mismatch", kUnequal, 92)}),
             1U);
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100), FittedCandidateOf("mismatch", kUnequal, 80)}),
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100),
+                          FittedCandidateOf("mismatch", kUnequal, 80)}),
             0U);
 }
 
@@ -99,8 +103,8 @@ TEST(RankCauses, OneDimCellIsAWeakCell) {
   const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
   const std::vector<double> weak = {0.1, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const auto beside = [&](double cells) {
-    return Ranked(made,
-                     {FittedCandidateOf("mismatch", {0.1, cells / 60}, 100), FittedCandidateOf("weak_cell", weak, 99)});
+    return Ranked(made, {FittedCandidateOf("mismatch", {0.1, cells / 60}, 100),
+                         FittedCandidateOf("weak_cell", weak, 99)});
   };
   EXPECT_EQ(beside(1.2), 1U);
   EXPECT_EQ(beside(12), 0U);
@@ -108,9 +112,12 @@ TEST(RankCauses, OneDimCellIsAWeakCell) {
 
 TEST(RankCauses, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
   const SyntheticData made = OnTheData(MadeCurve(SweptModule(/*and_back=*/true)));
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100), FittedCandidateOf("capacitance", kLag, 80)}),
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100),
+                          FittedCandidateOf("capacitance", kLag, 80)}),
             1U);
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("drift", {0.02}, 100), FittedCandidateOf("capacitance", kLag, 80)}), 0U);
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("drift", {0.02}, 100),
+                          FittedCandidateOf("capacitance", kLag, 80)}),
+            0U);
 }
 
 TEST(RankCauses, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
@@ -120,8 +127,8 @@ TEST(RankCauses, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
     const auto ranked_first = [&](double of_range, double of_cloud) {
       const FittedCandidate a = FittedCandidateOf("range_switch", range, of_range);
       const FittedCandidate b = FittedCandidateOf("irr_step", cloud, of_cloud);
-      const std::size_t at = Ranked(
-          made, of_range > of_cloud ? std::vector<FittedCandidate>{a, b} : std::vector<FittedCandidate>{b, a});
+      const std::size_t at = Ranked(made, of_range > of_cloud ? std::vector<FittedCandidate>{a, b}
+                                                              : std::vector<FittedCandidate>{b, a});
       return (at == 0) == (of_range > of_cloud) ? "range_switch" : "irr_step";
     };
     EXPECT_STREQ(ranked_first(100, 80), both ? "range_switch" : "irr_step");
@@ -146,15 +153,19 @@ TEST(LightMoved, SaysNothingOfTwoSweeps) {
 TEST(RankCauses, TakesWhatSupposesLess) {
   const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
   const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("weak_cell", weak, 100), FittedCandidateOf("shading", kShade, 99)}), 1U);
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("weak_cell", weak, 100), FittedCandidateOf("shading", kShade, 70)}), 0U);
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("weak_cell", weak, 100),
+                          FittedCandidateOf("shading", kShade, 99)}),
+            1U);
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("weak_cell", weak, 100),
+                          FittedCandidateOf("shading", kShade, 70)}),
+            0U);
 }
 
 TEST(RankCauses, KeepsTheComplexOneWhereItsCurveIsAnother) {
   const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
   const std::vector<double> both = {0.3, 1. / 3, 0.6, 1. / 3, 0, 0, 0, 0, 0.5, 1};
-  const std::vector<FittedCandidate> fitted_candidates = {FittedCandidateOf("substrings", both, 100),
-                                     FittedCandidateOf("shading", kShade, 99)};
+  const std::vector<FittedCandidate> fitted_candidates = {
+      FittedCandidateOf("substrings", both, 100), FittedCandidateOf("shading", kShade, 99)};
   // The simpler cause leaves a tenth of the misfit.
   EXPECT_EQ(RankCauses(made.weighted, fitted_candidates, 9 * kFloor, kFloor), 1U);
   EXPECT_EQ(RankCauses(made.weighted, fitted_candidates, 11 * kFloor, kFloor), 0U);
@@ -168,7 +179,9 @@ TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
   }
   const SyntheticData made = OnTheData(curve);
   EXPECT_TRUE(LightMoved(*made.weighted.readings));
-  EXPECT_EQ(Ranked(made, {FittedCandidateOf("shading", kShade, 100), FittedCandidateOf("drift", {0.1}, 40)}), 1U);
+  EXPECT_EQ(Ranked(made, {FittedCandidateOf("shading", kShade, 100),
+                          FittedCandidateOf("drift", {0.1}, 40)}),
+            1U);
 }
 
 }  // namespace

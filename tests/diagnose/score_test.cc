@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "synthetic_data.h"
 #include "repeats.h"
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
@@ -155,7 +155,8 @@ TEST(CalibrationTest, AnEmptyOneChangesNothing) {
 
 TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
   Calibration calibration;
-  for (int k = 0; k < 200; ++k) calibration.null_statistics.push_back(-1.3 * std::log(1 - (k + 0.5) / 200));
+  for (int k = 0; k < 200; ++k)
+    calibration.null_statistics.push_back(-1.3 * std::log(1 - (k + 0.5) / 200));
   double last = 0;
   for (const double p : {1e-30, 1e-12, 1e-6, 1e-3, 0.01, 0.05, 0.2, 0.5, 1.0}) {
     const double corrected = calibration.Corrected(p);
@@ -172,7 +173,8 @@ TEST(SignatureOfEffectTest, IsWhatTheProbesDo) {
   const LawFit fit = FitBase(made.weighted, Law());
   const Effect& drift = *FindEffect("drift");
   Signatures signatures;
-  const Eigen::MatrixXd moved = FindSignature(made.weighted, fit, {&drift}, &signatures)->moved.at(&drift);
+  const Eigen::MatrixXd moved =
+      FindSignature(made.weighted, fit, {&drift}, &signatures)->moved.at(&drift);
   const std::vector<Probe> probes = drift.probes(readings.traits);
   ASSERT_EQ(moved.cols(), static_cast<int>(probes.size()));
   Law law;

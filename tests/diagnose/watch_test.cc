@@ -48,7 +48,8 @@ TEST(WatchTest, HearsOfEveryStageOfADiagnosis) {
   options.threads = 1;
   options.folds = 3;
   ASSERT_TRUE(Diagnose(CurveWithAStep(100), options, observer));
-  EXPECT_THAT(stages, ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
+  EXPECT_THAT(stages,
+              ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
 }
 
 // A stop during any stage ends all fits, and the diagnosis is marked as unfinished.

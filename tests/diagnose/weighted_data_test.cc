@@ -82,7 +82,8 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
     double by_hand = 0;
     for (std::size_t k = 0; k < fit.current.size(); ++k) {
       by_hand += std::pow(
-          (fit.current[k] - made.measurement.readings.points[k].current) / made.weighted.sigma[k], 2);
+          (fit.current[k] - made.measurement.readings.points[k].current) / made.weighted.sigma[k],
+          2);
     }
     EXPECT_NEAR(fit.sum, by_hand, 1e-6 * by_hand);
     sum += fit.sum / 55 / 20;  // 60 readings, 5 parameters

@@ -15,7 +15,7 @@ TEST(ShareLeftTest, IsOfTheCellsThatWork) {
   EXPECT_NEAR(ShareLeft(2.0 / 3, 1, 3), 0.5, 1e-12);
   // all working cells; the law needs a share below 1
   EXPECT_NEAR(ShareLeft(2.0 / 3, 2, 3), 0.999, 1e-12);
-  EXPECT_NEAR(ShareLeft(0.1, 0, 3), 0, 1e-12);          // less than a group
+  EXPECT_NEAR(ShareLeft(0.1, 0, 3), 0, 1e-12);  // less than a group
   EXPECT_NEAR(ShareLeft(0.1, 2, 3), 0.15, 1e-12);
   EXPECT_NEAR(ShareLeft(0.5, 1, 2, 1), 0, 1e-12);  // the shade begins in the second group
   EXPECT_NEAR(ShareLeft(0.5, 0, 2, 1), 0.999, 1e-12);

@@ -41,8 +41,9 @@ TEST_F(FamilySearchTest, TakesASearchOfTheUsersOwnAndFollowsItsCandidateAlone) {
   EXPECT_NEAR(report.rmse.refined.solved_current_A / usual.rmse.refined.solved_current_A, 1, 1e-6);
   options_.starts = StartsFrom::kSearch;
   const FamilyReport alone = Fit();
-  EXPECT_NEAR(alone.rmse.refined.solved_current_A / alone.rmse.refined_best_candidate.solved_current_A,
-              1, 1e-9)
+  EXPECT_NEAR(
+      alone.rmse.refined.solved_current_A / alone.rmse.refined_best_candidate.solved_current_A, 1,
+      1e-9)
       << "the joint fit from that candidate alone";
   options_.starts = StartsFrom::kShape;
   EXPECT_NEAR(Fit().rmse.refined.solved_current_A / usual.rmse.refined.solved_current_A, 1, 1e-6);

@@ -71,7 +71,8 @@ TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
   const double points = static_cast<double>(made_.curve.size());
   for (const DescentEnd& end : descents.ends()) {
     const double free = job_.variants[end.start.variant].free;
-    EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points), 1e-6);
+    EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points),
+                1e-6);
   }
 }
 

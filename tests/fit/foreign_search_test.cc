@@ -54,8 +54,9 @@ TEST(ForeignSearch, MayLeaveTheBestToTheElites) {
 TEST(ForeignSearch, IsToldWhatIsWrongWithItsCandidates) {
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) { summary->best = {}; }),
             "the searcher came back without a best candidate: set `best` to the best point it met");
-  EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) { summary->best.x.pop_back(); }),
-            "the searcher's best candidate has 4 coordinates, expected 5: one for each side of the box");
+  EXPECT_EQ(
+      ErrorOf([](const Box&, SearchSummary* summary) { summary->best.x.pop_back(); }),
+      "the searcher's best candidate has 4 coordinates, expected 5: one for each side of the box");
   EXPECT_EQ(ErrorOf([](const Box&, SearchSummary* summary) {
               summary->elites = {summary->best, summary->best};
               summary->elites[1].x.push_back(0);

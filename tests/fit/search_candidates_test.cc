@@ -197,7 +197,8 @@ TEST(HardCandidates, KeepWhatIsFixed) {
   options.fixed = {{"n1", 1.2}, {"n2", 2}, {"Rs", 0.03}};
   const auto none = Fit(RtcFrance(), options);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().message, "candidates hard leaves nothing to search: Rs and every n are fixed");
+  EXPECT_EQ(none.error().message,
+            "candidates hard leaves nothing to search: Rs and every n are fixed");
 }
 
 TEST(HardCandidates, OfManyPointsAreSolvedOnAllOfThem) {

@@ -40,7 +40,8 @@ Extension Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
 
 std::vector<std::string> Descriptions(const Extension& extension) {
   std::vector<std::string> list;
-  for (const Variant& variant : VariantsOf(extension)) list.push_back(DescribeVariant(extension, variant));
+  for (const Variant& variant : VariantsOf(extension))
+    list.push_back(DescribeVariant(extension, variant));
   return list;
 }
 

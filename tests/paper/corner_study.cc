@@ -8,8 +8,8 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/floor.h"
-#include "lyrefit/study/compare.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare.h"
 
 namespace lyrefit {
 namespace {

@@ -41,8 +41,8 @@ struct NumberFlag {
 };
 
 constexpr NumberFlag kNumberFlags[] = {
-    {"--population", "candidates of every search; the paper's 100", &PaperStudyOptions::population, 10,
-     10000},
+    {"--population", "candidates of every search; the paper's 100", &PaperStudyOptions::population,
+     10, 10000},
     {"--iterations", "iterations of every search; the paper's 1000", &PaperStudyOptions::iterations,
      1, 1000000},
     {"--batch", "runs behind each figure of the paper", &PaperStudyOptions::batch, 2, 1000000},

@@ -15,9 +15,9 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/search_space.h"
+#include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/algorithms.h"
 
 namespace lyrefit {
 namespace {
@@ -116,8 +116,8 @@ class PaperRun {
   }
 
   Expected<void> Study(const Expected<CompareCurve>& subject,
-                       const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
-                       Comparison PaperStudy::*result) {
+                       const std::vector<ComparedAlgorithm>& algorithms,
+                       const CompareOptions& options, Comparison PaperStudy::*result) {
     if (!subject) return tl::unexpected(subject.error());
     return Study(std::vector<CompareCurve>{*subject}, algorithms, options, result);
   }

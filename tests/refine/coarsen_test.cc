@@ -59,14 +59,14 @@ TEST(Coarsen, KeepsTheSumOfSquaresOfASmoothCurrent) {
 
 TEST(Coarsen, StandsForReadingsAtAFewVoltages) {
   const RefineProblem sparse = ModuleProblem(Model::kSingleDiode, Model::kSingleDiode, kSingleTruth,
-                                          3e-3, Objective::kSolvedCurrent, 1, 30);
+                                             3e-3, Objective::kSolvedCurrent, 1, 30);
   std::vector<double> voltage, current;
   for (int k = 0; k < kMany; ++k) {
     voltage.push_back(sparse.voltage_V[k % 30]);
     current.push_back(sparse.current_A[k % 30] + (k % 7 - 3) * 1e-3);
   }
-  const RefineProblem many =
-      MakeRefineProblem(sparse.device, sparse.objective, voltage, current, {}, sparse.lower, sparse.upper);
+  const RefineProblem many = MakeRefineProblem(sparse.device, sparse.objective, voltage, current,
+                                               {}, sparse.lower, sparse.upper);
   const RefineProblem coarse = Coarsen(many);
   EXPECT_LE(coarse.points.size, 128);
   EXPECT_NEAR(MeanSquare(coarse, kSingleTruth) / MeanSquare(many, kSingleTruth), 1, 1e-6);

@@ -212,8 +212,9 @@ TEST(FullReport, CountsTheOptimaOfAModelWithEffects) {
   report.refine.starts.resize(49, {"random", 9e-4, 7.8e-4, false});
   report.refine.local_optima = OptimumCount{14, 3, 6, {14, 3, 6, 2, 0}, 1};
   const std::string text = FullReport(report);
-  EXPECT_THAT(text, HasSubstr("14 of 49 went to their end, in 3 local optima, the best of them reached 6 "
-                              "times; the other"));
+  EXPECT_THAT(text,
+              HasSubstr("14 of 49 went to their end, in 3 local optima, the best of them reached 6 "
+                        "times; the other"));
   EXPECT_THAT(text, HasSubstr("35 were given up"));
   EXPECT_THAT(text, HasSubstr("the best end came from start 2: elite 2"));
   EXPECT_THAT(text, Not(HasSubstr("came to the same curve")));
@@ -236,13 +237,15 @@ TEST(FullReport, CountsTheOptimaOfAModelWithEffects) {
   report.refine.local_optima = OptimumCount{14, 1, 14, {14, 1, 14, 0, 0}, 0};
   EXPECT_THAT(
       LineWith(FullReport(report), "  starts "),
-      HasSubstr("14 of 14 went to their end, in 1 local optimum, the best of them reached 14 times"));
+      HasSubstr(
+          "14 of 14 went to their end, in 1 local optimum, the best of them reached 14 times"));
   EXPECT_THAT(FullReport(report), Not(HasSubstr("given up")));
   EXPECT_THAT(LineWith(FullReport(report), "  local optima "),
               HasSubstr("none was left unseen: none was reached"));
   report.refine.local_optima = OptimumCount{1, 1, 1, {1, 1, 1, 1, 0}, kUnknown};
-  EXPECT_THAT(FullReport(report),
-              HasSubstr("1 of 14 went to its end, in 1 local optimum, the best of them reached once"));
+  EXPECT_THAT(
+      FullReport(report),
+      HasSubstr("1 of 14 went to its end, in 1 local optimum, the best of them reached once"));
   EXPECT_THAT(LineWith(FullReport(report), "  local optima "),
               HasSubstr("too few descents to estimate how many local optima were not seen"));
   report.refine.local_optima = OptimumCount{};  // interrupted
@@ -254,7 +257,7 @@ TEST(FullReport, ShowsTheVariantsThatEffectsCanHave) {
   FitReport report = SampleReport();
   EXPECT_THAT(FullReport(report), Not(HasSubstr("Choice of the variant")));
   report.variants = {{"d, Vb, m, A free", 4, 7.73e-4, 0, true, true},
-                  {"d, Vb free; a = 0", 2, 1.2e-3, 87.654, false, false}};
+                     {"d, Vb free; a = 0", 2, 1.2e-3, 87.654, false, false}};
   const std::string text = FullReport(report);
   EXPECT_THAT(LineWith(text, "d, Vb, m, A free <-"), HasSubstr("7.73000e-04"));
   EXPECT_THAT(LineWith(text, "d, Vb, m, A free <-"), Not(HasSubstr("given up")));

@@ -60,24 +60,25 @@ TEST(JsonReport, CountsOptimaAndListsVariantsOfAModelWithEffects) {
   report.refine.starts.resize(49);
   report.refine.local_optima = OptimumCount{14, 5, 6, {12, 4, 5, 3, 1}, 1.5};
   report.variants = {{"d, Vb free; a = 0", 2, 1.2e-3, 87.5, false, false},
-                  {"d, Vb, m, A free", 4, 7.73e-4, 0, true, true}};
+                     {"d, Vb, m, A free", 4, 7.73e-4, 0, true, true}};
   report.estimates[2].bounds.whole = 0.25;
   const json j = Parsed(report);
   EXPECT_EQ(j["refine"]["start_list"].size(), 49u);
-  EXPECT_EQ(j["refine"]["local_optima"],
-            (json{{"ends", 14},
-                  {"local_optima", 5},
-                  {"best_visits", 6},
-                  {"independent",
-                   {{"ends", 12}, {"local_optima", 4}, {"best_visits", 5}, {"once", 3}, {"twice", 1}}},
-                  {"unseen", 1.5}}));
+  EXPECT_EQ(
+      j["refine"]["local_optima"],
+      (json{{"ends", 14},
+            {"local_optima", 5},
+            {"best_visits", 6},
+            {"independent",
+             {{"ends", 12}, {"local_optima", 4}, {"best_visits", 5}, {"once", 3}, {"twice", 1}}},
+            {"unseen", 1.5}}));
   ASSERT_EQ(j["variants"].size(), 2u);
   EXPECT_EQ(j["variants"][0], (json{{"what", "d, Vb free; a = 0"},
-                                 {"free", 2},
-                                 {"solved_current_rmse_A", 1.2e-3},
-                                 {"bic_above", 87.5},
-                                 {"finished", false},
-                                 {"chosen", false}}));
+                                    {"free", 2},
+                                    {"solved_current_rmse_A", 1.2e-3},
+                                    {"bic_above", 87.5},
+                                    {"finished", false},
+                                    {"chosen", false}}));
   EXPECT_EQ(j["variants"][1]["chosen"], true);
   EXPECT_EQ(j["parameters"]["n"]["whole"], 0.25);
   EXPECT_EQ(j["parameters"]["n"]["fixed"], false);

@@ -13,7 +13,8 @@ inline ReferenceComparison SampleReference() {
   c.name = "today";
   c.differs = true;
   c.p_value = 3e-6;
-  c.sentence = "Unlike its 12 reference sweeps (p = 3e-06): series resistance +8 %: -0.62 % of Pmax.";
+  c.sentence =
+      "Unlike its 12 reference sweeps (p = 3e-06): series resistance +8 %: -0.62 % of Pmax.";
   c.rows = {{"FF", "fill factor", "%", 73.2, 73.7, 73.5, 73.9, -6.1, 1e-5, -0.0068, true},
             {"shape", "departure from the usual shape", "% of Isc", 0.02, 0.021, 0.01, 0.04, -0.2,
              1, std::numeric_limits<double>::quiet_NaN(), false}};

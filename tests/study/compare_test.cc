@@ -256,7 +256,8 @@ TEST(Compare, StopsInsideALongRun) {
 
 // The error of a comparison that is refused. No run may have started before.
 std::string Refusal(const std::vector<CompareCurve>& curves,
-                    const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options) {
+                    const std::vector<ComparedAlgorithm>& algorithms,
+                    const CompareOptions& options) {
   bool ran = false;
   const Observer observer = [&](const Progress&) {
     ran = true;

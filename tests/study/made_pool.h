@@ -16,7 +16,7 @@ struct MadeRun {
 };
 
 inline AlgorithmResult SyntheticAlgorithm(const std::string& algorithm, std::int64_t budget,
-                                     const std::vector<MadeRun>& runs, double search_ms = 10) {
+                                          const std::vector<MadeRun>& runs, double search_ms = 10) {
   AlgorithmResult compared;
   compared.algorithm = algorithm;
   compared.name = budget > 0 ? algorithm + "@" + std::to_string(budget) : algorithm;

@@ -18,7 +18,8 @@ Comparison ThreeBlocks() {
     return MadeDevice(
         name, problem,
         {SyntheticAlgorithm("shape", 0, {{9, 9, 1}}), SyntheticAlgorithm("mlo", 10, {{2, 1, 1}}),
-         SyntheticAlgorithm("de", 10, {{3, de_own, 1}}), SyntheticAlgorithm("mlo", 100, {{2, 1, 1}})});
+         SyntheticAlgorithm("de", 10, {{3, de_own, 1}}),
+         SyntheticAlgorithm("mlo", 100, {{2, 1, 1}})});
   };
   return MadeComparison(
       {device("x 0", "x", 1 + 0.9e-6), device("x 1", "x", 1.5), device("y 0", "y", 1)});

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/study/compare.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare.h"
 #include "lyrefit/study/landscape.h"
 
 namespace lyrefit {

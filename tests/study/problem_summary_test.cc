@@ -38,9 +38,10 @@ TEST(SummariseProblems, CountsRunsOfAllDevices) {
 }
 
 TEST(SummariseProblems, LooksAtWhatIsNoSearchAsAWhole) {
-  const auto pools = SummariseProblems(MadeComparison({MadeDevice(
-      "x 0", "x",
-      {SyntheticAlgorithm("shape", 0, {{3, 2, 1}}), SyntheticAlgorithm("default", 0, {{3, 1, 1}})})}));
+  const auto pools = SummariseProblems(
+      MadeComparison({MadeDevice("x 0", "x",
+                                 {SyntheticAlgorithm("shape", 0, {{3, 2, 1}}),
+                                  SyntheticAlgorithm("default", 0, {{3, 1, 1}})})}));
   for (const AlgorithmSummary& compared : pools[0].algorithms) {
     EXPECT_FALSE(compared.At(PolishLevel::kSearch));
     EXPECT_FALSE(compared.At(PolishLevel::kOwn));
@@ -49,8 +50,8 @@ TEST(SummariseProblems, LooksAtWhatIsNoSearchAsAWhole) {
 }
 
 TEST(SummariseProblems, HasNoTimeWhereARunHasNone) {
-  Comparison comparison =
-      MadeComparison({MadeDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 2, 1}, {3, 2, 1}})})});
+  Comparison comparison = MadeComparison(
+      {MadeDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 2, 1}, {3, 2, 1}})})});
   comparison.problems[0].algorithms[0].runs[1].own_seconds = kUnknown;
   comparison.problems[0].algorithms[0].runs[0].plain_polished_A = kUnknown;
   const auto pools = SummariseProblems(comparison);
@@ -64,8 +65,8 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const double near = 1.5 * (1 + 1e-7);
   Comparison comparison = MadeComparison(
       {MadeDevice("x 0", "x",
-                  {SyntheticAlgorithm("mlo", 10,
-                                 {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1}, {9, 1, 1}})}),
+                  {SyntheticAlgorithm(
+                      "mlo", 10, {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1}, {9, 1, 1}})}),
        MadeDevice("x 1", "x", {SyntheticAlgorithm("mlo", 10, {{9, 1.5, 1}, {9, 1, 1}})})});
   comparison.problems[0].parameters = comparison.problems[1].parameters = {"Rs", "d1", "d2"};
   for (ProblemResult& device : comparison.problems) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/study/compare.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare.h"
 
 namespace lyrefit {
 

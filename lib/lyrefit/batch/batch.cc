@@ -10,20 +10,20 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/plausibility.h"
-#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/pipeline.h"
 #include "lyrefit/batch/result_columns.h"
 #include "lyrefit/batch/row_text.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {
 
 CheckpointHead OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
   CheckpointHead json = {{"seed", options.seed},
-                   {"group-level", options.group_level},
-                   {"like-light", options.like_light}};
+                         {"group-level", options.group_level},
+                         {"like-light", options.like_light}};
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
   if (options.raw_csv) json["raw-csv"] = true;
@@ -48,7 +48,7 @@ std::vector<ResultColumn> RowColumns(const BatchTaskType& task, const BatchOptio
 }
 
 Expected<CheckpointHead> HeadOf(const BatchSource& source, const BatchTaskType& task,
-                          const BatchOptions& options) {
+                                const BatchOptions& options) {
   TRY(const std::string digest, source.Digest());
   if (digest.empty() && (options.start == BatchStart::kResume || options.shard.of > 1)) {
     return Fail("standard input and pipes can neither be resumed nor done in shards: name a file");
@@ -72,7 +72,8 @@ std::string ReasonOf(const Error& error) {
 }
 
 void AddDoubt(const BatchCurve& curve, TaskResult* result) {
-  const std::optional<std::string> doubt = PlausibilityProblem(*curve.curve, RatedPowerBeside(curve));
+  const std::optional<std::string> doubt =
+      PlausibilityProblem(*curve.curve, RatedPowerBeside(curve));
   if (!doubt) return;
   if (result->status == RowStatus::kFine) result->status = RowStatus::kDoubtful;
   if (result->reason.find(*doubt) != std::string::npos) return;

@@ -49,8 +49,8 @@ struct BatchSummary {
   std::int64_t rows = 0;         // number of rows in the results
   std::int64_t rows_before = 0;  // of `rows`: written by earlier runs
   double seconds = 0;
-  bool interrupted = false;  // there are no results yet; the members below are empty
-  bool was_complete = false;                     // the results were complete before the run
+  bool interrupted = false;   // there are no results yet; the members below are empty
+  bool was_complete = false;  // the results were complete before the run
   std::map<std::string, std::int64_t> statuses;  // number of rows for each status
   std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
   // Number of rows for each cause, if the task reports causes.

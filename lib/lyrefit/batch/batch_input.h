@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/batch/csv_head.h"
 #include "lyrefit/batch/batch_source.h"
+#include "lyrefit/batch/csv_head.h"
 #include "lyrefit/batch/line_scanner.h"
 
 namespace lyrefit {

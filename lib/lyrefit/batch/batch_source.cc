@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_curve.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/seen_ids.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -11,10 +11,10 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/fit/fit_options.h"
 #include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/result_row.h"
+#include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/fit/fit_options.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
 
@@ -49,7 +49,7 @@ struct TaskResult {
 
 // A task, as data: what is run on each of many curves.
 struct BatchTaskType {
-  std::string name;                   // "fit"
+  std::string name;  // "fit"
   // The task's columns, after those of every row (CommonColumns).
   std::vector<ResultColumn> columns;
   std::vector<OptionEcho> options;  // all options that affect its cells; not the number of threads

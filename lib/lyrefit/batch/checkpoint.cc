@@ -98,7 +98,8 @@ std::string CheckpointPath(const std::string& folder, const Shard& shard) {
   return fmt::format("{}/shard-{}-of-{}.part", folder, shard.k, shard.of);
 }
 
-Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now, const std::string& path) {
+Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now,
+                             const std::string& path) {
   const auto differs = [&path](const std::string& what, const CheckpointHead& old_value,
                                const CheckpointHead& new_value) {
     return Fail(fmt::format("these rows were begun {} {}, now it is {}: go on as it was begun, or "
@@ -124,8 +125,9 @@ Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead&
   return Fail("these rows were begun with other columns: say --force to begin anew", path, 1);
 }
 
-Expected<std::unique_ptr<CheckpointFile>> CheckpointFile::Open(const std::string& path, const CheckpointHead& head,
-                                                   PartStart start) {
+Expected<std::unique_ptr<CheckpointFile>> CheckpointFile::Open(const std::string& path,
+                                                               const CheckpointHead& head,
+                                                               PartStart start) {
   TRY(auto log, AppendLog::Open(path, kKind));
   std::unique_ptr<CheckpointFile> part(new CheckpointFile(std::move(log)));
   if (!part->log_->empty() && start == PartStart::kNew) {
@@ -139,12 +141,14 @@ Expected<std::unique_ptr<CheckpointFile>> CheckpointFile::Open(const std::string
     TRY(part->log_->Clear());
   }
   if (part->log_->empty()) {
-    TRY(part->Append(head.dump(-1, ' ', false, CheckpointHead::error_handler_t::replace) + "\n", 0));
+    TRY(part->Append(head.dump(-1, ' ', false, CheckpointHead::error_handler_t::replace) + "\n",
+                     0));
   }
   return part;
 }
 
-Expected<void> CheckpointFile::Take(const std::string& line, int number, const CheckpointHead& head) {
+Expected<void> CheckpointFile::Take(const std::string& line, int number,
+                                    const CheckpointHead& head) {
   if (number == 1) {
     TRY(const CheckpointHead before, HeadOf(line, &sums_, path()));
     return CheckSameHead(before, head, path());

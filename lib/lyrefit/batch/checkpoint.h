@@ -31,7 +31,8 @@ std::string CheckpointPath(const std::string& folder, const Shard& shard);
 
 // Checks that a run has the head `before` of the file at `path`. Error: the first difference, as a
 // sentence.
-Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now, const std::string& path);
+Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now,
+                             const std::string& path);
 
 // Positions of the first and the last row of a checkpoint in the whole input: index of the input,
 // and index of the curve in it. Empty without rows.
@@ -69,8 +70,9 @@ class CheckpointFile {
   // Opens or creates a file. A last line without a line end is incomplete and is cut off. Errors,
   // without any change to the file: it cannot be opened, or another process writes it; it exists
   // without kResume; it is of another run, is no checkpoint file or was changed.
-  static Expected<std::unique_ptr<CheckpointFile>> Open(const std::string& path, const CheckpointHead& head,
-                                                  PartStart start);
+  static Expected<std::unique_ptr<CheckpointFile>> Open(const std::string& path,
+                                                        const CheckpointHead& head,
+                                                        PartStart start);
 
   std::int64_t rows() const { return rows_; }  // number of rows in the file
   bool complete() const { return complete_; }
@@ -104,7 +106,8 @@ class CheckpointReader {
   Expected<std::optional<nlohmann::json>> Next();
 
  private:
-  CheckpointReader(std::string path, std::ifstream in) : path_(std::move(path)), in_(std::move(in)) {}
+  CheckpointReader(std::string path, std::ifstream in)
+      : path_(std::move(path)), in_(std::move(in)) {}
 
   std::string path_;
   std::ifstream in_;

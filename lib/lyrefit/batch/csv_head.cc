@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/batch/json_row.h"
+#include "lyrefit/batch/list_text.h"
+#include "lyrefit/batch/row_names.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_columns.h"
 #include "lyrefit/curve/table_lines.h"
 #include "lyrefit/curve/text_encoding.h"
-#include "lyrefit/batch/json_row.h"
-#include "lyrefit/batch/list_text.h"
-#include "lyrefit/batch/row_names.h"
 #include "lyrefit/report/csv.h"
 
 namespace lyrefit {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/batch/row_fields.h"
+#include "lyrefit/curve/read_curve.h"
 
 namespace lyrefit {
 

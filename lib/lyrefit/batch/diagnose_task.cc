@@ -2,8 +2,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 
@@ -58,7 +58,7 @@ std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
           ListCell(Ids(verdict.causes)),
           ListCell(Ids(verdict.below_floor)),
           verdict.unexplained,
-          NumberCell(100 * verdict.departure.value),
+          NumberCell(100 * verdict.lack_of_fit.value),
           NumberCell(100 * cause.power_effect.value),
           NumberCell(cause.recoverable_power_W),
           NumberCell(cause.corrected_p),

@@ -9,11 +9,11 @@
 #include <zlib.h>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/batch/batch_input.h"
+#include "lyrefit/batch/line_scanner.h"
 #include "lyrefit/curve/json_curves.h"
 #include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/curve/table_curve.h"
-#include "lyrefit/batch/batch_input.h"
-#include "lyrefit/batch/line_scanner.h"
 
 namespace lyrefit {
 namespace {

@@ -104,9 +104,9 @@ Expected<void> ForGroups(const std::vector<std::string>& parts,
 std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns) {
   // The key `lyrefit` is an extension: the standard allows additional keys.
   const CheckpointHead schema = {{"fields", FieldsJson(columns)},
-                           {"missingValues", {""}},
-                           {"primaryKey", "where"},
-                           {"lyrefit", ResultsHeadOf(head)}};
+                                 {"missingValues", {""}},
+                                 {"primaryKey", "where"},
+                                 {"lyrefit", ResultsHeadOf(head)}};
   return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
 }
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <system_error>
 
+#include "lyrefit/batch/natural_order.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/table_curve.h"
-#include "lyrefit/batch/natural_order.h"
 
 namespace lyrefit {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/diagnose/reference.h"
 #include "lyrefit/batch/neighbours.h"
+#include "lyrefit/diagnose/reference.h"
 
 namespace lyrefit {
 
@@ -51,7 +51,7 @@ std::vector<ResultColumn> HistoryColumns() {
 }
 
 std::vector<ResultCell> HistoryCells(const IvCurve& curve, const std::vector<IvCurve>& sweeps,
-                                  const ReferenceOptions& options) {
+                                     const ReferenceOptions& options) {
   std::vector<ResultCell> cells = {static_cast<std::int64_t>(sweeps.size())};
   if (sweeps.empty()) {
     cells.resize(3);
@@ -100,7 +100,7 @@ Expected<std::shared_ptr<const ReferenceSweeps>> ReadReferences(
 }
 
 BatchTaskType WithHistory(BatchTaskType task, std::shared_ptr<const ReferenceSweeps> sweeps,
-                   const ReferenceOptions& asked) {
+                          const ReferenceOptions& asked) {
   ReferenceOptions options = asked;
   options.threads = 1;
   const std::size_t own = task.columns.size();

@@ -7,10 +7,10 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/reference_options.h"
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/diagnose/reference_options.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -30,6 +30,6 @@ Expected<std::shared_ptr<const ReferenceSweeps>> ReadReferences(
 // CompareWithReferences, or the reason why there is no comparison. `options` of the task gets the
 // digest of the sweeps.
 BatchTaskType WithHistory(BatchTaskType task, std::shared_ptr<const ReferenceSweeps> sweeps,
-                   const ReferenceOptions& asked);
+                          const ReferenceOptions& asked);
 
 }  // namespace lyrefit

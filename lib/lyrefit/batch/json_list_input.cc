@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
-#include "lyrefit/curve/read_ivcurves_json.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/json_elements.h"
 #include "lyrefit/batch/json_row.h"
 #include "lyrefit/batch/row_names.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/curve/read_ivcurves_json.h"
 
 namespace lyrefit {
 namespace {

@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_lines.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/line_scanner.h"
 #include "lyrefit/batch/row_curve.h"
 #include "lyrefit/batch/row_names.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_lines.h"
 
 namespace lyrefit {
 namespace {

@@ -12,8 +12,8 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch.h"
-#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/string_pages.h"
 
 namespace lyrefit {

@@ -138,7 +138,7 @@ std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
     cells.push_back(NumberCell(100 * part));
     if (!(std::fabs(part) > limits[q])) continue;
     outlier.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q], 100 * part,
-                              100 * limits[q]));
+                                  100 * limits[q]));
   }
   cells.emplace_back(!outlier.empty());
   cells.push_back(ListCell(outlier, ", "));

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/column.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_curve.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/json_row.h"
 #include "lyrefit/batch/line_scanner.h"
 #include "lyrefit/batch/row_names.h"
+#include "lyrefit/curve/column.h"
+#include "lyrefit/curve/number_text.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/batch/plant_picture.h"
+#include "lyrefit/curve/number_text.h"
 #include "lyrefit/report/html_parts.h"
 #include "lyrefit/report/text_layout.h"
 
@@ -239,10 +239,10 @@ std::string PlantVerdict(const PlantSummary& summary) {
                         beside == 1 ? "s" : "", Listed(summary.causes_of_passed, 6));
   }
   if (summary.passed_outlier > 0) {
-    text +=
-        fmt::format(" {} that need{} no work by this differ{} from the strings of {} combiner.",
-                    Counted(summary.passed_outlier), summary.passed_outlier == 1 ? "s" : "",
-                    summary.passed_outlier == 1 ? "s" : "", summary.passed_outlier == 1 ? "its" : "their");
+    text += fmt::format(" {} that need{} no work by this differ{} from the strings of {} combiner.",
+                        Counted(summary.passed_outlier), summary.passed_outlier == 1 ? "s" : "",
+                        summary.passed_outlier == 1 ? "s" : "",
+                        summary.passed_outlier == 1 ? "its" : "their");
   }
   if (summary.fine < summary.rows) {
     text += fmt::format(" {} could not be judged.", Counted(summary.rows - summary.fine));

@@ -38,9 +38,9 @@ struct PlantNode {
 
 struct PlantSummary {
   std::int64_t rows = 0;
-  std::int64_t fine = 0;           // number of rows with the status "fine"
-  std::int64_t passed = 0;         // number of rows with a passing zone
-  std::int64_t in_need = 0;        // number of rows that need work: see NeedsWork
+  std::int64_t fine = 0;     // number of rows with the status "fine"
+  std::int64_t passed = 0;   // number of rows with a passing zone
+  std::int64_t in_need = 0;  // number of rows that need work: see NeedsWork
   // Number of rows with a cause of the measurement alone that do not fail.
   std::int64_t to_repeat = 0;
   double recoverable_power_W = 0;  // sum over rows that need work

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 enum Kind : char { kDoubles, kDecimals, kTexts, kWords };
 // 2^52, below the limit of exact integers in a browser (2^53).
 constexpr double kLargestCode = 4503599627370496.0;
-constexpr int kMostDecimals = 22;                    // 10^22 is exact as a double, 10^23 is not
+constexpr int kMostDecimals = 22;  // 10^22 is exact as a double, 10^23 is not
 
 double TenTo(int n) {
   static constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,

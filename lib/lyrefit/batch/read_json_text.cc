@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_curves.h"
-#include "lyrefit/curve/json_text.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/json_row.h"
 #include "lyrefit/batch/row_curve.h"
 #include "lyrefit/batch/row_names.h"
+#include "lyrefit/curve/json_curves.h"
+#include "lyrefit/curve/json_text.h"
 
 namespace lyrefit {
 namespace {

@@ -88,7 +88,8 @@ Expected<std::int64_t> WritePlantPageOf(const std::string& folder, const std::st
   TRY(const std::string text, ReadTextFile(schema_file, kLargestResultsSchema));
   const CheckpointHead schema = CheckpointHead::parse(text, nullptr, false);
   if (!schema.is_object()) return Fail("expected the schema of results", schema_file);
-  TRY(const std::vector<ResultColumn> columns, ReadColumns(schema.value("fields", CheckpointHead())));
+  TRY(const std::vector<ResultColumn> columns,
+      ReadColumns(schema.value("fields", CheckpointHead())));
   const std::string results = (fs::path(folder) / "results.jsonl").string();
   PlantPageOptions options;
   options.plant = plant;

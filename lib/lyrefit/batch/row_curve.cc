@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/batch/row_names.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/select_sweep.h"
@@ -17,7 +18,6 @@
 #include "lyrefit/curve/table_columns.h"
 #include "lyrefit/curve/table_curve.h"
 #include "lyrefit/curve/table_head.h"
-#include "lyrefit/batch/row_names.h"
 
 namespace lyrefit {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/row_fields.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/read_curve.h"
 
 namespace lyrefit {
 

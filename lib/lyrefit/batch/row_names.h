@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "lyrefit/curve/column.h"
 #include "lyrefit/batch/row_fields.h"
+#include "lyrefit/curve/column.h"
 
 namespace lyrefit {
 

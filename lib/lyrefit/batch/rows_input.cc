@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/json_row.h"
 #include "lyrefit/batch/line_scanner.h"
 #include "lyrefit/batch/row_curve.h"
 #include "lyrefit/batch/row_names.h"
+#include "lyrefit/curve/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -35,7 +35,7 @@ std::vector<double> EvenCurrents(const std::vector<std::pair<double, double>>& r
 }  // namespace
 
 std::string Sparkline(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
-                   double open_circuit_voltage_V) {
+                      double open_circuit_voltage_V) {
   std::vector<std::pair<double, double>> readings;
   for (std::size_t i = 0; i < voltage_V.size(); ++i) {
     readings.emplace_back(voltage_V[i], current_A[i]);

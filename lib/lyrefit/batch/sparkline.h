@@ -17,7 +17,7 @@ constexpr int kSparklinePoints = 24;
 // result is base64 (RFC 4648) of 32 letters. Currents below 0 become 0. Values are interpolated
 // linearly between readings, which may be in any order. Empty without a positive current.
 std::string Sparkline(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
-                   double open_circuit_voltage_V);
+                      double open_circuit_voltage_V);
 
 // The currents of a text written by Sparkline, relative to the largest; empty if `text` is invalid.
 std::vector<double> ReadSparkline(const std::string& text);

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/table_curve.h"
 #include "lyrefit/batch/batch_input.h"
 #include "lyrefit/batch/folder_tree.h"
+#include "lyrefit/curve/table_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/mixture.h"
+#include "lyrefit/certify/upper_bound.h"
 
 namespace lyrefit {
 

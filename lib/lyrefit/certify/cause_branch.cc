@@ -80,8 +80,8 @@ class CauseBranch {
     ++end_.solved;
     const MixtureData data = DataOf(part.theta);
     const double dual_gain = ComputeDualGain(data, rs, rs, end_.best.primal).current_A;
-    auto mixture = std::make_shared<Mixture>(
-        SolveMixture(data, {part.u}, rs, start, kSolveTolerance, std::min(dual_gain, 1e3 * Scale())));
+    auto mixture = std::make_shared<Mixture>(SolveMixture(
+        data, {part.u}, rs, start, kSolveTolerance, std::min(dual_gain, 1e3 * Scale())));
     Note(*mixture, part);
     return mixture;
   }
@@ -119,14 +119,16 @@ class CauseBranch {
   // Lower bound at the Rs of one end, all penalties subtracted.
   double EndBound(const MixtureData& data, const Window& u, const Mixture& end) const {
     const double known = end_.best.primal;
-    return BoundPart(data, {u}, end, end, ComputeDualGain(data, end.rs, end.rs, known), known).lower;
+    return BoundPart(data, {u}, end, end, ComputeDualGain(data, end.rs, end.rs, known), known)
+        .lower;
   }
 
   void Push(CausePart part) {
     const Mixture &a = *part.left, &b = *part.right;
     const MixtureData data = DataOf(part.theta);
     const double known = end_.best.primal;
-    const PartBound bound = BoundPart(data, {part.u}, a, b, ComputeDualGain(data, a.rs, b.rs, known), known);
+    const PartBound bound =
+        BoundPart(data, {part.u}, a, b, ComputeDualGain(data, a.rs, b.rs, known), known);
     part.raw_ends = std::min(a.dual, b.dual);
     part.ends = std::min(EndBound(data, part.u, a), EndBound(data, part.u, b));
     part.lower = std::max(bound.lower, std::max(part.lower, 0.0));

@@ -32,7 +32,7 @@ void AddShape(const MixtureData& data, const CauseShape& shape, Span theta, cons
 }  // namespace
 
 CauseGain CauseDualGains(const MixtureData& data, const Mixture& a, const Mixture& b,
-                      const DualGain& dual_gain) {
+                         const DualGain& dual_gain) {
   CauseGain gain;
   const std::vector<LinearTerm>& terms = data.terms;
   for (std::size_t first = 0; first < terms.size(); ++first) {

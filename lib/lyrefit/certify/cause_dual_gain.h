@@ -16,6 +16,6 @@ struct CauseGain {
   double bend = 0;
 };
 CauseGain CauseDualGains(const MixtureData& data, const Mixture& a, const Mixture& b,
-                      const DualGain& dual_gain);
+                         const DualGain& dual_gain);
 
 }  // namespace lyrefit

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/certify/tail_bound.h"
-#include "lyrefit/certify/cause_upper_bound.h"
 #include "lyrefit/certify/cause_branch.h"
+#include "lyrefit/certify/cause_upper_bound.h"
+#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/law/device.h"
 
 namespace lyrefit {
@@ -134,7 +134,7 @@ Expected<Ground> MakeGround(const IvCurve& curve, const CauseFloorOptions& optio
 
 // The lowest result of descents from a few starts, or from `known` if it is finite.
 CausePoint FindUpperBound(const Ground& ground, const std::shared_ptr<const CauseShape>& shape,
-                  const CausePoint& known) {
+                          const CausePoint& known) {
   CausePoint best = known;
   const double theta = shape != nullptr ? std::sqrt(shape->theta.lower * shape->theta.upper) : 0;
   std::vector<CausePoint> starts;

@@ -10,13 +10,13 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/as_diodes.h"
-#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/certify/box.h"
 #include "lyrefit/certify/branch.h"
 #include "lyrefit/certify/measured_relaxation.h"
 #include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/certify/safe_values.h"
 #include "lyrefit/certify/solved_relaxation.h"
+#include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
@@ -150,8 +150,8 @@ double SafeFloorRmse(const Proof& proof, const Floor& floor) {
     diodes.push_back({diode.n, diode.saturation_current_A});
   }
   return SafeUpperRmse(proof.curve, proof.ThermalVoltage(), floor.photocurrent_A,
-                          floor.resistance_series_ohm, WideInterval(floor.conductance_shunt_S),
-                          diodes);
+                       floor.resistance_series_ohm, WideInterval(floor.conductance_shunt_S),
+                       diodes);
 }
 
 double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<double>& p) {
@@ -161,7 +161,7 @@ double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<doub
     diodes.push_back({p[IdealityIndex(d)], p[SaturationCurrentIndex(d)]});
   }
   return SafeUpperRmse(proof.curve, proof.ThermalVoltage(), p[kIph], p[kRs],
-                          WideInterval(1) / WideInterval(p[kRsh]), diodes);
+                       WideInterval(1) / WideInterval(p[kRsh]), diodes);
 }
 
 // The dual vector at the floor's Rs and the junction voltages of its columns. For the
@@ -196,7 +196,8 @@ void TakeBest(const Proof& proof, BranchEnd* floor) {
         here.primal = solved.value;
       }
     } else {
-      here = SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, dual_gain_A);
+      here =
+          SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, dual_gain_A);
     }
     if (here.primal < floor->best.primal) floor->best = here;
   }

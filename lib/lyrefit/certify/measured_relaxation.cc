@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/part_bound.h"
+#include "lyrefit/certify/tail_bound.h"
 
 namespace lyrefit {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 template <class Real>
 PartBound BoundEnds(const MixtureData& data, const BranchPart& part, const Incumbent& incumbent) {
   return BoundPart<Real>(data, Union(part.windows), *part.left, *part.right,
-                         ComputeDualGain<Real>(data, part.rs0, part.rs1, incumbent.primal), incumbent.primal);
+                         ComputeDualGain<Real>(data, part.rs0, part.rs1, incumbent.primal),
+                         incumbent.primal);
 }
 
 }  // namespace

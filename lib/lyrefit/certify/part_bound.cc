@@ -28,8 +28,8 @@ Real Excess(const Mixture& mixture, const std::vector<Window>& windows, double v
 
 // The largest coefficient of a linear term in a model that the dual gain allows.
 template <class Real>
-double LargestCoefficient(const MixtureData& data, const LinearTerm& term, const DualGain& dual_gain,
-                          double known) {
+double LargestCoefficient(const MixtureData& data, const LinearTerm& term,
+                          const DualGain& dual_gain, double known) {
   double largest = kInfinity;
   if (term.light()) {
     const ArrayOf<Real> allowed = RealArray<Real>(data.target_A) +
@@ -40,8 +40,8 @@ double LargestCoefficient(const MixtureData& data, const LinearTerm& term, const
       if (lit > 0) largest = std::min(largest, Upper(Real(most) / Real(lit)));
     }
   } else {
-    const ArrayOf<Real> leak =
-        -(RealArray<Real>(term.constant) + RealArray<Real>(term.per_volt) * Real(dual_gain.voltage_V));
+    const ArrayOf<Real> leak = -(RealArray<Real>(term.constant) +
+                                 RealArray<Real>(term.per_volt) * Real(dual_gain.voltage_V));
     const Real least = leak.minCoeff();
     if (Lower(least) > 0) largest = Upper(Real(dual_gain.current_A) / least);
   }

@@ -44,9 +44,9 @@ double SafeGap(double rmse, double lower) {
 }
 
 double SafeUpperRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
-                        double photocurrent_A, double resistance_series_ohm,
-                        const WideInterval& conductance_shunt_S,
-                        const std::vector<SafeDiode>& diodes) {
+                     double photocurrent_A, double resistance_series_ohm,
+                     const WideInterval& conductance_shunt_S,
+                     const std::vector<SafeDiode>& diodes) {
   WideInterval sum(0);
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const WideInterval current(curve.current_A[k]);

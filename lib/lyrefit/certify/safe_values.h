@@ -31,8 +31,7 @@ struct SafeDiode {
 
 // An upper bound of the measured-current RMSE (unweighted) of one model on a curve.
 double SafeUpperRmse(const IvCurve& curve, const WideInterval& thermal_voltage_V,
-                        double photocurrent_A, double resistance_series_ohm,
-                        const WideInterval& conductance_shunt_S,
-                        const std::vector<SafeDiode>& diodes);
+                     double photocurrent_A, double resistance_series_ohm,
+                     const WideInterval& conductance_shunt_S, const std::vector<SafeDiode>& diodes);
 
 }  // namespace lyrefit

@@ -88,8 +88,8 @@ double LeftOver(const KnownValues& known, const std::vector<Window>& windows,
   left += std::max(-voltage.dot(weight) / columns.scale_V, 0.0) * known.dual_gain.current_A;
   const double dual_gain = known.dual_gain.current_A;
   return left + dual_gain * BoundCorrelation(voltage, columns.scale_V, weight, windows, {},
-                                         allowed / std::max(dual_gain, 1e-300))
-                            .bound;
+                                             allowed / std::max(dual_gain, 1e-300))
+                                .bound;
 }
 
 std::vector<SlopeRange> BoundAll(const KnownValues& known, const std::vector<Window>& windows,

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/mixture_law.h"
 #include "lyrefit/certify/solved_part.h"
+#include "lyrefit/certify/tail_bound.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kMostNewtonSteps = 12;  // Gauss-Newton steps
 constexpr int kMostSharpenings = 12;  // rounds that tighten the bounds of one part
-constexpr double kCoarse = 0.3;  // largest slope error e at which BoundNear() alone suffices
-constexpr double kNearby = 4;    // BoundNear() is used below this multiple of the best value
+constexpr double kCoarse = 0.3;       // largest slope error e at which BoundNear() alone suffices
+constexpr double kNearby = 4;         // BoundNear() is used below this multiple of the best value
 
 double ComputeDualGain(const MixtureData& data, double rs, double known) {
-  return std::min(ComputeDualGain(data, rs, rs, known).current_A, 1e3 * data.target_A.cwiseAbs().maxCoeff());
+  return std::min(ComputeDualGain(data, rs, rs, known).current_A,
+                  1e3 * data.target_A.cwiseAbs().maxCoeff());
 }
 
 double Spread(const KnownValues& known) {
@@ -90,14 +91,15 @@ void BoundNear(const SolvedMixture& fit, double tolerance, double enough, Solved
   std::vector<SlopeRange> slopes;
   for (const double highest : work->highest_slope_S) slopes.push_back({0, highest});
   SetErrors(slopes, work);
-  const double solve_dual_gain = std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
+  const double solve_dual_gain =
+      std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
   work->left = SolveMixture(work->linear, work->windows, part.rs0, fit.mixture.atoms, tolerance,
                             solve_dual_gain);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
                                                    fit.mixture.atoms, tolerance, solve_dual_gain)
                                     : work->left;
-  work->bound =
-      BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, LinearKnown(*work));
+  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dual_gain,
+                          LinearKnown(*work));
   work->loss = Loss(*work);
   if (part.rs1 > 0) Sharpen(dual_gain, light, enough, work);
 }
@@ -119,12 +121,14 @@ void BoundFar(double tolerance, SolvedPart* work) {
   work->linear = work->data;
   work->linear.weight =
       work->data.weight.array() / (1 + part.rs1 * slopes.min(1e12 / (part.rs1 + 1e-12)));
-  const double solve_dual_gain = std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
+  const double solve_dual_gain =
+      std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
   work->left = SolveMixture(work->linear, work->windows, part.rs0, {}, tolerance, solve_dual_gain);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
                                                    work->left.atoms, tolerance, solve_dual_gain)
                                     : work->left;
-  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, work->known);
+  work->bound =
+      BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, work->known);
 }
 
 SolvedPart Begin(const MixtureData& data, const BranchPart& part, double known) {
@@ -168,8 +172,9 @@ SolvedMixture SolveSolvedMixture(const MixtureData& data, const std::vector<Wind
   std::vector<Atom> atoms = start;
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const MixtureData linear = Linearise(data, rs, reference, slope);
-    Mixture mixture = SolveMixture(linear, windows, rs, atoms, tolerance,
-                                   ComputeDualGain(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
+    Mixture mixture =
+        SolveMixture(linear, windows, rs, atoms, tolerance,
+                     ComputeDualGain(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
     ++best.steps;
     const MixtureLaw law(data, mixture);
     reference = SolvedCurrents(data, mixture);

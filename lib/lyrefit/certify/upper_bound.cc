@@ -164,8 +164,8 @@ RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRange
                            std::move(lower), std::move(upper));
 }
 
-void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
-            const Mixture& mixture, UpperBound* best) {
+void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges,
+                    const MixtureData& data, const Mixture& mixture, UpperBound* best) {
   const auto consider = [&](const std::vector<double>& p) {
     const bool cut = LargestExponent(problem.device, data, p) > kLargestExponent;
     const double mean_square = cut ? UncutMeanSquare(problem, data, p) : MeanSquare(problem, p);

@@ -44,7 +44,7 @@ RefineProblem ModelProblem(const IvCurve& curve, Device device, const ModelRange
 // parameters of the model. A mixture that is itself a model within the ranges is also evaluated
 // unchanged. Stores the lowest result in `best` if it is lower than `best`. Where the device would
 // clip the exponent of a diode, Shockley's equation is evaluated without the clip.
-void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges, const MixtureData& data,
-            const Mixture& mixture, UpperBound* best);
+void FindUpperBound(const RefineProblem& problem, const ModelRanges& ranges,
+                    const MixtureData& data, const Mixture& mixture, UpperBound* best);
 
 }  // namespace lyrefit

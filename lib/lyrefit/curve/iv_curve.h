@@ -63,7 +63,7 @@ struct IvCurve {
   bool strings_known = true;            // false: conditions.strings_in_parallel is a guess
   bool current_unit_known = true;       // false: ampere was assumed
   bool voltage_unit_known = true;       // false: volt was assumed
-  bool as_is = false;  // turns refusals of CheckReadings into doubts
+  bool as_is = false;                   // turns refusals of CheckReadings into doubts
 
   // Number of points.
   std::size_t size() const { return voltage_V.size(); }

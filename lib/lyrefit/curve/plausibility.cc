@@ -141,7 +141,8 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve) {
   return findings;
 }
 
-std::optional<std::string> PlausibilityProblem(const IvCurve& curve, std::optional<double> rated_power_W) {
+std::optional<std::string> PlausibilityProblem(const IvCurve& curve,
+                                               std::optional<double> rated_power_W) {
   if (rated_power_W) {
     if (auto why = ImplausiblePower(curve, *rated_power_W)) return why;
   }

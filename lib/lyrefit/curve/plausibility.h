@@ -23,6 +23,6 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve);
 // The lower limit is proportional to the irradiance and applies from a stated 200 W/m2 on. The
 // first finding of CheckPlausibility follows.
 std::optional<std::string> PlausibilityProblem(const IvCurve& curve,
-                                       std::optional<double> rated_power_W = std::nullopt);
+                                               std::optional<double> rated_power_W = std::nullopt);
 
 }  // namespace lyrefit

@@ -47,7 +47,7 @@ LineSplitter::LineSplitter(char delimiter) : delimiter_(delimiter) {
   if (delimiter == ' ') csv_set_space_func(&parser_, NoSpace);
 }
 
-LineSplitter::~LineSplitter() { csv_individual(&parser_); }
+LineSplitter::~LineSplitter() { csv_free(&parser_); }
 
 void LineSplitter::TakeField(void* text, std::size_t length, void* self) {
   auto* splitter = static_cast<LineSplitter*>(self);
@@ -69,7 +69,7 @@ bool LineSplitter::Split(std::string_view line) {
   const bool closed = csv_fini(&parser_, TakeField, nullptr, this) == 0;
   if (parsed && closed) return true;
   // The parser keeps the state of the broken line, so it is replaced.
-  csv_individual(&parser_);
+  csv_free(&parser_);
   csv_init(&parser_, CSV_STRICT | CSV_STRICT_FINI);
   csv_set_delim(&parser_, static_cast<unsigned char>(delimiter_));
   if (delimiter_ == ' ') csv_set_space_func(&parser_, NoSpace);

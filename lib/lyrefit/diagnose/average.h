@@ -26,7 +26,7 @@ Averaged Average(const Measurement& measurement, const Law& base, Watch* watch);
 // The fits of a selection, evaluated at every reading.
 struct AtReadings {
   WeightedData weighted;  // noise deviation of each reading, from the extended model
-  Noise noise;      // estimated from the residuals of the extended model
+  Noise noise;            // estimated from the residuals of the extended model
   std::vector<double> base, extended, without;  // currents in scales; `without`: causes removed
   std::vector<int> first;  // first reading of each position, then the number of readings
 

@@ -17,13 +17,15 @@ double Calibration::Corrected(double p) const {
   const std::size_t edge = count - static_cast<std::size_t>(kPart * static_cast<double>(count)) - 1;
   if (x > null_statistics[edge]) {
     double excess = 0;
-    for (std::size_t k = edge + 1; k < count; ++k) excess += null_statistics[k] - null_statistics[edge];
+    for (std::size_t k = edge + 1; k < count; ++k)
+      excess += null_statistics[k] - null_statistics[edge];
     const double beyond = static_cast<double>(count - edge - 1);
     excess *= (1 + 1 / std::sqrt(beyond)) / beyond;
     const double part = kPart + std::sqrt(kPart * (1 - kPart) / static_cast<double>(count));
     return std::min(1.0, std::max(p, part * std::exp(-(x - null_statistics[edge]) / excess)));
   }
-  const auto above = null_statistics.end() - std::lower_bound(null_statistics.begin(), null_statistics.end(), x);
+  const auto above =
+      null_statistics.end() - std::lower_bound(null_statistics.begin(), null_statistics.end(), x);
   return std::max(p, static_cast<double>(above) / static_cast<double>(count));
 }
 

@@ -50,7 +50,8 @@ struct Raw {
   int probe;
 };
 
-std::vector<Raw> Signatures(const WeightedData& weighted, const Effect& effect, const Signature& signature) {
+std::vector<Raw> RawSignatures(const WeightedData& weighted, const Effect& effect,
+                               const Signature& signature) {
   std::vector<Raw> raw;
   if (effect.found_by == FoundBy::kWaves) {
     for (Eigen::VectorXd& wave : Waves(weighted)) raw.push_back({std::move(wave), -1});
@@ -90,8 +91,8 @@ Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& 
   return moved;
 }
 
-bool Serves(const WeightedData& weighted, const LawFit& fit, const std::vector<const Effect*>& effects,
-            const Signature& signature) {
+bool Serves(const WeightedData& weighted, const LawFit& fit,
+            const std::vector<const Effect*>& effects, const Signature& signature) {
   if (signature.fit.law.effects != fit.law.effects) return false;
   for (const Effect* effect : effects) {
     if (effect->probes != nullptr && signature.moved.count(effect) == 0) return false;
@@ -111,15 +112,15 @@ double Headroom(const Effect& effect, const Probe& probe) {
   return used > 0 ? std::max(upper, lower) / used : 1;
 }
 
-Candidate Prepare(const WeightedData& weighted, const Linearized& linear, const Effect& effect,
-                  const Signature& signature) {
-  Candidate candidate;
+CandidateEffect Prepare(const WeightedData& weighted, const Linearized& linear,
+                        const Effect& effect, const Signature& signature) {
+  CandidateEffect candidate;
   candidate.score.effect = &effect;
   candidate.two_sided = IsTwoSided(effect);
   const std::vector<Probe> probes =
       effect.probes != nullptr ? effect.probes(weighted.readings->traits) : std::vector<Probe>();
   std::vector<Eigen::VectorXd> kept;
-  for (const Raw& raw : Signatures(weighted, effect, signature)) {
+  for (const Raw& raw : RawSignatures(weighted, effect, signature)) {
     Eigen::VectorXd rest = raw.signature;
     TakeOut(linear.basis, &rest);
     Direction direction;
@@ -170,8 +171,9 @@ Candidate Prepare(const WeightedData& weighted, const Linearized& linear, const 
   return candidate;
 }
 
-Candidate PrepareOutliers(const WeightedData& weighted, const Linearized& linear, const Effect& effect) {
-  Candidate candidate;
+CandidateEffect PrepareOutliers(const WeightedData& weighted, const Linearized& linear,
+                                const Effect& effect) {
+  CandidateEffect candidate;
   candidate.score.effect = &effect;
   candidate.two_sided = true;
   candidate.score.testable = true;
@@ -194,8 +196,8 @@ Candidate PrepareOutliers(const WeightedData& weighted, const Linearized& linear
 }  // namespace
 
 std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
-                                           const std::vector<const Effect*>& effects,
-                                           Signatures* known) {
+                                               const std::vector<const Effect*>& effects,
+                                               Signatures* known) {
   for (const auto& signature : *known) {
     if (Serves(weighted, fit, effects, *signature)) return signature;
   }
@@ -220,8 +222,8 @@ Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
   for (const Effect* effect : effects) {
     if (Stopped(weighted.watch)) break;
     const bool single = effect->found_by == FoundBy::kSingleReading;
-    Candidate candidate = single ? PrepareOutliers(weighted, prepared.linear, *effect)
-                                 : Prepare(weighted, prepared.linear, *effect, *signature);
+    CandidateEffect candidate = single ? PrepareOutliers(weighted, prepared.linear, *effect)
+                                       : Prepare(weighted, prepared.linear, *effect, *signature);
     if (prepared.degrees < 3) candidate.score.testable = false;
     if (candidate.score.testable) {
       const double best = candidate.score.directions.front().score;

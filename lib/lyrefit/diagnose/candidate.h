@@ -35,7 +35,7 @@ struct Score {
 };
 
 // An effect on weighted data: its score before calibration, and its directions for null statistics.
-struct Candidate {
+struct CandidateEffect {
   Score score;
   bool two_sided = false;
   Eigen::MatrixXf directions;  // unit columns, nearly equal ones merged; empty for single readings
@@ -45,7 +45,7 @@ struct Candidate {
 struct Prepared {
   Linearized linear;
   int degrees = 0;  // degrees of freedom: readings minus parameters of the law
-  std::vector<Candidate> candidates;
+  std::vector<CandidateEffect> candidates;
 };
 
 // Changes of a fitted law's currents by the probes of effects, not whitened. Each matrix has one
@@ -60,8 +60,8 @@ using Signatures = std::vector<std::shared_ptr<const Signature>>;
 // Returns a signature of `known` that applies to this fit and holds all of `effects`. If there is
 // none, computes one and appends it to `known`.
 std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
-                                           const std::vector<const Effect*>& effects,
-                                           Signatures* known);
+                                               const std::vector<const Effect*>& effects,
+                                               Signatures* known);
 
 // Scores every effect of `effects` on the residuals of `fit`, without p-values. Depending on the
 // effect, the score uses its probes, smooth waves along each monotone stretch, or single readings.

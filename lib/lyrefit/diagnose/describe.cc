@@ -6,10 +6,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "lyrefit/diagnose/cause_text.h"
+#include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/effect_size.h"
-#include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -28,7 +28,8 @@ std::vector<int> WhereItActs(const WeightedData& weighted, const LawFit& with, i
   const LawFit rest = TakenOut(with, index);
   std::vector<double> current(with.current.size());
   LawWorkspace workspace;
-  if (!EvaluateLaw(rest.law, *weighted.readings, rest.p.data(), &workspace, current.data(), nullptr)) {
+  if (!EvaluateLaw(rest.law, *weighted.readings, rest.p.data(), &workspace, current.data(),
+                   nullptr)) {
     return {};
   }
   std::vector<double> moves;
@@ -64,7 +65,8 @@ std::string CauseSentence(const Cause& cause, const Effect& effect) {
 // sweep is widened: such an effect absorbs part of the module's departure from the model, so that
 // the path is underestimated. Its shape parameters that are fixed by default are freed, since its
 // true shape is unknown.
-std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fit, const Effect& effect) {
+std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fit,
+                                  const Effect& effect) {
   constexpr double kUnlike = 3;  // scatter between modules / estimate of one sweep
   if (weighted.path == 0 || effect.where != Where::kSweep) {
     return StandardErrors(Linearize(weighted, fit), fit.law.size());
@@ -117,7 +119,8 @@ std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, con
   const Effect& effect = *fit.law.effects[index];
   const int first = fit.law.Offset(index);
   const std::vector<double> errors = AllowedErrors(weighted, fit, effect);
-  const double spread = StudentT95(Degrees(weighted, fit.law)) * std::sqrt(NoiseVariance(weighted, fit));
+  const double spread =
+      StudentT95(Degrees(weighted, fit.law)) * std::sqrt(NoiseVariance(weighted, fit));
   std::vector<CauseParameter> described;
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
@@ -183,9 +186,11 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
       if (!fitted.fit.usable) continue;
       trial.rmse_A = RmseOf(weighted, fitted.fit.current);
       trial.delta_aicc =
-          FindInformation(fitted.fit.sum / points, points, FreeCount(weighted, fitted.fit.law)).aicc -
+          FindInformation(fitted.fit.sum / points, points, FreeCount(weighted, fitted.fit.law))
+              .aicc -
           base_aicc;
-      trial.parameters = DescribeParameters(weighted, fitted.fit, fitted.fit.law.effects.size() - 1);
+      trial.parameters =
+          DescribeParameters(weighted, fitted.fit, fitted.fit.law.effects.size() - 1);
     }
     trials.push_back(trial);
   }
@@ -193,8 +198,8 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
 }
 
 // Fills sizes and their meaning. `without`: the fit without effect `index`.
-void DescribeSize(const WeightedData& weighted, const LawFit& with, int index, const LawFit& without,
-                  Cause* cause) {
+void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
+                  const LawFit& without, Cause* cause) {
   cause->strength = DescribeParameters(weighted, with, index);
   cause->in_words = InWords(weighted, with, index);
   if (!without.usable) return;
@@ -221,8 +226,8 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
       continue;
     }
     Cause cause = MakeCause(effect, "fit", fitted.corrected_p);
-    DescribeSize(selection.weighted, fitted.fit, static_cast<int>(fitted.fit.law.effects.size()) - 1,
-                 selection.extended, &cause);
+    DescribeSize(selection.weighted, fitted.fit,
+                 static_cast<int>(fitted.fit.law.effects.size()) - 1, selection.extended, &cause);
     cause.in_words.clear();  // too small to act on
     cause.recoverable_power_W = kUnknown;
     cause.sentence = CauseSentence(cause, effect);

@@ -51,21 +51,21 @@ struct Finding {
 
 // Properties of the readings and of the base model's residuals, before any cause is tried.
 struct Evidence {
-  std::string kind;             // text such as "one sweep from 0 V to beyond Voc"
-  double noise_constant_A = 0;  // standard deviation, constant part (lit curves)
-  double noise_relative = 0;    // fraction of |current|
-  double noise_voltage_V = 0;   // of the voltage readings; 0 unless the data clearly show it
-  double noise_dark_A = 0;      // constant part of dark curves; 0 without dark curves
-  double noise_stated_A = 0;    // median of stated sigmas, if they replace the estimate; else 0
-  double noise_path_A = 0;      // rough path along the sweep, shared by neighbours; 0: none
-  double misfit_ratio = 0;  // deviation of base residuals / of noise from second differences
-  double autocorrelation = 0;          // lag 1, of the noise (smooth misfit removed)
-  double grid_step_A = 0;              // common step of the currents; 0: none found
-  double grid_step_V = 0;              // common step of the voltages; 0: none found
-  int clipped_points = 0;              // readings at a limit of the instrument
-  double clip_level_A = 0;             // that limit; 0 without clipped readings
-  ResidualStatistics residuals;        // of the base model
-  double whiteness_p_value = 1;        // portmanteau of the base residuals
+  std::string kind;              // text such as "one sweep from 0 V to beyond Voc"
+  double noise_constant_A = 0;   // standard deviation, constant part (lit curves)
+  double noise_relative = 0;     // fraction of |current|
+  double noise_voltage_V = 0;    // of the voltage readings; 0 unless the data clearly show it
+  double noise_dark_A = 0;       // constant part of dark curves; 0 without dark curves
+  double noise_stated_A = 0;     // median of stated sigmas, if they replace the estimate; else 0
+  double noise_path_A = 0;       // rough path along the sweep, shared by neighbours; 0: none
+  double misfit_ratio = 0;       // deviation of base residuals / of noise from second differences
+  double autocorrelation = 0;    // lag 1, of the noise (smooth misfit removed)
+  double grid_step_A = 0;        // common step of the currents; 0: none found
+  double grid_step_V = 0;        // common step of the voltages; 0: none found
+  int clipped_points = 0;        // readings at a limit of the instrument
+  double clip_level_A = 0;       // that limit; 0 without clipped readings
+  ResidualStatistics residuals;  // of the base model
+  double whiteness_p_value = 1;  // portmanteau of the base residuals
   double whiteness_after_p_value = 1;  // portmanteau of the extended model's residuals
   std::vector<Finding> findings;
 };
@@ -176,10 +176,9 @@ struct CauseProof {
   std::string title;
   bool named = false;  // it is a cause of the verdict
   Objective objective = Objective::kMeasuredCurrent;
-  double base_A = kUnknown;  // RMSE of the base model
-  double lower_bound_A =
-      kUnknown;                  // proved: no parameters of the cause give a lower RMSE
-  double upper_bound_A = kUnknown;  // RMSE of a fit with the cause
+  double base_A = kUnknown;            // RMSE of the base model
+  double lower_bound_A = kUnknown;     // proved: no parameters of the cause give a lower RMSE
+  double upper_bound_A = kUnknown;     // RMSE of a fit with the cause
   double explains_at_most = kUnknown;  // fraction of the base model's sum of squares
   std::string holds_for;               // models for which the bound is valid, as text
 };

@@ -139,7 +139,8 @@ Without MakeWithout(const WeightedData& weighted, const LawFit& fit) {
   return {fit, PlainBasis(weighted, fit), DevicePower(weighted, fit)};
 }
 
-EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index, const Without& without) {
+EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
+                  const Without& without) {
   EffectSize size;
   size.one_sweep = weighted.readings->traits.single;
   size.current = LackOfFit(weighted, without.fit, without.basis, with.current);

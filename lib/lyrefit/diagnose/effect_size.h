@@ -51,7 +51,8 @@ struct EffectSize {
   double power_error = 0;
   bool one_sweep = false;  // one lit curve: one sweep, or one up and down
 };
-EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index, const Without& without);
+EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
+                  const Without& without);
 
 // Whether the whole interval of one of its sizes lies above its floor.
 bool ExceedsFloors(const EffectSize& size, const Floors& floors);

@@ -18,8 +18,8 @@ constexpr int kTruths = 8;     // draws from the uncertainty of a candidate's pa
 constexpr int kNoises = 2000;  // draws of the noise of the further readings
 
 // Draws a candidate from its sampling distribution: refits it to its own currents with new noise.
-LawFit DrawTruth(const WeightedData& weighted, const ErrorModel& errors, const PlanCandidate& candidate,
-                 RandomStream* random) {
+LawFit DrawTruth(const WeightedData& weighted, const ErrorModel& errors,
+                 const PlanCandidate& candidate, RandomStream* random) {
   Readings again = *weighted.readings;
   const std::vector<double> drawn = DrawErrors(errors, random);
   for (std::size_t k = 0; k < drawn.size(); ++k) {
@@ -169,8 +169,8 @@ std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   std::vector<PlanCandidate> candidates;
   if (first == nullptr) return candidates;
   const auto add = [&](const FittedCandidate& fitted) {
-    candidates.push_back(
-        MakeCandidate(*selection.weighted.readings, fitted.fit, fitted.score.charge + fitted.freedom));
+    candidates.push_back(MakeCandidate(*selection.weighted.readings, fitted.fit,
+                                       fitted.score.charge + fitted.freedom));
   };
   add(*OwnFittedCandidate(*first));
   for (const FittedCandidate* fitted : EquivalentsOf(*first)) {
@@ -183,12 +183,14 @@ double DeviationOf(const Selection& selection) {
   return std::sqrt(NoiseVariance(selection.weighted, selection.extended));
 }
 
-std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
+std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation,
+                                  const FollowUp& follow_up,
                                   const std::vector<PlanCandidate>& candidates,
                                   std::uint64_t seed) {
   std::vector<PlannedCause> causes;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    causes.push_back(ForeseeOne(weighted, deviation, follow_up, candidates, c, RandomStream(seed, c)));
+    causes.push_back(
+        ForeseeOne(weighted, deviation, follow_up, candidates, c, RandomStream(seed, c)));
   }
   return causes;
 }

@@ -27,7 +27,8 @@ double DeviationOf(const Selection& selection);
 
 // Probability that a further measurement identifies each candidate, if that candidate is the true
 // one.
-std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation, const FollowUp& follow_up,
+std::vector<PlannedCause> Foresee(const WeightedData& weighted, double deviation,
+                                  const FollowUp& follow_up,
                                   const std::vector<PlanCandidate>& candidates, std::uint64_t seed);
 
 // `threads`: 0 for all cores.

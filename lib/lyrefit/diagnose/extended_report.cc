@@ -29,7 +29,8 @@ constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
                              {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
 
 // Values in reporting units, in the order of the report.
-std::vector<double> Reported(const WeightedData& weighted, const Law& law, const std::vector<double>& p) {
+std::vector<double> Reported(const WeightedData& weighted, const Law& law,
+                             const std::vector<double>& p) {
   const Readings& readings = *weighted.readings;
   const double scale = readings.scale.current_A, cells = readings.scale.cells;
   double light = 1;

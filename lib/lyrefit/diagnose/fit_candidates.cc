@@ -63,20 +63,21 @@ void JudgeCandidates(const SelectionState& now, std::vector<FittedCandidate>* fi
     const Law& law = fitted.fit.law;
     fitted.statistic = (now.fit.sum - fitted.fit.sum) / variance;
     fitted.freedom = FreedomOf(now.weighted, law);
-    fitted.corrected_p =
-        CorrectedP(fitted.score, fitted.statistic, Degrees(now.weighted, law), now.calibration->calibration);
+    fitted.corrected_p = CorrectedP(fitted.score, fitted.statistic, Degrees(now.weighted, law),
+                                    now.calibration->calibration);
   }
   PutBestFirst(fitted_candidates);
 }
 
 }  // namespace
 
-std::vector<FittedCandidate> FitCandidates(const SelectionState& now, const std::vector<Score>& scores, bool all,
-                             bool is_there) {
+std::vector<FittedCandidate> FitCandidates(const SelectionState& now,
+                                           const std::vector<Score>& scores, bool all,
+                                           bool is_there) {
   std::vector<FittedCandidate> fitted_candidates;
   const double floor = now.options.floors.current;
-  const double hopeless =
-      std::max(HopelessStatistic(scores), LeastOfTheBest(scores, now.options.most_fitted_candidates));
+  const double hopeless = std::max(HopelessStatistic(scores),
+                                   LeastOfTheBest(scores, now.options.most_fitted_candidates));
   // No candidate can exceed the floor if the present lack of fit does not.
   const bool may_matter = floor > 0 && MissedBy(now.weighted, now.fit) > floor;
   const bool astray = may_matter || LeadsAstray(now.weighted, now.fit);
@@ -112,8 +113,8 @@ void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
                               [](const Effect* effect) { return effect->probes == nullptr; }),
                open.end());
     const double variance = NoiseVariance(weighted, extended);
-    const std::vector<Score> scores =
-        JudgeScores(PrepareAll(weighted, without, open, &selection->signatures), *selection->calibration);
+    const std::vector<Score> scores = JudgeScores(
+        PrepareAll(weighted, without, open, &selection->signatures), *selection->calibration);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
       Step(options.watch);

@@ -113,8 +113,8 @@ std::vector<Way> GoOn(const WeightedData& weighted, const std::vector<Way>& ways
 // base parameters: a base fit distorted by the fault leads to a wrong local optimum. All starts
 // take a few steps, the better ones more. The leading ones, each of a different local optimum, are
 // fitted to the end.
-void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect, const Law& law,
-               LawFit* best) {
+void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect,
+               const Law& law, LawFit* best) {
   constexpr std::size_t kBetter = 16, kAhead = 8;
   constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
   constexpr double kSameLocalOptimum = 1e-3;  // relative difference of the penalised sums
@@ -160,8 +160,8 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
 
 // Coordinate descent over the probe values of one searched parameter, for effects such as jumps:
 // their scores are linear approximations, so neighbouring values may fit better.
-void DescendInProbes(const WeightedData& weighted, const Effect& effect, const std::vector<Probe>& probes,
-           LawFit* best) {
+void DescendInProbes(const WeightedData& weighted, const Effect& effect,
+                     const std::vector<Probe>& probes, LawFit* best) {
   constexpr int kMostSteps = 8;
   std::vector<int> searched;
   for (int k = 0; k < effect.size(); ++k) {
@@ -204,7 +204,8 @@ double FreedomOf(const WeightedData& weighted, const Law& law) {
   return std::log(weighted.count()) * static_cast<double>(law.freed.size());
 }
 
-LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& score, Effort effort) {
+LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& score,
+                 Effort effort) {
   const Effect& effect = *score.effect;
   const std::vector<Probe> probes = effect.probes(weighted.readings->traits);
   Law law = fit.law;

@@ -5,8 +5,9 @@
 namespace lyrefit {
 
 void PutBestFirst(std::vector<FittedCandidate>* fitted_candidates) {
-  std::stable_sort(fitted_candidates->begin(), fitted_candidates->end(),
-                   [](const FittedCandidate& a, const FittedCandidate& b) { return a.Charged() > b.Charged(); });
+  std::stable_sort(
+      fitted_candidates->begin(), fitted_candidates->end(),
+      [](const FittedCandidate& a, const FittedCandidate& b) { return a.Charged() > b.Charged(); });
 }
 
 std::vector<const Effect*> RoomFor(const Law& law, const std::vector<const Effect*>& effects) {

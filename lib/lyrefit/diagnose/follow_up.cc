@@ -63,7 +63,8 @@ FollowUp ReverseSweep(const Readings& measured) {
 }
 
 FollowUp SlowerSweep(const Readings& measured) {
-  FollowUp follow_up = {"slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
+  FollowUp follow_up = {
+      "slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.rate /= kSlower;
   AddUnknownSky(&curve, &follow_up);
@@ -82,10 +83,10 @@ FollowUp SecondLight(const Readings& measured) {
 
 FollowUp DarkCurve(const Readings& measured) {
   FollowUp follow_up = {"dark_curve",
-                     "a dark curve up to Voc",
-                     "noise as measured here, temperature known to 1 K",
-                     {},
-                     {}};
+                        "a dark curve up to Voc",
+                        "noise as measured here, temperature known to 1 K",
+                        {},
+                        {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   std::vector<Reading>& points = curve.readings.points;
   const int last = static_cast<int>(points.size()) - 1;
@@ -104,11 +105,11 @@ FollowUp DarkCurve(const Readings& measured) {
 // per working cell are unchanged.
 FollowUp CoveredParts(const Readings& measured, int groups) {
   FollowUp follow_up = {"cover_part",
-                     "a curve with each bypass group covered in turn (1/" + std::to_string(groups) +
-                         " of the cells)",
-                     std::string(kOtherSky) + ", the bypass diode's drop to 0.1 V",
-                     {},
-                     {}};
+                        "a curve with each bypass group covered in turn (1/" +
+                            std::to_string(groups) + " of the cells)",
+                        std::string(kOtherSky) + ", the bypass diode's drop to 0.1 V",
+                        {},
+                        {}};
   const int cells = measured.traits.cells / groups * (groups - 1);
   for (int which = 0; which < groups; ++which) {
     PlannedCurve curve = CurveOf(measured, Brightest(measured));
@@ -129,10 +130,10 @@ FollowUp IscVoc(const Readings& measured) {
   constexpr int kLevels = 12;
   constexpr double kDimmest = 0.03;
   FollowUp follow_up = {"isc_voc",
-                     "Isc and Voc under 12 lights from full to 3 %",
-                     "noise as measured here, each light known to 3 %, temperature to 1 K",
-                     {},
-                     {kKelvinUnknown}};
+                        "Isc and Voc under 12 lights from full to 3 %",
+                        "noise as measured here, each light known to 3 %, temperature to 1 K",
+                        {},
+                        {kKelvinUnknown}};
   const Reading first = Brightest(measured).front();
   for (int k = 0; k < kLevels; ++k) {
     std::vector<Reading> pair(2, first);

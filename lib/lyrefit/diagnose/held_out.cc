@@ -106,7 +106,8 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
   fold.before = SquaresAt(readings, held, again.base.current);
   fold.after = SquaresAt(readings, held, again.extended.current);
   WeightedData weighted = selection.base_weighted;
-  for (std::size_t k = 0; k < used.size(); ++k) weighted.used[k] = weighted.used[k] != 0 ? used[k] : 0;
+  for (std::size_t k = 0; k < used.size(); ++k)
+    weighted.used[k] = weighted.used[k] != 0 ? used[k] : 0;
   for (const FittedCandidate& fitted : selection.trials) {
     Squares squares;
     if (fitted.fit.usable) {

@@ -139,8 +139,13 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
 std::optional<Joint> TakeFurther(const WeightedData& measured, double deviation,
                                  const FollowUp& follow_up, const LawFit& truth,
                                  const std::vector<double>& unknown) {
-  Joint joint{
-      follow_up.curves, follow_up.unknown, *measured.readings, measured.sigma, measured.used, {}, 0};
+  Joint joint{follow_up.curves,
+              follow_up.unknown,
+              *measured.readings,
+              measured.sigma,
+              measured.used,
+              {},
+              0};
   for (double& sigma : joint.sigma) sigma *= deviation;
   joint.taken = static_cast<int>(measured.readings->points.size());
   const std::vector<double> values = InUnits(unknown, follow_up.unknown);

@@ -18,8 +18,8 @@ namespace {
 int At(std::uint64_t key) { return static_cast<int>(key & 0xffffffff); }
 }  // namespace
 
-NullDistribution::NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null_statistics, int degrees,
-                 Eigen::VectorXd* smallest)
+NullDistribution::NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null_statistics,
+                                   int degrees, Eigen::VectorXd* smallest)
     : degrees_(degrees) {
   const int count = static_cast<int>(null_statistics.size());
   // Sort in descending order, keeping positions. Statistics are never negative, so their inverted
@@ -34,7 +34,8 @@ NullDistribution::NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null
   }
   std::sort(order.begin(), order.end());
   null_statistics_.resize(count);
-  for (int rank = 0; rank < count; ++rank) null_statistics_[rank] = null_statistics[At(order[rank])];
+  for (int rank = 0; rank < count; ++rank)
+    null_statistics_[rank] = null_statistics[At(order[rank])];
   edge_ = static_cast<int>(kTail * count);
   edge_tail_ = TailOf(null_statistics_[edge_], degrees_);
   for (int rank = 0; rank < count && null_statistics_[rank] > 0; ++rank) {
@@ -52,9 +53,9 @@ double NullDistribution::Tail(double statistic) const {
 
 double NullDistribution::Of(double statistic) const {
   if (statistic > null_statistics_[edge_]) return Tail(statistic);
-  const auto above =
-      std::upper_bound(null_statistics_.begin(), null_statistics_.end(), statistic, std::greater<double>()) -
-      null_statistics_.begin();
+  const auto above = std::upper_bound(null_statistics_.begin(), null_statistics_.end(), statistic,
+                                      std::greater<double>()) -
+                     null_statistics_.begin();
   return std::max(kTail, static_cast<double>(above) / static_cast<double>(null_statistics_.size()));
 }
 
@@ -63,7 +64,8 @@ double NullDistribution::Directions() const { return std::max(kTail / edge_tail_
 ListDistribution::ListDistribution(const Eigen::MatrixXf& null_statistics, int degrees)
     : smallest(Eigen::VectorXd::Ones(null_statistics.rows())),
       edge(static_cast<int>(kTail * static_cast<double>(null_statistics.rows()))) {
-  for (int c = 0; c < null_statistics.cols(); ++c) laws.emplace_back(null_statistics.col(c), degrees, &smallest);
+  for (int c = 0; c < null_statistics.cols(); ++c)
+    laws.emplace_back(null_statistics.col(c), degrees, &smallest);
   std::sort(smallest.begin(), smallest.end());
 }
 

@@ -14,7 +14,8 @@ class NullDistribution {
  public:
   // `null_statistics`: one per draw. `smallest`, one per draw, is lowered to the p-value of the
   // draw if that is smaller.
-  NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null_statistics, int degrees, Eigen::VectorXd* smallest);
+  NullDistribution(const Eigen::Ref<const Eigen::VectorXf>& null_statistics, int degrees,
+                   Eigen::VectorXd* smallest);
 
   double Of(double statistic) const;
 
@@ -33,7 +34,7 @@ class NullDistribution {
 // Null distribution of the whole list of candidates.
 struct ListDistribution {
   std::vector<NullDistribution> laws;  // of the testable candidates, in order
-  Eigen::VectorXd smallest;   // smallest p-value of each draw, ascending
+  Eigen::VectorXd smallest;            // smallest p-value of each draw, ascending
   int edge = 0;
 
   ListDistribution() = default;

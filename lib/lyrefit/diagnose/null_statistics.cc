@@ -17,8 +17,8 @@ constexpr int kLot = 100;
 // Matrices of all candidates side by side, so that one product serves all of them. Single precision
 // suffices for random noise.
 struct Stack {
-  std::vector<const Candidate*> candidates;  // the testable ones
-  std::vector<int> first;                    // first column of each; last entry: number of columns
+  std::vector<const CandidateEffect*> candidates;  // the testable ones
+  std::vector<int> first;  // first column of each; last entry: number of columns
   MatrixXf basis;
   MatrixXf directions;
   VectorXf used;  // 1 or 0
@@ -39,7 +39,7 @@ struct Stack {
 Stack MakeStack(const WeightedData& weighted, const Prepared& prepared) {
   Stack stack;
   stack.first = {0};
-  for (const Candidate& candidate : prepared.candidates) {
+  for (const CandidateEffect& candidate : prepared.candidates) {
     if (!candidate.score.testable) continue;
     stack.candidates.push_back(&candidate);
     stack.first.push_back(stack.first.back() + static_cast<int>(candidate.directions.cols()));
@@ -102,7 +102,7 @@ float LargestReweighted(const Stack& stack, std::size_t candidate, const Reweigh
 }  // namespace
 
 MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& prepared,
-                       const Eigen::Ref<const MatrixXf>& draws) {
+                                  const Eigen::Ref<const MatrixXf>& draws) {
   const Stack stack = MakeStack(weighted, prepared);
   const VectorXf room = (1 - stack.basis.rowwise().squaredNorm().array()).max(1e-9F).rsqrt();
   MatrixXf statistics = MatrixXf::Zero(draws.cols(), static_cast<int>(stack.candidates.size()));

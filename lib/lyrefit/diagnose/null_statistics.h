@@ -13,7 +13,7 @@ namespace lyrefit {
 // candidates. A null sample is the noise of that column after projection off the law's parameters.
 // Rows not computed before a stop are 0.
 Eigen::MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& prepared,
-                              const Eigen::Ref<const Eigen::MatrixXf>& draws);
+                                         const Eigen::Ref<const Eigen::MatrixXf>& draws);
 
 // Largest statistics as in SimulateNullDistribution, but with the noise re-estimated and the
 // readings reweighted for each null sample. Fewer rows after a stop.

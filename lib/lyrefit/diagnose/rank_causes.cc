@@ -14,7 +14,9 @@ double Value(const FittedCandidate& fitted, int parameter) {
   return fitted.fit.p[fitted.fit.p.size() - fitted.score.effect->parameters.size() + parameter];
 }
 
-bool IsCalled(const FittedCandidate& fitted, std::string_view id) { return fitted.score.effect->id == id; }
+bool IsCalled(const FittedCandidate& fitted, std::string_view id) {
+  return fitted.score.effect->id == id;
+}
 
 bool IsWithoutShade(const FittedCandidate& fitted) {
   constexpr double kNothing = 1e-3;
@@ -62,8 +64,9 @@ int Complexity(const WeightedData& weighted, const FittedCandidate& fitted) {
   if (id != "shading" && id != "substrings") return place(id);
   const double covered = Value(fitted, fitted.score.effect->size() - 1);
   if (covered >= 1) return place(id);
-  const double error = StandardErrors(Linearize(weighted, fitted.fit), fitted.fit.law.size()).back() *
-                       std::sqrt(NoiseVariance(weighted, fitted.fit));
+  const double error =
+      StandardErrors(Linearize(weighted, fitted.fit), fitted.fit.law.size()).back() *
+      std::sqrt(NoiseVariance(weighted, fitted.fit));
   const auto cells = [&](double sigmas) {
     return CoveredCells(*weighted.readings, covered + sigmas * error);
   };
@@ -79,7 +82,8 @@ bool HasPossibleIdeality(const LawFit& fit, double least) {
 
 // Whether a candidate leaves as small a lack of fit as another one, to within a fraction of the
 // floor. Modules without a fault depart from any model by more than that fraction.
-bool LeavesAsLittle(const FittedCandidate& fitted, const FittedCandidate& other, double floor, double least_reached) {
+bool LeavesAsLittle(const FittedCandidate& fitted, const FittedCandidate& other, double floor,
+                    double least_reached) {
   constexpr double kPart = 0.1;
   return fitted.Charged() >= least_reached * other.Charged() &&
          fitted.left <= other.left + kPart * floor;
@@ -105,7 +109,8 @@ bool LightMoved(const Readings& readings) {
   return rise > kLeast;
 }
 
-bool HasPossibleSize(const Readings& readings, const LawFit& before, const FittedCandidate& fitted) {
+bool HasPossibleSize(const Readings& readings, const LawFit& before,
+                     const FittedCandidate& fitted) {
   constexpr double kMostExponent = 4.99, kMostKelvin = 3, kLeastCell = 0.9, kLeastIdeality = 0.8,
                    kWholeLight = 0.999;
   const Effect& effect = *fitted.score.effect;
@@ -122,20 +127,22 @@ bool HasPossibleSize(const Readings& readings, const LawFit& before, const Fitte
          !HasPossibleIdeality(before, kLeastIdeality);
 }
 
-std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCandidate>& fitted_candidates, double misfit,
-                   double floor) {
+std::size_t RankCauses(const WeightedData& weighted,
+                       const std::vector<FittedCandidate>& fitted_candidates, double misfit,
+                       double floor) {
   const Readings& readings = *weighted.readings;
   constexpr double kAboutAsMuch = 0.9, kWithHysteresis = 0.75, kHardlyMore = 0.98,
                    kMuchSimpler = 0.88, kNotClearly = 0.6, kHalf = 0.5, kLeastIdeality = 0.9;
   constexpr int kComplex = 5;
   const auto first = [&](auto is_wanted) {
-    return static_cast<std::size_t>(std::find_if(fitted_candidates.begin(), fitted_candidates.end(), is_wanted) -
-                                    fitted_candidates.begin());
+    return static_cast<std::size_t>(
+        std::find_if(fitted_candidates.begin(), fitted_candidates.end(), is_wanted) -
+        fitted_candidates.begin());
   };
   if (fitted_candidates.empty()) return 0;
   if (LightMoved(readings)) {
-    const std::size_t swept =
-        first([](const FittedCandidate& fitted) { return fitted.score.effect->where == Where::kSweep; });
+    const std::size_t swept = first(
+        [](const FittedCandidate& fitted) { return fitted.score.effect->where == Where::kSweep; });
     return swept < fitted_candidates.size() ? swept : 0;
   }
   std::size_t best = 0;
@@ -153,11 +160,12 @@ std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCan
            !HasPossibleIdeality(fitted.fit, kLeastIdeality);
   };
   if (bends(fitted_candidates.front())) {
-    const double enough =
-        (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) * fitted_candidates.front().Charged();
+    const double enough = (readings.traits.up_down ? kWithHysteresis : kAboutAsMuch) *
+                          fitted_candidates.front().Charged();
     const std::size_t specific = first([&](const FittedCandidate& fitted) {
       if (bends(fitted)) return false;
-      return fitted.Charged() > enough || LeavesAsLittle(fitted, fitted_candidates.front(), floor, kHalf);
+      return fitted.Charged() > enough ||
+             LeavesAsLittle(fitted, fitted_candidates.front(), floor, kHalf);
     });
     if (specific < fitted_candidates.size()) best = specific;
   }

@@ -31,7 +31,8 @@ bool IsGeneric(const Readings& readings, const Effect& effect);
 // fraction of the floor. If the current rises with the voltage, an effect of the sweep is selected
 // (LightMoved). For one sweep, an irradiance step is preferred to a large range error, which is
 // less likely.
-std::size_t RankCauses(const WeightedData& weighted, const std::vector<FittedCandidate>& fitted_candidates, double misfit,
-                   double floor);
+std::size_t RankCauses(const WeightedData& weighted,
+                       const std::vector<FittedCandidate>& fitted_candidates, double misfit,
+                       double floor);
 
 }  // namespace lyrefit

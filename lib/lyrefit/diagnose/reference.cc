@@ -99,8 +99,8 @@ void NameSweeps(const std::vector<const SweepState*>& references, const Expectat
 
 // `looks`: number of sweeps compared in this way. `used` receives the references in the regression.
 ReferenceComparison Compare(const FittedSweep& sweep,
-                          const std::vector<const SweepState*>& references, double level, int looks,
-                          std::vector<const SweepState*>* used) {
+                            const std::vector<const SweepState*>& references, double level,
+                            int looks, std::vector<const SweepState*>* used) {
   const Expectation e = Expect(references, sweep.state);
   const Difference d = Differ(e, sweep.state);
   for (const int i : e.used) used->push_back(references[i]);
@@ -116,10 +116,10 @@ ReferenceComparison Compare(const FittedSweep& sweep,
   result.p_value = std::min(1.0, looks * std::min(d.p_value, light_p));
   result.differs = result.p_value < level;
   if (looks * d.p_value < level) result.causes = ExplainDifference(sweep, e, d);
-  result.sentence = SentenceOf(
-      result, by_light,
-      fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} reference sweeps"),
-                  result.references.size()));
+  result.sentence = SentenceOf(result, by_light,
+                               fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it"
+                                                                  : "its {} reference sweeps"),
+                                           result.references.size()));
   return result;
 }
 
@@ -153,8 +153,8 @@ Expected<void> CheckOptions(const ReferenceOptions& options) {
 }  // namespace
 
 Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
-                                               const std::vector<IvCurve>& reference,
-                                               const ReferenceOptions& options) {
+                                                    const std::vector<IvCurve>& reference,
+                                                    const ReferenceOptions& options) {
   TRY(CheckOptions(options));
   TRY(const FittedSweep sweep, FitSweep(curve));
   const auto fits = FitAll(reference, options.threads);
@@ -189,7 +189,7 @@ Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
 }
 
 Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
-                                  const ReferenceOptions& options) {
+                                          const ReferenceOptions& options) {
   TRY(CheckOptions(options));
   const auto fits = FitAll(curves, options.threads);
   OutlierSweeps result;

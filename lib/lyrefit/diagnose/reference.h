@@ -19,12 +19,12 @@ namespace LYREFIT_PUBLIC lyrefit {
 // beyond the reference sweeps' Isc or Voc; readings that cannot be fitted; options outside their
 // ranges.
 Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
-                                               const std::vector<IvCurve>& reference,
-                                               const ReferenceOptions& options = {});
+                                                    const std::vector<IvCurve>& reference,
+                                                    const ReferenceOptions& options = {});
 
 // Compares each sweep of a module with the others. Errors: fewer than five usable sweeps, other
 // cell counts, options outside their ranges.
 Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
-                                  const ReferenceOptions& options = {});
+                                          const ReferenceOptions& options = {});
 
 }  // namespace lyrefit

@@ -243,7 +243,7 @@ void Try(const Puzzle& puzzle, const Dose& dose, std::vector<Attempt>* attempts)
 }  // namespace
 
 std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
-                                            const Difference& difference) {
+                                              const Difference& difference) {
   // A cause is as good as the best within two deviations, or three for a drift of the light. A
   // deviation is widened if the best one leaves more than its nine or so independent values
   // explain. Each cause must explain half of the difference.
@@ -260,8 +260,9 @@ std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Ex
   const auto calibration = [unit](const Attempt& a) {
     return a.left + (a.generic ? kClearly * unit : 0);
   };
-  std::stable_sort(attempts.begin(), attempts.end(),
-                   [&](const Attempt& a, const Attempt& b) { return calibration(a) < calibration(b); });
+  std::stable_sort(attempts.begin(), attempts.end(), [&](const Attempt& a, const Attempt& b) {
+    return calibration(a) < calibration(b);
+  });
   std::vector<ReferenceCause> causes;
   for (Attempt& a : attempts) {
     const bool as_good = a.left <= attempts.front().left + kAsGood * unit;

@@ -12,6 +12,6 @@ namespace lyrefit {
 // best matches the difference. Best first, then those about as good; empty if none explains half of
 // the difference.
 std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
-                                            const Difference& difference);
+                                              const Difference& difference);
 
 }  // namespace lyrefit

@@ -58,7 +58,7 @@ struct ReferenceComparison {
 struct OutlierSweeps {
   std::vector<ReferenceComparison> sweeps;
   std::vector<std::string> rejected;  // sentences: sweeps not compared, with the reason
-  int outlier = 0;                        // number of sweeps that differ
+  int outlier = 0;                    // number of sweeps that differ
 };
 
 }  // namespace lyrefit

@@ -82,7 +82,7 @@ ReferenceRow RowOf(const FittedSweep& sweep, const Expectation& e, const Differe
 }  // namespace
 
 std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Expectation& expected,
-                                           const Difference& difference) {
+                                             const Difference& difference) {
   std::vector<ReferenceRow> rows;
   rows.reserve(kQuantities);
   for (int j = 0; j < kQuantities; ++j) rows.push_back(RowOf(sweep, expected, difference, j));
@@ -90,7 +90,7 @@ std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Exp
 }
 
 std::vector<ReferenceRow> DescribeLight(const SweepState& now,
-                                      const std::vector<const SweepState*>& references) {
+                                        const std::vector<const SweepState*>& references) {
   const int count = static_cast<int>(references.size());
   bool temperatures = std::isfinite(now.temperature_C) && count >= 8;
   Eigen::MatrixXd x = Eigen::MatrixXd::Ones(count, 2), y(count, 1);

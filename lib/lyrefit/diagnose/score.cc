@@ -50,7 +50,7 @@ NormalNumbers& NumbersOfRefits() {
 }
 
 // p-value by the F tail of one direction, times the number of directions.
-void CountDirections(const Candidate& candidate, int degrees, Score* score) {
+void CountDirections(const CandidateEffect& candidate, int degrees, Score* score) {
   const double directions = std::max<double>(candidate.directions.cols(), 1);
   score->p_value = std::min(1.0, directions * TailOf(score->statistic, degrees));
   score->charge = 2 * std::log(directions);
@@ -58,8 +58,9 @@ void CountDirections(const Candidate& candidate, int degrees, Score* score) {
 
 // `list` has fewer draws than the list that is calibrated. Its larger scatter makes the calibration
 // conservative.
-Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared, const ListDistribution& list,
-                      const NoiseEstimator& noise, const Draws& draws) {
+Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared,
+                      const ListDistribution& list, const NoiseEstimator& noise,
+                      const Draws& draws) {
   Calibration calibration;
   Begin(weighted.watch, "null statistics", draws.cols());
   const Eigen::MatrixXf null_statistics = SimulateRefits(weighted, prepared, noise, draws);
@@ -77,10 +78,10 @@ Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared, co
 }  // namespace
 
 ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& prepared,
-                         const NoiseEstimator* noise, int draws, std::uint64_t seed) {
+                                 const NoiseEstimator* noise, int draws, std::uint64_t seed) {
   ScoreCalibration calibration;
   if (prepared.degrees < 3) return calibration;
-  for (const Candidate& candidate : prepared.candidates) {
+  for (const CandidateEffect& candidate : prepared.candidates) {
     if (candidate.score.testable) calibration.effects.push_back(candidate.score.effect);
   }
   if (calibration.effects.empty()) return calibration;
@@ -94,17 +95,19 @@ ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& p
   if (noise == nullptr) return calibration;
   const auto others = NumbersOfRefits().First(numbers / 5, seed);
   calibration.calibration =
-      Calibrate(weighted, prepared, ListDistribution(null_statistics.topRows(draws / 5 * 2), prepared.degrees), *noise,
+      Calibrate(weighted, prepared,
+                ListDistribution(null_statistics.topRows(draws / 5 * 2), prepared.degrees), *noise,
                 Draws(others->data(), readings, draws / 5));
   return calibration;
 }
 
 std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreCalibration& calibration) {
   std::vector<Score> scores;
-  for (const Candidate& candidate : prepared.candidates) {
+  for (const CandidateEffect& candidate : prepared.candidates) {
     Score score = candidate.score;
     if (score.testable) {
-      const auto at = std::find(calibration.effects.begin(), calibration.effects.end(), score.effect);
+      const auto at =
+          std::find(calibration.effects.begin(), calibration.effects.end(), score.effect);
       if (at != calibration.effects.end()) {
         const NullDistribution& law = calibration.list.laws[at - calibration.effects.begin()];
         score.p_value = law.Of(score.statistic);
@@ -114,7 +117,8 @@ std::vector<Score> JudgeScores(const Prepared& prepared, const ScoreCalibration&
       }
       if (!calibration.effects.empty()) {
         score.catalogue = calibration.list.Catalogue();
-        score.corrected_p = calibration.calibration.Corrected(calibration.list.Corrected(score.p_value));
+        score.corrected_p =
+            calibration.calibration.Corrected(calibration.list.Corrected(score.p_value));
       }
     }
     scores.push_back(std::move(score));

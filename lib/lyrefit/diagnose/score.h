@@ -23,14 +23,14 @@ struct Calibration {
 // readings hardly changes it, so that one calibration serves all steps and their repetitions.
 struct ScoreCalibration {
   std::vector<const Effect*> effects;  // the testable ones
-  ListDistribution list;                        // in the order of `effects`
+  ListDistribution list;               // in the order of `effects`
   Calibration calibration;
 };
 
 // Simulates `draws` linear null statistics. With `noise`, a fifth as many re-estimate the noise and
 // give `calibration`. `noise` may be null.
 ScoreCalibration CalibrateScores(const WeightedData& weighted, const Prepared& prepared,
-                         const NoiseEstimator* noise, int draws, std::uint64_t seed);
+                                 const NoiseEstimator* noise, int draws, std::uint64_t seed);
 
 // Scores of all candidates with p-values. An effect that was not testable when the calibration was
 // computed is corrected by its number of directions.

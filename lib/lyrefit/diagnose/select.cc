@@ -16,8 +16,9 @@ namespace lyrefit {
 namespace {
 
 SelectionState BeginSelection(const Measurement& measurement, const std::vector<char>& used,
-                         double correlation, const SelectOptions& options) {
-  SelectionState now{measurement, options, options.calibration, options.signatures, {}, {}, {}, {}, {}};
+                              double correlation, const SelectOptions& options) {
+  SelectionState now{measurement, options, options.calibration, options.signatures, {}, {}, {},
+                     {},          {}};
   now.weighted.readings = std::make_shared<const Readings>(measurement.readings);
   now.weighted.sigma.assign(measurement.readings.points.size(), 1e-3);
   now.weighted.used = used;
@@ -113,28 +114,32 @@ double UnknownP(const std::vector<Score>& scores) {
 // Adds effects that were scored but not fitted.
 void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* trials) {
   for (const Score& score : scores) {
-    const bool there = std::any_of(trials->begin(), trials->end(),
-                                   [&](const FittedCandidate& r) { return r.score.effect == score.effect; });
+    const bool there = std::any_of(trials->begin(), trials->end(), [&](const FittedCandidate& r) {
+      return r.score.effect == score.effect;
+    });
     if (!there) trials->push_back({score, {}, 0});
   }
 }
 
-bool LeaveOut(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates, SelectionState* now) {
-  const bool left_out =
-      LeaveOutFurthest(scores, fitted_candidates, now->level, &now->weighted, &now->fit, &now->wrong);
+bool LeaveOut(const std::vector<Score>& scores,
+              const std::vector<FittedCandidate>& fitted_candidates, SelectionState* now) {
+  const bool left_out = LeaveOutFurthest(scores, fitted_candidates, now->level, &now->weighted,
+                                         &now->fit, &now->wrong);
   if (left_out) SettleNoise(now);
   return left_out;
 }
 
 // Keeps the fitted candidates that are large enough to be named. False if none of them is.
-bool KeepWorthy(SelectionState* now, Selection* selection, std::vector<FittedCandidate>* fitted_candidates) {
+bool KeepWorthy(SelectionState* now, Selection* selection,
+                std::vector<FittedCandidate>* fitted_candidates) {
   const bool first = now->causes.empty();
   if (now->options.floors.Any()) {
     selection->below.clear();
     *fitted_candidates = Weigh(*now, *fitted_candidates, &selection->below);
     if (fitted_candidates->empty()) return false;
     if (first) {
-      const double taken = LackOfFit(now->weighted, now->fit, fitted_candidates->front().fit.current);
+      const double taken =
+          LackOfFit(now->weighted, now->fit, fitted_candidates->front().fit.current);
       now->first_misfit = std::pow(taken, 2);
     }
     return true;
@@ -223,8 +228,9 @@ Prepared PrepareOpen(SelectionState* now) {
   return PrepareAll(now->weighted, now->fit, open, &now->signatures);
 }
 
-std::vector<FittedCandidate> Weigh(const SelectionState& now, const std::vector<FittedCandidate>& all,
-                         std::vector<FittedCandidate>* below) {
+std::vector<FittedCandidate> Weigh(const SelectionState& now,
+                                   const std::vector<FittedCandidate>& all,
+                                   std::vector<FittedCandidate>* below) {
   const Weights weights{now.options.floors, now.level, now.first_misfit};
   return WeighCandidates(now.weighted, now.fit, all, weights, below);
 }

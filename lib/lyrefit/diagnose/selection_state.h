@@ -40,12 +40,14 @@ Prepared PrepareOpen(SelectionState* now);
 // Fits the effects whose score makes a success possible; result: best first. With `all`, the others
 // are fitted as well, briefly, for the record. Without `is_there` (no score is significant), all
 // fits are brief.
-std::vector<FittedCandidate> FitCandidates(const SelectionState& now, const std::vector<Score>& scores,
-                             bool all = false, bool is_there = true);
+std::vector<FittedCandidate> FitCandidates(const SelectionState& now,
+                                           const std::vector<Score>& scores, bool all = false,
+                                           bool is_there = true);
 
 // WeighCandidates with the floors and the level of the present step.
-std::vector<FittedCandidate> Weigh(const SelectionState& now, const std::vector<FittedCandidate>& all,
-                         std::vector<FittedCandidate>* below);
+std::vector<FittedCandidate> Weigh(const SelectionState& now,
+                                   const std::vector<FittedCandidate>& all,
+                                   std::vector<FittedCandidate>* below);
 
 // Replaces every cause but the last one by another effect if that fits better together with the
 // other causes.

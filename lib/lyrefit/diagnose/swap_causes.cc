@@ -10,9 +10,11 @@ namespace {
 // Adds the best effect to the fit, from which `cause` was already removed, if it fits better than
 // `cause` did. `present`: the fit with `cause`.
 bool PutBetter(const ChosenCause& cause, const LawFit& present, SelectionState* now) {
-  std::vector<FittedCandidate> fitted_candidates = FitCandidates(*now, JudgeScores(PrepareOpen(now), *now->calibration));
-  const auto own = std::find_if(fitted_candidates.begin(), fitted_candidates.end(),
-                                [&](const FittedCandidate& r) { return r.score.effect == cause.effect; });
+  std::vector<FittedCandidate> fitted_candidates =
+      FitCandidates(*now, JudgeScores(PrepareOpen(now), *now->calibration));
+  const auto own =
+      std::find_if(fitted_candidates.begin(), fitted_candidates.end(),
+                   [&](const FittedCandidate& r) { return r.score.effect == cause.effect; });
   const double kept = own == fitted_candidates.end()
                           ? 0
                           : own->Charged() + std::max(0.0, own->fit.sum - present.sum) /
@@ -63,8 +65,8 @@ void Prune(SelectionState* now) {
     LawFit without = FitWithout(now->weighted, fit, c);
     if (!without.usable || Stopped(now->weighted.watch)) continue;
     const double loss = (without.sum - fit.sum) / NoiseVariance(now->weighted, fit);
-    const double p =
-        CorrectedP(cause.score, loss, Degrees(now->weighted, fit.law), now->calibration->calibration);
+    const double p = CorrectedP(cause.score, loss, Degrees(now->weighted, fit.law),
+                                now->calibration->calibration);
     if (p < now->options.level * kLaterLevel) continue;
     now->fit = std::move(without);
     now->causes.erase(now->causes.begin() + c);

@@ -20,9 +20,8 @@ struct ValueFindings {
   bool limited = false;       // whether there is a lower limit too, such as a compliance limit
   double lower_limit = 0;     // in scales
   std::vector<int> at_lower;  // readings
-  std::vector<int>
-      at_voltage_limit;          // readings at the largest voltage while the current falls on
-  double voltage_limit = 0;      // that voltage, per cell, V
+  std::vector<int> at_voltage_limit;  // readings at the largest voltage while the current falls on
+  double voltage_limit = 0;           // that voltage, per cell, V
   std::vector<double> rounding;  // standard deviation of rounding to the current grid, per reading
   double voltage_bin = 0;        // step to which voltages were rounded, per cell, V; 0: none
   std::vector<double> bin_rounding;  // bin error of each reading as a current, in scales

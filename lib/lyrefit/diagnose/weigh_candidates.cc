@@ -8,8 +8,8 @@
 namespace lyrefit {
 namespace {
 
-bool IsWorthAName(const WeightedData& weighted, const FittedCandidate& fitted, const Without& without,
-                  const Weights& weights) {
+bool IsWorthAName(const WeightedData& weighted, const FittedCandidate& fitted,
+                  const Without& without, const Weights& weights) {
   // Flexible effects need a larger part: they also fit the errors of the first cause's model.
   constexpr double kLaterPart = 0.02, kGenericPart = 0.2;
   const int last = static_cast<int>(fitted.fit.law.effects.size()) - 1;
@@ -22,15 +22,16 @@ bool IsWorthAName(const WeightedData& weighted, const FittedCandidate& fitted, c
 
 // If a preferred effect among those with cell groups is below the floors, the size of the cause is
 // uncertain, and none is named.
-void RankBelow(const WeightedData& weighted, double misfit, double floor, std::vector<FittedCandidate>* worthy,
-                 std::vector<FittedCandidate>* below) {
+void RankBelow(const WeightedData& weighted, double misfit, double floor,
+               std::vector<FittedCandidate>* worthy, std::vector<FittedCandidate>* below) {
   if (worthy->empty() || below->empty()) return;
   std::vector<FittedCandidate> all = *worthy;
   all.insert(all.end(), below->begin(), below->end());
   PutBestFirst(&all);
   const Effect* best = all[RankCauses(weighted, all, misfit, floor)].score.effect;
-  const bool is_below = std::any_of(below->begin(), below->end(),
-                                    [&](const FittedCandidate& r) { return r.score.effect == best; });
+  const bool is_below = std::any_of(below->begin(), below->end(), [&](const FittedCandidate& r) {
+    return r.score.effect == best;
+  });
   if (!is_below || !best->groups) return;
   *below = std::move(all);
   worthy->clear();
@@ -45,8 +46,9 @@ double MissedBy(const WeightedData& weighted, const LawFit& fit) {
 }
 
 std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const LawFit& fit,
-                               const std::vector<FittedCandidate>& all, const Weights& weights,
-                               std::vector<FittedCandidate>* below) {
+                                             const std::vector<FittedCandidate>& all,
+                                             const Weights& weights,
+                                             std::vector<FittedCandidate>* below) {
   const double misfit = MissedBy(weighted, fit), floor = weights.floors.current;
   const Without without = MakeWithout(weighted, fit);
   std::vector<FittedCandidate> worthy;
@@ -71,7 +73,8 @@ std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const
   for (std::vector<FittedCandidate>* fitted_candidates : {&worthy, below}) {
     const std::size_t at = RankCauses(weighted, *fitted_candidates, misfit, floor);
     const auto ranked_first = fitted_candidates->begin() + static_cast<std::ptrdiff_t>(at);
-    if (!fitted_candidates->empty()) std::rotate(fitted_candidates->begin(), ranked_first, ranked_first + 1);
+    if (!fitted_candidates->empty())
+      std::rotate(fitted_candidates->begin(), ranked_first, ranked_first + 1);
   }
   return worthy;
 }

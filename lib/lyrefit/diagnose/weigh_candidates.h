@@ -21,7 +21,8 @@ struct Weights {
 // with a possible size, certainly above a floor, that explain a sufficient fraction of the first
 // cause's misfit. `below` receives the other significant ones.
 std::vector<FittedCandidate> WeighCandidates(const WeightedData& weighted, const LawFit& fit,
-                               const std::vector<FittedCandidate>& all, const Weights& weights,
-                               std::vector<FittedCandidate>* below);
+                                             const std::vector<FittedCandidate>& all,
+                                             const Weights& weights,
+                                             std::vector<FittedCandidate>* below);
 
 }  // namespace lyrefit

@@ -76,8 +76,8 @@ bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::v
   return true;
 }
 
-LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law, LawWorkspace* workspace,
-                                std::vector<double>* current) {
+LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law,
+                                LawWorkspace* workspace, std::vector<double>* current) {
   LeastSquaresProblem problem;
   const int count = static_cast<int>(weighted.readings->points.size());
   problem.residuals = count;
@@ -112,7 +112,9 @@ std::vector<double> TypicalStart(const Readings& readings, const Law& law, doubl
   return BaseStart(readings, law, light, 1.2, 0.015);
 }
 
-int WeightedData::count() const { return static_cast<int>(std::count(used.begin(), used.end(), 1)); }
+int WeightedData::count() const {
+  return static_cast<int>(std::count(used.begin(), used.end(), 1));
+}
 
 Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values) {
   RowMatrix rows = values;
@@ -260,12 +262,13 @@ Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit) {
   return Linearize(Plain(weighted), fit).basis;
 }
 
-double LackOfFit(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& currents) {
+double LackOfFit(const WeightedData& weighted, const LawFit& fit,
+                 const std::vector<double>& currents) {
   return LackOfFit(weighted, fit, PlainBasis(weighted, fit), currents);
 }
 
-double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
-                 const std::vector<double>& currents) {
+double LackOfFit(const WeightedData& weighted, const LawFit& fit,
+                 const Eigen::MatrixXd& plain_basis, const std::vector<double>& currents) {
   const WeightedData plain = Plain(weighted);
   Eigen::VectorXd off(static_cast<int>(currents.size()));
   for (int k = 0; k < off.size(); ++k) off[k] = currents[k] - fit.current[k];

@@ -86,11 +86,12 @@ double StandardError(const Linearized& linear, const std::vector<double>& deriva
 
 // Lack of fit of a fit to `currents`: root mean square over the used readings, in scales, of their
 // distance from the fit, projected off the law's parameters. All readings have equal weight.
-double LackOfFit(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& currents);
+double LackOfFit(const WeightedData& weighted, const LawFit& fit,
+                 const std::vector<double>& currents);
 // Version with the basis of PlainBasis given, which does not depend on the currents.
 Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
-double LackOfFit(const WeightedData& weighted, const LawFit& fit, const Eigen::MatrixXd& plain_basis,
-                 const std::vector<double>& currents);
+double LackOfFit(const WeightedData& weighted, const LawFit& fit,
+                 const Eigen::MatrixXd& plain_basis, const std::vector<double>& currents);
 
 // Number of free parameters of a law on these data.
 int FreeCount(const WeightedData& weighted, const Law& law);

@@ -11,7 +11,8 @@ namespace {
 
 // Distance of the fit from a reading, in noise deviations.
 double Off(const WeightedData& weighted, const LawFit& fit, int reading) {
-  return (fit.current[reading] - weighted.readings->points[reading].current) / weighted.sigma[reading];
+  return (fit.current[reading] - weighted.readings->points[reading].current) /
+         weighted.sigma[reading];
 }
 
 // Whether a reading is far off while its two neighbours are not.
@@ -61,8 +62,9 @@ bool StandsOut(const std::vector<Score>& scores) {
   });
 }
 
-bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates,
-                      double level, WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
+bool LeaveOutFurthest(const std::vector<Score>& scores,
+                      const std::vector<FittedCandidate>& fitted_candidates, double level,
+                      WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
   constexpr double kMostOfAll = 0.05;
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
   if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return false;

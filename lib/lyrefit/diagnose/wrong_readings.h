@@ -21,8 +21,9 @@ bool StandsOut(const std::vector<Score>& scores);
 // It must also explain more than the best of `fitted_candidates`, or be isolated where that effect
 // is momentary. At most a twentieth of all readings is left out. Returns whether a reading was left
 // out.
-bool LeaveOutFurthest(const std::vector<Score>& scores, const std::vector<FittedCandidate>& fitted_candidates,
-                      double level, WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
+bool LeaveOutFurthest(const std::vector<Score>& scores,
+                      const std::vector<FittedCandidate>& fitted_candidates, double level,
+                      WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
 
 // Uses left-out readings again that the present fit explains, and repeats the fit. Returns whether
 // there were any.

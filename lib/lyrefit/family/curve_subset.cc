@@ -26,7 +26,7 @@ double Distance(const Place& a, const Place& b) {
 }  // namespace
 
 std::vector<int> CurveSubset(const std::vector<Conditions>& conditions,
-                              const std::vector<int>& among, int count) {
+                             const std::vector<int>& among, int count) {
   if (static_cast<int>(among.size()) <= count) return among;
   if (count < 1) return {};
   std::vector<Place> places;

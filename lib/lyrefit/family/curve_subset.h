@@ -11,6 +11,6 @@ namespace lyrefit {
 // is the farthest from all selected so far (doi:10.1016/0304-3975(85)90224-5). Returns positions in
 // rising order, or all of `among` if it has no more than `count`.
 std::vector<int> CurveSubset(const std::vector<Conditions>& conditions,
-                              const std::vector<int>& among, int count);
+                             const std::vector<int>& among, int count);
 
 }  // namespace lyrefit

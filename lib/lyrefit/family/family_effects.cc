@@ -164,12 +164,12 @@ ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> 
 }
 
 std::vector<FitPoint> MoreOptima(const FamilyProblem& family, const JointProblem& problem,
-                                   const JointEnd& end, const Observer& observer) {
+                                 const JointEnd& end, const Observer& observer) {
   SharedObserver watch(observer, "other optima", 0);
   watch.Begin();
   const double degrees = JointDegrees(problem, family.free_parameters, 0);
   return FindOtherOptima(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
-                     watch.Proceed());
+                         watch.Proceed());
 }
 
 }  // namespace
@@ -186,7 +186,8 @@ std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOp
     candidates.clear();
   }
   if (!family.translation.extended) return starts;
-  return FamilyEffectStarts(family, options, search_curves, candidates, std::move(starts), observer);
+  return FamilyEffectStarts(family, options, search_curves, candidates, std::move(starts),
+                            observer);
 }
 
 QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
@@ -197,7 +198,8 @@ QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
   quoted.problem.quoted = true;
   quoted.end.point.shared = ReportedShared(at, end.point.shared);
   if (options.intervals) quoted.local_optima = MoreOptima(family, problem, end, observer);
-  for (FitPoint& local_optimum : quoted.local_optima) local_optimum.p = ReportedShared(at, local_optimum.p);
+  for (FitPoint& local_optimum : quoted.local_optima)
+    local_optimum.p = ReportedShared(at, local_optimum.p);
   int first = at.first_effect;
   for (const EffectUse& use : ExtensionOf(at).uses) {
     const int size = use.effect->size();

@@ -74,8 +74,8 @@ struct FamilyOptions {
   bool random_baseline = true;
   bool intervals = true;
   bool individual_fits = true;  // also fit every curve individually: the floor of the RMSE
-  int folds = 5;          // folds of cross-validation over curves; 0: none. Not used with
-                          // fit_curves.
+  int folds = 5;                // folds of cross-validation over curves; 0: none. Not used with
+                                // fit_curves.
   std::vector<std::string> leave_out;  // ids of curves to leave out
   // Published or other parameters to test beside the joint fit. Error if their number of cells
   // differs from that of the set.

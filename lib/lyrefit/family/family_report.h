@@ -61,7 +61,7 @@ struct FamilyCurve {
   std::vector<double> residual_A;     // model - measured, solved-current
   // An individual fit of this curve with the same number of diodes: its parameters, estimates,
   // error model and RMSE.
-  std::vector<double> free_parameters;   // empty: no individual fit
+  std::vector<double> free_parameters;         // empty: no individual fit
   std::vector<Estimate> individual_estimates;  // with intervals; empty: not requested
   // `individual_estimates` with intervals under correlated errors, as the residuals show them.
   // Empty if the errors are taken as independent or the fit was weighted by them.
@@ -94,8 +94,8 @@ struct HeldOut {
   RmsePair rmse;                    // over all points
   double median_rmse_A = kUnknown;  // of the curves, solved-current
   double largest_rmse_A = kUnknown;
-  std::string largest_id;                // id of the curve with largest_rmse_A
-  std::vector<double> curve_rmse_A;      // of every curve tested, solved-current
+  std::string largest_id;                      // id of the curve with largest_rmse_A
+  std::vector<double> curve_rmse_A;            // of every curve tested, solved-current
   double median_individual_rmse_A = kUnknown;  // of individual fits of these curves: the floor
 };
 
@@ -172,7 +172,7 @@ struct FamilyReport {
   std::vector<double> searched;
   std::vector<double> refined;
   std::vector<double> refined_best_candidate;  // in reporting units; empty: not requested
-  std::vector<Estimate> estimates;         // shared parameters in the same order
+  std::vector<Estimate> estimates;             // shared parameters in the same order
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN if not requested
   Interval temperature_offset_K;
   std::vector<Coefficient> coefficients;
@@ -205,9 +205,9 @@ struct FamilyReport {
   std::string termination;               // of the joint fit
   double projected_gradient = kUnknown;  // as in RefineReport
   double seconds = 0;
-  double individual_seconds = 0;              // of the individual fits
-  double joint_seconds = 0;             // of the joint fit, from all its starts
-  double plain_seconds = kUnknown;      // of the best candidate's plain solve
+  double individual_seconds = 0;             // of the individual fits
+  double joint_seconds = 0;                  // of the joint fit, from all its starts
+  double plain_seconds = kUnknown;           // of the best candidate's plain solve
   double best_candidate_seconds = kUnknown;  // of its own joint fit
   // Effects added to the diodes, and the curves that they were evaluated on.
   std::vector<EffectUse> with;

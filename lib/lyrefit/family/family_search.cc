@@ -77,7 +77,8 @@ Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const Family
   } else {
     end.summary = Search(objective, shared.box(), options.search, observer);
   }
-  for (const Candidate& candidate : end.summary.elites) end.elites.push_back(shared.Point(candidate.x.data()));
+  for (const Candidate& candidate : end.summary.elites)
+    end.elites.push_back(shared.Point(candidate.x.data()));
   const bool stopped = end.summary.termination == SearchTermination::kInterrupted;
   if (options.random_baseline && !stopped && options.search.algorithm != Algorithm::kRandom) {
     SearchOptions random = options.search;

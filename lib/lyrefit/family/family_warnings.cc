@@ -57,7 +57,8 @@ void WarnOfOutlierCurves(const FamilyReport& report, std::vector<std::string>* w
         "Curve {} does not belong to the device of the others, or its irradiance or temperature is "
         "wrong: without it the joint RMSE falls from {:.4g} to {:.4g} A (solved-current). To fit "
         "without it: --leave-out {}",
-        id, report.rmse.refined.solved_current_A, report.without_outliers->rmse.solved_current_A, id));
+        id, report.rmse.refined.solved_current_A, report.without_outliers->rmse.solved_current_A,
+        id));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/family/curve_subset.h"
 #include "lyrefit/family/family_effects.h"
 #include "lyrefit/family/family_errors.h"
 #include "lyrefit/family/family_held_out.h"
@@ -20,7 +21,6 @@
 #include "lyrefit/family/individual_fits.h"
 #include "lyrefit/family/joint_fit.h"
 #include "lyrefit/family/outlier_curves.h"
-#include "lyrefit/family/curve_subset.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
@@ -96,7 +96,8 @@ void FitFreely(Job* job, FamilyReport* report) {
     const FamilyMember& member = job->family.curves.members[rows[k]];
     if (std::find(search.begin(), search.end(), rows[k]) == search.end()) continue;
     if (member.IsDark()) continue;
-    std::vector<double> start = StartFromIndividualFit(job->family, member.joint, row.free_parameters);
+    std::vector<double> start =
+        StartFromIndividualFit(job->family, member.joint, row.free_parameters);
     if (!start.empty()) job->starts.push_back({std::move(start), {}});
   }
 }
@@ -120,8 +121,8 @@ Expected<void> SearchShared(Job* job, FamilyReport* report) {
 
 // Polishes the best candidate alone and reports both results.
 void FollowCandidate(Job* job, const JointProblem& problem, FamilyReport* report) {
-  const CandidateEnds ends = PolishCandidate(job->family, job->options, job->search_curves, job->searched,
-                                   job->observer, problem);
+  const CandidateEnds ends = PolishCandidate(job->family, job->options, job->search_curves,
+                                             job->searched, job->observer, problem);
   report->rmse.plain_polished = FamilyRmse(problem, ends.plain.point);
   report->rmse.refined_best_candidate = FamilyRmse(problem, ends.own.point);
   const Translation& at = job->family.translation;

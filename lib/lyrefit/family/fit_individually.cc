@@ -33,7 +33,7 @@ FitOptions OwnFitOptions(const FamilyOptions& options) {
 }
 
 IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
-                       int threads, const Observer& observer) {
+                             int threads, const Observer& observer) {
   const Instant begin = Now();
   IndividualFits fits;
   fits.reports.resize(curves.size());
@@ -198,12 +198,13 @@ void WarnOfFits(const FreeCounts& counts, std::vector<std::string>* warnings) {
 }  // namespace
 
 Expected<FamilyReport> FitIndividually(const CurveSet& set, const FamilyOptions& options,
-                               const Observer& observer) {
+                                       const Observer& observer) {
   TRY(ValidateThreads(options.threads));
   FamilyReport report = FreeHead(set, options);
   TRY(const auto curves, WantedCurves(set, options, &report));
   report.cells_in_series = curves[0]->conditions.cells_in_series;
-  const IndividualFits fits = FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
+  const IndividualFits fits =
+      FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
   report.individual_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
   const FreeCounts counts = TakeFits(fits, &report);

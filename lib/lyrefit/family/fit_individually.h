@@ -14,6 +14,6 @@ namespace LYREFIT_PUBLIC lyrefit {
 // curve; an id to leave out that the set lacks; threads below 0; if no curve can be fitted, the
 // error of the first.
 Expected<FamilyReport> FitIndividually(const CurveSet& set, const FamilyOptions& options = {},
-                               const Observer& observer = {});
+                                       const Observer& observer = {});
 
 }  // namespace lyrefit

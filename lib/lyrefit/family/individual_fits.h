@@ -21,7 +21,7 @@ struct IndividualFits {
 FitOptions OwnFitOptions(const FamilyOptions& options);
 
 IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const FitOptions& options,
-                       int threads, const Observer& observer);
+                             int threads, const Observer& observer);
 
 // Copies the parts of an individual fit that the family report contains; effects in reporting
 // units.

@@ -88,8 +88,8 @@ void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProb
 }
 
 CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& options,
-                    const std::vector<int>& search_curves, const JointPoint& candidate,
-                    const Observer& observer, JointProblem problem) {
+                              const std::vector<int>& search_curves, const JointPoint& candidate,
+                              const Observer& observer, JointProblem problem) {
   CandidateEnds ends;
   JointPoint start = candidate;
   start.local.assign(problem.curves.size(), {0, 0});
@@ -106,7 +106,7 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
 }
 
 std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
-                                     const std::vector<double>& free_parameters) {
+                                           const std::vector<double>& free_parameters) {
   const Translation& at = family.translation;
   std::vector<double> shared(at.size() + 2, 0);
   for (int i = 0; i < at.size() + 2; ++i) {

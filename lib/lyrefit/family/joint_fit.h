@@ -31,12 +31,12 @@ struct CandidateEnds {
   double own_seconds = 0;
 };
 CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& options,
-                    const std::vector<int>& search_curves, const JointPoint& candidate,
-                    const Observer& observer, JointProblem problem);
+                              const std::vector<int>& search_curves, const JointPoint& candidate,
+                              const Observer& observer, JointProblem problem);
 
 // Builds a start from a curve's individual fit: its parameters translated to the reference with
 // usual coefficients. Empty if no saturation current at the reference gives that of the curve.
 std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
-                                     const std::vector<double>& free_parameters);
+                                           const std::vector<double>& free_parameters);
 
 }  // namespace lyrefit

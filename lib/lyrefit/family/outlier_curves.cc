@@ -45,7 +45,7 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
 }  // namespace
 
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
-                               const std::function<bool()>& proceed) {
+                                   const std::function<bool()>& proceed) {
   constexpr double kSuspicious = 4;  // times the median RMSE
   constexpr double kOutlier = 6;
   constexpr double kVisible = 5e-3;  // of the largest current

@@ -12,6 +12,6 @@ namespace lyrefit {
 // and by more than ordinary errors of its irradiance and temperature explain. `proceed` is called
 // as in JointOptions; the result is meaningless after it returned false.
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
-                               const std::function<bool()>& proceed = {});
+                                   const std::function<bool()>& proceed = {});
 
 }  // namespace lyrefit

@@ -151,7 +151,7 @@ RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem&
   const Values there = model(voltage, Means(first, problem.current_A));
   for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
   RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
-                                        std::move(current), {}, problem.lower, problem.upper);
+                                           std::move(current), {}, problem.lower, problem.upper);
   coarse.kernel = problem.kernel;
   coarse.current_scale_A = problem.current_scale_A;
   coarse.voltage_scale_V = problem.voltage_scale_V;

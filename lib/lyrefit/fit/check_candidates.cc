@@ -36,9 +36,10 @@ Expected<void> CheckCandidate(const std::string& name, const Box& box, Candidate
 }  // namespace
 
 Expected<void> CheckCandidates(const ObjectiveFunction& objective, const Box& box,
-                          SearchSummary* summary) {
+                               SearchSummary* summary) {
   if (summary->best.x.empty() && summary->elites.empty()) {
-    return Fail("the searcher came back without a best candidate: set `best` to the best point it met");
+    return Fail(
+        "the searcher came back without a best candidate: set `best` to the best point it met");
   }
   if (summary->best.x.empty()) summary->best = summary->elites.front();
   if (summary->elites.empty()) summary->elites = {summary->best};

@@ -10,6 +10,6 @@ namespace lyrefit {
 // candidate, or one that is not finite, is outside the box or has another number of coordinates
 // than the box.
 Expected<void> CheckCandidates(const ObjectiveFunction& objective, const Box& box,
-                          SearchSummary* summary);
+                               SearchSummary* summary);
 
 }  // namespace lyrefit

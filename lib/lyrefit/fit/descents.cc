@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kFirst = 5, kMore = 9, kOn = 20, kToTheEnd = 100;  // steps
 constexpr std::size_t kOnwards = 12, kAhead = 6;
-constexpr int kOfEachVariant = 2;       // descents of a variant that always continue
-constexpr double kClose = 1.02;      // of the lowest RMSE: ends below it are run to convergence
-constexpr double kNear = 3;          // of the lowest RMSE: descents above it are stopped
-constexpr int kEnough = 3;           // ends in the best local optimum
+constexpr int kOfEachVariant = 2;      // descents of a variant that always continue
+constexpr double kClose = 1.02;        // of the lowest RMSE: ends below it are run to convergence
+constexpr double kNear = 3;            // of the lowest RMSE: descents above it are stopped
+constexpr int kEnough = 3;             // ends in the best local optimum
 constexpr double kSameOptimum = 1e-6;  // relative, of the mean square
 
 // Ends are compared across variants, since a variant that is a special case of another one can
@@ -87,7 +87,8 @@ void Descents::Finish(const std::vector<int>& ways) {
   for (const int way : ways) {
     DescentEnd& at = ends_[way];
     const DescentEnd& best = ends_[best_];
-    const bool known = best.finished && best.start.variant == at.start.variant && visits() >= kEnough;
+    const bool known =
+        best.finished && best.start.variant == at.start.variant && visits() >= kEnough;
     if (watch_->stopped()) break;
     if (known || at.penalised > kClose * kClose * best.penalised) continue;
     // This descent has already reached the optimum of a finished one.
@@ -126,9 +127,11 @@ OptimumCount Descents::Count() const {
   OptimumCount count;
   for (const DescentEnd& end : ends_) {
     if (!end.finished) continue;
-    auto local_optimum = std::find_if(descents.begin(), descents.end(),
-                              [&](const Optimum& known) { return SameOptimum(end, *known.first); });
-    if (local_optimum == descents.end()) local_optimum = descents.insert(local_optimum, {&end, 0, 0});
+    auto local_optimum = std::find_if(descents.begin(), descents.end(), [&](const Optimum& known) {
+      return SameOptimum(end, *known.first);
+    });
+    if (local_optimum == descents.end())
+      local_optimum = descents.insert(local_optimum, {&end, 0, 0});
     ++local_optimum->ends;
     local_optimum->apart += end.start.beside ? 0 : 1;
   }

@@ -31,8 +31,8 @@ class Descents {
   void Descend(std::vector<PolishStart> starts);
 
   const std::vector<DescentEnd>& ends() const { return ends_; }  // in the order of the starts
-  int best() const { return best_; }                           // index into ends()
-  int visits() const;                                          // finished ends in the best optimum
+  int best() const { return best_; }                             // index into ends()
+  int visits() const;  // finished ends in the best optimum
   OptimumCount Count() const;
 
  private:

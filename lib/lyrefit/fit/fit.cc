@@ -7,12 +7,10 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/fit/descent_starts.h"
-#include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/check_candidates.h"
+#include "lyrefit/fit/descent_starts.h"
 #include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/floor.h"
-#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/fit/judge_fit.h"
 #include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/polish.h"
@@ -20,9 +18,11 @@
 #include "lyrefit/fit/prove_floor.h"
 #include "lyrefit/fit/refuted_bound.h"
 #include "lyrefit/fit/robust.h"
+#include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/fit/warnings.h"
 #include "lyrefit/fit/weigh.h"
 #include "lyrefit/law/current.h"
@@ -74,8 +74,9 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
   }
   std::vector<PolishStart> elites;
   for (const Candidate& candidate : report->search.elites) {
-    elites.push_back({elites.empty() ? "best candidate" : fmt::format("elite {}", elites.size() + 1),
-                      all.DeviceAt(candidate.x.data()), all.VariantAt(candidate.x.data())});
+    elites.push_back(
+        {elites.empty() ? "best candidate" : fmt::format("elite {}", elites.size() + 1),
+         all.DeviceAt(candidate.x.data()), all.VariantAt(candidate.x.data())});
   }
   return elites;
 }
@@ -95,7 +96,8 @@ void FillResults(const FitJob& job, FitReport* report) {
   report->rmse.searched = BothRmse(device, report->searched, curve);
   if (report->polished) {
     const std::vector<double>& candidate = report->refined_best_candidate;
-    if (!candidate.empty()) report->rmse.refined_best_candidate = BothRmse(device, candidate, curve);
+    if (!candidate.empty())
+      report->rmse.refined_best_candidate = BothRmse(device, candidate, curve);
     report->rmse.refined = BothRmse(device, report->refined, curve);
   }
   const std::vector<double>& p = report->refined;
@@ -151,7 +153,8 @@ void FindFloor(FitJob* job, FitReport* report) {
 void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report) {
   const bool extended = !job->variants.empty();
   const RefineProblem problem =
-      extended ? InVariant(job->problem, job->variants[candidate.variant], candidate.p) : job->problem;
+      extended ? InVariant(job->problem, job->variants[candidate.variant], candidate.p)
+               : job->problem;
   RefineOptions how;
   how.stop = job->watch.stop();
   how.evaluation_limit = true;
@@ -160,9 +163,9 @@ void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report)
   report->plain_seconds = SecondsSince(begin);
   report->rmse.plain_polished = BothRmse(report->device, plain.p, job->curve);
   begin = Now();
-  report->refined_best_candidate = extended
-                                   ? Refine(problem, candidate.p, how).p
-                                   : PolishStarts(problem, job->coarse, {candidate}, &job->watch).first.p;
+  report->refined_best_candidate =
+      extended ? Refine(problem, candidate.p, how).p
+               : PolishStarts(problem, job->coarse, {candidate}, &job->watch).first.p;
   report->refine.best_candidate_seconds = SecondsSince(begin);
 }
 
@@ -178,14 +181,15 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   const bool extended = !job->variants.empty();
   PolishResult polish =
       extended ? PolishExtended(elites, space, job, report)
-               : PolishStarts(job->problem, job->coarse, CollectStarts(job->coarse, elites, kGridStarts),
-                              &job->watch);
+               : PolishStarts(job->problem, job->coarse,
+                              CollectStarts(job->coarse, elites, kGridStarts), &job->watch);
   report->polished = true;
   const double best_candidate_seconds = report->refine.best_candidate_seconds;
   report->refine = polish.report;
   report->refine.best_candidate_seconds = best_candidate_seconds;
   const bool of_candidate = !extended || options.starts != StartsFrom::kShape;
-  if (report->refined_best_candidate.empty() && of_candidate) report->refined_best_candidate = polish.first.p;
+  if (report->refined_best_candidate.empty() && of_candidate)
+    report->refined_best_candidate = polish.first.p;
   if (!report->refined_best_candidate.empty()) {
     OrderAlike(report->device, job->bounds, &report->refined_best_candidate, nullptr);
   }

@@ -10,8 +10,8 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/fit/distinct_readings.h"
 #include "lyrefit/fit/fixed_values.h"
-#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/law/term.h"
@@ -164,7 +164,8 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
 double VariantPenaltyOf(const FitJob& job, int variant) {
   const double price = VariantPenalty(job.problem, job.variants[variant]);
   double lowest = price;
-  for (const Variant& other : job.variants) lowest = std::min(lowest, VariantPenalty(job.problem, other));
+  for (const Variant& other : job.variants)
+    lowest = std::min(lowest, VariantPenalty(job.problem, other));
   return price / lowest;
 }
 

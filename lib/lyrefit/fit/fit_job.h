@@ -20,10 +20,10 @@ struct FitJob {
   std::vector<double> fixed;
   int free_parameters = 0;
   RefineProblem problem;  // of the distinct readings; with effects of all
-  RefineProblem coarse;      // Coarsen(problem)
+  RefineProblem coarse;   // Coarsen(problem)
   FitWatch watch;
   std::vector<Variant> variants = {};  // only with effects
-  IvCurve distinct = {};         // the curve without duplicate readings
+  IvCurve distinct = {};               // the curve without duplicate readings
 
   int readings() const { return static_cast<int>(distinct.size()); }
 

@@ -56,12 +56,14 @@ enum class SearchVariables {
 
 template <>
 struct EnumTable<SearchVariables> {
-  static constexpr EnumText<SearchVariables> kRows[] = {{SearchVariables::kAll, "all"}, {SearchVariables::kHard, "hard"}};
+  static constexpr EnumText<SearchVariables> kRows[] = {{SearchVariables::kAll, "all"},
+                                                        {SearchVariables::kHard, "hard"}};
 };
 
 // Help text of `candidates`.
 inline constexpr char kSearchVariablesDoc[] =
-    "a candidate is a complete device, or a place in the hard parameters (Rs, n, effects), where Iph, "
+    "a candidate is a complete device, or a place in the hard parameters (Rs, n, effects), where "
+    "Iph, "
     "Is and Rsh are solved for";
 
 enum class Intervals { kNone, kSymmetric, kProfile };  // Intervals of a fit.
@@ -102,12 +104,11 @@ struct FitOptions {
   // Whether kWhite also looks for an error model in the residuals and computes intervals under it.
   // This takes a sixth of the time of a fit.
   bool find_errors = true;
-  Loss loss = Loss::kSquared;  // of the polish; the search always minimises squares
-  double loss_scale = 3;       // k of the robust losses, in noise units
-  Intervals intervals =
-      Intervals::kProfile;         // kProfile: only where a symmetric one is invalid
-  int threads = 0;                 // 0: all cores; never changes a result
-  const Kernel* kernel = nullptr;  // nullptr: the fastest
+  Loss loss = Loss::kSquared;                 // of the polish; the search always minimises squares
+  double loss_scale = 3;                      // k of the robust losses, in noise units
+  Intervals intervals = Intervals::kProfile;  // kProfile: only where a symmetric one is invalid
+  int threads = 0;                            // 0: all cores; never changes a result
+  const Kernel* kernel = nullptr;             // nullptr: the fastest
 
   // Search options for a model with effects. The population is small, because the shape of the
   // curve and the local optima of the polish give better starts.

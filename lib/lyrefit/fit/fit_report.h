@@ -94,7 +94,7 @@ struct FloorReport {
   double gap = kUnknown;                            // (rmse - lower bound) / rmse
   double n_lower = kUnknown;                        // allowed range of n: lower end
   double n_upper = kUnknown;                        // and upper end
-  double above = kUnknown;  // refined RMSE / rmse_A - 1; 0: within rounding
+  double above = kUnknown;                          // refined RMSE / rmse_A - 1; 0: within rounding
   // Whether the fit minimises this RMSE. False for weighted residuals and for robust losses.
   bool minimised = true;
 };
@@ -151,7 +151,7 @@ struct RefineReport {
   double condition = kUnknown;  // condition number of the scaled Jacobian, free parameters
   double seconds = 0;
   double best_candidate_seconds = kUnknown;  // plain_polish: full polish of the best candidate
-  std::optional<OptimumCount> local_optima;     // only with effects
+  std::optional<OptimumCount> local_optima;  // only with effects
 };
 
 // Two strongly correlated parameters.
@@ -223,17 +223,17 @@ struct FitReport {
   // the bound was not raised.
   double steepest_n = kUnknown;
   Device device;
-  std::vector<double> searched;            // best candidate of the search, internal units
+  std::vector<double> searched;                // best candidate of the search, internal units
   std::vector<double> refined_best_candidate;  // after its own polish; empty: not requested
-  std::vector<double> refined;             // equal to `searched` without a polish
+  std::vector<double> refined;                 // equal to `searched` without a polish
   bool polished = false;
   std::vector<Estimate> estimates;    // in reporting units
   std::optional<ErrorReport> errors;  // none: not requested, or too few readings
   // Estimates with intervals under `errors`, in addition to those that assume independent errors.
   // Empty if `errors` are not believed, or if `estimates` already have such intervals.
   std::vector<Estimate> under_errors;
-  double nNsVth = kUnknown;  // n Ns Vth of the first diode, in volt; pvlib's nNsVth
-  RmseTable rmse;            // RMSEs of search and polish
+  double nNsVth = kUnknown;          // n Ns Vth of the first diode, in volt; pvlib's nNsVth
+  RmseTable rmse;                    // RMSEs of search and polish
   std::optional<FloorReport> floor;  // only if requested
   KeyPoints measured;
   KeyPoints simulated;                    // of the refined model
@@ -253,11 +253,11 @@ struct FitReport {
   // the other that of the best candidate and its own polish. Both are 1 if there is one variant.
   double variant_penalty = 1;
   double best_candidate_penalty = 1;
-  std::vector<VariantReport> variants;      // of effects with several; one is chosen
-  double interval_seconds = 0;        // for profiles and intervals
-  double plain_seconds = kUnknown;    // for the plain solve of the best candidate
-  std::string no_intervals_because;   // empty: present, or not requested
-  std::optional<ModelChoice> choice;  // only from FitAuto()
+  std::vector<VariantReport> variants;  // of effects with several; one is chosen
+  double interval_seconds = 0;          // for profiles and intervals
+  double plain_seconds = kUnknown;      // for the plain solve of the best candidate
+  std::string no_intervals_because;     // empty: present, or not requested
+  std::optional<ModelChoice> choice;    // only from FitAuto()
   // Of a device with effects: ids of the effects, and number of curves that the model describes
   // under individual conditions. Readers of a stored report need both.
   std::vector<std::string> causes;

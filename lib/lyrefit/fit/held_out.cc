@@ -6,9 +6,9 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/current.h"
+#include "lyrefit/refine/coarsen.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
-#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -65,7 +65,7 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
     for (const double sigma : split.kept.sigma_A) weights.push_back(1 / (sigma * sigma));
     const RefineProblem problem =
         Coarsen(MakeRefineProblem(report.device, report.objective, split.kept.voltage_V,
-                               split.kept.current_A, std::move(weights), lower, upper));
+                                  split.kept.current_A, std::move(weights), lower, upper));
     RefineOptions how;
     how.function_tolerance = kTolerance;
     how.max_iterations = kMaxIterations;

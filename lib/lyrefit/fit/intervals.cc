@@ -10,11 +10,11 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extension.h"
 #include "lyrefit/law/quote.h"
+#include "lyrefit/refine/coarsen.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
-#include "lyrefit/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
@@ -173,8 +173,9 @@ void FindMoreOptima(IntervalWork* work) {
   for (int i = 0; i < work->size; ++i) reach = std::max(reach, work->t[i] * work->stretch[i]);
   const double rise =
       reach * reach * VarianceOf(work->degrees, work->input.problem, work->input.end) / points;
-  work->local_optima = FindOtherOptima(work->input.problem, work->input.end, work->input.ends,
-                              work->input.end.mean_square + rise, work->input.watch->stop());
+  work->local_optima =
+      FindOtherOptima(work->input.problem, work->input.end, work->input.ends,
+                      work->input.end.mean_square + rise, work->input.watch->stop());
   for (const FitPoint& local_optimum : work->local_optima) TakeIfBetter(work, local_optimum.p);
 }
 
@@ -209,10 +210,11 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
     if (saturation != saturation_currents || !NeedsProfile(work, i)) continue;
     if (work.estimates[i].interval == IntervalMethod::kProfile) continue;
     for (const bool upper : {false, true}) {
-      queries.push_back(
-          {i, upper, work.t[i] * work.stretch[i], VarianceOf(work.degrees, work.coarse, work.coarse_end),
-           work.estimates[i].standard_error / work.stretch[i],
-           /*end_at_better=*/!work.input.final && !Coarsened(work.input, work.coarse), work.local_optima});
+      queries.push_back({i, upper, work.t[i] * work.stretch[i],
+                         VarianceOf(work.degrees, work.coarse, work.coarse_end),
+                         work.estimates[i].standard_error / work.stretch[i],
+                         /*end_at_better=*/!work.input.final && !Coarsened(work.input, work.coarse),
+                         work.local_optima});
     }
   }
   return queries;
@@ -230,8 +232,8 @@ void PrepareCoarse(IntervalWork* work) {
   if (!work->coarse_end.p.empty()) return;
   work->coarse = Coarsen(work->input.problem);
   work->coarse_end = Coarsened(work->input, work->coarse)
-                      ? Refine(work->coarse, work->input.end.p, HowToRefine(work->input))
-                      : work->input.end;
+                         ? Refine(work->coarse, work->input.end.p, HowToRefine(work->input))
+                         : work->input.end;
 }
 
 void ProfileWhereNeeded(IntervalWork* work, bool saturation_currents) {

@@ -23,8 +23,7 @@ struct IntervalInput {
   // Errors of the residuals, in A, if they differ from those that the fit assumed. Each profile is
   // then extended by the ratio of the standard errors.
   const ErrorModel* errors = nullptr;
-  std::vector<int> degrees =
-      {};  // of each standard error; empty: readings minus free parameters
+  std::vector<int> degrees = {};  // of each standard error; empty: readings minus free parameters
 };
 
 // Standard errors of all estimates; NaN where there is none.

@@ -221,7 +221,8 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
   for (int s = 0; s < count; ++s) {
     if (groups.Leader(s) == s) ends[s] = Restart(coarse, how, Refine(coarse, descended[s], how));
     // If the descent ended above its start, polish the start itself.
-    if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree)) continue;
+    if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree))
+      continue;
     RefineEnd own = Restart(coarse, how, Refine(coarse, starts[s].p, how));
     if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;
     groups.LeaveGroup(s, &ends);

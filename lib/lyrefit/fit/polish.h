@@ -14,7 +14,7 @@ namespace lyrefit {
 struct PolishStart {
   std::string origin;
   std::vector<double> p;
-  int variant = 0;         // index of the model variant of the effects
+  int variant = 0;      // index of the model variant of the effects
   bool beside = false;  // a modified earlier end
 };
 

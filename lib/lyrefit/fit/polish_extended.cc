@@ -69,10 +69,10 @@ std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& des
     // Two ends in one local optimum may differ by rounding of repeated evaluations.
     const bool chosen = best.start.variant == static_cast<int>(f);
     if (chosen) lowest = &best;
-    reports.push_back({DescribeVariant(*job.problem.device.extension, job.variants[f]), job.variants[f].free,
-                       std::sqrt(lowest->end.mean_square),
-                       std::max(0.0, points * std::log(lowest->penalised / best.penalised)), lowest->finished,
-                       chosen});
+    reports.push_back({DescribeVariant(*job.problem.device.extension, job.variants[f]),
+                       job.variants[f].free, std::sqrt(lowest->end.mean_square),
+                       std::max(0.0, points * std::log(lowest->penalised / best.penalised)),
+                       lowest->finished, chosen});
   }
   return reports;
 }
@@ -83,8 +83,9 @@ std::vector<PolishStart> BestShapes(const Descents& descents) {
   for (const DescentEnd& end : descents.ends()) {
     if (end.start.origin.rfind(kShapeOrigin, 0) == 0) shapes.push_back(&end);
   }
-  std::stable_sort(shapes.begin(), shapes.end(),
-                   [](const DescentEnd* a, const DescentEnd* b) { return a->penalised < b->penalised; });
+  std::stable_sort(shapes.begin(), shapes.end(), [](const DescentEnd* a, const DescentEnd* b) {
+    return a->penalised < b->penalised;
+  });
   std::vector<PolishStart> starts;
   for (std::size_t k = 0; k < std::min(kShapes, shapes.size()); ++k) {
     starts.push_back(shapes[k]->start);
@@ -111,8 +112,8 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents
   }
 }
 
-void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& space, const FitJob& job,
-               Descents* descents) {
+void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& space,
+               const FitJob& job, Descents* descents) {
   const StartsFrom from = job.options.starts;
   const std::vector<bool> shapeless = Shapeless(job);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
@@ -161,8 +162,8 @@ PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const Se
   }
   const std::vector<FitPoint> all(ends.begin(), ends.end());
   const DescentEnd best = descents.ends()[descents.best()];
-  PolishResult result =
-      ReportEnds(job->problem, starts, std::move(ends), descents.best(), job->watch.stopped(), begin);
+  PolishResult result = ReportEnds(job->problem, starts, std::move(ends), descents.best(),
+                                   job->watch.stopped(), begin);
   result.ends = all;
   result.report.local_optima = descents.Count();
   report->variants = ReportVariants(*job, descents);

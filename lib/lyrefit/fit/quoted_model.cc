@@ -77,7 +77,8 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
   RefineEnd quoted = best;
   quoted.p = Reported(problem.device, best.p);
   ProfileQuery quoted_query = query;
-  for (FitPoint& local_optimum : quoted_query.local_optima) local_optimum.p = Reported(problem.device, local_optimum.p);
+  for (FitPoint& local_optimum : quoted_query.local_optima)
+    local_optimum.p = Reported(problem.device, local_optimum.p);
   RefineOptions how = BrieflySmall(stop);
   const auto refit = [&](double value, FitPoint start, double enough, double tolerance) {
     held.Fix(query.parameter, value);
@@ -92,8 +93,8 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
 }
 
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
-                                  std::vector<FitPoint> ends, double highest,
-                                  const std::function<bool()>& stop) {
+                                      std::vector<FitPoint> ends, double highest,
+                                      const std::function<bool()>& stop) {
   const Extension& extension = *problem.device.extension;
   OptimumQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
   query.how.cutoff = highest;

@@ -33,8 +33,8 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
 
 // FindOtherOptima() for one curve, all in internal units.
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
-                                  std::vector<FitPoint> ends, double highest,
-                                  const std::function<bool()>& stop);
+                                      std::vector<FitPoint> ends, double highest,
+                                      const std::function<bool()>& stop);
 
 // Marks the enumerated parameters of effects that cannot be found by descent, since no current
 // depends on them locally at `quoted`. An example is the moment of a step between two readings.

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/law/variants.h"
 #include "lyrefit/law/parameter.h"
+#include "lyrefit/law/variants.h"
 #include "lyrefit/search/search_summary.h"
 
 namespace lyrefit {

@@ -4,7 +4,8 @@
 
 namespace lyrefit {
 
-RefineProblem InVariant(const RefineProblem& problem, const Variant& variant, const std::vector<double>& p) {
+RefineProblem InVariant(const RefineProblem& problem, const Variant& variant,
+                        const std::vector<double>& p) {
   RefineProblem own = problem;
   const std::size_t first = p.size() - variant.bounds.size();
   for (std::size_t k = 0; k < variant.bounds.size(); ++k) {

@@ -66,20 +66,22 @@ Sky<S> SkyAt(const EvaluationContext<S>& context, const ReadingBlock& readings) 
 // `warmer` is the factor of the first diode's saturation current between the reference and that
 // temperature. Saturation current of the second diode follows `saturation_2_unit` of the cell.
 template <class S>
-void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer, Cell<S>* cell) {
+void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
+                 Cell<S>* cell) {
   const double k_eV = ThermalVoltage(1.0);
   const S inverse_n = 1.0 / context.p[kBaseIdeality];
-  const S exponent =
-      inverse_n * (context.readings.pivot_voltage / (k_eV * context.readings.reference_temperature_K));
+  const S exponent = inverse_n * (context.readings.pivot_voltage /
+                                  (k_eV * context.readings.reference_temperature_K));
   // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
   const S saturation = exp(context.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
   cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
   if (context.law.model == Model::kSingleDiode) return;
-  cell->diode[cell->diodes++] = {context.p[kBaseSecond] * cell->saturation_2_unit, 0.5 * inverse_vt};
+  cell->diode[cell->diodes++] = {context.p[kBaseSecond] * cell->saturation_2_unit,
+                                 0.5 * inverse_vt};
 }
 template <class S>
-void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer, const S& warmer_2,
-                   Cell<S>* cell) {
+void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
+                   const S& warmer_2, Cell<S>* cell) {
   const double per_scale = 1 / context.readings.scale.current_A;
   for (int d = 0; d < static_cast<int>(context.law.model); ++d) {
     const S saturation = context.p[SaturationCurrentIndex(d)] * per_scale;
@@ -201,8 +203,8 @@ bool HasMore(const EvaluationContext<S>& context, const Cell<S>& cell) {
   return false;
 }
 template <class S>
-Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell, const S& photocurrent,
-                       const Tangent<S>& voltage) {
+Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
+                       const S& photocurrent, const Tangent<S>& voltage) {
   Tangent<S> current = 0.0;
   if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
   for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
@@ -218,8 +220,8 @@ Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
 }
 
 // F(Vj): the current that one cell group delivers at its junction voltage, with its slope.
-inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
-                                     const Dual<1, Pack>& voltage) {
+inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                                     int kind, const Dual<1, Pack>& voltage) {
   const bool alike = cell.kinds == 1;
   const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.kind[kind].light;
   const Pack leak = alike ? Pack(kLeastConductance) : cell.kind[kind].leak + kLeastLeak;
@@ -240,7 +242,8 @@ bool HasMoreDrop(const EvaluationContext<S>& context) {
   return false;
 }
 template <class S>
-Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell, const Tangent<S>& current) {
+Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell,
+                    const Tangent<S>& current) {
   Tangent<S> drop = 0.0;
   for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
     const Effect& effect = *context.law.effects[e];

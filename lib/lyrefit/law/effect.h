@@ -217,7 +217,7 @@ struct EffectParameter {
   const char* doc = "";     // meaning, one line
   double lower = 0;
   double upper = 0;
-  double neutral = 0;  // value without the effect (strength), or start value (others)
+  double neutral = 0;     // value without the effect (strength), or start value (others)
   bool searched = false;  // selected among probe values, not fitted: a step's time
   double factor = 1;      // see above
   int current = 0;        // power of the current scale

@@ -71,8 +71,8 @@ class CellKeeper {
 };
 
 template <class S>
-S Recorded(const EvaluationContext<S>& context, const ReadingBlock& block, const Cell<S>& cell, const S& current,
-           const S& junction) {
+S Recorded(const EvaluationContext<S>& context, const ReadingBlock& block, const Cell<S>& cell,
+           const S& current, const S& junction) {
   Solved<S> solved;
   solved.current = current;
   solved.resistance = cell.resistance;
@@ -285,13 +285,15 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   const int size = law.size(), moved = static_cast<int>(free.size());
   std::vector<Pack> plain_values(size);
   for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
-  const EvaluationContext<Pack> plain = MakeEvaluationContext(law, readings, static_cast<const Pack*>(plain_values.data()));
+  const EvaluationContext<Pack> plain =
+      MakeEvaluationContext(law, readings, static_cast<const Pack*>(plain_values.data()));
   std::vector<S> duals;
   if constexpr (kDerivatives) {
     for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
     for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
   }
-  const EvaluationContext<S> context = MakeEvaluationContext(law, readings, static_cast<const S*>(duals.data()));
+  const EvaluationContext<S> context =
+      MakeEvaluationContext(law, readings, static_cast<const S*>(duals.data()));
   CellKeeper<Pack> plain_cells(plain);
   CellKeeper<S> cells(context);
   const bool instrument = HasInstrument(law);

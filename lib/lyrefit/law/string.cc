@@ -24,8 +24,8 @@ int KindOfChain(const Cell<Pack>& cell, int part, int chain) {
   return g;
 }
 
-void TermsAt(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringState& state,
-             Terms* terms) {
+void TermsAt(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+             const StringState& state, Terms* terms) {
   for (int g = 0; g < cell.kinds; ++g) terms->kind[g] = PointOf(context, cell, g, state);
   for (int s = 0; s < cell.strings; ++s) {
     terms->drop[s] = SeriesDrop(context, cell, Dual<1, Pack>(state.current[s], 0));
@@ -334,8 +334,9 @@ void Take(const Cell<Pack>& cell, const Mask& lanes, const StringState& from, St
 
 }  // namespace
 
-StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
-                       const Pack& voltage, StringState* state, GiveUp give_up) {
+StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                       const StringLimits& limits, const Pack& voltage, StringState* state,
+                       GiveUp give_up) {
   constexpr int kMostSteps = 150, kPatience = 30;
   Terms terms;
   Linear linear;

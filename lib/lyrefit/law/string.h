@@ -78,7 +78,8 @@ void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
 
 // Solves the string at `voltage` per cell from `state`, which is moved to the root. The current is
 // NaN in lanes where the iteration was given up.
-StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
-                       const Pack& voltage, StringState* state, GiveUp give_up = GiveUp::kNever);
+StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                       const StringLimits& limits, const Pack& voltage, StringState* state,
+                       GiveUp give_up = GiveUp::kNever);
 
 }  // namespace lyrefit

@@ -7,7 +7,8 @@ namespace {
 
 class Bracketed {
  public:
-  Bracketed(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits)
+  Bracketed(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+            const StringLimits& limits)
       : context_(context), cell_(cell), limits_(limits) {}
 
   void Solve(const Pack& voltage, StringState* state) const {
@@ -162,8 +163,8 @@ class Bracketed {
 
 }  // namespace
 
-void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, const StringLimits& limits,
-                     const Pack& voltage, StringState* state) {
+void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                     const StringLimits& limits, const Pack& voltage, StringState* state) {
   Bracketed(context, cell, limits).Solve(voltage, state);
 }
 

@@ -168,8 +168,9 @@ Expected<std::vector<WrittenSubstring>> ReadParts(const Node& strings, std::vect
     for (std::size_t k = 0; k < string.value->size(); ++k) {
       TRY(auto part, ReadPart(string.At(k), static_cast<int>(s)));
       count += part.times * part.part.cells;
-      const auto same = std::find_if(parts.begin(), parts.end(),
-                                     [&](const WrittenSubstring& other) { return Alike(other, part); });
+      const auto same =
+          std::find_if(parts.begin(), parts.end(),
+                       [&](const WrittenSubstring& other) { return Alike(other, part); });
       if (same == parts.end()) {
         parts.push_back(std::move(part));
       } else {

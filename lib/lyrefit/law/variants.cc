@@ -57,7 +57,7 @@ Variant VariantOf(const Effect& effect, const ShapeStart& start) {
 }
 
 std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& shape,
-                              std::size_t use) {
+                                 std::size_t use) {
   const EffectUse& asked = extension.uses[use];
   const Variant as_asked = AsAsked(extension, use);
   std::vector<Variant> variants;
@@ -69,8 +69,9 @@ std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& s
         ParameterBounds& own = variant.bounds[k];
         if (own.lower < own.upper && as_asked.bounds[k].whole > 0) own = as_asked.bounds[k];
       }
-      const bool known = std::any_of(variants.begin(), variants.end(),
-                                     [&](const Variant& other) { return SameBounds(variant, other); });
+      const bool known = std::any_of(variants.begin(), variants.end(), [&](const Variant& other) {
+        return SameBounds(variant, other);
+      });
       if (!known) variants.push_back(std::move(variant));
     }
   }

@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
+#include "lyrefit/refine/drop_diode.h"
 #include "lyrefit/refine/linearize.h"
 #include "lyrefit/refine/solve.h"
-#include "lyrefit/refine/drop_diode.h"
 
 namespace lyrefit {
 namespace {
@@ -362,7 +362,7 @@ class ActiveSet {
   int let_in_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
-  bool hopeless_ = false;          // options_.cutoff is out of reach
+  bool hopeless_ = false;             // options_.cutoff is out of reach
   std::unique_ptr<FitModel> coarse_;  // created when needed
 };
 

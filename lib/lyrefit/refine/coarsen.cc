@@ -195,8 +195,8 @@ RefineProblem Coarsen(const RefineProblem& problem) {
   }
   if (smooth) AddConstant(squares, &points);
   RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective,
-                                         std::move(points.voltage_V), std::move(points.current_A),
-                                         std::move(points.weights), problem.lower, problem.upper);
+                                           std::move(points.voltage_V), std::move(points.current_A),
+                                           std::move(points.weights), problem.lower, problem.upper);
   coarse.kernel = problem.kernel;
   coarse.current_scale_A = problem.current_scale_A;
   coarse.voltage_scale_V = problem.voltage_scale_V;

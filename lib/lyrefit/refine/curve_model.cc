@@ -42,7 +42,8 @@ double CurveModel::MeanSquare(const FitPoint& point) const {
 
 std::unique_ptr<FitModel> CurveModel::Coarse() const {
   if (!CanCoarsen(problem_)) return nullptr;
-  return std::unique_ptr<FitModel>(new CurveModel(std::make_unique<RefineProblem>(Coarsen(problem_))));
+  return std::unique_ptr<FitModel>(
+      new CurveModel(std::make_unique<RefineProblem>(Coarsen(problem_))));
 }
 
 }  // namespace lyrefit

@@ -56,7 +56,7 @@ bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bo
 }
 
 DiodeToAdd FindDiodeToAdd(const FitModel& model, const FitModel* coarse, const FitPoint& point,
-                      int saturation) {
+                          int saturation) {
   const ModelShape& shape = model.shape();
   const FitParameter& n = shape.parameters[shape.parameters[saturation].with[0]];
   const int steps = n.fixed() ? 0 : kSteps;

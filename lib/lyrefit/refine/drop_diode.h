@@ -27,6 +27,6 @@ struct DiodeToAdd {
 // largest cosine with the negative residuals at `point`. A cosine of 0: there is none. Scans the
 // coarsened model `coarse` if it is not null.
 DiodeToAdd FindDiodeToAdd(const FitModel& model, const FitModel* coarse, const FitPoint& point,
-                      int saturation);
+                          int saturation);
 
 }  // namespace lyrefit

@@ -16,10 +16,9 @@ struct ErrorShape {
   std::vector<double> path;
   std::vector<double> position;  // as in ErrorModel, but in Voc
   std::vector<int> chain;
-  std::vector<double>
-      averaged_away;           // part of path^2 per length of the path, if small
-  std::vector<double> stated;  // standard deviation of a stated current error, in the
-                               // unit of the residuals; replaces `current`; empty: none
+  std::vector<double> averaged_away;  // part of path^2 per length of the path, if small
+  std::vector<double> stated;         // standard deviation of a stated current error, in the
+                                      // unit of the residuals; replaces `current`; empty: none
 };
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes);

@@ -129,14 +129,14 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 }
 
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                  double variance, const std::function<bool()>& proceed) {
+                                      double variance, const std::function<bool()>& proceed) {
   const FamilyModel model(problem);
   JointOptions options;
   options.proceed = proceed;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindOtherOptima(model, *problem.translation.extended->extension, model.Pack(best.point), {},
-                     {highest, problem.translation.first_effect, HowToRefine(options)});
+  return FindOtherOptima(model, *problem.translation.extended->extension, model.Pack(best.point),
+                         {}, {highest, problem.translation.first_effect, HowToRefine(options)});
 }
 
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,

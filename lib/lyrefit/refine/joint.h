@@ -112,7 +112,7 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 // FindOtherOptima of a joint problem with effects, in internal units, from the end of its fit.
 // Accepts optima within the threshold of t and the variance of a point of weight 1.
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                  double variance, const std::function<bool()>& proceed = {});
+                                      double variance, const std::function<bool()>& proceed = {});
 
 // FindProfileSide of a shared parameter; `proceed` as in JointOptions.
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,

@@ -10,7 +10,7 @@ namespace lyrefit {
 // differences. Steps are damped until the function rises; at most `most_steps`. The function
 // returns -infinity where it is undefined.
 std::vector<double> NewtonAscent(const std::function<double(const std::vector<double>&)>& value,
-                          std::vector<double> at, int most_steps);
+                                 std::vector<double> at, int most_steps);
 
 // The second derivatives of such a function at a point, by differences.
 Eigen::MatrixXd CurvatureAt(const std::function<double(const std::vector<double>&)>& value,

@@ -110,8 +110,8 @@ std::vector<Settings> FindSettings(const Extension& extension, int first) {
 }
 
 std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
-                                  const FitPoint& best, std::vector<FitPoint> ends,
-                                  const OptimumQuery& query) {
+                                      const FitPoint& best, std::vector<FitPoint> ends,
+                                      const OptimumQuery& query) {
   for (const Settings& settings : FindSettings(extension, query.first)) {
     for (FitPoint& other : WithOthers(model, settings, best)) {
       ends.push_back(RefineModel(model, std::move(other), query.how));

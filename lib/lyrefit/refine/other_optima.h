@@ -28,7 +28,7 @@ struct OptimumQuery {
 // The optima below `highest` among `ends` and among refits from `best` with other settings of the
 // effects. Each differs from the others in its curve or in its numbers. All in internal units.
 std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
-                                  const FitPoint& best, std::vector<FitPoint> ends,
-                                  const OptimumQuery& query);
+                                      const FitPoint& best, std::vector<FitPoint> ends,
+                                      const OptimumQuery& query);
 
 }  // namespace lyrefit

@@ -15,7 +15,7 @@ constexpr double kLeastRise = 0.05;     // of t; smaller rises are replaced by i
 constexpr double kLongest = 3;          // of the last step; limit of linear extrapolation
 constexpr double kBeyond = 1.1;         // of the step; distance of the next trial after one inside
 constexpr double kCloseEnough = 0.003;  // of t
-constexpr double kBetter = 1e-7;  // relative decrease of the mean square at a new optimum
+constexpr double kBetter = 1e-7;        // relative decrease of the mean square at a new optimum
 // Function tolerance of a refit, as part of the rise at the end.
 constexpr double kSlack = 1e-3;
 constexpr double kLoosest = 1e-7;    // upper limit of it, as part of the mean square
@@ -88,7 +88,8 @@ class Side {
     const FitPoint* outermost = &best_;
     for (const FitPoint& local_optimum : query_.local_optima) {
       if (!(RootOfRise(model_.MeanSquare(local_optimum)) < query_.t)) continue;
-      const double value = local_optimum.p[query_.parameter], so_far = outermost->p[query_.parameter];
+      const double value = local_optimum.p[query_.parameter],
+                   so_far = outermost->p[query_.parameter];
       if (query_.upper ? value > so_far : value < so_far) outermost = &local_optimum;
     }
     return *outermost;

@@ -224,7 +224,8 @@ Section ShortList(const std::string& title, std::vector<std::string> sentences) 
 }
 
 // Adds the shared parameters of a fit without the outlier curves.
-void AddWithoutOutliers(const FamilyReport& report, const WithoutOutliers& without, Section* section) {
+void AddWithoutOutliers(const FamilyReport& report, const WithoutOutliers& without,
+                        Section* section) {
   const char* const them = without.ids.size() == 1 ? "it" : "them";
   AddSentence(fmt::format("Without {}: RMSE {}.", them, BothLabelled(without.rmse)), section);
   std::string values;
@@ -281,8 +282,8 @@ Section RejectedSection(const FamilyReport& report) {
 }  // namespace
 
 std::vector<Section> FamilyCurveSections(const FamilyReport& report) {
-  return {CurveSection(report),   OffsetSection(report), IndividualFitSection(report),
-          HeldOutSection(report), OutlierSection(report),    LeftOutSection(report),
+  return {CurveSection(report),   OffsetSection(report),  IndividualFitSection(report),
+          HeldOutSection(report), OutlierSection(report), LeftOutSection(report),
           RejectedSection(report)};
 }
 

@@ -279,7 +279,8 @@ Section FamilySearchSection(const FamilyReport& report) {
                          Significant(report.projected_gradient, 2)),
              &section);
   }
-  if (report.individual_seconds > 0) AddField("one by one", Duration(report.individual_seconds), &section);
+  if (report.individual_seconds > 0)
+    AddField("one by one", Duration(report.individual_seconds), &section);
   AddField("time", Duration(report.seconds), &section);
   AddField("options", OptionsText(report.non_default_options), &section);
   return section;

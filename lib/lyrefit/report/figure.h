@@ -49,7 +49,7 @@ struct Series {
   bool right_axis = false;                       // y refers to the right axis
   std::string name = {};                         // shown by viewers under the pointer
   std::vector<std::array<double, 3>> rows = {};  // x, y and the value for the colour bar
-  std::vector<std::size_t> ends = {};  // rows at which a line is interrupted
+  std::vector<std::size_t> ends = {};            // rows at which a line is interrupted
 
   void Add(double x, double y, double colour = 0);  // ignores rows that are not finite
   // Later rows are not joined to the previous ones.

@@ -179,8 +179,11 @@ Section VariantSection(const FitReport& report) {
   block::Table table = {"rrw",
                         {{"RMSE in A (solved-current)", "BIC above the best", "of the effects"}}};
   for (const VariantReport& variant : report.variants) {
-    const char* mark = variant.chosen ? " <-" : variant.finished ? "" : " (given up: at most this much)";
-    table.rows.push_back({Scientific(variant.rmse_A, 6), Decimals(variant.bic_above), variant.what + mark});
+    const char* mark = variant.chosen     ? " <-"
+                       : variant.finished ? ""
+                                          : " (given up: at most this much)";
+    table.rows.push_back(
+        {Scientific(variant.rmse_A, 6), Decimals(variant.bic_above), variant.what + mark});
   }
   return {"Choice of the variant", {table}};
 }
@@ -321,9 +324,9 @@ Document FitDocument(const FitReport& report) {
       Banners(report.interrupted, report.usable, report.not_usable_because, report.doubts),
       FitHead(report)};
   AddSections(
-      {ChoiceSection(report), VariantSection(report), ParameterSection(report), ErrorSection(report),
-       RmseSection(report), KeyPointSection(report), ResidualSection(report), SearchSection(report),
-       ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
+      {ChoiceSection(report), VariantSection(report), ParameterSection(report),
+       ErrorSection(report), RmseSection(report), KeyPointSection(report), ResidualSection(report),
+       SearchSection(report), ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
        WarningSection(report.warnings)},
       &document);
   document.verdict = FitVerdict(report);

@@ -6,8 +6,8 @@ namespace lyrefit {
 LYREFIT_JSON_FIELDS(Finding, id, sentence, points)
 LYREFIT_JSON_FIELDS(Sized, value, low_95, high_95)
 LYREFIT_JSON_FIELDS(CannotBeExcluded, id, biases, sentence, separate_by)
-LYREFIT_JSON_FIELDS(ReferenceRow, symbol, name, unit, now, expected, low_95, high_95, z, corrected_p,
-                    power, differs)
+LYREFIT_JSON_FIELDS(ReferenceRow, symbol, name, unit, now, expected, low_95, high_95, z,
+                    corrected_p, power, differs)
 LYREFIT_JSON_FIELDS(ReferenceCause, id, sentence, size, low_95, high_95, unit, power, explained)
 LYREFIT_JSON_FIELDS(ReferenceComparison, name, differs, p_value, sentence, rows, causes, references,
                     left_out, regressed_on, common, warnings)
@@ -84,7 +84,7 @@ void to_json(Json& j, const Cause& cause) {
        {"points", cause.points}};
 }
 
-LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, departure,
+LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, lack_of_fit,
                     cannot_be_excluded)
 
 void to_json(Json& j, const ParameterShift& shift) {
@@ -121,8 +121,8 @@ void to_json(Json& j, const PlannedMeasurement& measurement) {
 }
 
 LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
-LYREFIT_JSON_FIELDS(CauseProof, effect, title, named, objective, base_A, lower_bound_A, upper_bound_A,
-                    explains_at_most, holds_for)
+LYREFIT_JSON_FIELDS(CauseProof, effect, title, named, objective, base_A, lower_bound_A,
+                    upper_bound_A, explains_at_most, holds_for)
 LYREFIT_JSON_FIELDS(Proofs, causes, sentence)
 
 void to_json(Json& j, const DiagnosedCurve& curve) {

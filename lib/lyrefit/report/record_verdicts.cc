@@ -68,8 +68,8 @@ std::string FamilyVerdict(const FamilyReport& report) {
   text += fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
                       PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
   if (outlier > 0) {
-    text +=
-        fmt::format("; {} look{} like another device", Plural(outlier, "curve"), outlier == 1 ? "s" : "");
+    text += fmt::format("; {} look{} like another device", Plural(outlier, "curve"),
+                        outlier == 1 ? "s" : "");
   }
   return FullSentence(text);
 }

@@ -58,7 +58,8 @@ Section CauseSection(const ReferenceComparison& comparison) {
 }
 
 // Adds the sections of one sweep, below `heading` if it is not empty.
-void AddSweep(const ReferenceComparison& comparison, const std::string& heading, Document* document) {
+void AddSweep(const ReferenceComparison& comparison, const std::string& heading,
+              Document* document) {
   std::vector<Section> details = {NowSection(comparison), CauseSection(comparison),
                                   ListSection("Not compared with", comparison.left_out),
                                   ListSection("Warnings", comparison.warnings)};
@@ -108,7 +109,8 @@ Document OutlierSweepsDocument(const OutlierSweeps& outlier) {
                        "them all",
                        Plural(outlier.sweeps.size(), "sweep")),
            &document.head);
-  AddField("outliers", outlier.outlier == 0 ? "none" : std::to_string(outlier.outlier), &document.head);
+  AddField("outliers", outlier.outlier == 0 ? "none" : std::to_string(outlier.outlier),
+           &document.head);
   for (const ReferenceComparison& sweep : outlier.sweeps) {
     if (sweep.differs) AddSweep(sweep, sweep.name, &document);
   }
@@ -116,7 +118,9 @@ Document OutlierSweepsDocument(const OutlierSweeps& outlier) {
   return document;
 }
 
-std::string OutlierSweepsText(const OutlierSweeps& outlier) { return DrawText(OutlierSweepsDocument(outlier)); }
+std::string OutlierSweepsText(const OutlierSweeps& outlier) {
+  return DrawText(OutlierSweepsDocument(outlier));
+}
 
 std::string BriefReference(const ReferenceComparison& comparison) {
   return comparison.name + ": " + comparison.sentence + "\n";
@@ -127,7 +131,8 @@ std::string BriefOutlierSweeps(const OutlierSweeps& outlier) {
   for (const ReferenceComparison& sweep : outlier.sweeps) {
     if (sweep.differs) text += BriefReference(sweep);
   }
-  return text + fmt::format("outliers: {} of {}\n", outlier.outlier, Plural(outlier.sweeps.size(), "sweep"));
+  return text + fmt::format("outliers: {} of {}\n", outlier.outlier,
+                            Plural(outlier.sweeps.size(), "sweep"));
 }
 
 }  // namespace lyrefit

@@ -18,7 +18,7 @@ class Crowding {
   void Move(int i, const double* unit);
 
   double MeanDistance(int i) const { return sum_[i] / (candidates_ - 1); }  // Dis_i, Eq. 24
-  double LargestDistance() const { return largest_; }                  // Dis_max, Eq. 25
+  double LargestDistance() const { return largest_; }                       // Dis_max, Eq. 25
 
  private:
   void FindDistances(int i, std::vector<double>* distance);

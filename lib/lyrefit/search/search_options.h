@@ -76,7 +76,8 @@ inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     {"time-limit", "s", "stop after so many seconds", &SearchOptions::time_limit_s, 0, kInfinity},
     {"patience", "iterations", "stop after so many iterations without gain; 0: never",
      &SearchOptions::patience, 0, 1e8},
-    {"elites", "candidates", "distinct candidates handed to the polish", &SearchOptions::elites, 1, 1000},
+    {"elites", "candidates", "distinct candidates handed to the polish", &SearchOptions::elites, 1,
+     1000},
 };
 
 }  // namespace lyrefit

@@ -8,7 +8,7 @@
 namespace lyrefit {
 
 std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& algorithms,
-                                       const SearchOptions& search) {
+                                               const SearchOptions& search) {
   std::vector<ComparedAlgorithm> result;
   for (const Algorithm algorithm : algorithms) {
     ComparedAlgorithm compared;
@@ -20,9 +20,9 @@ std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& alg
   return result;
 }
 
-std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& memory_rates,
-                                             const std::vector<double>& distance_coefficients,
-                                             const SearchOptions& search) {
+std::vector<ComparedAlgorithm> SensitivityAlgorithms(
+    const std::vector<double>& memory_rates, const std::vector<double>& distance_coefficients,
+    const SearchOptions& search) {
   std::vector<ComparedAlgorithm> result;
   for (const double memory_rate : memory_rates) {
     for (const double distance_coefficient : distance_coefficients) {
@@ -40,8 +40,8 @@ std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& 
 }
 
 std::vector<ComparedAlgorithm> BudgetAlgorithms(const std::vector<Algorithm>& algorithms,
-                                        const std::vector<std::int64_t>& budgets,
-                                        const SearchOptions& search) {
+                                                const std::vector<std::int64_t>& budgets,
+                                                const SearchOptions& search) {
   std::vector<ComparedAlgorithm> result;
   for (const Algorithm algorithm : algorithms) {
     for (const std::int64_t budget : budgets) {

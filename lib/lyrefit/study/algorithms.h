@@ -12,19 +12,19 @@ namespace LYREFIT_PUBLIC lyrefit {
 // Lists of algorithms for the common studies. `search` supplies population, iterations and the
 // settings of the algorithms.
 std::vector<ComparedAlgorithm> PlainAlgorithms(const std::vector<Algorithm>& algorithms,
-                                       const SearchOptions& search);
+                                               const SearchOptions& search);
 // MLO with every pair of Pm (outer loop) and gamma. Names have the form "Pm=0.5 gamma=0.25".
-std::vector<ComparedAlgorithm> SensitivityAlgorithms(const std::vector<double>& memory_rates,
-                                             const std::vector<double>& distance_coefficients,
-                                             const SearchOptions& search);
+std::vector<ComparedAlgorithm> SensitivityAlgorithms(
+    const std::vector<double>& memory_rates, const std::vector<double>& distance_coefficients,
+    const SearchOptions& search);
 // The algorithm named "shape" or "default", by its kind. Its search settings are fixed by the kind.
 ComparedAlgorithm OwnAlgorithm(AlgorithmKind kind);
 // Every algorithm with every budget of objective evaluations; the algorithm is the outer loop. The
 // population is about the square root of the budget, limited to 4 to 100. Names have the form
 // "mlo@420".
 std::vector<ComparedAlgorithm> BudgetAlgorithms(const std::vector<Algorithm>& algorithms,
-                                        const std::vector<std::int64_t>& budgets,
-                                        const SearchOptions& search = {});
+                                                const std::vector<std::int64_t>& budgets,
+                                                const SearchOptions& search = {});
 // `search` with the population, iterations and evaluation limit for this budget of evaluations.
 SearchOptions BudgetSearch(std::int64_t budget, SearchOptions search = {});
 

@@ -21,7 +21,7 @@ struct QuantityColumn {
 // The meaning of each column.
 struct AuditColumns {
   char delimiter = ',';
-  std::size_t fields = 0;            // number of fields in every line
+  std::size_t fields = 0;  // number of fields in every line
   // Column name -> position in the line, for example "device" -> 1.
   std::map<std::string, int> words;
   // Quantity in lower case ("is1") -> its columns, one for each unit.

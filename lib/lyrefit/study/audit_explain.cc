@@ -17,7 +17,7 @@ constexpr double kFar = 0.1;
 constexpr double kNear = 0.05;  // in ln(RMSE / claim): closer readings are reported as nearest
 
 // A plan and its smallest distance to the claim over its sets of constants.
-struct Candidate {
+struct TriedPlan {
   const ReadingPlan* plan = nullptr;
   double distance = 0;  // |ln(RMSE / claim)|
   bool matches = false;
@@ -42,8 +42,8 @@ bool IsSame(const ReadingPlan& a, const ReadingPlan& b) {
          a.conditions.cells_in_series == b.conditions.cells_in_series;
 }
 
-Candidate Try(const ReadingPlan& plan, Sought* sought) {
-  Candidate candidate;
+TriedPlan Try(const ReadingPlan& plan, Sought* sought) {
+  TriedPlan candidate;
   candidate.plan = &plan;
   candidate.distance = kInfinity;
   for (const ConstantSet set : ReadingEvaluator::SetsOf(plan)) {
@@ -104,27 +104,27 @@ AuditExplanation Explanation(const ReadingPlan& plan, Sought* sought) {
 }
 
 // Removes Newton-step plans whose solved-current plan matches too, since they explain nothing more.
-void DropSteps(std::vector<Candidate>* matching) {
-  const auto only_further = [&](const Candidate& candidate) {
+void DropSteps(std::vector<TriedPlan>* matching) {
+  const auto only_further = [&](const TriedPlan& candidate) {
     if (!candidate.plan->newton_step) return false;
-    return std::any_of(matching->begin(), matching->end(), [&](const Candidate& other) {
+    return std::any_of(matching->begin(), matching->end(), [&](const TriedPlan& other) {
       ReadingPlan step = *other.plan;
       step.newton_step = true;
       return !other.plan->newton_step && IsSame(step, *candidate.plan);
     });
   };
-  std::vector<Candidate> kept;
+  std::vector<TriedPlan> kept;
   std::copy_if(matching->begin(), matching->end(), std::back_inserter(kept),
-               [&](const Candidate& candidate) { return !only_further(candidate); });
+               [&](const TriedPlan& candidate) { return !only_further(candidate); });
   *matching = std::move(kept);
 }
 
 // Separates significant matches of one level from possibly accidental ones.
-void Sort(std::vector<Candidate>* matching, Sought* sought, AuditSearch* result) {
+void Sort(std::vector<TriedPlan>* matching, Sought* sought, AuditSearch* result) {
   DropSteps(matching);
   std::stable_sort(matching->begin(), matching->end(),
-                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
-  for (const Candidate& candidate : *matching) {
+                   [](const TriedPlan& a, const TriedPlan& b) { return a.distance < b.distance; });
+  for (const TriedPlan& candidate : *matching) {
     AuditExplanation explanation = Explanation(*candidate.plan, sought);
     if (explanation.chance <= kMostChance) {
       result->explanations.push_back(std::move(explanation));
@@ -140,10 +140,10 @@ AuditSearch Explain(const AuditSubject& subject) {
   Sought sought{subject, ReadingEvaluator(subject), subject.row->rmse.value};
   const std::vector<ReadingPlan> plans = ReadingPlans(subject, kMostChanges);
   AuditSearch result;
-  std::vector<Candidate> matching;
-  Candidate nearest;
+  std::vector<TriedPlan> matching;
+  TriedPlan nearest;
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    const Candidate candidate = Try(plans[i], &sought);
+    const TriedPlan candidate = Try(plans[i], &sought);
     if (plans[i].changes == 0) continue;
     if (candidate.matches) matching.push_back(candidate);
     const bool nearer = nearest.plan == nullptr || candidate.distance < nearest.distance;

@@ -104,9 +104,9 @@ struct AuditLowest {
   // Proved lower bound of the RMSE for n in the range below and any other parameters. NaN: no proof
   // is possible for this curve.
   double lower_bound_A = kUnknown;
-  double reached_A = kUnknown;          // RMSE of the best known parameters within that range
+  double reached_A = kUnknown;  // RMSE of the best known parameters within that range
   double n_lower = kUnknown;  // per cell; lower end of the n range of the bound, or of the best fit
-  double n_upper = kUnknown;            // upper end of that range
+  double n_upper = kUnknown;  // upper end of that range
   double other_objective_A = kUnknown;  // RMSE of the best fit of the other objective
   double newton_step_A = kUnknown;      // least RMSE of one Newton step from the measured currents
 };
@@ -119,7 +119,7 @@ struct AuditFinding {
   std::string sentence;                         // the verdict as a sentence with numbers
   // Explanations with the fewest changes, nearest first.
   std::vector<AuditExplanation> explanations;
-  std::string bounds_name;                      // empty: no published bounds exist for the curve
+  std::string bounds_name;  // empty: no published bounds exist for the curve
 
   // Of a row that does not reproduce:
   // A reading near the claim, or a match that may be accidental.
@@ -127,8 +127,8 @@ struct AuditFinding {
   std::optional<AuditTemperatures> temperatures;
   double short_circuit_A = kUnknown;         // Isc of the stated curve
   std::optional<AuditReading> other_device;  // the curve with the row's Isc, read to fit best
-  double optimum_A = kUnknown;  // RMSE of the best fit to the stated curve, n from 1 to 2
-  std::optional<AuditLowest> lowest;         // also set for rows without parameters
+  double optimum_A = kUnknown;        // RMSE of the best fit to the stated curve, n from 1 to 2
+  std::optional<AuditLowest> lowest;  // also set for rows without parameters
 };
 
 // The result of the audit of a table of published parameters.

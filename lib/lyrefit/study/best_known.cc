@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/study/compare_run.h"
 #include "lyrefit/study/algorithms.h"
+#include "lyrefit/study/compare_run.h"
 #include "lyrefit/study/problem_summary.h"
 
 namespace lyrefit {

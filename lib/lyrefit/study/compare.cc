@@ -32,8 +32,8 @@ struct Problem {
   const CompareCurve& subject;
   // Runs of the first algorithm, then of the second, ...
   std::vector<std::optional<RunOutcome>> outcomes;
-  std::atomic<int> left;                            // number of unfinished runs
-  std::optional<BestKnown> known;                   // set if the journal has it
+  std::atomic<int> left;           // number of unfinished runs
+  std::optional<BestKnown> known;  // set if the journal has it
   ProblemResult result;
 };
 
@@ -64,7 +64,8 @@ double WorkOf(const Problem& problem, const ComparedAlgorithm& compared) {
   return (evaluations + kPolish) * static_cast<double>(problem.result.model);
 }
 
-double WorkOfAll(const Problems& problems, const std::vector<ComparedAlgorithm>& algorithms, int runs) {
+double WorkOfAll(const Problems& problems, const std::vector<ComparedAlgorithm>& algorithms,
+                 int runs) {
   double work = 0;
   for (const auto& problem : problems) {
     for (const ComparedAlgorithm& compared : algorithms) work += runs * WorkOf(*problem, compared);

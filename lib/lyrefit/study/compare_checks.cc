@@ -40,9 +40,9 @@ Expected<void> CheckAlgorithms(const std::vector<ComparedAlgorithm>& algorithms)
   if (algorithms.empty()) return Fail("no algorithm to compare");
   for (auto compared = algorithms.begin(); compared != algorithms.end(); ++compared) {
     if (compared->name.empty()) return Fail("an algorithm has no name");
-    const bool twice = std::any_of(algorithms.begin(), compared, [&](const ComparedAlgorithm& other) {
-      return other.name == compared->name;
-    });
+    const bool twice =
+        std::any_of(algorithms.begin(), compared,
+                    [&](const ComparedAlgorithm& other) { return other.name == compared->name; });
     if (twice) return Fail(fmt::format("the algorithm {} is named twice", compared->name));
     if (auto valid = ValidateOptions(compared->search, kSearchOptionTable); !valid) {
       return Fail(fmt::format("{}: {}", compared->name, valid.error().message));
@@ -57,11 +57,13 @@ Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
                                const std::vector<ComparedAlgorithm>& algorithms,
                                const CompareOptions& options) {
   if (auto checked = CheckAlgorithms(algorithms); !checked) return checked;
-  const bool hard = std::any_of(algorithms.begin(), algorithms.end(),
-                                [](const ComparedAlgorithm& c) { return c.candidates != SearchVariables::kAll; });
+  const bool hard =
+      std::any_of(algorithms.begin(), algorithms.end(),
+                  [](const ComparedAlgorithm& c) { return c.candidates != SearchVariables::kAll; });
   const bool family = std::any_of(curves.begin(), curves.end(),
                                   [](const CompareCurve& curve) { return curve.set.has_value(); });
-  if (hard && family) return Fail("candidates hard is for curves: families are searched completely");
+  if (hard && family)
+    return Fail("candidates hard is for curves: families are searched completely");
   return CheckOptions(curves.size(), algorithms.size(), options);
 }
 

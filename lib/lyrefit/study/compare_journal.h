@@ -12,7 +12,8 @@ namespace lyrefit {
 // The journal head: all inputs that a run of a comparison depends on. The number of runs is left
 // out, so that a study can be resumed with more runs. The inputs must have been checked.
 JournalLine CompareHead(const std::vector<CompareCurve>& curves,
-                        const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options);
+                        const std::vector<ComparedAlgorithm>& algorithms,
+                        const CompareOptions& options);
 
 // The position of a run in its comparison.
 struct RunPlace {

@@ -41,9 +41,9 @@ struct RunSpread {
   double mean = kUnknown;
   double median = kUnknown;
   double max = kUnknown;
-  double std = kUnknown;     // sample standard deviation (n - 1); 0 for one run
-  int within_1e9 = 0;        // runs at most 1e-9 (relative) above the reference
-  int within_1e6 = 0;        // runs at most 1e-6 (relative) above the reference
+  double std = kUnknown;  // sample standard deviation (n - 1); 0 for one run
+  int within_1e9 = 0;     // runs at most 1e-9 (relative) above the reference
+  int within_1e6 = 0;     // runs at most 1e-6 (relative) above the reference
 };
 
 // A point of the median convergence curve of the searches.
@@ -65,15 +65,15 @@ struct AlgorithmResult {
   RunSpread plain_polished;  // see RunRecord
   RunSpread own_polished;    // see RunRecord
   RunSpread polished;
-  int target_hits = 0;                     // number of runs whose search reached the target
+  int target_hits = 0;  // number of runs whose search reached the target
   // Evaluations to the target: those of all runs, each up to its hit, divided by the number of hits
   // (Hansen et al. 2021, COCO); NaN: no hit.
   double expected_evaluations = kUnknown;
-  double evaluations = 0;                  // mean of a run
-  double curve_evaluations = 0;            // mean of a run
-  double search_seconds = 0;               // mean of a run
-  double polish_seconds = 0;               // mean of a run
-  std::vector<MedianPoint> trace;          // about 60 points, evenly spaced in log(evaluations)
+  double evaluations = 0;          // mean of a run
+  double curve_evaluations = 0;    // mean of a run
+  double search_seconds = 0;       // mean of a run
+  double polish_seconds = 0;       // mean of a run
+  std::vector<MedianPoint> trace;  // about 60 points, evenly spaced in log(evaluations)
 };
 
 // The reference that the runs of a problem are compared with.
@@ -88,7 +88,7 @@ struct Reference {
   bool interrupted = false;         // stopped before a proof was complete
   // The multistart is better than every run by more than 1e-6 (best_known.h).
   bool by_multistart = false;
-  int points = 0;                   // number of random points polished by the multistart
+  int points = 0;  // number of random points polished by the multistart
   int visits = 0;  // number of random points that ended within 1e-6 (relative) of the reference
 };
 
@@ -139,7 +139,7 @@ inline std::vector<std::string> AlgorithmNames(const ProblemResult& problem) {
 // The results of a comparison of searches on one or several problems.
 struct Comparison {
   std::string version;
-  CompareOptions options;               // options of the comparison
+  CompareOptions options;  // options of the comparison
   // Curves in the given order, each with all models; problems without a run are left out.
   std::vector<ProblemResult> problems;
   // Warnings about the readings, found before any run; see CheckReadings.

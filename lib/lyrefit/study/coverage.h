@@ -26,7 +26,7 @@ struct CoverageRow {
 // One simulated set and the estimates of its fit.
 struct CoverageSet {
   int cells_in_series = 1;
-  int curves = 0;                                 // number of curves in the set
+  int curves = 0;     // number of curves in the set
   std::string error;  // reason why there is no usable fit; empty: there is one
   FamilyWeights weights = FamilyWeights::kEqual;  // weights selected by the fit
   // True: the fit found correlated errors, and `rows` has the intervals under correlation.

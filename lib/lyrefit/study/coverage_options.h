@@ -14,8 +14,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // Error model of the simulated currents.
 enum class CoverageNoise {
-  kEqual,       // independent, with one standard deviation for all curves
-  kIsc,         // independent, in proportion to each curve's Isc
+  kEqual,  // independent, with one standard deviation for all curves
+  kIsc,    // independent, in proportion to each curve's Isc
   // Drifting irradiance: in proportion to the curve's Isc, correlation length along the sweep one
   // Voc; an independent error of a tenth of it is added.
   kCorrelated,
@@ -31,18 +31,18 @@ struct EnumTable<CoverageNoise> {
 // The sets that are simulated and fitted.
 struct CoverageOptions {
   int sets = 500;
-  std::uint64_t seed = 0;        // of all random draws; set s has its own stream
-  int curves = 0;                // per set; 0: drawn from 5 to 30 for every set
-  int points = 40;               // per curve, at even steps from 0 V to open circuit
+  std::uint64_t seed = 0;  // of all random draws; set s has its own stream
+  int curves = 0;          // per set; 0: drawn from 5 to 30 for every set
+  int points = 40;         // per curve, at even steps from 0 V to open circuit
   // Standard deviation of every current, relative to Isc at the reference conditions.
   double noise_relative = 1e-3;
   CoverageNoise noise = CoverageNoise::kEqual;
-  double temperature_error_K = 0;        // offset of every reported temperature
-  double irradiance_error_W_m2 = 0;      // offset of every reported irradiance
+  double temperature_error_K = 0;    // offset of every reported temperature
+  double irradiance_error_W_m2 = 0;  // offset of every reported irradiance
   // Shared parameters by symbol or name, all of them; empty: a module is drawn for every set.
   std::map<std::string, double> module;
-  int cells_in_series = 72;              // cells of `module`
-  int threads = 0;                       // 0: all cores; affects only the measured seconds
+  int cells_in_series = 72;  // cells of `module`
+  int threads = 0;           // 0: all cores; affects only the measured seconds
   // File to which every finished set is appended and from which a study is resumed; empty: none.
   // `sets` and `threads` may differ from the first run.
   std::string journal;

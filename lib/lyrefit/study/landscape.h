@@ -29,7 +29,7 @@ struct LandscapeCase {
   std::vector<EffectUse> with;
   // Curves of a family; fitted with `family`, which also holds the model and the effects.
   std::optional<CurveSet> set;
-  FamilyOptions family;         // how a set is fitted
+  FamilyOptions family;  // how a set is fitted
   // True parameters of the simulation in reporting units: "Iph", "substrings.d1". For a set they
   // are the shared parameters. If no effect has the sensor offsets, "irradiance_offset_W_m2" and
   // "temperature_offset_K" are included, as true minus shown value.

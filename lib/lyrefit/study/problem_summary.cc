@@ -42,8 +42,8 @@ std::vector<WrongOptimum> GroupByEnd(std::vector<SummaryRun> runs, PolishLevel l
   double last = 0;
   for (const SummaryRun& run : runs) {
     const double ratio = run.Ratio(level);
-    const bool same =
-        !local_optima.empty() && local_optima.back().device == run.device && ratio <= last * (1 + kHit);
+    const bool same = !local_optima.empty() && local_optima.back().device == run.device &&
+                      ratio <= last * (1 + kHit);
     if (same) {
       ++local_optima.back().runs;
     } else {
@@ -63,7 +63,8 @@ Failures SumUpFailures(const std::vector<SummaryRun>& missed, PolishLevel level)
   const auto rarer = [](const WrongOptimum& a, const WrongOptimum& b) {
     return a.runs != b.runs ? a.runs < b.runs : a.ratio > b.ratio;
   };
-  const WrongOptimum& commonest = *std::max_element(local_optima.begin(), local_optima.end(), rarer);
+  const WrongOptimum& commonest =
+      *std::max_element(local_optima.begin(), local_optima.end(), rarer);
   failures.commonest = commonest.runs;
   failures.commonest_device = commonest.device->curve_name;
   failures.commonest_excess = commonest.ratio - 1;

@@ -41,7 +41,7 @@ constexpr double kHit = 1e-6;
 // effects the parameters of the device are used. The deviation is 1 if the reference value is 0 and
 // the run's is not.
 struct Failures {
-  int runs = 0;                        // number of such runs
+  int runs = 0;  // number of such runs
   // Number of distinct ones; end points of a device within kHit of each other are one.
   int local_optima = 0;
   // Runs in the most frequent local optimum; of equally frequent ones the lowest.
@@ -52,7 +52,7 @@ struct Failures {
   double worst_excess = kUnknown;
   double median_deviation = kUnknown;  // NaN at levels that keep no parameters
   double worst_deviation = kUnknown;
-  std::string worst_parameter;         // key of the parameter with that deviation
+  std::string worst_parameter;  // key of the parameter with that deviation
 };
 
 // The results of one algorithm at one level of polish.
@@ -86,7 +86,7 @@ struct ProblemSummary {
   std::string name;                           // see ProblemResult::problem
   std::vector<const ProblemResult*> devices;  // from the comparison, in its order
   int certified = 0;                          // number of devices with a certified reference
-  std::vector<AlgorithmSummary> algorithms;    // in the order of the comparison
+  std::vector<AlgorithmSummary> algorithms;   // in the order of the comparison
 };
 
 // Summaries of all named problems of the comparison, in the order of the first device of each.

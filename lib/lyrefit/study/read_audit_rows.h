@@ -25,7 +25,7 @@ struct AuditRow {
   std::string device;     // folder or file of a curve
   std::string algorithm;  // as named in the table
   Model model = Model::kSingleDiode;
-  PrintedNumber rmse;           // the claimed RMSE
+  PrintedNumber rmse;  // the claimed RMSE
   // `rmse` is a sum of squares in A^2 until the number of points is known.
   bool sum_of_squares = false;
   std::vector<PrintedNumber> parameters;  // in the device's order; empty: none are given

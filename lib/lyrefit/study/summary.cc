@@ -192,8 +192,9 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
   return result;
 }
 
-void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
-                     std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result) {
+void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms,
+                     const CompareOptions& options, std::vector<std::vector<RunOutcome>> outcomes,
+                     ProblemResult* result) {
   std::vector<int> done(options.runs, 0);  // number of algorithms that have done the run
   for (std::size_t c = 0; c < algorithms.size(); ++c) {
     if (outcomes[c].empty()) continue;

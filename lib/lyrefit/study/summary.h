@@ -50,7 +50,8 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
 // Fills the algorithms and rankings of a problem. `outcomes[c]` holds the runs of algorithm c by
 // increasing run number. Algorithms without a run are left out. Rankings cover only the runs that
 // all remaining algorithms have done.
-void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms, const CompareOptions& options,
-                     std::vector<std::vector<RunOutcome>> outcomes, ProblemResult* result);
+void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms,
+                     const CompareOptions& options, std::vector<std::vector<RunOutcome>> outcomes,
+                     ProblemResult* result);
 
 }  // namespace lyrefit

@@ -11,7 +11,8 @@ namespace {
 constexpr char kPeers[] = "pagmo:";
 
 // The smallest budget of one algorithm at one level from which all budgets are sufficient.
-std::optional<Configuration> EnoughFrom(std::vector<const AlgorithmSummary*> algorithms, PolishLevel level) {
+std::optional<Configuration> EnoughFrom(std::vector<const AlgorithmSummary*> algorithms,
+                                        PolishLevel level) {
   std::sort(algorithms.begin(), algorithms.end(),
             [](const auto* a, const auto* b) { return a->budget > b->budget; });
   std::optional<Configuration> from;
@@ -33,7 +34,8 @@ bool MoreHits(const Configuration& a, const Configuration& b) {
   return Faster(a, b);
 }
 
-void Keep(const std::optional<Configuration>& way, bool (*better)(const Configuration&, const Configuration&),
+void Keep(const std::optional<Configuration>& way,
+          bool (*better)(const Configuration&, const Configuration&),
           std::optional<Configuration>* best) {
   if (way && (!*best || better(*way, **best))) *best = way;
 }
@@ -70,8 +72,7 @@ SearchVerdict JudgeProblem(const ProblemSummary& pool) {
   verdict.shape_is_enough = verdict.shape && verdict.shape->IsEnough();
   std::map<std::string, std::vector<const AlgorithmSummary*>> searches;
   for (const AlgorithmSummary& compared : pool.algorithms) {
-    if (compared.kind == AlgorithmKind::kSearch)
-      searches[compared.algorithm].push_back(&compared);
+    if (compared.kind == AlgorithmKind::kSearch) searches[compared.algorithm].push_back(&compared);
   }
   std::optional<Configuration> random_enough, random_best;
   for (const auto& [name, algorithms] : searches) {

@@ -29,7 +29,7 @@ struct Configuration {
 struct SearchVerdict {
   // Starts from the shape, if they were compared, sufficient or not.
   std::optional<Configuration> shape;
-  std::optional<Configuration> search;     // the winner; random points count as a search
+  std::optional<Configuration> search;  // the winner; random points count as a search
   // If none is sufficient: the one with the most hits, then the least time.
   std::optional<Configuration> best;
   // Best configuration of random points, unless it is the winner.
@@ -50,7 +50,7 @@ double TimeToBeSure(const Configuration& way);
 struct PeerRatio {
   Configuration self;
   std::optional<Configuration> peer;  // the configuration with the least TimeToBeSure
-  int repeats = 0;          // number of runs of the peer; 0: it never hits
+  int repeats = 0;                    // number of runs of the peer; 0: it never hits
   // TimeToBeSure of the peer divided by that of the default fit; NaN if it never hits.
   double times = kUnknown;
 };

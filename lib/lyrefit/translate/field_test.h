@@ -65,8 +65,7 @@ struct FieldTest {
   // Probability that the true power is on the other side of L. The prior is flat: no information
   // but this measurement. NaN where the test is not scored.
   double probability_wrong = kUnknown;
-  double probability_step =
-      0;  // resolution of the probability, 1 / draws; 0: no draws
+  double probability_step = 0;  // resolution of the probability, 1 / draws; 0: no draws
   double measured_W = kUnknown;
   double predicted_W = kUnknown;  // at the conditions measured
   std::string predicted_by;       // name of the prediction's model

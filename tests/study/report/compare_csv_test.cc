@@ -23,11 +23,12 @@ std::vector<std::string> Lines(const std::string& text) {
 TEST(CompareCsv, HasOneRowARun) {
   const auto lines = Lines(CompareCsv(SampleComparison()));
   ASSERT_EQ(lines.size(), 1U + 2 * 3 * 4);
-  EXPECT_EQ(lines[0],
-            "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
-            "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
-            "search_seconds,"
-            "refine_seconds");
+  EXPECT_EQ(
+      lines[0],
+      "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
+      "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
+      "search_seconds,"
+      "refine_seconds");
   EXPECT_THAT(lines[1], StartsWith("sample_cell,sd,measured-current,literature,mlo,0,7,"
                                    "0.00098602187789,"));
   EXPECT_THAT(lines[24], StartsWith("sample_cell,dd,measured-current,literature,random,3,7,"));

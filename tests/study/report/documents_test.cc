@@ -17,8 +17,8 @@ TEST(StudyDocuments, AreWellFormedPages) {
   Comparison outlier = SampleComparison();
   outlier.problems[0].curve_name = "<!-- & ]]> \"curve\"";
   outlier.interrupted = true;
-  const Comparison pooled =
-      MadeComparison({MadeDevice("x 0", "x <1>", {SyntheticAlgorithm("random", 100, {{9, 2, 2}})})});
+  const Comparison pooled = MadeComparison(
+      {MadeDevice("x 0", "x <1>", {SyntheticAlgorithm("random", 100, {{9, 2, 2}})})});
   const std::vector<Document> documents = {AuditDocument(SampleAudit()),
                                            CompareDocument(outlier),
                                            BudgetDocument(SampleComparison()),

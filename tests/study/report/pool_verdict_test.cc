@@ -47,14 +47,15 @@ TEST(VerdictText, SaysThatNoSearchIsNeeded) {
 }
 
 TEST(VerdictText, NamesTheSearchThatWillDo) {
-  EXPECT_EQ(Sentence({{"shape", 0, 0, 12, 0},
-                      {"mlo", 100, 40, 44, 5},
-                      {"mlo", 1000, 49, 50, 50},
-                      {"random", 100, 30, 44, 5},
-                      {"random", 1000, 47, 50, 50}}),
-            "x: mlo will do: starts from the curve's shape alone hit 12 of 50 (30 ms); of the "
-            "searches mlo reaches 49 of 50 with the best candidate's own polish from 1000 evaluations "
-            "(55 ms); random points reach 50 of 50 with all starts from 1000 evaluations (80 ms)");
+  EXPECT_EQ(
+      Sentence({{"shape", 0, 0, 12, 0},
+                {"mlo", 100, 40, 44, 5},
+                {"mlo", 1000, 49, 50, 50},
+                {"random", 100, 30, 44, 5},
+                {"random", 1000, 47, 50, 50}}),
+      "x: mlo will do: starts from the curve's shape alone hit 12 of 50 (30 ms); of the "
+      "searches mlo reaches 49 of 50 with the best candidate's own polish from 1000 evaluations "
+      "(55 ms); random points reach 50 of 50 with all starts from 1000 evaluations (80 ms)");
 }
 
 TEST(VerdictText, SaysThatNothingIsEnough) {

@@ -13,7 +13,8 @@ namespace lyrefit {
 namespace {
 
 std::string Budget(const SearchOptions& search) {
-  std::string text = fmt::format("{} candidates x {} iterations", search.population, search.iterations);
+  std::string text =
+      fmt::format("{} candidates x {} iterations", search.population, search.iterations);
   const std::int64_t planned =
       static_cast<std::int64_t>(search.population) * (search.iterations + 1LL);
   return text + fmt::format(": {} evaluations at most", std::min(planned, search.max_evaluations));

@@ -37,7 +37,7 @@ std::vector<std::string> AlgorithmsOf(const ProblemSummary& pool) {
 }
 
 const LevelSummary* Cell(const ProblemSummary& pool, const std::string& algorithm,
-                        std::int64_t budget, PolishLevel level) {
+                         std::int64_t budget, PolishLevel level) {
   for (const AlgorithmSummary& compared : pool.algorithms) {
     if (compared.algorithm != algorithm || compared.budget != budget) continue;
     if (compared.At(level)) return &*compared.At(level);
@@ -99,7 +99,8 @@ void AddFailures(const ProblemSummary& pool, Section* section) {
       {{"compared", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
         "worst"}},
       {},
-      "Cost of failure, largest budgets: runs that missed, the wrong local optima they ended in, runs in "
+      "Cost of failure, largest budgets: runs that missed, the wrong local optima they ended in, "
+      "runs in "
       "the commonest and how far its RMSE is above the best known one (%); median and worst of "
       "that over all that missed; and median and worst of how far their most deviating parameter "
       "is from its value there (%)"};
@@ -109,7 +110,8 @@ void AddFailures(const ProblemSummary& pool, Section* section) {
       if (!compared.At(level) || compared.At(level)->failures.runs == 0) continue;
       const Failures& failures = compared.At(level)->failures;
       table.rows.push_back({compared.name, ToText(level), std::to_string(failures.runs),
-                            std::to_string(failures.local_optima), std::to_string(failures.commonest),
+                            std::to_string(failures.local_optima),
+                            std::to_string(failures.commonest),
                             InPercent(failures.commonest_excess), InPercent(failures.median_excess),
                             InPercent(failures.worst_excess), InPercent(failures.median_deviation),
                             InPercent(failures.worst_deviation)});
@@ -227,9 +229,10 @@ std::vector<Section> RankingSections(const std::vector<ProblemSummary>& pools) {
   if (rankings.empty()) return {};
   std::vector<Section> sections = {
       {"",
-       {block::Legend{"Mean ranks of RMSE / reference, search alone / best candidate's polish, and p of "
-                      "Friedman's test; blocks are device and run, figures within 1e-6 of each "
-                      "other equal; pairs by Wilcoxon's test, Holm-corrected"}}}};
+       {block::Legend{
+           "Mean ranks of RMSE / reference, search alone / best candidate's polish, and p of "
+           "Friedman's test; blocks are device and run, figures within 1e-6 of each "
+           "other equal; pairs by Wilcoxon's test, Holm-corrected"}}}};
   const SummaryRanking* const end = rankings.data() + rankings.size();
   for (const SummaryRanking* first = rankings.data(); first != end;) {
     const SummaryRanking* const next = std::find_if(
@@ -247,10 +250,11 @@ Section PeerSection(const std::vector<ProblemSummary>& pools) {
     const std::string peer = PeerText(pool);
     if (peer.empty()) continue;
     if (section.blocks.empty()) {
-      section.blocks.push_back(block::Legend{fmt::format(
-          "The default fit against the best peer of equal success: by pagmo2, with the best candidate's "
-          "own polish, run as often as it takes to hit with a probability of {} %",
-          100 * kEnoughShare)});
+      section.blocks.push_back(block::Legend{
+          fmt::format("The default fit against the best peer of equal success: by pagmo2, with the "
+                      "best candidate's "
+                      "own polish, run as often as it takes to hit with a probability of {} %",
+                      100 * kEnoughShare)});
     }
     AddSentence(pool.name + ": " + peer + ".", &section);
   }

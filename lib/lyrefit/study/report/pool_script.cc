@@ -50,8 +50,8 @@ Axis AxisOf(const std::vector<ProblemSummary>& pools) {
 }
 
 // A panel. An algorithm without a budget is a horizontal line.
-Panel PoolPanel(const ProblemSummary& pool, const std::vector<std::string>& names, std::size_t level,
-                const Axis& budgets) {
+Panel PoolPanel(const ProblemSummary& pool, const std::vector<std::string>& names,
+                std::size_t level, const Axis& budgets) {
   Panel panel{fmt::format("{}: {}", pool.name, kLevelTitles[level]), budgets, ShareAxis()};
   const int count = static_cast<int>(names.size());
   const double step = std::min(1.2, 6.0 / count);

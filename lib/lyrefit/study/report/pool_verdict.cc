@@ -102,10 +102,11 @@ block::Table VerdictTable(const std::vector<ProblemSummary>& pools) {
     for (const std::optional<Configuration>& way : {verdict.shape, search}) {
       if (way) runs = way->figures().runs;
     }
-    table.rows.push_back({pool.name, std::to_string(runs), ConfigurationText(verdict.shape, false),
-                          ConfigurationText(ratio ? std::optional<Configuration>(ratio->self) : std::nullopt, false),
-                          ConfigurationText(search, true), ConfigurationText(verdict.random, true),
-                          ConfigurationText(ratio ? ratio->peer : std::nullopt, true)});
+    table.rows.push_back(
+        {pool.name, std::to_string(runs), ConfigurationText(verdict.shape, false),
+         ConfigurationText(ratio ? std::optional<Configuration>(ratio->self) : std::nullopt, false),
+         ConfigurationText(search, true), ConfigurationText(verdict.random, true),
+         ConfigurationText(ratio ? ratio->peer : std::nullopt, true)});
   }
   return table;
 }

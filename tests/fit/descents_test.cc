@@ -85,7 +85,7 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
   descents.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
   OptimumCount count = descents.Count();
   EXPECT_EQ(count.ends, 2);
-  EXPECT_EQ(count.descents, 1);
+  EXPECT_EQ(count.local_optima, 1);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 0);
   EXPECT_EQ(count.independent.twice, 1);
@@ -111,7 +111,7 @@ TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
   EXPECT_EQ(count.ends, 2);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.ends, 1);
-  EXPECT_EQ(count.independent.descents, 1);
+  EXPECT_EQ(count.independent.local_optima, 1);
   EXPECT_EQ(count.independent.best_visits, 1);
   EXPECT_EQ(count.independent.once, 1);
   EXPECT_EQ(count.independent.twice, 0);
@@ -168,14 +168,14 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   Descents descents(job_.problem, job_.variants, &job_.watch);
   for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
   OptimumCount count = descents.Count();
-  EXPECT_EQ(count.descents, 3);
+  EXPECT_EQ(count.local_optima, 3);
   EXPECT_EQ(count.independent.once, 3);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
   descents.Descend({into.begin()->second});
   count = descents.Count();
   EXPECT_EQ(count.ends, 4);
-  EXPECT_EQ(count.descents, 3);
+  EXPECT_EQ(count.local_optima, 3);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 2);
   EXPECT_EQ(count.independent.twice, 1);

@@ -13,7 +13,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Many single diodes, one per row. Columns: Iph, Is, Rs, Rsh, nNsVth.
 struct Many {

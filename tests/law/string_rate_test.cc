@@ -262,7 +262,7 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
   const Law law;
   const Readings readings;
   const EvaluationContext<Pack> context =
-      MakeWeightedData(law, readings, static_cast<const Pack*>(nullptr));
+      MakeEvaluationContext(law, readings, static_cast<const Pack*>(nullptr));
   double worst = 0;
   int wrong = 0;
   for (int k = 0; k < Repeats(12500, 500); ++k) {

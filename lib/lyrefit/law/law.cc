@@ -144,10 +144,10 @@ bool HasInstrument(const Law& law) {
   return false;
 }
 
-// Adds `part` times the derivatives of x to `sum`.
+// Adds `factor` times the derivatives of x to `sum`.
 template <int N>
-void Add(const Pack& part, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
-  for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + part * x.v[k];
+void Add(const Pack& factor, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
+  for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + factor * x.v[k];
 }
 
 // The cell and its context at a root, in duals and in plain numbers.
@@ -158,33 +158,33 @@ struct Place {
   const Cell<Pack>& plain;
 };
 
-// Adds `part` times the derivatives of F of a cell group, at a fixed junction voltage.
+// Adds `factor` times the derivatives of F of a cell group, at a fixed junction voltage.
 template <class S>
-void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& part, S* sum) {
+void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& factor, S* sum) {
   const Cell<S>& cell = at.cell;
   const bool alike = at.plain.kinds == 1;
   S light = cell.photocurrent;
   if (!alike) light = light * cell.kind[kind].light;
-  Add(part, light, sum);
-  Add(-part * voltage, cell.conductance, sum);
-  if (!alike) Add(-part * voltage, cell.kind[kind].leak, sum);
+  Add(factor, light, sum);
+  Add(-factor * voltage, cell.conductance, sum);
+  if (!alike) Add(-factor * voltage, cell.kind[kind].leak, sum);
   for (int d = 0; d < cell.diodes; ++d) {
     using OfTwo = Dual<2, Pack>;
     const Diode<Pack>& diode = at.plain.diode[d];
     const OfTwo current =
         DiodeCurrent(OfTwo(diode.saturation, 0), OfTwo(diode.inverse_n_vt, 1), OfTwo(voltage));
-    Add(part * current.v[0], cell.diode[d].saturation, sum);
-    Add(part * current.v[1], cell.diode[d].inverse_n_vt, sum);
+    Add(factor * current.v[0], cell.diode[d].saturation, sum);
+    Add(factor * current.v[1], cell.diode[d].inverse_n_vt, sum);
   }
-  if (HasMore(at.context, cell)) Add(part, MoreCurrent(at.context, cell, light, S(voltage)), sum);
+  if (HasMore(at.context, cell)) Add(factor, MoreCurrent(at.context, cell, light, S(voltage)), sum);
 }
 
-// Adds `part` times the derivatives of a cell group's current, of both halves where cells are
+// Adds `factor` times the derivatives of a cell group's current, of both halves where cells are
 // halved.
 template <class S>
 void AddKind(const Place<S>& at, const StringState& state, const KindPoint& point, int kind,
-             const Pack& part, S* sum) {
-  const Pack near = at.plain.halved ? 0.5 * part : part;
+             const Pack& factor, S* sum) {
+  const Pack near = at.plain.halved ? 0.5 * factor : factor;
   AddJunction(at, kind, state.u[kind], near, sum);
   if (!at.plain.halved) return;
   const Pack far = near * point.follows;

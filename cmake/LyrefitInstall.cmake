@@ -83,7 +83,7 @@ set(LYREFIT_PUBLIC_HEADERS
   law/curve_shape.h
   law/device.h
   law/effect.h
-  law/extension.h
+  law/device_effects.h
   law/law.h
   law/pack.h
   law/pack.inc

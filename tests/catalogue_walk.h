@@ -13,7 +13,7 @@
 #include "draw.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/study/coverage.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lyrefit/law/effect.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "own_call.h"
 
 namespace lyrefit::python {

@@ -1,5 +1,5 @@
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

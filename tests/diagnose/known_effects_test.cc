@@ -30,8 +30,8 @@ Effect Lamp() {
   lamp.where = Where::kSweep;
   lamp.sentence = "the lamp flickers";
   lamp.parameters = {Parameter("a", "amplitude", "part of the light").Between(-0.2, 0.2)};
-  lamp.sky = [](const auto* p, const auto& reading, auto* sky) {
-    sky->irradiance = sky->irradiance * (1.0 + p[0] * Flicker(reading.x));
+  lamp.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    conditions->irradiance = conditions->irradiance * (1.0 + p[0] * Flicker(reading.x));
   };
   lamp.probes = [](const DataTraits&) { return std::vector<Probe>{{0.01}}; };
   return lamp;
@@ -143,7 +143,7 @@ TEST(KnownEffectsTest, RefusesWhatCannotBeFitted) {
     EXPECT_THAT(WhyRefused(effect), HasSubstr("bounds of 'a'")) << upper;
   }
   effect = Lamp();
-  effect.sky = {};
+  effect.conditions = {};
   EXPECT_THAT(WhyRefused(effect), HasSubstr("no stage"));
   effect = Lamp();
   effect.probes = nullptr;

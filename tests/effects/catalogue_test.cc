@@ -103,7 +103,7 @@ TEST_P(CatalogueTest, EveryStageKnowsEveryNumberType) {
            value == (hook.wide != nullptr);
   };
   const Effect& e = effect();
-  EXPECT_TRUE(complete(e.sky) && complete(e.cell) && complete(e.junction) && complete(e.series) &&
+  EXPECT_TRUE(complete(e.conditions) && complete(e.cell) && complete(e.junction) && complete(e.series) &&
               complete(e.instrument));
 }
 

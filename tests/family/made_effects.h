@@ -34,7 +34,7 @@ inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
   const Expected<void> extended =
       ExtendTranslation(*set, shared[law.bandgap_slope], uses, /*force=*/true, &law);
   ASSERT_TRUE(extended) << extended.error().ToString();
-  const std::vector<double>& usual = law.extended->extension->usual;
+  const std::vector<double>& usual = law.extended->effects->usual;
   shared.insert(shared.end(), usual.begin(), usual.end());
   const std::vector<double> p = ExtendedParameters(law, shared.data());
   RandomStream random(seed);

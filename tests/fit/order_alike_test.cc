@@ -7,7 +7,7 @@
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/simulate.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 namespace {

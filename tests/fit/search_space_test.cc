@@ -64,11 +64,11 @@ Device ModuleWith(const char* effect) {
 
 TEST(SearchSpace, HasASideForTheVariantsOfEffects) {
   const Device device = ModuleWith("weak_cell");
-  const Extension& extension = *device.extension;
-  const std::vector<Variant> variants = VariantsOf(extension);
+  const DeviceEffects& device_effects = *device.effects;
+  const std::vector<Variant> variants = VariantsOf(device_effects);
   ASSERT_GT(variants.size(), 2u);
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
-  const SearchSpace space(base, std::vector<double>(5, std::nan("")), extension, variants);
+  const SearchSpace space(base, std::vector<double>(5, std::nan("")), device_effects, variants);
   // Five parameters of the diode, all that are free in some variant (d, Vb, a, Vbr, m, A), and the
   // variant.
   ASSERT_EQ(space.dimensions(), 12);
@@ -93,9 +93,9 @@ TEST(SearchSpace, HasASideForTheVariantsOfEffects) {
 
 TEST(SearchSpace, SharesOfSubstringsAreSearchedAsWholeNumbersOfThem) {
   const Device device = ModuleWith("shading");
-  const Extension& extension = *device.extension;
+  const DeviceEffects& device_effects = *device.effects;
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
-  const SearchSpace space(base, std::vector<double>(5, 0.5), extension, VariantsOf(extension));
+  const SearchSpace space(base, std::vector<double>(5, 0.5), device_effects, VariantsOf(device_effects));
   ASSERT_EQ(space.dimensions(), 5);  // d, w, Vb, c and the variant
   EXPECT_EQ(space.box().lower[1], 0);
   EXPECT_EQ(space.box().upper[1], 2);

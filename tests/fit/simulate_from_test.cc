@@ -71,7 +71,7 @@ Expected<IvCurve> SimulateOf(const json& report, const std::string& curve) {
   return Simulate(*options);
 }
 
-TEST(ReadFitForSimulation, FindsACurveOfManyUnderItsOwnSky) {
+TEST(ReadFitForSimulation, FindsACurveOfManyUnderItsOwnConditions) {
   const auto a = SimulateOf(Shared(), "a"), b = SimulateOf(Shared(), "b");
   ASSERT_TRUE(a) << a.error().ToString();
   ASSERT_TRUE(b) << b.error().ToString();
@@ -81,7 +81,7 @@ TEST(ReadFitForSimulation, FindsACurveOfManyUnderItsOwnSky) {
   EXPECT_EQ(b->voltage_V, (std::vector<double>{0, 10, 20}));
 }
 
-TEST(ReadFitForSimulation, ACurveOfManyMayStandUnderAnotherSky) {
+TEST(ReadFitForSimulation, ACurveOfManyMayStandUnderOtherConditions) {
   const TempFolder folder;
   auto options = ReadFitForSimulation(folder.Write("family.json", Shared().dump()), "b");
   ASSERT_TRUE(options) << options.error().ToString();

@@ -95,7 +95,7 @@ TEST_P(ExtendedSetTest, HasTheKeyPointsOfTheTranslatedDevice) {
     const TranslatedDevice plain = TranslateTo(law_, truth_, at.irradiance_W_m2, kelvin);
     const KeyPoints expected = ModelKeyPoints(plain.device, plain.parameters.data());
     const KeyPoints points =
-        ModelKeyPoints(UnderSky(*extended_.extended, at.irradiance_W_m2 / 1000, kelvin), p_.data());
+        ModelKeyPoints(UnderConditions(*extended_.extended, at.irradiance_W_m2 / 1000, kelvin), p_.data());
     EXPECT_NEAR(points.short_circuit_current_A, expected.short_circuit_current_A, 1e-6);
     EXPECT_NEAR(points.open_circuit_voltage_V, expected.open_circuit_voltage_V, 1e-4);
     EXPECT_NEAR(points.max_power_W, expected.max_power_W, 1e-3);
@@ -115,7 +115,7 @@ TEST(ExtendedSet, EffectsComeBackFromTheUnitsOfReports) {
   const EffectUse use = UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}});
   ASSERT_TRUE(ExtendTranslation(set, 0, {use}, false, &law));
   std::vector<double> shared(truth.begin(), truth.end() - 2);
-  const std::vector<double>& usual = law.extended->extension->usual;
+  const std::vector<double>& usual = law.extended->effects->usual;
   shared.insert(shared.end(), usual.begin(), usual.end());
   const std::vector<double> reported = ReportedShared(law, shared);
   EXPECT_NEAR(reported[law.size() - 2], 0.15, 1e-12);

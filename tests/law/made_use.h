@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 

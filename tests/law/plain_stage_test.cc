@@ -42,17 +42,17 @@ void Junction(const StageInput& in, const StageOutput& out) {
   for (int i = 0; i < in.count; ++i) {
     const double base = std::fabs(in.x[i]) / in.reach + 0.05;
     const double size = std::pow(base, in.p[1]);
-    const double sky = (0.5 + in.photocurrent[i]) * in.thermal_voltage[i] * 40;
+    const double conditions = (0.5 + in.photocurrent[i]) * in.thermal_voltage[i] * 40;
     out.value[i] = JunctionAt(in, i);
     if (out.by_x != nullptr) {
       const double slope = in.p[1] * size / base * std::fabs(in.x[i]) / in.reach;
-      out.by_x[i] = -(size + slope) * in.p[0] * sky;
+      out.by_x[i] = -(size + slope) * in.p[0] * conditions;
     }
     if (out.by_p == nullptr) continue;
     out.by_photocurrent[i] = -in.x[i] * size * in.p[0] * in.thermal_voltage[i] * 40;
     out.by_thermal_voltage[i] = -in.x[i] * size * in.p[0] * (0.5 + in.photocurrent[i]) * 40;
-    out.by_p[i] = -in.x[i] * size * sky;
-    out.by_p[in.count + i] = -in.x[i] * size * std::log(base) * in.p[0] * sky;
+    out.by_p[i] = -in.x[i] * size * conditions;
+    out.by_p[in.count + i] = -in.x[i] * size * std::log(base) * in.p[0] * conditions;
     out.by_p[2 * in.count + i] = 0;
   }
 }
@@ -158,8 +158,8 @@ TEST(PlainStage, AsksNothingBeyondTheRangesOfItsParameters) {
         for (int i = 0; i < in.count; ++i) value[i] = std::sqrt(in.p[0]) * in.x[i];
       },
       {{0, 1}}, false);
-  const double x = 0.5, sky = 1;
-  StageInput input{1, &x, &sky, &sky, nullptr, 1, 1, 1};
+  const double x = 0.5, conditions = 1;
+  StageInput input{1, &x, &conditions, &conditions, nullptr, 1, 1, 1};
   double value = 0, by_x = 0, by_light = 1, by_warmth = 1, by_p = 0;
   const StageOutput output{&value, &by_x, &by_light, &by_warmth, &by_p};
   for (const double p : {1e-3, 0.4, 1 - 1e-7, 1.0}) {

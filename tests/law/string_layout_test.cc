@@ -45,25 +45,25 @@ TEST(StringLayoutTest, ReadsWhatItsHeaderShows) {
   const StringLayout layout = Layout(shown);
   EXPECT_EQ(layout.cells_in_series, 40);
   EXPECT_EQ(layout.reverse, ReverseLaw::kBishop);
-  EXPECT_EQ(layout.parts.size(), 2U);
-  EXPECT_EQ(layout.kinds.size(), 3U);
+  EXPECT_EQ(layout.substrings.size(), 2U);
+  EXPECT_EQ(layout.groups.size(), 3U);
 }
 
-TEST(StringLayoutTest, ReadsPartsAndTakesEqualOnesTogether) {
+TEST(StringLayoutTest, ReadsSubstringsAndTakesEqualOnesTogether) {
   const StringLayout layout = Layout(kTwoStrings);
   EXPECT_EQ(layout.cells_in_series, 36);
   EXPECT_EQ(layout.strings, 2);
-  ASSERT_EQ(layout.parts.size(), 3U);
-  ASSERT_EQ(layout.kinds.size(), 4U);
-  EXPECT_EQ(layout.parts[0].string, 0);
-  EXPECT_EQ(layout.parts[2].string, 1);
-  EXPECT_TRUE(layout.parts[2].bypassed);
-  EXPECT_EQ(layout.parts[1].cells, 12);
-  EXPECT_DOUBLE_EQ(layout.kinds[0].share, 0.5);
-  EXPECT_DOUBLE_EQ(layout.kinds[1].share, 24.0 / 72);
-  EXPECT_DOUBLE_EQ(layout.kinds[3].share, 1.0 / 72);
-  EXPECT_EQ(layout.kinds[3].light, 0.4);
-  EXPECT_EQ(layout.kinds[3].leak_S, 0.05);
+  ASSERT_EQ(layout.substrings.size(), 3U);
+  ASSERT_EQ(layout.groups.size(), 4U);
+  EXPECT_EQ(layout.substrings[0].string, 0);
+  EXPECT_EQ(layout.substrings[2].string, 1);
+  EXPECT_TRUE(layout.substrings[2].bypassed);
+  EXPECT_EQ(layout.substrings[1].cells, 12);
+  EXPECT_DOUBLE_EQ(layout.groups[0].share, 0.5);
+  EXPECT_DOUBLE_EQ(layout.groups[1].share, 24.0 / 72);
+  EXPECT_DOUBLE_EQ(layout.groups[3].share, 1.0 / 72);
+  EXPECT_EQ(layout.groups[3].light, 0.4);
+  EXPECT_EQ(layout.groups[3].leak_S, 0.05);
   EXPECT_EQ(layout.bypass_voltage_V, 0.45);
   EXPECT_EQ(layout.bypass_ideality, 1.1);
   EXPECT_EQ(layout.reverse, ReverseLaw::kSoft);

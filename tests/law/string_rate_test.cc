@@ -29,7 +29,7 @@ Pack Draw(F draw) {
 class Strings {
  public:
   explicit Strings(RandomStream* random) : random_(*random) {
-    cell_.kind = kinds_;
+    cell_.group = groups_;
     DrawCells();
     DrawShape();
     DrawReverse();
@@ -39,12 +39,12 @@ class Strings {
     for (int string = 0; string < cell_.strings; ++string) {
       bool open = false;
       Pack lowest = 0.0, weight = 0.0;
-      for (int g = 0; g < cell_.kinds; ++g) {
-        const Part& part = cell_.part[cell_.kinds == 1 ? 0 : kinds_[g].part];
-        if (part.string != string) continue;
-        open = open || !part.bypassed;
-        lowest = lowest - kinds_[g].share * cell_.bypass / part.cells;
-        weight = weight + kinds_[g].share;
+      for (int g = 0; g < cell_.groups; ++g) {
+        const Substring& substring = cell_.substring[cell_.groups == 1 ? 0 : groups_[g].substring];
+        if (substring.string != string) continue;
+        open = open || !substring.bypassed;
+        lowest = lowest - groups_[g].share * cell_.bypass / substring.cells;
+        weight = weight + groups_[g].share;
       }
       if (!open) voltage_ = Larger(voltage_, lowest / weight);
     }
@@ -70,33 +70,33 @@ class Strings {
     }
     cell_.conductance = Draw([&] { return LogUniform(&random_, 1e-8, 0.5); });
     cell_.resistance = Draw([&] { return OneIn(10) ? 0 : LogUniform(&random_, 1e-4, 0.4); });
-    cell_.halved = OneIn(8);
+    cell_.parallel_halves = OneIn(8);
     cell_.lateral = Draw([&] { return LogUniform(&random_, 1e-3, 2); });
   }
 
   void DrawShape() {
     cell_.cells = 1 + static_cast<double>(random_.Index(144));
-    cell_.parts = OneIn(5) ? 1 : 1 + static_cast<int>(random_.Index(5));
-    cell_.kinds = cell_.parts == 1 ? 1 : cell_.parts;
-    cell_.kinds += static_cast<int>(random_.Index(kMostKinds - cell_.kinds + 1));
-    cell_.strings = cell_.parts > 1 && OneIn(4) ? 2 : 1;
-    for (int p = 0; p < cell_.parts; ++p) {
-      cell_.part[p].bypassed = cell_.kinds > 1 && !OneIn(3);
-      cell_.part[p].cells = 1 + static_cast<double>(random_.Index(32));
-      cell_.part[p].string = p == 0 ? 0 : static_cast<int>(random_.Index(cell_.strings));
+    cell_.substrings = OneIn(5) ? 1 : 1 + static_cast<int>(random_.Index(5));
+    cell_.groups = cell_.substrings == 1 ? 1 : cell_.substrings;
+    cell_.groups += static_cast<int>(random_.Index(kMostGroups - cell_.groups + 1));
+    cell_.strings = cell_.substrings > 1 && OneIn(4) ? 2 : 1;
+    for (int p = 0; p < cell_.substrings; ++p) {
+      cell_.substring[p].bypassed = cell_.groups > 1 && !OneIn(3);
+      cell_.substring[p].cells = 1 + static_cast<double>(random_.Index(32));
+      cell_.substring[p].string = p == 0 ? 0 : static_cast<int>(random_.Index(cell_.strings));
     }
-    if (cell_.strings == 2) cell_.part[1].string = 1;
+    if (cell_.strings == 2) cell_.substring[1].string = 1;
     cell_.bypass = Draw([&] { return Between(0.2, 0.9); });
     Pack sum = 0.0;
-    for (int g = 0; g < cell_.kinds; ++g) {
-      Kind<Pack>& kind = kinds_[g];
-      kind.share = Draw([&] { return LogUniform(&random_, 0.01, 1); });
-      kind.light = Draw([&] { return OneIn(6) ? 0 : Between(0, 1.1); });
-      kind.leak = Draw([&] { return OneIn(2) ? 0 : LogUniform(&random_, 1e-4, 1); });
-      kind.part = g < cell_.parts ? g : static_cast<int>(random_.Index(cell_.parts));
-      sum = sum + kind.share;
+    for (int g = 0; g < cell_.groups; ++g) {
+      CellGroup<Pack>& group = groups_[g];
+      group.share = Draw([&] { return LogUniform(&random_, 0.01, 1); });
+      group.light = Draw([&] { return OneIn(6) ? 0 : Between(0, 1.1); });
+      group.leak = Draw([&] { return OneIn(2) ? 0 : LogUniform(&random_, 1e-4, 1); });
+      group.substring = g < cell_.substrings ? g : static_cast<int>(random_.Index(cell_.substrings));
+      sum = sum + group.share;
     }
-    for (int g = 0; g < cell_.kinds; ++g) kinds_[g].share = kinds_[g].share / sum;
+    for (int g = 0; g < cell_.groups; ++g) groups_[g].share = groups_[g].share / sum;
   }
 
   void DrawReverse() {
@@ -108,7 +108,7 @@ class Strings {
 
   RandomStream& random_;
   Cell<Pack> cell_;
-  Kind<Pack> kinds_[kMostKinds];
+  CellGroup<Pack> groups_[kMostGroups];
   Pack voltage_;
 };
 
@@ -123,17 +123,17 @@ class Lane {
   // and far; current J and voltage U of each substring; current I of each string.
   std::vector<T> Residuals(const std::vector<T>& x) const {
     const T* u = x.data();
-    const T* far = u + cell_.kinds;
-    const T* carried = far + (cell_.halved ? cell_.kinds : 0);
-    const T* part = carried + cell_.parts;
-    const T* string = part + cell_.parts;
+    const T* far = u + cell_.groups;
+    const T* carried = far + (cell_.parallel_halves ? cell_.groups : 0);
+    const T* substring = carried + cell_.substrings;
+    const T* string = substring + cell_.substrings;
     std::vector<T> left;
-    std::vector<T> weight(cell_.parts, T(0)), sum(cell_.parts, T(0));
-    for (int g = 0; g < cell_.kinds; ++g) {
-      const int p = cell_.kinds == 1 ? 0 : cell_.kind[g].part;
-      const T share = cell_.kinds == 1 ? T(1) : T(cell_.kind[g].share[lane_]);
+    std::vector<T> weight(cell_.substrings, T(0)), sum(cell_.substrings, T(0));
+    for (int g = 0; g < cell_.groups; ++g) {
+      const int p = cell_.groups == 1 ? 0 : cell_.group[g].substring;
+      const T share = cell_.groups == 1 ? T(1) : T(cell_.group[g].share[lane_]);
       T current = Junction(g, u[g]);
-      if (cell_.halved) {
+      if (cell_.parallel_halves) {
         const T there = Junction(g, far[g]);
         left.push_back(u[g] + T(cell_.lateral[lane_]) * there / 2 - far[g]);
         current = (current + there) / 2;
@@ -143,11 +143,11 @@ class Lane {
       sum[p] += share * u[g];
     }
     std::vector<T> along(cell_.strings, T(0)), cells(cell_.strings, T(0));
-    for (int p = 0; p < cell_.parts; ++p) {
-      const int s = cell_.part[p].string;
-      left.push_back(sum[p] / weight[p] - T(cell_.resistance[lane_]) * string[s] - part[p]);
-      left.push_back(carried[p] + Bypass(p, part[p]) - string[s]);
-      along[s] += weight[p] * part[p];
+    for (int p = 0; p < cell_.substrings; ++p) {
+      const int s = cell_.substring[p].string;
+      left.push_back(sum[p] / weight[p] - T(cell_.resistance[lane_]) * string[s] - substring[p]);
+      left.push_back(carried[p] + Bypass(p, substring[p]) - string[s]);
+      along[s] += weight[p] * substring[p];
       cells[s] += weight[p];
     }
     for (int s = 0; s < cell_.strings; ++s) left.push_back(along[s] - cells[s] * T(voltage_));
@@ -158,11 +158,11 @@ class Lane {
   T Junction(int g, const T& v) const {
     using std::exp;
     using std::log;
-    const bool alike = cell_.kinds == 1;
+    const bool alike = cell_.groups == 1;
     T light = T(cell_.photocurrent[lane_]);
     T conductance = T(cell_.conductance[lane_]);
-    const T least = alike ? T(1e-13) : T(cell_.kind[g].leak[lane_]) + T(1e-8);
-    if (!alike) light *= T(cell_.kind[g].light[lane_]);
+    const T least = alike ? T(1e-13) : T(cell_.group[g].leak[lane_]) + T(1e-8);
+    if (!alike) light *= T(cell_.group[g].light[lane_]);
     T current = light - (conductance + least) * v;
     for (int d = 0; d < cell_.diodes; ++d) {
       current -= T(cell_.diode[d].saturation[lane_]) *
@@ -186,10 +186,10 @@ class Lane {
 
   T Bypass(int p, const T& voltage) const {
     using std::exp;
-    if (!cell_.part[p].bypassed) return T(0);
+    if (!cell_.substring[p].bypassed) return T(0);
     const T n_vt = T(1.2) * T(cell_.thermal_voltage[lane_]);
     return exp(-T(cell_.bypass[lane_]) / n_vt) *
-           (exp(-voltage * T(cell_.part[p].cells) / n_vt) - 1);
+           (exp(-voltage * T(cell_.substring[p].cells) / n_vt) - 1);
   }
 
   const Cell<Pack>& cell_;
@@ -200,16 +200,16 @@ class Lane {
 std::vector<double> StateOf(const Cell<Pack>& cell, const StringState& state,
                             const StringRoot& root, int lane) {
   std::vector<double> x;
-  for (int g = 0; g < cell.kinds; ++g) x.push_back(state.u[g][lane]);
-  for (int g = 0; g < cell.kinds && cell.halved; ++g) x.push_back(state.far[g][lane]);
-  for (int p = 0; p < cell.parts; ++p) {
-    for (int g = 0; g < cell.kinds; ++g) {
-      if (cell.kinds > 1 && cell.kind[g].part != p) continue;
-      x.push_back(root.kind[g].current.a[lane]);
+  for (int g = 0; g < cell.groups; ++g) x.push_back(state.u[g][lane]);
+  for (int g = 0; g < cell.groups && cell.parallel_halves; ++g) x.push_back(state.far[g][lane]);
+  for (int p = 0; p < cell.substrings; ++p) {
+    for (int g = 0; g < cell.groups; ++g) {
+      if (cell.groups > 1 && cell.group[g].substring != p) continue;
+      x.push_back(root.group[g].current.a[lane]);
       break;
     }
   }
-  for (int p = 0; p < cell.parts; ++p) x.push_back(state.part_voltage[p][lane]);
+  for (int p = 0; p < cell.substrings; ++p) x.push_back(state.substring_voltage[p][lane]);
   for (int s = 0; s < cell.strings; ++s) x.push_back(state.current[s][lane]);
   return x;
 }
@@ -278,8 +278,8 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
       wrong += !(error < 1e-10);
       if (!(error < 1e-10) && wrong < 10) {
         ADD_FAILURE() << k << " lane " << lane << " error " << error << " kinds "
-                      << strings.cell().kinds << " parts " << strings.cell().parts << " strings "
-                      << strings.cell().strings << " halved " << strings.cell().halved
+                      << strings.cell().groups << " parts " << strings.cell().substrings << " strings "
+                      << strings.cell().strings << " parallel_halves " << strings.cell().parallel_halves
                       << " reverse " << static_cast<int>(strings.cell().reverse) << " V "
                       << strings.voltage()[lane] << " I " << root.current[lane];
       }

@@ -31,28 +31,28 @@ IvCurve SteppedModule(int diodes) {
   return curve;
 }
 
-Extension Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
+DeviceEffects Extended(const IvCurve& curve, const std::vector<EffectUse>& uses) {
   const auto device = Extend(MakeDevice(Model::kSingleDiode, curve.conditions), Model::kSingleDiode,
                              ConstantSet::kCodata, curve, uses, /*force=*/true);
   EXPECT_TRUE(device) << device.error().ToString();
-  return device ? *device->extension : Extension{};
+  return device ? *device->effects : DeviceEffects{};
 }
 
-std::vector<std::string> Descriptions(const Extension& extension) {
+std::vector<std::string> Descriptions(const DeviceEffects& device_effects) {
   std::vector<std::string> list;
-  for (const Variant& variant : VariantsOf(extension))
-    list.push_back(DescribeVariant(extension, variant));
+  for (const Variant& variant : VariantsOf(device_effects))
+    list.push_back(DescribeVariant(device_effects, variant));
   return list;
 }
 
 TEST(Variants, AWeakCellHasOneForEachReverseLawAndNumberOfChains) {
-  const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell")});
-  EXPECT_THAT(Descriptions(extension),
+  const DeviceEffects device_effects = Extended(SteppedModule(3), {UseOf("weak_cell")});
+  EXPECT_THAT(Descriptions(device_effects),
               UnorderedElementsAre("d, Vb, m, A free", "d, Vb, m, A free; chains = 2",
                                    "d, Vb, a, Vbr free", "d, Vb, a, Vbr free; chains = 2",
                                    "d, Vb free; a = 0", "d, Vb free; a = 0, chains = 2"));
-  for (const Variant& variant : VariantsOf(extension)) {
-    const bool no_law = DescribeVariant(extension, variant).find("a = 0") != std::string::npos;
+  for (const Variant& variant : VariantsOf(device_effects)) {
+    const bool no_law = DescribeVariant(device_effects, variant).find("a = 0") != std::string::npos;
     EXPECT_EQ(variant.free, no_law ? 2 : 4);
   }
 }
@@ -62,8 +62,8 @@ class SubstringsVariants : public ::testing::TestWithParam<int> {};
 TEST_P(SubstringsVariants, HaveALightForEachThatIsCountedButTheBrightest) {
   const int diodes = GetParam();
   const int groups = diodes - 1;
-  const Extension extension = Extended(SteppedModule(diodes), {UseOf("substrings")});
-  const std::vector<Variant> variants = VariantsOf(extension);
+  const DeviceEffects device_effects = Extended(SteppedModule(diodes), {UseOf("substrings")});
+  const std::vector<Variant> variants = VariantsOf(device_effects);
   // Shading covers all cells of a substring or, with fewer than four groups, also a part of them.
   ASSERT_EQ(variants.size(), groups < 4 ? 2u : 1u);
   EXPECT_EQ(variants[0].free, groups + 1);
@@ -81,9 +81,9 @@ TEST_P(SubstringsVariants, HaveALightForEachThatIsCountedButTheBrightest) {
 INSTANTIATE_TEST_SUITE_P(Counted, SubstringsVariants, ::testing::Values(2, 3, 4, 5));
 
 TEST(Variants, ASharesWholeSubstringsStayFree) {
-  const Extension extension = Extended(SteppedModule(5), {UseOf("shading")});
-  const std::vector<Variant> variants = VariantsOf(extension);
-  EXPECT_THAT(Descriptions(extension), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
+  const DeviceEffects device_effects = Extended(SteppedModule(5), {UseOf("shading")});
+  const std::vector<Variant> variants = VariantsOf(device_effects);
+  EXPECT_THAT(Descriptions(device_effects), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
   for (const Variant& variant : variants) {
     EXPECT_DOUBLE_EQ(variant.bounds[1].lower, 0.2);
     EXPECT_DOUBLE_EQ(variant.bounds[1].upper, 0.8);
@@ -96,20 +96,20 @@ TEST(Variants, ASharesWholeSubstringsStayFree) {
 }
 
 TEST(Variants, RangesLeaveOne) {
-  const Extension extension = Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
-  const std::vector<Variant> variants = VariantsOf(extension);
+  const DeviceEffects device_effects = Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
+  const std::vector<Variant> variants = VariantsOf(device_effects);
   ASSERT_EQ(variants.size(), 1u);
   EXPECT_EQ(variants[0].free, 1);
-  EXPECT_EQ(variants[0].usual, extension.usual);
+  EXPECT_EQ(variants[0].usual, device_effects.usual);
   EXPECT_EQ(variants[0].bounds[0].lower, 0.1);
   EXPECT_EQ(variants[0].bounds[0].upper, 0.9);
 }
 
 TEST(Variants, OfTwoEffectsAreAllPairs) {
-  const Extension extension =
+  const DeviceEffects device_effects =
       Extended(SteppedModule(3), {UseOf("shading"), UseOf("nonohmic_shunt")});
-  EXPECT_EQ(VariantsOf(extension).size(), 2u);  // a shunt has one variant
-  for (const std::string& what : Descriptions(extension)) {
+  EXPECT_EQ(VariantsOf(device_effects).size(), 2u);  // a shunt has one variant
+  for (const std::string& what : Descriptions(device_effects)) {
     EXPECT_THAT(what, HasSubstr("shading.d, shading.w, shading.Vb"));
     EXPECT_THAT(what, HasSubstr("nonohmic_shunt.k"));
   }
@@ -119,10 +119,10 @@ TEST(Variants, PlacesOfAShapeAreInsideTheirBounds) {
   for (const Effect* effect : Catalogue()) {
     if (effect->starts == nullptr) continue;
     for (const int diodes : {0, 3, 4}) {
-      const Extension extension = Extended(SteppedModule(diodes), {{effect, {}}});
-      for (const Variant& variant : VariantsOf(extension)) {
-        const std::vector<std::vector<double>> places = ShapePlaces(extension, variant);
-        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeVariant(extension, variant);
+      const DeviceEffects device_effects = Extended(SteppedModule(diodes), {{effect, {}}});
+      for (const Variant& variant : VariantsOf(device_effects)) {
+        const std::vector<std::vector<double>> places = ShapePlaces(device_effects, variant);
+        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeVariant(device_effects, variant);
         for (const std::vector<double>& place : places) {
           ASSERT_EQ(place.size(), variant.bounds.size());
           for (std::size_t k = 0; k < place.size(); ++k) {
@@ -136,26 +136,26 @@ TEST(Variants, PlacesOfAShapeAreInsideTheirBounds) {
 }
 
 TEST(Variants, APlaceOfAShapeSeesTheStep) {
-  const Extension extension = Extended(SteppedModule(2), {UseOf("shading")});
+  const DeviceEffects device_effects = Extended(SteppedModule(2), {UseOf("shading")});
   const std::vector<std::vector<double>> places =
-      ShapePlaces(extension, VariantsOf(extension).front());
+      ShapePlaces(device_effects, VariantsOf(device_effects).front());
   ASSERT_EQ(places.size(), 1u);
   EXPECT_NEAR(places[0][0], 0.5, 0.03);  // deficit: half of the light
   EXPECT_DOUBLE_EQ(places[0][1], 0.5);   // share: half of the cells
 }
 
 TEST(Variants, SharesLeaveARest) {
-  const Extension extension =
+  const DeviceEffects device_effects =
       Extended(SteppedModule(5), {UseOf("substrings", {{"d1", {0, 0.9}},
                                                        {"w1", {0.2, 0.8}},
                                                        {"d2", {0, 0.9}},
                                                        {"w2", {0.2, 0.8}},
                                                        {"d3", {0, 0.9}},
                                                        {"w3", {0.2, 0.8}}})});
-  std::vector<double> p = extension.usual;
+  std::vector<double> p = device_effects.usual;
   const auto leave = [&](double w1, double w2, double w3) {
     p[1] = w1, p[3] = w2, p[5] = w3;
-    LeaveARest(extension, extension.bounds, p.data());
+    LeaveARest(device_effects, device_effects.bounds, p.data());
     return std::vector<double>{p[1], p[3], p[5]};
   };
   using ::testing::DoubleNear;
@@ -168,13 +168,13 @@ TEST(Variants, SharesLeaveARest) {
 }
 
 TEST(Variants, SharesThatAreNoWholeNumbersLeaveARestToo) {
-  const Extension extension = Extended(
+  const DeviceEffects device_effects = Extended(
       SteppedModule(0),
       {UseOf("substrings",
              {{"d1", {0, 0.9}}, {"w1", {0.1, 0.9}}, {"d2", {0, 0.9}}, {"w2", {0.1, 0.9}}})});
-  std::vector<double> p = extension.usual;
+  std::vector<double> p = device_effects.usual;
   p[1] = 0.7, p[3] = 0.5;
-  LeaveARest(extension, extension.bounds, p.data());
+  LeaveARest(device_effects, device_effects.bounds, p.data());
   EXPECT_DOUBLE_EQ(p[1], 0.35);
   EXPECT_DOUBLE_EQ(p[3], 0.5);
 }

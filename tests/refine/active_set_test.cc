@@ -57,7 +57,7 @@ TEST(RefineModel, LetsGoWhatBeginsAtABoundAndWantsBack) {
 TEST(RefineModel, EndsWhereNothingMoreIsAskedFor) {
   const Decay model(1);
   RefineOptions options;
-  options.enough = 1e-2;
+  options.target = 1e-2;
   const RefineEnd end = RefineModel(model, {{0.5, 3}, {0, 0}}, options);
   EXPECT_LE(end.mean_square, 1e-2);
   EXPECT_FALSE(end.converged);
@@ -89,11 +89,11 @@ TEST(RefineModel, IsProfiledLikeAnyOther) {
   const RefineEnd best = RefineModel(model, {{2, 0.7}, {0, 0.1}});
   const double variance = kDecayNoise * kDecayNoise, t = 2;
   const Spread spread = FindSpread(model, best, best.held, variance);
-  const auto refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
+  const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
     Decay held = model;
     held.Fix(1, value);
     RefineOptions how;
-    how.enough = enough;
+    how.target = target;
     how.function_tolerance = tolerance;
     FitPoint at = start;
     at.p[1] = value;

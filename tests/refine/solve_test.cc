@@ -48,7 +48,7 @@ TEST(SolveModel, StaysWithinBoundsWhereItIsAskedTo) {
   EXPECT_GE(SolveFrom(model, {0.5, 0.1}, {false, false}, options).theta[1], 0.9) << "from outside";
 }
 
-TEST(SolveModel, EndsWhenAskedToAndWhereItIsLowEnough) {
+TEST(SolveModel, EndsWhenAskedToAndAtItsTarget) {
   const Decay model(1);
   SolveOptions options = Thorough();
   int asked = 0;
@@ -58,7 +58,7 @@ TEST(SolveModel, EndsWhenAskedToAndWhereItIsLowEnough) {
   EXPECT_FALSE(stopped.converged);
   EXPECT_EQ(asked, 3);
   options.stop = {};
-  options.enough = HUGE_VAL;
+  options.target = HUGE_VAL;
   const SolveEnd low = SolveFrom(model, {0.5, 3}, {false, false}, options);
   EXPECT_FALSE(low.stopped);
   EXPECT_EQ(low.theta, (std::vector<double>{0.5, 3}));

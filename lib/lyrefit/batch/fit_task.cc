@@ -7,7 +7,7 @@
 
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 

@@ -91,7 +91,7 @@ class Branch {
     if (limits_.rs_upper > limits_.rs_cut) PushFar(start, limits_.rs_cut);
     while (!open_.empty()) {
       const BranchPart part = open_.top();
-      if (part.lower >= Enough()) break;
+      if (part.lower >= Target()) break;
       if (incumbent_.solved >= limits_.most_solved) break;
       if (limits_.proceed && !limits_.proceed(incumbent_.solved, incumbent_.primal, part.lower)) {
         break;
@@ -104,7 +104,7 @@ class Branch {
     // Only mixtures as good as the best one known have been bounded, so `lower` cannot exceed its
     // value.
     end.lower = std::min(end.lower, incumbent_.primal);
-    end.complete = end.lower >= Enough();
+    end.complete = end.lower >= Target();
     end.solved = incumbent_.solved;
     end.best = std::move(incumbent_.best);
     end.rs_reached = rs_reached_;
@@ -113,7 +113,7 @@ class Branch {
 
  private:
   // The lower bound that closes a part; 0 if the best value known is an exact fit.
-  double Enough() const {
+  double Target() const {
     const double points = static_cast<double>(relaxation_.Points());
     const double rmse = std::sqrt(2 * incumbent_.primal / points);
     return rmse <= kRounding * relaxation_.Scale() ? 0
@@ -128,7 +128,7 @@ class Branch {
     far.rs1 = limits_.rs_upper;
     far.left = far.right = nullptr;
     far.lower = std::max(part.lower, relaxation_.Beyond(rs));
-    if (far.lower >= Enough() || rs >= limits_.rs_divided) {
+    if (far.lower >= Target() || rs >= limits_.rs_divided) {
       settled_ = std::min(settled_, far.lower);
       return;
     }
@@ -139,10 +139,10 @@ class Branch {
     rs_reached_ = std::max(rs_reached_, part.rs1);
     const double known = part.lower;  // bound of the parent part
     relaxation_.Bound(parent, &part, &incumbent_);
-    part.stuck = part.lower + part.lacking >= Enough() ? part.stuck + 1 : 0;
+    part.stuck = part.lower + part.lacking >= Target() ? part.stuck + 1 : 0;
     if (!(part.lower > 0)) part.lower = 0;
     part.lower = std::max(part.lower, known);
-    if (part.lower >= Enough() || part.stuck > kMostStuck) {
+    if (part.lower >= Target() || part.stuck > kMostStuck) {
       settled_ = std::min(settled_, part.lower);
       return;
     }
@@ -152,7 +152,7 @@ class Branch {
   void Split(const BranchPart& part) {
     if (part.left == nullptr) {
       SplitFar(part);
-    } else if (incumbent_.diodes > 0 && relaxation_.SplitsWindows(part, Enough())) {
+    } else if (incumbent_.diodes > 0 && relaxation_.SplitsWindows(part, Target())) {
       SplitWindow(part);
     } else {
       SplitResistance(part);

@@ -48,7 +48,7 @@ class CauseBranch {
     if (shape_ != nullptr) whole.theta = shape_->theta;
     Fill(&whole, region_.rs_lower, region_.rs_upper);
     Push(std::move(whole));
-    while (!open_.empty() && open_.top().lower < Enough()) {
+    while (!open_.empty() && open_.top().lower < Target()) {
       if (end_.solved >= limits_.most_solved || (limits_.stop && limits_.stop())) break;
       const CausePart part = open_.top();
       open_.pop();
@@ -56,12 +56,12 @@ class CauseBranch {
     }
     const double left = open_.empty() ? kInfinity : open_.top().lower;
     end_.lower = std::min({settled_, left, end_.best.primal});
-    end_.complete = end_.lower >= std::min(Enough(), end_.best.primal);
+    end_.complete = end_.lower >= std::min(Target(), end_.best.primal);
     return end_;
   }
 
  private:
-  double Enough() const {
+  double Target() const {
     const double known = end_.best.primal;
     const double exact = kExact * Scale();
     if (2 * known <= exact * exact * static_cast<double>(data_.voltage_V.size())) return 0;
@@ -132,7 +132,7 @@ class CauseBranch {
     part.raw_ends = std::min(a.dual, b.dual);
     part.ends = std::min(EndBound(data, part.u, a), EndBound(data, part.u, b));
     part.lower = std::max(bound.lower, std::max(part.lower, 0.0));
-    if (part.lower >= Enough()) {
+    if (part.lower >= Target()) {
       settled_ = std::min(settled_, part.lower);
       return;
     }
@@ -142,10 +142,10 @@ class CauseBranch {
   // Halves the window of u or the span of theta if even the bounds at the ends are too low,
   // otherwise divides the range of Rs.
   void Split(const CausePart& part) {
-    if (part.ends >= Enough() && part.right->rs > part.left->rs) return SplitResistance(part);
+    if (part.ends >= Target() && part.right->rs > part.left->rs) return SplitResistance(part);
     const double of_theta = kThetaWeight * (part.theta.upper - part.theta.lower);
     const double of_u = std::log(part.u.upper / part.u.lower);
-    if (of_theta > 0 && (part.raw_ends >= Enough() || of_theta > of_u)) return SplitTheta(part);
+    if (of_theta > 0 && (part.raw_ends >= Target() || of_theta > of_u)) return SplitTheta(part);
     if (of_u > 1e-9) return SplitWindow(part);
     settled_ = std::min(settled_, part.lower);
   }

@@ -17,8 +17,8 @@ class MeasuredRelaxation : public Relaxation {
                 Incumbent* incumbent) const override;
   void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const override;
   double Beyond(double rs) const override;
-  bool SplitsWindows(const BranchPart& part, double enough) const override {
-    return part.ends < enough || !(part.rs1 > part.rs0);
+  bool SplitsWindows(const BranchPart& part, double target) const override {
+    return part.ends < target || !(part.rs1 > part.rs0);
   }
   double Scale() const override;
   Eigen::Index Points() const override { return data_.target_A.size(); }

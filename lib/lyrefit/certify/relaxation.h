@@ -56,9 +56,9 @@ class Relaxation {
   virtual void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const = 0;
   // Lower bound that the order of the points proves for all Rs of `rs` or more.
   virtual double Beyond(double rs) const = 0;
-  // True if a part that does not prove `enough` needs a window halved; false if it needs its range
+  // True if a part that does not prove `target` needs a window halved; false if it needs its range
   // of Rs divided.
-  virtual bool SplitsWindows(const BranchPart& part, double enough) const = 0;
+  virtual bool SplitsWindows(const BranchPart& part, double target) const = 0;
   // The largest current, the scale of rounding errors.
   virtual double Scale() const = 0;
   virtual Eigen::Index Points() const = 0;

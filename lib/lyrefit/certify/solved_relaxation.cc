@@ -35,12 +35,12 @@ void SlopeEnds(const SolvedPart& work, std::vector<double>* below, std::vector<d
   }
 }
 
-// Tightens the bounds of the slopes in rounds, as long as that helps to prove `enough`.
-void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPart* work) {
+// Tightens the bounds of the slopes in rounds, as long as that helps to prove `target`.
+void Sharpen(const DualGain& dual_gain, double light_A, double target, SolvedPart* work) {
   std::vector<SlopeRange> slopes(static_cast<std::size_t>(work->error.size()));
   double radius = kInfinity, unsure = kInfinity;
   for (int round = 0; round < kMostSharpenings; ++round) {
-    if (work->bound.lower - work->loss >= enough) return;
+    if (work->bound.lower - work->loss >= target) return;
     std::vector<double> below, above;
     SlopeEnds(*work, &below, &above);
     KnownValues known = ValuesFromDeviations(*work);
@@ -51,7 +51,7 @@ void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPar
     known.dual_gain = dual_gain;
     known.largest_light_A = light_A;
     const double precision =
-        std::min(1e-4, 0.3 * std::sqrt(1 - enough / work->known)) / work->region.rs1;
+        std::min(1e-4, 0.3 * std::sqrt(1 - target / work->known)) / work->region.rs1;
     const std::vector<SlopeRange> now = BoundSlopes(known, work->windows, below, above, precision);
     for (std::size_t k = 0; k < slopes.size(); ++k) {
       slopes[k].lower = std::max(slopes[k].lower, now[k].lower);
@@ -60,7 +60,7 @@ void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPar
     }
     SetErrors(slopes, work);
     work->loss = std::min(work->loss, Loss(*work));
-    if (work->bound.lower < enough) return;
+    if (work->bound.lower < target) return;
     const double now_unsure = work->error.min(1).sum();
     if (now_unsure > 0.9 * unsure) return;
     unsure = now_unsure;
@@ -71,7 +71,7 @@ void Sharpen(const DualGain& dual_gain, double light_A, double enough, SolvedPar
 }
 
 // Bounds a part by the problem linearised around a mixture fitted to it, solved at both ends.
-void BoundNear(const SolvedMixture& fit, double tolerance, double enough, SolvedPart* work) {
+void BoundNear(const SolvedMixture& fit, double tolerance, double target, SolvedPart* work) {
   const BranchPart& part = work->region;
   work->reference_A = fit.current_A;
   work->slope_S = fit.slope_S;
@@ -101,7 +101,7 @@ void BoundNear(const SolvedMixture& fit, double tolerance, double enough, Solved
   work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dual_gain,
                           LinearKnown(*work));
   work->loss = Loss(*work);
-  if (part.rs1 > 0) Sharpen(dual_gain, light, enough, work);
+  if (part.rs1 > 0) Sharpen(dual_gain, light, target, work);
 }
 
 // Bounds a part by the measured-current problem. Each residual is divided by 1 + Rs times the
@@ -207,17 +207,17 @@ void SolvedRelaxation::Bound(const BranchPart* parent, BranchPart* part,
   const SolvedMixture fit = SolveSolvedMixture(data_, windows, middle, start, tolerance);
   incumbent->solved += fit.steps;
   incumbent->Note(fit.mixture, fit.value);
-  const double enough = incumbent->primal * (1 - incumbent->tolerance);
+  const double target = incumbent->primal * (1 - incumbent->tolerance);
   part->left = part->right = nullptr;  // drops the end solutions of the parent
   SolvedPart near = Begin(data_, *part, incumbent->primal);
   bool coarse = true;
   if (fit.value < kNearby * incumbent->primal) {
     incumbent->solved += 2;
-    BoundNear(fit, tolerance, enough, &near);
+    BoundNear(fit, tolerance, target, &near);
     if (near.left.y.size() > 0) {
       coarse = false;
       Take(near, coarse, part);
-      if (part->lower >= enough || near.error.maxCoeff() < kCoarse) return;
+      if (part->lower >= target || near.error.maxCoeff() < kCoarse) return;
     }
   }
   SolvedPart far = Begin(data_, *part, incumbent->primal);
@@ -234,16 +234,16 @@ double SolvedRelaxation::Beyond(double rs) const { return BoundTailSolved(data_,
 
 // Windows are halved if the dual values at the ends are too low. They are also halved if the slopes
 // are known too inaccurately and the windows are relatively wider than the range of Rs.
-bool SolvedRelaxation::SplitsWindows(const BranchPart& part, double enough) const {
+bool SolvedRelaxation::SplitsWindows(const BranchPart& part, double target) const {
   constexpr double kNarrow = 0.05, kNarrowest = 1e-7;
   if (part.coarse && part.rs1 - part.rs0 > kNarrow * part.rs1) return false;
   if (part.rs1 - part.rs0 <= kNarrowest * part.rs1) return true;
-  if (part.ends < enough && enough - part.ends > 0.5 * (enough - part.between)) return true;
+  if (part.ends < target && target - part.ends > 0.5 * (target - part.between)) return true;
   double widest = 0;
   for (const Window& window : part.windows) {
     widest = std::max(widest, (window.upper - window.lower) / window.upper);
   }
-  return part.between >= enough && widest * part.rs1 > part.rs1 - part.rs0;
+  return part.between >= target && widest * part.rs1 > part.rs1 - part.rs0;
 }
 
 double SolvedRelaxation::Scale() const { return data_.WeightedTarget().cwiseAbs().maxCoeff(); }

@@ -37,7 +37,7 @@ class SolvedRelaxation : public Relaxation {
   }
   void Bound(const BranchPart* parent, BranchPart* part, Incumbent* incumbent) const override;
   double Beyond(double rs) const override;
-  bool SplitsWindows(const BranchPart& part, double enough) const override;
+  bool SplitsWindows(const BranchPart& part, double target) const override;
   double Scale() const override;
   Eigen::Index Points() const override { return data_.target_A.size(); }
 

@@ -36,7 +36,7 @@ PlannedCurve CurveOf(const Readings& measured, const std::vector<Reading>& point
   return curve;
 }
 
-void AddUnknownSky(PlannedCurve* curve, FollowUp* follow_up) {
+void AddUnknownConditions(PlannedCurve* curve, FollowUp* follow_up) {
   curve->light = static_cast<int>(follow_up->unknown.size());
   follow_up->unknown.push_back(kLightUnknown);
   curve->temperature = static_cast<int>(follow_up->unknown.size());
@@ -44,7 +44,7 @@ void AddUnknownSky(PlannedCurve* curve, FollowUp* follow_up) {
 }
 
 constexpr char kSameNoise[] = "noise as measured here, a rough path of its own";
-constexpr char kOtherSky[] =
+constexpr char kOtherConditions[] =
     "noise as measured here, a rough path of its own, light known to 3 %, temperature to 1 K";
 
 FollowUp ReverseSweep(const Readings& measured) {
@@ -64,19 +64,19 @@ FollowUp ReverseSweep(const Readings& measured) {
 
 FollowUp SlowerSweep(const Readings& measured) {
   FollowUp follow_up = {
-      "slower_sweep", "the same sweep later, five times slower", kOtherSky, {}, {}};
+      "slower_sweep", "the same sweep later, five times slower", kOtherConditions, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.rate /= kSlower;
-  AddUnknownSky(&curve, &follow_up);
+  AddUnknownConditions(&curve, &follow_up);
   follow_up.curves = {curve};
   return follow_up;
 }
 
 FollowUp SecondLight(const Readings& measured) {
-  FollowUp follow_up = {"second_light", "the same sweep under half the light", kOtherSky, {}, {}};
+  FollowUp follow_up = {"second_light", "the same sweep under half the light", kOtherConditions, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.irradiance *= kDimmer;
-  AddUnknownSky(&curve, &follow_up);
+  AddUnknownConditions(&curve, &follow_up);
   follow_up.curves = {curve};
   return follow_up;
 }
@@ -107,7 +107,7 @@ FollowUp CoveredParts(const Readings& measured, int groups) {
   FollowUp follow_up = {"cover_part",
                         "a curve with each bypass group covered in turn (1/" +
                             std::to_string(groups) + " of the cells)",
-                        std::string(kOtherSky) + ", the bypass diode's drop to 0.1 V",
+                        std::string(kOtherConditions) + ", the bypass diode's drop to 0.1 V",
                         {},
                         {}};
   const int cells = measured.traits.cells / groups * (groups - 1);
@@ -118,7 +118,7 @@ FollowUp CoveredParts(const Readings& measured, int groups) {
     curve.readings.scale.cells = curve.readings.traits.cells = cells;
     curve.readings.traits.substrings = groups - 1;
     curve.readings.traits.bypass_known = true;
-    AddUnknownSky(&curve, &follow_up);
+    AddUnknownConditions(&curve, &follow_up);
     curve.drop = static_cast<int>(follow_up.unknown.size());
     follow_up.unknown.push_back(kDropUnknown_V / cells);
     follow_up.curves.push_back(curve);

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-bool UnderOneSky(const IvCurve& a, const IvCurve& b) {
+bool UnderSameConditions(const IvCurve& a, const IvCurve& b) {
   const double light = std::max(a.conditions.irradiance_W_m2, b.conditions.irradiance_W_m2);
   return a.conditions.cells_in_series == b.conditions.cells_in_series &&
          std::fabs(a.conditions.irradiance_W_m2 - b.conditions.irradiance_W_m2) <= 0.02 * light &&
@@ -25,7 +25,7 @@ int SweepDirection(const IvCurve& curve) {
 bool AreSweeps(const std::vector<IvCurve>& curves) {
   bool up = false, down = false;
   for (const IvCurve& curve : curves) {
-    if (!UnderOneSky(curve, curves.front())) return false;
+    if (!UnderSameConditions(curve, curves.front())) return false;
     (SweepDirection(curve) > 0 ? up : down) = true;
   }
   return up && down;

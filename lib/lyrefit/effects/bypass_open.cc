@@ -39,9 +39,9 @@ Effect BypassOpen() {
       Parameter("m", "reverse_exponent", "of the soft reverse law").Between(1, 8).From(3.4).Held(),
   };
   e.cell = [](const auto* p, auto* cell) {
-    cell->kinds = 2;
-    cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
-    cell->kind[1] = {p[1], 1.0 - p[0], 0.0, 0};
+    cell->groups = 2;
+    cell->group[0] = {1.0 - p[1], 1.0, 0.0, 0};
+    cell->group[1] = {p[1], 1.0 - p[0], 0.0, 0};
     cell->reverse = ReverseLaw::kSoft;
     cell->reverse_voltage = p[2];
     cell->reverse_exponent = p[3];

@@ -25,7 +25,7 @@ Effect DistributedRs() {
                       .CurrentPower(-1)
                       .CellsPower(1)};
   e.cell = [](const auto* p, auto* cell) {
-    cell->halved = true;
+    cell->parallel_halves = true;
     cell->lateral = p[0];
   };
   e.why_not = NeedsLight;

@@ -18,8 +18,8 @@ Effect Drift() {
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
   e.parameters = {Parameter("d", "relative_change", "change of the light over the measurement")
                       .Between(-0.5, 0.5)};
-  e.sky = [](const auto* p, const auto& reading, auto* sky) {
-    sky->irradiance = sky->irradiance * (1.0 + p[0] * reading.x);
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    conditions->irradiance = conditions->irradiance * (1.0 + p[0] * reading.x);
   };
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits&) { return Strengths({0.01}); };

@@ -23,9 +23,9 @@ Effect IrradianceStep() {
           .Between(-0.5, 0.5)
           .Searched(),
   };
-  e.sky = [](const auto* p, const auto& reading, auto* sky) {
-    const auto changed = sky->irradiance * (1.0 + p[0]);
-    sky->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, sky->irradiance);
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    const auto changed = conditions->irradiance * (1.0 + p[0]);
+    conditions->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, conditions->irradiance);
   };
   e.momentary = true;
   e.why_not = NeedsOneLitCondition;

@@ -18,8 +18,8 @@ Effect IscTemperatureCoefficient() {
   e.parameters = {Parameter("c", "tempco_error", "true minus stated, relative")
                       .Unit("1/K")
                       .Between(-0.01, 0.01)};
-  e.sky = [](const auto* p, const auto&, auto* sky) {
-    sky->isc_tempco_per_K = sky->isc_tempco_per_K + p[0];
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->isc_tempco_per_K = conditions->isc_tempco_per_K + p[0];
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (auto why = NeedsTemperatures(traits)) return why;

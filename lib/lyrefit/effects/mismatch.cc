@@ -23,9 +23,9 @@ Effect Mismatch() {
           .From(0.3),
   };
   e.cell = [](const auto* p, auto* cell) {
-    cell->kinds = 2;
-    cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
-    cell->kind[1] = {p[1], 1.0 - p[0], 0.0, 0};
+    cell->groups = 2;
+    cell->group[0] = {1.0 - p[1], 1.0, 0.0, 0};
+    cell->group[1] = {p[1], 1.0 - p[0], 0.0, 0};
   };
   e.groups = true;
   e.why_not = NeedsModule;

@@ -23,20 +23,20 @@ void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chain
   const S odd = count * (1 / cell->cells);
   const double elsewhere = 1 - mates / cell->cells;
   const bool bypassed = elsewhere > 1e-9;
-  cell->kind[0] = {mates / cell->cells - odd, S(1.0), S(0.0), 0};
+  cell->group[0] = {mates / cell->cells - odd, S(1.0), S(0.0), 0};
   constexpr double kDark = 1e-3;
   const S light = 1.0 - deficit * chains;
-  cell->kind[1] = {odd, Choose(ValueOf(light) < kDark, S(kDark), light), leak * chains, 0};
-  cell->part[0] = {bypassed, mates, 0};
-  cell->kinds = 2;
-  cell->parts = 1;
+  cell->group[1] = {odd, Choose(ValueOf(light) < kDark, S(kDark), light), leak * chains, 0};
+  cell->substring[0] = {bypassed, mates, 0};
+  cell->groups = 2;
+  cell->substrings = 1;
   if (bypassed) {
-    cell->kind[cell->kinds++] = {S(elsewhere), S(1.0), S(0.0), 1};
-    cell->part[cell->parts++] = {false, mates, 0};
+    cell->group[cell->groups++] = {S(elsewhere), S(1.0), S(0.0), 1};
+    cell->substring[cell->substrings++] = {false, mates, 0};
   }
   if (ValueOf(chains)[0] < 1.5) return;  // all lanes have the same parameters
-  cell->part[0].paired = true;
-  cell->kind[cell->kinds++] = {odd, S(1.0), S(0.0), 0, true};
+  cell->substring[0].parallel = true;
+  cell->group[cell->groups++] = {odd, S(1.0), S(0.0), 0, true};
 }
 
 }  // namespace lyrefit

@@ -24,7 +24,7 @@ enum {
 // and few far below it.
 struct Dimmest {
   int count = 0;
-  std::array<double, kMostKinds> normal{}, lopsided{};
+  std::array<double, kMostGroups> normal{}, lopsided{};
   double normal_rest = 0, lopsided_rest = 0;
 };
 Dimmest DimmestOf(int cells, int most) {
@@ -45,25 +45,25 @@ Dimmest DimmestOf(int cells, int most) {
 template <class S>
 void SetScatter(const S* p, Cell<S>* cell) {
   const int cells = static_cast<int>(std::lround(cell->cells));
-  const int parts =
-      std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1, kMostKinds / 2);
-  const Dimmest dimmest = DimmestOf(cells, kMostKinds - parts);
+  const int substrings =
+      std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1, kMostGroups / 2);
+  const Dimmest dimmest = DimmestOf(cells, kMostGroups - substrings);
   const auto light = [&](double normal, double lopsided, const S& beyond) {
     return 1.0 + p[kScatterWidth] * (normal + p[kScatterLopsided] * (lopsided - normal) + beyond);
   };
-  cell->parts = parts;
-  cell->kinds = 0;
-  for (int g = 0; g < parts; ++g) {
-    double others = 1.0 / parts;
-    for (int k = g; k < dimmest.count; k += parts) {
+  cell->substrings = substrings;
+  cell->groups = 0;
+  for (int g = 0; g < substrings; ++g) {
+    double others = 1.0 / substrings;
+    for (int k = g; k < dimmest.count; k += substrings) {
       const S beyond = k == 0 ? S(-p[kScatterDimmest]) : S(0.0);
-      cell->kind[cell->kinds++] = {
+      cell->group[cell->groups++] = {
           S(1.0 / cells), light(dimmest.normal[k], dimmest.lopsided[k], beyond), S(0.0), g};
       others -= 1.0 / cells;
     }
-    cell->kind[cell->kinds++] = {
+    cell->group[cell->groups++] = {
         S(others), light(dimmest.normal_rest, dimmest.lopsided_rest, S(0.0)), S(0.0), g};
-    cell->part[g] = {g + 1 < parts, cell->substring_cells, 0};
+    cell->substring[g] = {g + 1 < substrings, cell->substring_cells, 0};
   }
   cell->bypass = p[kScatterBypass];
   cell->reverse = ReverseLaw::kSoft;

@@ -17,8 +17,8 @@ Effect SensorNonlinearity() {
   e.separate_by = "a second sensor; two-lamp linearity test";
   e.parameters = {
       Parameter("c", "nonlinearity", "relative error per 1000 W/m2").Between(-0.4, 0.4)};
-  e.sky = [](const auto* p, const auto&, auto* sky) {
-    sky->irradiance = sky->irradiance * (1.0 + p[0] * (sky->irradiance - 1.0));
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->irradiance = conditions->irradiance * (1.0 + p[0] * (conditions->irradiance - 1.0));
   };
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (traits.irradiance_levels > 2) return {};

@@ -74,14 +74,14 @@ Effect Shading() {
   e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
   e.parameters = ShadingParameters();
   e.cell = [](const auto* p, auto* cell) {
-    cell->kinds = cell->parts = 2;
-    cell->kind[0] = {1.0 - p[1], 1.0, 0.0, 0};
-    cell->kind[1] = {p[1] * p[3], 1.0 - p[0], 0.0, 1};
+    cell->groups = cell->substrings = 2;
+    cell->group[0] = {1.0 - p[1], 1.0, 0.0, 0};
+    cell->group[1] = {p[1] * p[3], 1.0 - p[0], 0.0, 1};
     if (ValueOf(p[3])[0] < 1) {  // all lanes have the same parameters
-      cell->kind[2] = {p[1] * (1.0 - p[3]), 1.0, 0.0, 1};
-      cell->kinds = 3;
+      cell->group[2] = {p[1] * (1.0 - p[3]), 1.0, 0.0, 1};
+      cell->groups = 3;
     }
-    cell->part[1] = {true, cell->substring_cells, 0};
+    cell->substring[1] = {true, cell->substring_cells, 0};
     cell->bypass = p[2];
   };
   e.groups = true;

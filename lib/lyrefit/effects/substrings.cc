@@ -141,23 +141,23 @@ void SetSubstrings(const S* p, Cell<S>* cell) {
   // All lanes have the same parameters.
   const auto there = [&](int k) { return ValueOf(p[2 * k + 1])[0] > 0; };
   int groups = 0;
-  for (int k = 0; k < kGroups; ++k) groups += there(k) ? 1 : 0;
-  const bool partly = groups < kGroups && ValueOf(p[kCovered])[0] < 1;
-  int kinds = 1, parts = 1;
+  for (int k = 0; k < kGroups; ++k) given += there(k) ? 1 : 0;
+  const bool partly = given < kGroups && ValueOf(p[kCovered])[0] < 1;
+  int groups = 1, substrings = 1;
   auto rest = 1.0 - p[1] * 0.0;
   for (int k = 0; k < kGroups; ++k) {
     if (!there(k)) continue;
     const auto& share = p[2 * k + 1];
     const auto dark = partly ? share * p[kCovered] : share;
-    cell->kind[kinds++] = {dark, 1.0 - p[2 * k], 0.0, parts};
-    if (partly) cell->kind[kinds++] = {share - dark, 1.0, 0.0, parts};
-    cell->part[parts++] = {true, cell->substring_cells, 0};
+    cell->group[groups++] = {dark, 1.0 - p[2 * k], 0.0, substrings};
+    if (partly) cell->group[groups++] = {share - dark, 1.0, 0.0, substrings};
+    cell->substring[substrings++] = {true, cell->substring_cells, 0};
     rest = rest - share;
   }
-  cell->kind[0] = {rest, 1.0, 0.0, 0};
-  cell->part[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
-  cell->kinds = kinds;
-  cell->parts = parts;
+  cell->group[0] = {rest, 1.0, 0.0, 0};
+  cell->substring[0] = {false, cell->substring_cells, 0};  // the brightest are never in reverse
+  cell->groups = groups;
+  cell->substrings = substrings;
   cell->bypass = p[kDrop];
 }
 

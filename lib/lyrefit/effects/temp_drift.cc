@@ -18,8 +18,8 @@ Effect TemperatureDrift() {
   e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
                       .Unit("K")
                       .Between(-30, 30)};
-  e.sky = [](const auto* p, const auto& reading, auto* sky) {
-    sky->temperature_K = sky->temperature_K + p[0] * reading.x;
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    conditions->temperature_K = conditions->temperature_K + p[0] * reading.x;
   };
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits&) { return Strengths({1}); };

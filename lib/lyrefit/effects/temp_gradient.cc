@@ -18,8 +18,8 @@ Effect TemperatureGradient() {
   e.separate_by = "flashes of different length; a thermometer on the cell; a dark curve";
   e.parameters = {
       Parameter("c", "temperature_gradient", "warmer at 1000 W/m2").Unit("K").Between(-5, 25)};
-  e.sky = [](const auto* p, const auto&, auto* sky) {
-    sky->temperature_K = sky->temperature_K + p[0] * sky->irradiance;
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->temperature_K = conditions->temperature_K + p[0] * conditions->irradiance;
   };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) { return Strengths({0.5}); };

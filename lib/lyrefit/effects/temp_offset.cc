@@ -17,8 +17,8 @@ Effect TemperatureOffset() {
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
   e.parameters = {
       Parameter("c", "temperature_offset", "true minus shown").Unit("K").Between(-25, 25)};
-  e.sky = [](const auto* p, const auto&, auto* sky) {
-    sky->temperature_K = sky->temperature_K + p[0];
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->temperature_K = conditions->temperature_K + p[0];
   };
   e.why_not = NeedsTemperatures;
   e.probes = [](const DataTraits&) { return Strengths({1}); };

@@ -19,8 +19,8 @@ Effect TimingSkew() {
                       .Unit("s")
                       .Between(-0.05, 0.05)
                       .RatePower(-1)};
-  e.sky = [](const auto* p, const auto& reading, auto* sky) {
-    sky->voltage = sky->voltage - p[0] * reading.rate;
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    conditions->voltage = conditions->voltage - p[0] * reading.rate;
   };
   e.why_not = NeedsUpDown;
   e.probes = [](const DataTraits&) { return Strengths({0.0005}); };

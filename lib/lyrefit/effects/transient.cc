@@ -37,12 +37,12 @@ Effect Transient() {
           .From(2)
           .Held(),
   };
-  e.sky = [](const auto* p, const auto& reading, auto* sky) {
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
     const auto from = reading.x - p[1];
     const auto side = Choose(ValueOf(p[1]) < reading.x, 1.0 + p[3], 1.0 - p[3]);
     const auto z = from / (p[2] * side);
     const auto power = exp(0.5 * p[4] * log(z * z + kNothing));
-    sky->irradiance = sky->irradiance * (1.0 - p[0] * exp(-0.5 * power));
+    conditions->irradiance = conditions->irradiance * (1.0 - p[0] * exp(-0.5 * power));
   };
   e.momentary = true;
   e.why_not = NeedsOneLitCondition;

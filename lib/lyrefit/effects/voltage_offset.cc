@@ -20,7 +20,7 @@ Effect VoltageOffset() {
                       .Unit("V")
                       .Between(-0.1, 0.1)
                       .CellsPower(1)};
-  e.sky = [](const auto* p, const auto&, auto* sky) { sky->voltage = sky->voltage - p[0]; };
+  e.conditions = [](const auto* p, const auto&, auto* conditions) { conditions->voltage = conditions->voltage - p[0]; };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };
   return e;

@@ -23,8 +23,8 @@ namespace {
 constexpr std::size_t kProbes = 4;
 constexpr std::size_t kElites = 3;
 
-const Extension& ExtensionOf(const Translation& translation) {
-  return *translation.extended->extension;
+const DeviceEffects& EffectsOf(const Translation& translation) {
+  return *translation.extended->effects;
 }
 
 Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& family) {
@@ -81,8 +81,8 @@ Expected<void> AddFamilyEffects(const CurveSet& set, const FamilyOptions& option
   const int first = at.size();
   TRY(ExtendTranslation(kept, family->fixed[at.bandgap_slope], options.with, options.force_effects,
                         &at));
-  TRY(CheckFitRanges(ExtensionOf(at)));
-  const std::vector<ParameterBounds>& bounds = ExtensionOf(at).bounds;
+  TRY(CheckFitRanges(EffectsOf(at)));
+  const std::vector<ParameterBounds>& bounds = EffectsOf(at).bounds;
   family->bounds.insert(family->bounds.begin() + first, bounds.begin(), bounds.end());
   std::vector<double> fixed;
   for (const ParameterBounds& b : bounds) {
@@ -104,13 +104,13 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
                                            const std::vector<JointPoint>& elites,
                                            std::vector<JointPoint> starts,
                                            const Observer& observer) {
-  const Extension& extension = ExtensionOf(family.translation);
+  const DeviceEffects& device_effects = EffectsOf(family.translation);
   const int first = family.translation.first_effect;
   const JointProblem problem = JointProblemOn(family, options, search_curves);
   const std::vector<JointLocal> none(problem.curves.size(), {0, 0});
   JointProblem held = problem;
-  std::copy(extension.usual.begin(), extension.usual.end(), held.lower.begin() + first);
-  std::copy(extension.usual.begin(), extension.usual.end(), held.upper.begin() + first);
+  std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.lower.begin() + first);
+  std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.upper.begin() + first);
   SharedObserver watch(observer, "without effects", static_cast<std::int64_t>(starts.size()));
   watch.Begin();
   std::vector<JointEnd> ends(starts.size());
@@ -120,7 +120,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
     quick.function_tolerance = 1e-10;
     quick.proceed = watch.Proceed();
     std::vector<double>& shared = starts[s].shared;
-    std::copy(extension.usual.begin(), extension.usual.end(), shared.begin() + first);
+    std::copy(device_effects.usual.begin(), device_effects.usual.end(), shared.begin() + first);
     ends[s] = RefineJointly(held, {shared, none}, quick);
     watch.FinishJob();
   });
@@ -136,7 +136,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
     double rmse;
   };
   std::vector<Trial> trials;
-  for (const std::vector<double>& effects : EffectStarts(extension)) {
+  for (const std::vector<double>& effects : EffectStarts(device_effects)) {
     JointPoint point{best->point.shared, none};
     std::copy(effects.begin(), effects.end(), point.shared.begin() + first);
     const double rmse = FamilyRmse(problem, point).solved_current_A;
@@ -201,10 +201,10 @@ QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
   for (FitPoint& local_optimum : quoted.local_optima)
     local_optimum.p = ReportedShared(at, local_optimum.p);
   int first = at.first_effect;
-  for (const EffectUse& use : ExtensionOf(at).uses) {
+  for (const EffectUse& use : EffectsOf(at).uses) {
     const int size = use.effect->size();
     const std::vector<ParameterRange> ranges =
-        ReportedRanges(*use.effect, ExtensionOf(at).readings.scale, problem.lower.data() + first,
+        ReportedRanges(*use.effect, EffectsOf(at).readings.scale, problem.lower.data() + first,
                        problem.upper.data() + first);
     for (int i = first; i < first + size; ++i) {
       const ParameterRange& range = ranges[i - first];

@@ -31,7 +31,7 @@ Interval Symmetric(double value, double standard_error, double t) {
 
 KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
   if (translation.extended) {
-    return ModelKeyPoints(UnderSky(*translation.extended, 1, kReferenceTemperature_K),
+    return ModelKeyPoints(UnderConditions(*translation.extended, 1, kReferenceTemperature_K),
                           ExtendedParameters(translation, shared.data()).data());
   }
   const TranslatedDevice at =
@@ -109,7 +109,7 @@ Estimate Describe(const Judged& judged, int i, double searched) {
 bool BendsWithOthers(const Judged& judged, int i) {
   const Translation& at = judged.fit.family.translation;
   if (!at.extended || i < at.first_effect) return false;
-  return OneOfSeveral(*at.extended->extension, i - at.first_effect);
+  return OneOfSeveral(*at.extended->effects, i - at.first_effect);
 }
 
 bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {

@@ -10,7 +10,7 @@
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/translation.h"
 #include "lyrefit/refine/error_terms.h"
 #include "lyrefit/search/search_options.h"

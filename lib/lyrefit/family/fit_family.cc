@@ -229,7 +229,7 @@ FamilyReport Head(const Job& job) {
   report.non_default_options = NonDefaults(job.options, kFamilyOptionTable);
   report.with = job.options.with;
   const std::optional<Device>& extended = job.family.translation.extended;
-  if (extended) report.taken = extended->extension->set;
+  if (extended) report.taken = extended->effects->set;
   report.termination = "not run";
   return report;
 }

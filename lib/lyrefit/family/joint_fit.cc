@@ -115,7 +115,7 @@ std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const Jo
         std::isnan(family.fixed[i]) ? 0.5 * (b.search_lower + b.search_upper) : family.fixed[i];
   }
   if (at.extended) {
-    const std::vector<double>& usual = at.extended->extension->usual;
+    const std::vector<double>& usual = at.extended->effects->usual;
     std::copy(usual.begin(), usual.end(), shared.end() - 2 - static_cast<int>(usual.size()));
   }
   const auto set = [&](int i, double value) {

@@ -44,7 +44,7 @@ void AddWholeNumbers(const FitJob& job, const DescentEnd& at, std::vector<Polish
     for (int k = 0; k < job.effects(); ++k) {
       p[first + k] = WithinBounds(variant.bounds[k], p[first + k]);
     }
-    LeaveARest(*job.problem.device.extension, variant.bounds, p.data() + first);
+    LeaveARest(*job.problem.device.effects, variant.bounds, p.data() + first);
     for (const auto& [i, step] : steps) {
       if (std::fabs(p[i] - wanted[i]) > 0.5 * std::fabs(step)) return;
     }
@@ -70,17 +70,17 @@ struct Setting {
 };
 
 std::vector<Setting> SettingsOf(const FitJob& job, const Variant& variant) {
-  const Extension& extension = *job.problem.device.extension;
+  const DeviceEffects& device_effects = *job.problem.device.effects;
   std::vector<Setting> settings;
   int first = 0;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size() && effect.probes != nullptr; ++k) {
       const ParameterBounds& bounds = variant.bounds[first + k];
       const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
       if (!effect.parameters[k].searched || !free) continue;
       Setting setting{job.base_size() + first + k, {}};
-      for (const Probe& probe : effect.probes(extension.readings.traits)) {
+      for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
         if (WithinBounds(bounds, probe[k]) == probe[k]) setting.values.insert(probe[k]);
       }
       settings.push_back(std::move(setting));
@@ -117,7 +117,7 @@ void AddOtherVariants(const FitJob& job, const DescentEnd& at, std::vector<Polis
       if (before.lower == before.upper) value = variant.usual[k];
       value = WithinBounds(variant.bounds[k], value);
     }
-    LeaveARest(*job.problem.device.extension, variant.bounds, p.data() + first);
+    LeaveARest(*job.problem.device.effects, variant.bounds, p.data() + first);
     starts->push_back({"another variant", std::move(p), static_cast<int>(f), true});
   }
 }
@@ -128,7 +128,7 @@ void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishSta
   constexpr double kFar = 0.15;  // of the range
   const Variant& variant = job.variants[at.start.variant];
   int first = 0;
-  for (const EffectUse& use : job.problem.device.extension->uses) {
+  for (const EffectUse& use : job.problem.device.effects->uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size(); ++k) {
       const ParameterBounds& bounds = variant.bounds[first + k];
@@ -155,7 +155,7 @@ std::vector<PolishStart> ShapeStarts(const FitJob& job) {
   std::vector<PolishStart> starts;
   for (std::size_t f = 0; f < job.variants.size(); ++f) {
     for (const std::vector<double>& place :
-         ShapePlaces(*job.problem.device.extension, job.variants[f])) {
+         ShapePlaces(*job.problem.device.effects, job.variants[f])) {
       starts.push_back({fmt::format("{}{}", kShapeOrigin, starts.size() + 1),
                         TypicalDevice(job.problem, place), static_cast<int>(f)});
     }

@@ -6,7 +6,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -35,9 +35,9 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
   if (options.floor) return Fail("a floor is that of diodes alone: leave out the effects or it");
   TRY(auto device, Extend(report->device, options.model, options.constants, job->curve,
                           options.with, options.force_effects));
-  TRY(CheckFitRanges(*device.extension));
+  TRY(CheckFitRanges(*device.effects));
   report->device = std::move(device);
-  job->variants = VariantsOf(*report->device.extension);
+  job->variants = VariantsOf(*report->device.effects);
   // The variant with most free parameters needs the most points.
   const Variant& freest =
       *std::max_element(job->variants.begin(), job->variants.end(),
@@ -53,7 +53,7 @@ Expected<void> AddEffects(FitJob* job, FitReport* report) {
 // Bounds of parameter i in reporting units, with the other parameters at `p`.
 ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
                                std::vector<double> p, int i) {
-  if (device.extension == nullptr || i < device.extension->law.base_size()) return own;
+  if (device.effects == nullptr || i < device.effects->law.base_size()) return own;
   const auto reported = [&](double value) {
     p[i] = value;
     return Reported(device, p)[i];
@@ -173,7 +173,7 @@ void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitRe
   const Variant& own = job->variants[variant];
   const int first = job->base_size();
   job->problem = InVariant(job->problem, own, p);
-  auto extension = std::make_shared<Extension>(*report->device.extension);
+  auto device_effects = std::make_shared<DeviceEffects>(*report->device.effects);
   for (int k = 0; k < job->effects(); ++k) {
     const ParameterBounds& bounds = own.bounds[k];
     const bool held = bounds.lower == bounds.upper;
@@ -181,13 +181,13 @@ void SelectVariant(int variant, const std::vector<double>& p, FitJob* job, FitRe
     job->fixed[first + k] = held ? bounds.lower : kUnknown;
     // A selected integer parameter is fixed from here on.
     const double at = p[first + k];
-    extension->bounds[k] = bounds.whole > 0 ? ParameterBounds{at, at, at, at, {}, 0} : bounds;
+    device_effects->bounds[k] = bounds.whole > 0 ? ParameterBounds{at, at, at, at, {}, 0} : bounds;
   }
-  extension->usual = own.usual;
+  device_effects->usual = own.usual;
   job->free_parameters = own.free;
   for (int i = 0; i < first; ++i) job->free_parameters += std::isnan(job->fixed[i]) ? 1 : 0;
   report->variant_penalty = VariantPenaltyOf(*job, variant);
-  report->device.extension = std::move(extension);
+  report->device.effects = std::move(device_effects);
   job->problem.device = report->device;
   job->coarse = Coarsen(job->problem);
 }

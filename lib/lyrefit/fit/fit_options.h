@@ -14,7 +14,7 @@
 #include "lyrefit/fit/effect_text.h"
 #include "lyrefit/fit/error_spec.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
@@ -83,7 +83,7 @@ struct FitOptions {
   BoundsSpec bounds;                    // default: physical bounds derived from the curve
   std::map<std::string, double> fixed;  // symbol or name -> value: "n2" -> 2
   // Effects in addition to the diodes (FindEffect, or effects of your own). They are searched,
-  // polished and reported like the diode parameters; see law/extension.h. The objective must then
+  // polished and reported like the diode parameters; see law/device_effects.h. The objective must then
   // be the solved current.
   std::vector<EffectUse> with;
   bool force_effects = false;  // also effects that the data cannot show

@@ -8,7 +8,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/fit/quoted_model.h"
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/refine/coarsen.h"
 #include "lyrefit/refine/curve_model.h"
@@ -28,9 +28,9 @@ constexpr double kLinearReach = 0.3;
 // `p` with the parameters of all effects at their neutral values: absence of the effect for its
 // strength, the start value for the others.
 std::vector<double> Neutral(const Device& device, std::vector<double> p) {
-  if (device.extension == nullptr) return p;
-  auto next = p.begin() + device.extension->law.base_size();
-  for (const EffectUse& use : device.extension->uses) {
+  if (device.effects == nullptr) return p;
+  auto next = p.begin() + device.effects->law.base_size();
+  for (const EffectUse& use : device.effects->uses) {
     for (const EffectParameter& info : use.effect->parameters) *next++ = info.neutral;
   }
   return p;
@@ -87,7 +87,7 @@ Spread SpreadOfModel(const IntervalInput& input, int degrees, const FitModel& mo
 }
 
 Spread SpreadOfQuoted(const IntervalWork& work, std::vector<bool> held) {
-  if (work.input.problem.device.extension == nullptr) {
+  if (work.input.problem.device.effects == nullptr) {
     return SpreadOfModel(work.input, work.degrees, CurveModel(work.input.problem), work.input.end,
                          held);
   }
@@ -167,7 +167,7 @@ void TakeIfBetter(IntervalWork* work, const std::vector<double>& p) {
 }
 
 void FindMoreOptima(IntervalWork* work) {
-  if (work->input.problem.device.extension == nullptr) return;
+  if (work->input.problem.device.effects == nullptr) return;
   const double points = static_cast<double>(work->input.problem.voltage_V.size());
   double reach = 0;
   for (int i = 0; i < work->size; ++i) reach = std::max(reach, work->t[i] * work->stretch[i]);
@@ -180,14 +180,14 @@ void FindMoreOptima(IntervalWork* work) {
 }
 
 bool OfEffect(const IntervalInput& input, int i) {
-  const Extension* extension = input.problem.device.extension.get();
-  return extension != nullptr && i >= extension->law.base_size();
+  const DeviceEffects* device_effects = input.problem.device.effects.get();
+  return device_effects != nullptr && i >= device_effects->law.base_size();
 }
 
 bool BendsWithOthers(const IntervalInput& input, int i) {
   if (!OfEffect(input, i)) return false;
-  const Extension& extension = *input.problem.device.extension;
-  return OneOfSeveral(extension, i - extension.law.base_size());
+  const DeviceEffects& device_effects = *input.problem.device.effects;
+  return OneOfSeveral(device_effects, i - device_effects.law.base_size());
 }
 
 bool NeedsProfile(const IntervalWork& work, int i) {

@@ -5,16 +5,16 @@
 #include <functional>
 #include <utility>
 
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 namespace {
 
-bool SkyChanges(const Device& device) {
-  if (device.extension == nullptr) return false;
-  const std::vector<const Effect*>& effects = device.extension->law.effects;
+bool ConditionsChange(const Device& device) {
+  if (device.effects == nullptr) return false;
+  const std::vector<const Effect*>& effects = device.effects->law.effects;
   return std::any_of(effects.begin(), effects.end(),
-                     [](const Effect* effect) { return static_cast<bool>(effect->sky); });
+                     [](const Effect* effect) { return static_cast<bool>(effect->conditions); });
 }
 
 // Indices of parameters that are exchanged together with those of another set.
@@ -62,7 +62,7 @@ bool IsAbsent(const Effect& effect, const AlikeSet& set, const double* p, int fi
 void OrderAlike(const Device& device, const std::vector<ParameterBounds>& bounds,
                 std::vector<double>* p, std::vector<bool>* held) {
   const Ordering ordering{bounds, p, held};
-  if (!SkyChanges(device)) {
+  if (!ConditionsChange(device)) {
     std::vector<AlikeSet> diodes;
     diodes.reserve(DiodeCount(device));
     for (int d = 0; d < DiodeCount(device); ++d) {
@@ -73,10 +73,10 @@ void OrderAlike(const Device& device, const std::vector<ParameterBounds>& bounds
       return first_gone != second_gone ? first_gone : (*p)[b[1]] < (*p)[a[1]];
     });
   }
-  if (device.extension == nullptr) return;
+  if (device.effects == nullptr) return;
   int first = device.size();
-  for (const Effect* effect : device.extension->law.effects) first -= effect->size();
-  for (const Effect* effect : device.extension->law.effects) {
+  for (const Effect* effect : device.effects->law.effects) first -= effect->size();
+  for (const Effect* effect : device.effects->law.effects) {
     std::vector<AlikeSet> groups = effect->alike;
     for (AlikeSet& group : groups) {
       for (int& i : group) i += first;

@@ -23,7 +23,7 @@ constexpr int kSteps = 6;    // rounds of neighbours of the best end
 // For each effect whether the shape of the curve gives no start for it.
 std::vector<bool> Shapeless(const FitJob& job) {
   std::vector<bool> shapeless;
-  for (const EffectUse& use : job.problem.device.extension->uses) {
+  for (const EffectUse& use : job.problem.device.effects->uses) {
     shapeless.push_back(use.effect->starts == nullptr);
   }
   return shapeless;
@@ -69,7 +69,7 @@ std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& des
     // Two ends in one local optimum may differ by rounding of repeated evaluations.
     const bool chosen = best.start.variant == static_cast<int>(f);
     if (chosen) lowest = &best;
-    reports.push_back({DescribeVariant(*job.problem.device.extension, job.variants[f]),
+    reports.push_back({DescribeVariant(*job.problem.device.effects, job.variants[f]),
                        job.variants[f].free, std::sqrt(lowest->end.mean_square),
                        std::max(0.0, points * std::log(lowest->penalised / best.penalised)),
                        lowest->finished, chosen});

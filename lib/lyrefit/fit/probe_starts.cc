@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/fit/variant_problem.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/linearize.h"
@@ -27,8 +27,8 @@ struct Trial {
 
 RefineProblem BaseAlone(const RefineProblem& problem) {
   Device base = problem.device;
-  base.extension = nullptr;
-  const int size = problem.device.extension->law.base_size();
+  base.effects = nullptr;
+  const int size = problem.device.effects->law.base_size();
   base.parameters.resize(size);
   return MakeRefineProblem(
       base, problem.objective, problem.voltage_V, problem.current_A, problem.weights,
@@ -95,12 +95,12 @@ void AskStrength(const Unexplained& unexplained, const Effect& effect,
 // are ranked by the mean square of the whole problem.
 void TryProbes(const RefineProblem& problem, const Variant& variant, const Unexplained* unexplained,
                const std::vector<double>& p, std::size_t use, std::vector<Trial>* trials) {
-  const Extension& extension = *problem.device.extension;
-  const Effect& effect = *extension.uses[use].effect;
-  const int first = extension.law.Offset(static_cast<int>(use));
-  const ParameterBounds* const bounds = &variant.bounds[first - extension.law.base_size()];
+  const DeviceEffects& device_effects = *problem.device.effects;
+  const Effect& effect = *device_effects.uses[use].effect;
+  const int first = device_effects.law.Offset(static_cast<int>(use));
+  const ParameterBounds* const bounds = &variant.bounds[first - device_effects.law.base_size()];
   std::vector<Probe> probes = {{}};  // at the usual values
-  if (effect.probes != nullptr) probes = effect.probes(extension.readings.traits);
+  if (effect.probes != nullptr) probes = effect.probes(device_effects.readings.traits);
   for (const Probe& probe : probes) {
     Trial trial{p, {static_cast<double>(use)}, HUGE_VAL};
     for (std::size_t k = 0; k < probe.size(); ++k) {
@@ -127,7 +127,7 @@ void BestFirst(std::vector<Trial>* trials) {
 std::vector<Trial> TryAllProbes(const RefineProblem& problem, const Variant& variant,
                                 const Unexplained* unexplained, const std::vector<double>& p) {
   std::vector<Trial> trials;
-  for (std::size_t use = 0; use < problem.device.extension->uses.size(); ++use) {
+  for (std::size_t use = 0; use < problem.device.effects->uses.size(); ++use) {
     TryProbes(problem, variant, unexplained, p, use, &trials);
   }
   BestFirst(&trials);
@@ -160,16 +160,16 @@ std::vector<std::vector<double>> PlacesOf(std::vector<Trial> trials) {
 
 std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
                                   const std::vector<double>& idealities) {
-  const Extension* const extension = problem.device.extension.get();
+  const DeviceEffects* const device_effects = problem.device.effects.get();
   const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
   double voltage = problem.voltage_scale_V;
-  if (extension != nullptr) {
-    const DataTraits& traits = extension->readings.traits;
+  if (device_effects != nullptr) {
+    const DataTraits& traits = device_effects->readings.traits;
     const double per_cell = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
-    voltage = per_cell * extension->readings.scale.cells;
+    voltage = per_cell * device_effects->readings.scale.cells;
   }
   constexpr double kIdeality = 1.2;
-  std::vector<double> p(extension != nullptr ? extension->law.base_size() : problem.device.size());
+  std::vector<double> p(device_effects != nullptr ? device_effects->law.base_size() : problem.device.size());
   p[kIph] = current;
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;
@@ -193,7 +193,7 @@ std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vecto
 
 std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const Variant& variant,
                                              std::size_t count) {
-  const Extension& extension = *problem.device.extension;
+  const DeviceEffects& device_effects = *problem.device.effects;
   const RefineProblem alone = BaseAlone(problem);
   const RefineEnd base = RefineFrom(alone, SeparableStarts(alone, 0, 1).at(0).p);
   std::vector<double> usual = base.p;
@@ -201,7 +201,7 @@ std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const
   const Unexplained unexplained(problem, alone, base, base.held, usual);
   std::vector<Trial> trials = TryAllProbes(problem, variant, &unexplained, usual);
   KeepBest(count, &trials);
-  const bool unlike = std::any_of(extension.uses.begin(), extension.uses.end(),
+  const bool unlike = std::any_of(device_effects.uses.begin(), device_effects.uses.end(),
                                   [](const EffectUse& use) { return use.effect->groups; });
   if (unlike) {
     std::vector<Trial> typical =
@@ -215,13 +215,13 @@ std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const
 std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, const Variant& variant,
                                               const RefineEnd& fitted,
                                               const std::vector<bool>& others, std::size_t count) {
-  const Extension& extension = *problem.device.extension;
+  const DeviceEffects& device_effects = *problem.device.effects;
   const RefineProblem own = InVariant(problem, variant, fitted.p);
   std::vector<double> without = fitted.p;
   std::vector<bool> held = fitted.held;
   for (std::size_t use = 0; use < others.size(); ++use) {
-    const Effect& effect = *extension.uses[use].effect;
-    const int first = extension.law.Offset(static_cast<int>(use));
+    const Effect& effect = *device_effects.uses[use].effect;
+    const int first = device_effects.law.Offset(static_cast<int>(use));
     if (!others[use]) continue;
     for (int k = 0; k < effect.size(); ++k) held[first + k] = true;
     without[first] = effect.parameters.front().neutral;

@@ -12,11 +12,11 @@ namespace lyrefit {
 namespace {
 
 ModelShape QuotedShape(const RefineProblem& problem, ModelShape shape) {
-  const Extension& extension = *problem.device.extension;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const int first = extension.law.Offset(static_cast<int>(e));
+  const DeviceEffects& device_effects = *problem.device.effects;
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const int first = device_effects.law.Offset(static_cast<int>(e));
     const std::vector<ParameterRange> ranges =
-        ReportedRanges(*extension.uses[e].effect, extension.readings.scale,
+        ReportedRanges(*device_effects.uses[e].effect, device_effects.readings.scale,
                        problem.lower.data() + first, problem.upper.data() + first);
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       FitParameter& parameter = shape.parameters[first + k];
@@ -52,12 +52,12 @@ bool QuotedModel::Evaluate(int block, const double* p, const double* local, doub
   const std::vector<double> own = Inner(problem_.device, std::vector<double>(p, p + count));
   if (!own_.Evaluate(block, own.data(), local, residuals, slopes, local_slopes)) return false;
   if (slopes == nullptr) return true;
-  const Extension& extension = *problem_.device.extension;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const int first = extension.law.Offset(static_cast<int>(e));
-    const int size = extension.uses[e].effect->size();
+  const DeviceEffects& device_effects = *problem_.device.effects;
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const int first = device_effects.law.Offset(static_cast<int>(e));
+    const int size = device_effects.uses[e].effect->size();
     const Eigen::MatrixXd chain =
-        OwnByReported(*extension.uses[e].effect, extension.readings.scale, own.data() + first);
+        OwnByReported(*device_effects.uses[e].effect, device_effects.readings.scale, own.data() + first);
     for (std::size_t r = 0; r < problem_.voltage_V.size(); ++r) {
       Eigen::Map<Eigen::RowVectorXd> row(slopes + r * count + first, size);
       row = (row * chain).eval();
@@ -80,10 +80,10 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
   for (FitPoint& local_optimum : quoted_query.local_optima)
     local_optimum.p = Reported(problem.device, local_optimum.p);
   RefineOptions how = BrieflySmall(stop);
-  const auto refit = [&](double value, FitPoint start, double enough, double tolerance) {
+  const auto refit = [&](double value, FitPoint start, double target, double tolerance) {
     held.Fix(query.parameter, value);
     start.p[query.parameter] = value;
-    how.enough = enough;
+    how.target = target;
     how.function_tolerance = how.first_tolerance = tolerance;
     return RefineModel(held, std::move(start), how);
   };
@@ -95,10 +95,10 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                       std::vector<FitPoint> ends, double highest,
                                       const std::function<bool()>& stop) {
-  const Extension& extension = *problem.device.extension;
-  OptimumQuery query{highest, extension.law.base_size(), BrieflySmall(stop)};
+  const DeviceEffects& device_effects = *problem.device.effects;
+  OptimumQuery query{highest, device_effects.law.base_size(), BrieflySmall(stop)};
   query.how.cutoff = highest;
-  return FindOtherOptima(CurveModel(problem), extension, best, std::move(ends), query);
+  return FindOtherOptima(CurveModel(problem), device_effects, best, std::move(ends), query);
 }
 
 std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<double>& quoted) {
@@ -109,8 +109,8 @@ std::vector<bool> FindFlat(const RefineProblem& problem, const std::vector<doubl
   if (!model.Evaluate(0, quoted.data(), nullptr, residuals.data(), slopes.data(), nullptr)) {
     return flat;
   }
-  const Extension& extension = *problem.device.extension;
-  for (const Settings& settings : FindSettings(extension, extension.law.base_size())) {
+  const DeviceEffects& device_effects = *problem.device.effects;
+  for (const Settings& settings : FindSettings(device_effects, device_effects.law.base_size())) {
     for (const int k : settings.parameters) {
       bool none = true;
       for (int r = 0; r < points; ++r) none = none && slopes[r * count + k] == 0;

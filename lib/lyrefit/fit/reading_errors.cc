@@ -106,7 +106,7 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p) {
   // Effects act on single readings, which must not be averaged.
-  const std::vector<int> groups = plain.device.extension == nullptr
+  const std::vector<int> groups = plain.device.effects == nullptr
                                       ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
                                       : EachAlone(plain.voltage_V.size());
   RefineProblem weighed = plain;

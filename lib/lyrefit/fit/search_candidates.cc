@@ -45,7 +45,7 @@ SearchSpace SpaceOf(const FitJob& job, std::vector<double> fixed) {
   fixed.resize(job.base_size());
   return {{job.bounds.begin(), job.bounds.begin() + job.base_size()},
           fixed,
-          *job.problem.device.extension,
+          *job.problem.device.effects,
           job.variants};
 }
 

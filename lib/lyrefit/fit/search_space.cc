@@ -23,13 +23,13 @@ SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
 }
 
 SearchSpace::SearchSpace(const std::vector<ParameterBounds>& bounds,
-                         const std::vector<double>& fixed, const Extension& extension,
+                         const std::vector<double>& fixed, const DeviceEffects& device_effects,
                          std::vector<Variant> variants)
     : SearchSpace(bounds, fixed) {
-  extension_ = &extension;
+  effects_ = &device_effects;
   variants_ = std::move(variants);
   const std::size_t first = bounds.size();
-  for (std::size_t k = 0; k < extension.bounds.size(); ++k) {
+  for (std::size_t k = 0; k < device_effects.bounds.size(); ++k) {
     const auto free = std::find_if(variants_.begin(), variants_.end(), [&](const Variant& variant) {
       return variant.bounds[k].lower < variant.bounds[k].upper;
     });
@@ -68,13 +68,13 @@ void SearchSpace::ToParameters(const double* x, double* p) const {
     value = side.log_base > 0 ? side.log_base * PortableExp(x[k]) : x[k];
     if (side.whole > 0) value = side.first + side.whole * Stretch(x[k], side.values);
   }
-  if (extension_ == nullptr) return;
+  if (effects_ == nullptr) return;
   double* const own = p + fixed_.size();
   const std::vector<ParameterBounds>& bounds = variants_[VariantAt(x)].bounds;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     own[k] = bounds[k].lower < bounds[k].upper ? WithinBounds(bounds[k], own[k]) : bounds[k].lower;
   }
-  LeaveARest(*extension_, bounds, own);
+  LeaveARest(*effects_, bounds, own);
 }
 
 std::vector<double> SearchSpace::FromParameters(const double* p, int variant) const {

@@ -18,9 +18,9 @@ class SearchSpace {
   // `fixed[i]` is the value of a fixed parameter, NaN for the others.
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed);
   // For a device with effects: `bounds` and `fixed` are of its base, the effects are those of
-  // `variants`. The extension must outlive the space.
+  // `variants`. The effects must outlive the space.
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed,
-              const Extension& extension, std::vector<Variant> variants);
+              const DeviceEffects& device_effects, std::vector<Variant> variants);
 
   const Box& box() const { return box_; }
   int dimensions() const { return static_cast<int>(box_.lower.size()); }
@@ -44,7 +44,7 @@ class SearchSpace {
 
   std::vector<double> fixed_;
   std::vector<Side> sides_;
-  const Extension* extension_ = nullptr;
+  const DeviceEffects* effects_ = nullptr;
   std::vector<Variant> variants_;
   Box box_;
 };

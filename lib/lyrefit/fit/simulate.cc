@@ -131,7 +131,7 @@ Expected<std::vector<double>> AddEffects(const SimulateOptions& options, const I
   TRY(auto uses, SettledUses(options));
   TRY(*device, Extend(*device, options.model, options.constants, taken, uses, options.force_effects,
                       options.layout));
-  const std::vector<double>& usual = device->extension->usual;
+  const std::vector<double>& usual = device->effects->usual;
   p.insert(p.end(), usual.begin(), usual.end());
   return p;
 }
@@ -158,9 +158,9 @@ Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
       ExtendSet(MakeDevice(options.model, reference, options.constants), shared.law, shared.set,
                 shared.reference_K, uses, /*force=*/true));
   Device base = device;
-  base.parameters.resize(device.extension->law.base_size());
+  base.parameters.resize(device.effects->law.base_size());
   TRY(auto p, ParameterVector(base, options.parameters));
-  p.insert(p.end(), device.extension->usual.begin(), device.extension->usual.end());
+  p.insert(p.end(), device.effects->usual.begin(), device.effects->usual.end());
   const Device one = OfCurve(device, shared.curve);
   IvCurve curve = taken;
   curve.name = options.name;

@@ -15,7 +15,7 @@
 #include "lyrefit/curve/setting_text.h"
 #include "lyrefit/fit/effect_text.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -50,16 +50,16 @@ S TempcoOf(const EvaluationContext<S>& context) {
 }
 
 template <class S>
-Sky<S> SkyAt(const EvaluationContext<S>& context, const ReadingBlock& readings) {
+OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context, const ReadingBlock& readings) {
   const Law& law = context.law;
-  Sky<S> sky{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
+  OperatingConditions<S> conditions{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
              law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
              TempcoOf(context)};
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
-    const auto stage = law.effects[e]->sky.template For<S>();
-    if (stage != nullptr) stage(context.p + context.offsets[e], readings, &sky);
+    const auto stage = law.effects[e]->conditions.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], readings, &conditions);
   }
-  return sky;
+  return conditions;
 }
 
 // Adds the diodes of the base in pivot parameters (BaseParameter of law.h) at one temperature.
@@ -92,17 +92,17 @@ void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, con
 
 // Sets all fields of a cell that depend on the temperature but not on the irradiance.
 template <class S>
-void CellUnder(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
+void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions, Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
   const double k_eV = ThermalVoltage(1.0, context.law.constants);
   const double reference_K = context.readings.reference_temperature_K;
-  const S ratio = sky.temperature_K * (1 / reference_K);
-  const S inverse_vt = 1.0 / (sky.temperature_K * k_eV);
-  const S barrier = DeSotoBarrier(sky.bandgap_eV, S(context.law.bandgap_slope_per_K), reference_K,
-                                  sky.temperature_K, k_eV);
+  const S ratio = conditions.temperature_K * (1 / reference_K);
+  const S inverse_vt = 1.0 / (conditions.temperature_K * k_eV);
+  const S barrier = DeSotoBarrier(conditions.bandgap_eV, S(context.law.bandgap_slope_per_K), reference_K,
+                                  conditions.temperature_K, k_eV);
   const S warmer = exp(barrier) * (ratio * ratio * ratio);
   const S warmer_2 = (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
-  cell->thermal_voltage = sky.temperature_K * k_eV;
+  cell->thermal_voltage = conditions.temperature_K * k_eV;
   cell->saturation_2_unit = scale.saturation_2_unit * warmer_2;
   cell->diodes = 0;
   if (context.law.natural) {
@@ -121,32 +121,32 @@ void CellUnder(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* 
 // Sets the fields that depend on the irradiance: photocurrent and shunt conductance. CellUnder must
 // have run before.
 template <class S>
-void Light(const EvaluationContext<S>& context, const Sky<S>& sky, Cell<S>* cell) {
+void Light(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions, Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
   const S* p = context.p;
-  cell->irradiance = sky.irradiance;
-  const S warmer = sky.temperature_K - context.readings.reference_temperature_K;
+  cell->irradiance = conditions.irradiance;
+  const S warmer = conditions.temperature_K - context.readings.reference_temperature_K;
   const bool natural = context.law.natural;
   const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
-  cell->photocurrent = sky.irradiance * (photocurrent * (1.0 + sky.isc_tempco_per_K * warmer) +
+  cell->photocurrent = conditions.irradiance * (photocurrent * (1.0 + conditions.isc_tempco_per_K * warmer) +
                                          context.readings.isc_tempco_scales_per_K * warmer);
   const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
   const bool inverse = context.law.shunt == ShuntLaw::kInverse;
-  cell->conductance = inverse ? conductance * sky.irradiance : conductance;
+  cell->conductance = inverse ? conductance * conditions.irradiance : conductance;
 }
 
 // Sets cell groups, substrings, bypass diodes and reverse law from a layout.
 template <class S>
 void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
-  cell->kinds = static_cast<int>(layout.kinds.size());
-  cell->parts = static_cast<int>(layout.parts.size());
+  cell->groups = static_cast<int>(layout.groups.size());
+  cell->substrings = static_cast<int>(layout.substrings.size());
   cell->strings = layout.strings;
-  for (int g = 0; g < cell->kinds; ++g) {
-    const StringLayout::Cells& cells = layout.kinds[g];
+  for (int g = 0; g < cell->groups; ++g) {
+    const StringLayout::Cells& cells = layout.groups[g];
     const double leak = cells.leak_S * layout.strings / current_scale_A;
-    cell->kind[g] = {S(cells.share), S(cells.light), S(leak), cells.part};
+    cell->group[g] = {S(cells.share), S(cells.light), S(leak), cells.substring};
   }
-  for (int p = 0; p < cell->parts; ++p) cell->part[p] = layout.parts[p];
+  for (int p = 0; p < cell->substrings; ++p) cell->substring[p] = layout.substrings[p];
   cell->bypass = S(layout.bypass_voltage_V);
   cell->bypass_ideality = layout.bypass_ideality;
   cell->reverse = layout.reverse;
@@ -221,10 +221,10 @@ Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
 
 // F(Vj): the current that one cell group delivers at its junction voltage, with its slope.
 inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
-                                     int kind, const Dual<1, Pack>& voltage) {
-  const bool alike = cell.kinds == 1;
-  const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.kind[kind].light;
-  const Pack leak = alike ? Pack(kLeastConductance) : cell.kind[kind].leak + kLeastLeak;
+                                     int group, const Dual<1, Pack>& voltage) {
+  const bool alike = cell.groups == 1;
+  const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.group[group].light;
+  const Pack leak = alike ? Pack(kLeastConductance) : cell.group[group].leak + kLeastLeak;
   Dual<1, Pack> current = light - voltage * (cell.conductance + leak);
   for (int d = 0; d < cell.diodes; ++d) {
     const Diode<Pack>& diode = cell.diode[d];

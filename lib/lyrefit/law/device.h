@@ -40,7 +40,7 @@ struct EnumTable<Objective> {
   };
 };
 
-struct Extension;
+struct DeviceEffects;
 
 // A device model: a sum of terms over the junction voltage, behind one series resistance. Parameter
 // vectors are plain arrays in the order of `parameters`: Iph, Is1, n1, Rs, Rsh, then Is2, n2, Is3,
@@ -52,9 +52,9 @@ struct Device {
   std::vector<Term> terms;              // summed over the junction voltage
   int resistance_series = -1;           // position of Rs
   double module_thermal_voltage_V = 0;  // Ns Vt
-  // Effects beside the diodes, and the measurement in which they act (extension.h). Their
+  // Effects beside the diodes, and the measurement in which they act (device_effects.h). Their
   // parameters are the last ones. Null: no effects.
-  std::shared_ptr<const Extension> extension;
+  std::shared_ptr<const DeviceEffects> effects;
 
   // Number of parameters.
   int size() const { return static_cast<int>(parameters.size()); }

@@ -21,7 +21,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // The terminal law, one stage after the other, for each reading. Voltages are per cell in volt,
 // currents in current scales. I is the delivered current, Vj the junction voltage of a cell:
 //
-//   sky         operating conditions at the reading: irradiance, temperature, voltage
+//   conditions         operating conditions at the reading: irradiance, temperature, voltage
 //   cell        the five parameters at these conditions
 //   junction    I = Iph - Is (exp(Vj / n Vt) - 1) - Gsh Vj + terms that effects add over Vj
 //   series      Vj = V + I Rs + drops that effects add at I
@@ -45,12 +45,12 @@ struct ReadingBlock {
   Pack rate;            // as in Reading
   int first = 0;        // position of the block's first reading
   int count = 0;        // number of readings from `first` on; unused lanes repeat the last one
-  bool one_sky = true;  // irradiance and temperature are the same in all lanes
+  bool same_conditions = true;  // irradiance and temperature are the same in all lanes
 };
 
-// Operating conditions of a reading. A sky stage corrects the sensor values.
+// Operating conditions of a reading. A conditions stage corrects the sensor values.
 template <class S>
-struct Sky {
+struct OperatingConditions {
   S voltage;        // at the terminals, per cell
   S irradiance;     // suns
   S temperature_K;  // of the cell
@@ -72,25 +72,25 @@ enum class ReverseLaw {
   kSoft,    // I = ... + Iph (-Vj / A)^m, Iph of an unshaded cell
 };
 
-// A cell group: identical cells in series. A substring (Part) is a set of cells that share one
+// A cell group: identical cells in series. A substring is a set of cells that share one
 // bypass diode or none. The cell groups of one substring carry the same current. In half-cut
 // modules a substring is two parallel chains of half the current each: its groups form one chain,
 // and the one group with `beside` set forms the other.
-constexpr int kMostKinds = 8;
+constexpr int kMostGroups = 8;
 template <class S>
-struct Kind {
+struct CellGroup {
   S share;              // fraction of all cells of the device
   S light;              // factor of the photocurrent
   S leak;               // additional shunt conductance, scales per volt of a cell
-  int part = 0;         // position of its substring
+  int substring = 0;         // position of its substring
   bool beside = false;  // forms the second chain of a half-cut substring
 };
 // A substring: cells that share a bypass diode, or none.
-struct Part {
+struct Substring {
   bool bypassed = false;  // has a bypass diode
   double cells = 1;       // number of cells that one bypass diode spans
   int string = 0;         // its string; strings are in parallel
-  bool paired = false;    // half-cut: one of its cell groups is `beside` the others
+  bool parallel = false;    // half-cut: one of its cell groups is `beside` the others
 };
 
 // A cell at its operating conditions, in the units of Reading. A cell stage may change any field.
@@ -108,11 +108,11 @@ struct Cell {
   double reach = 1;     // largest |voltage| of the readings, V per cell, where shunts are reported
   double cells = 1;     // in series
   double substring_cells = 1;    // cells that share a bypass diode
-  int kinds = 1;                 // number of cell groups; 1: all cells alike, no bypass diode
-  int parts = 1;                 // number of substrings
+  int groups = 1;                 // number of cell groups; 1: all cells alike, no bypass diode
+  int substrings = 1;                 // number of substrings
   int strings = 1;               // number of different strings in parallel
-  Kind<S>* kind = nullptr;       // kMostKinds entries
-  Part part[kMostKinds];         // the first `parts` are valid
+  CellGroup<S>* group = nullptr;       // kMostGroups entries
+  Substring substring[kMostGroups];         // the first `substrings` are valid
   S bypass;                      // voltage of a bypass diode at one current scale, V
   double bypass_ideality = 1.2;  // of the bypass diode
   ReverseLaw reverse = ReverseLaw::kShunt;
@@ -120,7 +120,7 @@ struct Cell {
   S reverse_voltage;   // -Vbr of Bishop's law or A of the soft law, V, above 0
   S reverse_exponent;  // m of either law
   // Every cell has two halves; the second is connected through a lateral resistance.
-  bool halved = false;
+  bool parallel_halves = false;
   S lateral;  // lateral resistance, in the unit of `resistance`
 };
 
@@ -154,7 +154,7 @@ using Tangent = typename TangentOf<S>::Type;
 
 // Corrects the operating conditions of the readings.
 template <class S>
-using SkyStage = void (*)(const S* p, const ReadingBlock& readings, Sky<S>* sky);
+using ConditionsStage = void (*)(const S* p, const ReadingBlock& readings, OperatingConditions<S>* conditions);
 // Changes a cell at its operating conditions.
 template <class S>
 using CellStage = void (*)(const S* p, Cell<S>* cell);
@@ -327,7 +327,7 @@ struct Effect {
   // Sets of parameters that can be exchanged without changing a curve (cell groups). Reports sort
   // the sets by the first parameter of each.
   std::vector<std::vector<int>> alike;
-  Hook<SkyStage> sky;
+  Hook<ConditionsStage> conditions;
   Hook<CellStage> cell;
   Hook<JunctionStage> junction;
   Hook<SeriesStage> series;
@@ -365,7 +365,7 @@ struct Effect {
   bool ChangesJunction() const { return junction || plain_junction; }
   bool ChangesSeries() const { return series || plain_series; }
   bool HasStage() const {
-    return sky || cell || ChangesJunction() || ChangesSeries() || instrument;
+    return conditions || cell || ChangesJunction() || ChangesSeries() || instrument;
   }
 };
 

@@ -116,19 +116,19 @@ Error Unfit(const Effect& effect, const std::string& why) {
   return error;
 }
 
-Expected<void> AddUse(const EffectUse& use, Extension* extension) {
+Expected<void> AddUse(const EffectUse& use, DeviceEffects* device_effects) {
   for (const auto& [key, range] : use.ranges) {
     TRY(CheckParameter(use, key));
     if (range.first <= range.second) continue;
     return tl::unexpected(
         Unfit(*use.effect, fmt::format("{} = {} is reversed", key, RangeText(range))));
   }
-  const ReadingScale& scale = extension->readings.scale;
+  const ReadingScale& scale = device_effects->readings.scale;
   const std::vector<double> usual = UsualValues(use, scale);
   for (int k = 0; k < use.effect->size(); ++k) {
-    TRY(const auto bounds, BoundsOf(use, k, usual, scale, extension->readings.traits));
-    extension->bounds.push_back(bounds);
-    extension->usual.push_back(WithinBounds(bounds, usual[k]));
+    TRY(const auto bounds, BoundsOf(use, k, usual, scale, device_effects->readings.traits));
+    device_effects->bounds.push_back(bounds);
+    device_effects->usual.push_back(WithinBounds(bounds, usual[k]));
   }
   return {};
 }
@@ -139,13 +139,13 @@ Expected<void> CheckParameter(const EffectUse& use, const std::string& key) {
       *use.effect, fmt::format("has no parameter '{}', expected {}", key, SymbolsOf(*use.effect))));
 }
 
-Expected<void> CheckFitRanges(const Extension& extension) {
-  const ReadingScale& scale = extension.readings.scale;
+Expected<void> CheckFitRanges(const DeviceEffects& device_effects) {
+  const ReadingScale& scale = device_effects.readings.scale;
   int first = 0;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;
-    const auto usual = extension.usual.begin() + first;
-    const auto bounds = extension.bounds.begin() + first;
+    const auto usual = device_effects.usual.begin() + first;
+    const auto bounds = device_effects.bounds.begin() + first;
     first += effect.size();
     for (int k = 0; k < effect.size(); ++k) {
       const auto range = RangeOf(use, k);

@@ -26,21 +26,21 @@ void TakeConditions(const CurveSet& set, Readings* readings) {
 
 // The device at other readings. It does not copy the readings of the whole set, which may be many.
 Device At(const Device& device, std::vector<Reading> points) {
-  const Extension& whole = *device.extension;
-  Extension extension;
-  extension.law = whole.law;
-  extension.uses = whole.uses;
-  extension.bounds = whole.bounds;
-  extension.usual = whole.usual;
-  extension.set = whole.set;
-  Readings& readings = extension.readings;
+  const DeviceEffects& whole = *device.effects;
+  DeviceEffects device_effects;
+  device_effects.law = whole.law;
+  device_effects.uses = whole.uses;
+  device_effects.bounds = whole.bounds;
+  device_effects.usual = whole.usual;
+  device_effects.set = whole.set;
+  Readings& readings = device_effects.readings;
   readings.scale = whole.readings.scale;
   readings.traits = whole.readings.traits;
   readings.reference_temperature_K = whole.readings.reference_temperature_K;
   readings.points = std::move(points);
-  extension.blocks = BlocksOf(readings);
+  device_effects.blocks = BlocksOf(readings);
   Device one = device;
-  one.extension = std::make_shared<const Extension>(std::move(extension));
+  one.effects = std::make_shared<const DeviceEffects>(std::move(device_effects));
   return one;
 }
 
@@ -67,27 +67,27 @@ Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, dou
   TRY(auto readings, SetReadings(set, reference_K));
   TakeConditions(set, &readings);
   readings.isc_tempco_scales_per_K = 0;  // alpha is a parameter
-  Extension extension;
-  extension.readings = std::move(readings);
-  extension.law = std::move(law);
-  extension.law.natural = extension.law.free_tempco = extension.law.free_bandgap = true;
-  extension.law.effects.clear();
-  extension.set = std::make_shared<const CurveSet>(set);
+  DeviceEffects device_effects;
+  device_effects.readings = std::move(readings);
+  device_effects.law = std::move(law);
+  device_effects.law.natural = device_effects.law.free_tempco = device_effects.law.free_bandgap = true;
+  device_effects.law.effects.clear();
+  device_effects.set = std::make_shared<const CurveSet>(set);
   Device device = base;
   device.parameters.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"});
   device.parameters.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
-  return AddEffects(device, std::move(extension), uses, force);
+  return AddEffects(device, std::move(device_effects), uses, force);
 }
 
 Device OfCurve(const Device& device, int curve) {
   std::vector<Reading> points;
-  for (const Reading& r : device.extension->readings.points) {
+  for (const Reading& r : device.effects->readings.points) {
     if (r.curve == curve) points.push_back(r);
   }
   return At(device, std::move(points));
 }
 
-Device UnderSky(const Device& device, double irradiance, double temperature_K) {
+Device UnderConditions(const Device& device, double irradiance, double temperature_K) {
   Reading reading;
   reading.irradiance = irradiance;
   reading.temperature_K = temperature_K;

@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/translation.h"
 
 namespace lyrefit {
@@ -24,7 +24,7 @@ Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, dou
 Device OfCurve(const Device& device, int curve);
 
 // A device from ExtendSet at one irradiance (suns) and temperature.
-Device UnderSky(const Device& device, double irradiance, double temperature_K);
+Device UnderConditions(const Device& device, double irradiance, double temperature_K);
 
 // Adds effects to a De Soto `translation`: fills `extended` and `shared_of`, appends the effects'
 // parameters. `bandgap_slope`: the fixed dEgdT, 1/K.

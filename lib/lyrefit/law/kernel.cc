@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 
@@ -106,7 +106,7 @@ namespace {
 double ExtendedMeanSquare(const Device& device, Objective objective, const double* p,
                           const PointSet& points) {
   if (objective == Objective::kMeasuredCurrent) return kUnknown;  // no explicit right-hand side
-  CHECK_EQ(points.size, static_cast<int>(device.extension->readings.points.size()));
+  CHECK_EQ(points.size, static_cast<int>(device.effects->readings.points.size()));
   std::vector<double> current_A(points.size);
   if (!ExtendedCurrents(device, p, current_A.data(), nullptr)) return kUnknown;
   double sum = 0;
@@ -122,7 +122,7 @@ double ExtendedMeanSquare(const Device& device, Objective objective, const doubl
 
 double MeanSquare(const Device& device, Objective objective, const double* p,
                   const PointSet& points, const Kernel& kernel) {
-  if (device.extension != nullptr) return ExtendedMeanSquare(device, objective, p, points);
+  if (device.effects != nullptr) return ExtendedMeanSquare(device, objective, p, points);
   const PreparedDevice prepared = Prepare(device, p);
   if (objective == Objective::kMeasuredCurrent) {
     return kernel.measured_mean_square(prepared, points);
@@ -133,8 +133,8 @@ double MeanSquare(const Device& device, Objective objective, const double* p,
 
 std::vector<double> SolveCurrents(const Device& device, const double* p, const PointSet& points,
                                   const Kernel& kernel) {
-  if (device.extension != nullptr) {
-    std::vector<double> current_A(device.extension->readings.points.size());
+  if (device.effects != nullptr) {
+    std::vector<double> current_A(device.effects->readings.points.size());
     CHECK_EQ(points.size, static_cast<int>(current_A.size()));
     const bool fine = ExtendedCurrents(device, p, current_A.data(), nullptr);
     return fine ? current_A : std::vector<double>(current_A.size(), std::nan(""));
@@ -151,7 +151,7 @@ std::vector<double> SolveCurrents(const Device& device, const double* p, const P
 std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V, const Kernel& kernel) {
   if (voltage_V.empty()) return {};
-  if (device.extension != nullptr) return ExtendedCurrents(device, p, voltage_V);
+  if (device.effects != nullptr) return ExtendedCurrents(device, p, voltage_V);
   const std::vector<double> no_current(voltage_V.size(), 0.0);
   return SolveCurrents(device, p, MakePointSet(voltage_V, no_current), kernel);
 }

@@ -48,7 +48,7 @@ std::string KernelNames();  // "portable, avx2"
 Expected<const Kernel*> KernelNamed(const std::string& name);
 
 // Mean squared residual of parameters `p` (device.size() of them) in A^2; the RMSE is its root. For
-// a device with effects (extension.h) the points must be those of its measurement, and the
+// a device with effects (device_effects.h) the points must be those of its measurement, and the
 // measured-current residual is NaN.
 double MeanSquare(const Device& device, Objective objective, const double* p,
                   const PointSet& points, const Kernel& kernel = FastestKernel());

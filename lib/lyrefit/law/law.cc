@@ -32,42 +32,42 @@ class CellKeeper {
  public:
   CellKeeper(const CellKeeper&) = delete;  // `warm_` and its copies point into this object
   explicit CellKeeper(const EvaluationContext<S>& context) : context_(context) {
-    warm_.kind = kinds_;
-    for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->sky;
+    warm_.group = groups_;
+    for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->conditions;
   }
 
   // Updates the cell for `block`; returns whether it changed.
   bool Settle(const ReadingBlock& block) {
-    sky_ = SkyAt(context_, block);
-    const bool same = known_ && block.one_sky && last_.one_sky &&
+    conditions_ = ConditionsAt(context_, block);
+    const bool same = known_ && block.same_conditions && last_.same_conditions &&
                       IsSame(block.temperature_K, last_.temperature_K) &&
                       IsSame(block.irradiance, last_.irradiance);
     if (!varies_ && same) return false;
-    if (!known_ || !IsSame(sky_.temperature_K, warm_sky_.temperature_K) ||
-        !IsSame(sky_.bandgap_eV, warm_sky_.bandgap_eV)) {
-      CellUnder(context_, sky_, &warm_);
-      warm_sky_ = sky_;
+    if (!known_ || !IsSame(conditions_.temperature_K, warm_conditions_.temperature_K) ||
+        !IsSame(conditions_.bandgap_eV, warm_conditions_.bandgap_eV)) {
+      CellUnder(context_, conditions_, &warm_);
+      warm_conditions_ = conditions_;
     }
     cell_ = warm_;
-    Light(context_, sky_, &cell_);
+    Light(context_, conditions_, &cell_);
     ApplyCellStages(context_, &cell_);
     last_ = block;
     known_ = true;
     return true;
   }
   const Cell<S>& cell() const { return cell_; }
-  const Sky<S>& sky() const { return sky_; }
+  const OperatingConditions<S>& conditions() const { return conditions_; }
 
  private:
   const EvaluationContext<S>& context_;
   bool varies_ = false;
   bool known_ = false;
   ReadingBlock last_;
-  Sky<S> sky_;
-  Sky<S> warm_sky_;
-  Cell<S> warm_;  // fields for the temperature of warm_sky_ only
+  OperatingConditions<S> conditions_;
+  OperatingConditions<S> warm_conditions_;
+  Cell<S> warm_;  // fields for the temperature of warm_conditions_ only
   Cell<S> cell_;
-  Kind<S> kinds_[kMostKinds];
+  CellGroup<S> groups_[kMostGroups];
 };
 
 template <class S>
@@ -103,12 +103,12 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
   }
   const Mask near = abs(state->u[0] - guess.u[0]) < kNear_V;
   if (All(near)) return;
-  for (int g = 0; g < cell.kinds; ++g) {
+  for (int g = 0; g < cell.groups; ++g) {
     state->u[g] = Choose(near, state->u[g], guess.u[g]);
     state->far[g] = Choose(near, state->far[g], guess.far[g]);
   }
-  for (int p = 0; p < cell.parts; ++p) {
-    state->part_voltage[p] = Choose(near, state->part_voltage[p], guess.part_voltage[p]);
+  for (int p = 0; p < cell.substrings; ++p) {
+    state->substring_voltage[p] = Choose(near, state->substring_voltage[p], guess.substring_voltage[p]);
   }
   for (int s = 0; s < cell.strings; ++s) {
     state->current[s] = Choose(near, state->current[s], guess.current[s]);
@@ -120,19 +120,19 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
 bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
                  const Cell<Pack>& cell, StringState* state) {
   constexpr int kLast = Block::kLanes - 1;
-  if (cell.kinds == 1 || !there.Fits(cell) ||
+  if (cell.groups == 1 || !there.Fits(cell) ||
       std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
       block.irradiance[0] != before.irradiance[kLast]) {
     return false;
   }
-  state->kinds = there.kinds;
-  state->parts = there.parts;
+  state->groups = there.groups;
+  state->substrings = there.substrings;
   state->strings = there.strings;
-  for (int g = 0; g < cell.kinds; ++g) {
+  for (int g = 0; g < cell.groups; ++g) {
     state->u[g] = Pack(there.u[g][kLast]);
     state->far[g] = Pack(there.far[g][kLast]);
   }
-  for (int p = 0; p < cell.parts; ++p) state->part_voltage[p] = Pack(there.part_voltage[p][kLast]);
+  for (int p = 0; p < cell.substrings; ++p) state->substring_voltage[p] = Pack(there.substring_voltage[p][kLast]);
   for (int s = 0; s < cell.strings; ++s) state->current[s] = Pack(there.current[s][kLast]);
   return true;
 }
@@ -160,14 +160,14 @@ struct Place {
 
 // Adds `factor` times the derivatives of F of a cell group, at a fixed junction voltage.
 template <class S>
-void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& factor, S* sum) {
+void AddJunction(const Place<S>& at, int group, const Pack& voltage, const Pack& factor, S* sum) {
   const Cell<S>& cell = at.cell;
-  const bool alike = at.plain.kinds == 1;
+  const bool alike = at.plain.groups == 1;
   S light = cell.photocurrent;
-  if (!alike) light = light * cell.kind[kind].light;
+  if (!alike) light = light * cell.group[group].light;
   Add(factor, light, sum);
   Add(-factor * voltage, cell.conductance, sum);
-  if (!alike) Add(-factor * voltage, cell.kind[kind].leak, sum);
+  if (!alike) Add(-factor * voltage, cell.group[group].leak, sum);
   for (int d = 0; d < cell.diodes; ++d) {
     using OfTwo = Dual<2, Pack>;
     const Diode<Pack>& diode = at.plain.diode[d];
@@ -180,15 +180,15 @@ void AddJunction(const Place<S>& at, int kind, const Pack& voltage, const Pack& 
 }
 
 // Adds `factor` times the derivatives of a cell group's current, of both halves where cells are
-// halved.
+// half-cut.
 template <class S>
-void AddKind(const Place<S>& at, const StringState& state, const KindPoint& point, int kind,
+void AddGroup(const Place<S>& at, const StringState& state, const GroupPoint& point, int group,
              const Pack& factor, S* sum) {
-  const Pack near = at.plain.halved ? 0.5 * factor : factor;
-  AddJunction(at, kind, state.u[kind], near, sum);
-  if (!at.plain.halved) return;
+  const Pack near = at.plain.parallel_halves ? 0.5 * factor : factor;
+  AddJunction(at, group, state.u[group], near, sum);
+  if (!at.plain.parallel_halves) return;
   const Pack far = near * point.follows;
-  AddJunction(at, kind, state.far[kind], far, sum);
+  AddJunction(at, group, state.far[group], far, sum);
   Add(0.5 * far * point.far.v[0] * point.far.a, at.cell.lateral, sum);
 }
 
@@ -199,11 +199,11 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   const StringSlopes& slopes = root.slopes;
   const Cell<Pack>& plain = at.plain;
   S current = root.current;
-  for (int g = 0; g < plain.kinds; ++g) {
-    AddKind(at, state, root.kind[g], g, slopes.by_current[g], &current);
-    if (plain.kinds > 1) Add(slopes.by_share[g], at.cell.kind[g].share, &current);
-    if (plain.kinds == 1 || !plain.part[plain.kind[g].part].paired) continue;
-    const Pack& carried = root.kind[g].current.a;
+  for (int g = 0; g < plain.groups; ++g) {
+    AddGroup(at, state, root.group[g], g, slopes.by_current[g], &current);
+    if (plain.groups > 1) Add(slopes.by_share[g], at.cell.group[g].share, &current);
+    if (plain.groups == 1 || !plain.substring[plain.group[g].substring].parallel) continue;
+    const Pack& carried = root.group[g].current.a;
     Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
     if (HasMoreDrop(at.context)) {
       Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(carried)), &current);
@@ -215,9 +215,9 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
     if (!HasMoreDrop(at.context)) continue;
     Add(slopes.by_drop[s], MoreDrop(at.context, at.cell, S(state.current[s])), &current);
   }
-  for (int p = 0; p < plain.parts; ++p) {
-    if (!plain.part[p].bypassed) continue;
-    Add(slopes.by_bypass[p], BypassCurrent(at.cell, plain.part[p].cells, S(-state.part_voltage[p])),
+  for (int p = 0; p < plain.substrings; ++p) {
+    if (!plain.substring[p].bypassed) continue;
+    Add(slopes.by_bypass[p], BypassCurrent(at.cell, plain.substring[p].cells, S(-state.substring_voltage[p])),
         &current);
   }
   return current;
@@ -227,11 +227,11 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
 template <class S>
 S DifferentiateJunction(const Place<S>& at, const StringState& state, const StringRoot& root,
                         const S& current) {
-  const KindPoint& point = root.kind[0];
+  const GroupPoint& point = root.group[0];
   const Pack slope = 1.0 / point.current.v[0];
   S junction = state.u[0];
   Add(slope, current, &junction);
-  AddKind(at, state, point, 0, -slope, &junction);
+  AddGroup(at, state, point, 0, -slope, &junction);
   return junction;
 }
 
@@ -304,11 +304,11 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     const ReadingBlock& block = (*state.blocks)[b];
     if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
     const Cell<Pack>& cell = plain_cells.cell();
-    const Pack& temperature = plain_cells.sky().temperature_K;
+    const Pack& temperature = plain_cells.conditions().temperature_K;
     if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
     const bool kept = !state.strings.empty();
     StringState& at = kept ? state.strings[b] : unkept;
-    const Pack& voltage = plain_cells.sky().voltage;
+    const Pack& voltage = plain_cells.conditions().voltage;
     // A state with other numbers of groups, substrings or strings cannot be reused.
     const bool fresh = state.fresh || !at.Fits(cell);
     const bool follows =
@@ -324,7 +324,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
     } else {
       cells.Settle(block);
       const Place<S> place{context, cells.cell(), cell};
-      S recorded = DifferentiateCurrent(place, cells.sky().voltage, at, root);
+      S recorded = DifferentiateCurrent(place, cells.conditions().voltage, at, root);
       if (instrument) {
         const S junction = DifferentiateJunction(place, at, root, recorded);
         recorded = Recorded(context, block, cells.cell(), recorded, junction);

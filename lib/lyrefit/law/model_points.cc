@@ -9,7 +9,7 @@
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/law/current.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 namespace {
@@ -33,7 +33,7 @@ double RootBetween(const F& f, double a, double b) {
 KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
   constexpr int kPoints = 2000;
   Device base = device;
-  base.extension = nullptr;
+  base.effects = nullptr;
   const double voc = ModelOpenCircuit(base, p);
   if (!(voc > 0)) return FindKeyPoints({}, {});
   std::vector<double> voltage_V;
@@ -44,7 +44,7 @@ KeyPoints ExtendedKeyPoints(const Device& device, const double* p) {
 }  // namespace
 
 double ModelOpenCircuit(const Device& device, const double* p) {
-  if (device.extension != nullptr) return ExtendedKeyPoints(device, p).open_circuit_voltage_V;
+  if (device.effects != nullptr) return ExtendedKeyPoints(device, p).open_circuit_voltage_V;
   // At open circuit no current flows through Rs: the junction voltage is V.
   const auto junction = [&](double v) { return JunctionCurrent(device, p, v); };
   if (!(p[kIph] > 0)) return kUnknown;
@@ -54,7 +54,7 @@ double ModelOpenCircuit(const Device& device, const double* p) {
 }
 
 KeyPoints ModelKeyPoints(const Device& device, const double* p) {
-  if (device.extension != nullptr) return ExtendedKeyPoints(device, p);
+  if (device.effects != nullptr) return ExtendedKeyPoints(device, p);
   KeyPoints points{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   points.short_circuit_current_A = SolveOperatingPoint(device, p, 0).current_A;
   // In the dark the current at V = 0 is zero except for rounding.

@@ -118,14 +118,14 @@ void CallPlainStage(const PlainStage& stage, int parameters, double reach, doubl
 }
 
 PlainStage WithDifferences(PlainValue stage, std::vector<std::pair<double, double>> ranges,
-                           bool under_sky) {
-  return [stage = std::move(stage), ranges = std::move(ranges), under_sky](
+                           bool under_conditions) {
+  return [stage = std::move(stage), ranges = std::move(ranges), under_conditions](
              const StageInput& input, const StageOutput& output) {
     stage(input, output.value);
     Widened widened(input);
     if (output.by_x != nullptr) widened.Differentiate(stage, &StageInput::x, output.by_x);
     if (output.by_p == nullptr) return;
-    if (under_sky) {
+    if (under_conditions) {
       widened.Differentiate(stage, &StageInput::photocurrent, output.by_photocurrent);
       widened.Differentiate(stage, &StageInput::thermal_voltage, output.by_thermal_voltage);
     } else {

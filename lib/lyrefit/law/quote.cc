@@ -83,38 +83,38 @@ Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, c
 }
 
 std::vector<double> Reported(const Device& device, std::vector<double> p) {
-  if (device.extension == nullptr) return p;
-  const Extension& extension = *device.extension;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const int first = extension.law.Offset(static_cast<int>(e));
+  if (device.effects == nullptr) return p;
+  const DeviceEffects& device_effects = *device.effects;
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const int first = device_effects.law.Offset(static_cast<int>(e));
     const std::vector<double> values =
-        ReportedValues(*extension.uses[e].effect, p.data() + first, extension.readings.scale);
+        ReportedValues(*device_effects.uses[e].effect, p.data() + first, device_effects.readings.scale);
     std::copy(values.begin(), values.end(), p.begin() + first);
   }
   return p;
 }
 
 std::vector<double> Inner(const Device& device, std::vector<double> reported) {
-  if (device.extension == nullptr) return reported;
-  const Extension& extension = *device.extension;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
-    const int first = extension.law.Offset(static_cast<int>(e));
+  if (device.effects == nullptr) return reported;
+  const DeviceEffects& device_effects = *device.effects;
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const Effect& effect = *device_effects.uses[e].effect;
+    const int first = device_effects.law.Offset(static_cast<int>(e));
     const std::vector<double> own(reported.begin() + first,
                                   reported.begin() + first + effect.size());
-    const std::vector<double> values = InnerValues(effect, own, extension.readings.scale);
+    const std::vector<double> values = InnerValues(effect, own, device_effects.readings.scale);
     std::copy(values.begin(), values.end(), reported.begin() + first);
   }
   return reported;
 }
 
 double FactorOf(const Device& device, const std::vector<double>& p, int i) {
-  const Extension& extension = *device.extension;
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
-    const int first = extension.law.Offset(static_cast<int>(e));
+  const DeviceEffects& device_effects = *device.effects;
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const Effect& effect = *device_effects.uses[e].effect;
+    const int first = device_effects.law.Offset(static_cast<int>(e));
     if (i < first || i >= first + effect.size()) continue;
-    return effect.parameters[i - first].ReportedFactor(p.data() + first, extension.readings.scale);
+    return effect.parameters[i - first].ReportedFactor(p.data() + first, device_effects.readings.scale);
   }
   return 1;
 }

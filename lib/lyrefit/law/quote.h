@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/law/effect.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/parameter.h"
 
 // Conversion of an effect's parameters between internal and reporting units. The factor of one

@@ -5,7 +5,7 @@
 namespace lyrefit {
 namespace {
 
-bool OneSky(const Reading& a, const Reading& b) {
+bool SameConditions(const Reading& a, const Reading& b) {
   return a.irradiance == b.irradiance && a.temperature_K == b.temperature_K;
 }
 
@@ -24,7 +24,7 @@ int RunFrom(const Readings& readings, int first) {
   const std::vector<Reading>& points = readings.points;
   const int end = std::min(first + Block::kLanes, static_cast<int>(points.size()));
   int last = first + 1;
-  while (last < end && OneSky(points[first], points[last])) ++last;
+  while (last < end && SameConditions(points[first], points[last])) ++last;
   return last - first;
 }
 
@@ -38,8 +38,8 @@ std::vector<ReadingBlock> BlocksOf(const Readings& readings) {
     ReadingBlock block;
     block.first = first;
     block.count = RunFrom(readings, first);
-    block.one_sky = block.count >= kOwn;
-    while (!block.one_sky && block.count < Block::kLanes && first + block.count < count) {
+    block.same_conditions = block.count >= kOwn;
+    while (!block.same_conditions && block.count < Block::kLanes && first + block.count < count) {
       const int next = RunFrom(readings, first + block.count);
       if (next >= kOwn) break;
       block.count += next;

@@ -22,19 +22,19 @@
 namespace lyrefit {
 
 // State of the iteration for eight readings: junction voltages of the cell groups, voltages of the
-// substrings, currents of the strings. In halved cells `u` is the near half's and `far` the far
+// substrings, currents of the strings. In half-cut cells `u` is the near half's and `far` the far
 // half's voltage. Voltages and currents of a string are scaled as if all cells were in that string.
 struct StringState {
-  Pack u[kMostKinds];
-  Pack far[kMostKinds];
-  Pack part_voltage[kMostKinds];
-  Pack current[kMostKinds];
-  int kinds = 0;  // numbers of valid entries
-  int parts = 0;
+  Pack u[kMostGroups];
+  Pack far[kMostGroups];
+  Pack substring_voltage[kMostGroups];
+  Pack current[kMostGroups];
+  int groups = 0;  // numbers of valid entries
+  int substrings = 0;
   int strings = 0;
 
   bool Fits(const Cell<Pack>& cell) const {
-    return kinds == cell.kinds && parts == cell.parts && strings == cell.strings;
+    return groups == cell.groups && substrings == cell.substrings && strings == cell.strings;
   }
 };
 
@@ -49,26 +49,26 @@ StringLimits LimitsOf(const Cell<Pack>& cell);
 
 // Current of a cell group at its junction voltage. With two halves, I = (F(u) + F(f)) / 2 and f = u
 // + R F(f) / 2. The far half is linearised, so that the current depends on u alone.
-struct KindPoint {
+struct GroupPoint {
   Dual<1, Pack> current;  // with its slope by u
-  Dual<1, Pack> far;      // halved: F(f), with its slope
-  Pack follows;           // halved: df/du
-  Pack behind;            // halved: residual of the equation for f
+  Dual<1, Pack> far;      // half-cut: F(f), with its slope
+  Pack follows;           // half-cut: df/du
+  Pack behind;            // half-cut: residual of the equation for f
 };
 
 // Derivatives of the delivered current by each term of the equations, at the root.
 struct StringSlopes {
-  Pack by_current[kMostKinds];  // F of each cell group
-  Pack by_share[kMostKinds];
-  Pack by_bypass[kMostKinds];      // B of each substring
-  Pack by_drop[kMostKinds];        // D of each string
-  Pack by_chain_drop[kMostKinds];  // D of the group's chain (paired), else 0
-  Pack by_terminal[kMostKinds];    // V, in each string
+  Pack by_current[kMostGroups];  // F of each cell group
+  Pack by_share[kMostGroups];
+  Pack by_bypass[kMostGroups];      // B of each substring
+  Pack by_drop[kMostGroups];        // D of each string
+  Pack by_chain_drop[kMostGroups];  // D of the group's chain (parallel), else 0
+  Pack by_terminal[kMostGroups];    // V, in each string
 };
 
 struct StringRoot {
   Pack current;  // delivered by all strings
-  KindPoint kind[kMostKinds];
+  GroupPoint group[kMostGroups];
   StringSlopes slopes;
 };
 

@@ -1,6 +1,6 @@
 #include "lyrefit/law/string_brackets.h"
 
-#include "lyrefit/law/string_kind.h"
+#include "lyrefit/law/string_cell_group.h"
 
 namespace lyrefit {
 namespace {
@@ -57,9 +57,9 @@ class Bracketed {
 
   Pack WeightOf(int string) const {
     Pack weight = 0.0;
-    for (int g = 0; g < cell_.kinds; ++g) {
+    for (int g = 0; g < cell_.groups; ++g) {
       if (IsBeside(cell_, g)) continue;
-      if (cell_.part[PartOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
+      if (cell_.substring[SubstringOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
     }
     return weight;
   }
@@ -68,25 +68,25 @@ class Bracketed {
   Pack VoltageOf(int string, const Pack& current, StringState* state) const {
     const Pack drop = SeriesDrop(context_, cell_, Dual<1, Pack>(current, 0)).a;
     Pack sum = 0.0;
-    for (int p = 0; p < cell_.parts; ++p) {
-      if (cell_.part[p].string != string) continue;
+    for (int p = 0; p < cell_.substrings; ++p) {
+      if (cell_.substring[p].string != string) continue;
       Pack carried = current, weight = 0.0;
-      if (cell_.part[p].paired) {
-        state->part_voltage[p] = VoltageOfPair(p, current, &weight, state);
-        sum = sum + weight * state->part_voltage[p];
+      if (cell_.substring[p].parallel) {
+        state->substring_voltage[p] = VoltageOfPair(p, current, &weight, state);
+        sum = sum + weight * state->substring_voltage[p];
         continue;
       }
-      if (cell_.part[p].bypassed) {
+      if (cell_.substring[p].bypassed) {
         carried = RisingRoot(
             [&](const Pack& own) {
               const Pack reverse = drop - MeanVoltage(p, own, &weight, state);
-              return own + BypassCurrent(cell_, cell_.part[p].cells, Dual<1, Pack>(reverse, 0)).a -
+              return own + BypassCurrent(cell_, cell_.substring[p].cells, Dual<1, Pack>(reverse, 0)).a -
                      current;
             },
             current, 1.0);
       }
-      state->part_voltage[p] = MeanVoltage(p, carried, &weight, state) - drop;
-      sum = sum + weight * state->part_voltage[p];
+      state->substring_voltage[p] = MeanVoltage(p, carried, &weight, state) - drop;
+      sum = sum + weight * state->substring_voltage[p];
     }
     return sum;
   }
@@ -97,32 +97,32 @@ class Bracketed {
 
   // Voltage of a substring of two parallel chains. `excess` rises: the current of the group beside
   // falls as its voltage rises, so the other chain carries more and its voltage falls.
-  Pack VoltageOfPair(int part, const Pack& current, Pack* weight, StringState* state) const {
+  Pack VoltageOfPair(int substring, const Pack& current, Pack* weight, StringState* state) const {
     int beside = 0;
-    while (cell_.kind[beside].part != part || !cell_.kind[beside].beside) ++beside;
+    while (cell_.group[beside].substring != substring || !cell_.group[beside].beside) ++beside;
     Pack voltage = 0.0;
     const auto excess = [&](const Pack& junction) {  // rises with the junction voltage
       state->u[beside] = junction;
       const Pack own = PointOf(context_, cell_, beside, *state).current.a;
       voltage = junction - DropAt(own);
       Pack others = 2.0 * current - own;
-      if (cell_.part[part].bypassed) {
+      if (cell_.substring[substring].bypassed) {
         const Dual<1, Pack> reverse(-voltage, 0);
-        others = others - 2.0 * BypassCurrent(cell_, cell_.part[part].cells, reverse).a;
+        others = others - 2.0 * BypassCurrent(cell_, cell_.substring[substring].cells, reverse).a;
       }
-      return voltage - MeanVoltage(part, others, weight, state) + DropAt(others);
+      return voltage - MeanVoltage(substring, others, weight, state) + DropAt(others);
     };
     excess(RisingRoot(excess, state->u[beside], 0.1));
     return voltage;
   }
 
   // Mean junction voltage of a substring's cells at their current.
-  Pack MeanVoltage(int part, const Pack& carried, Pack* weight, StringState* state) const {
+  Pack MeanVoltage(int substring, const Pack& carried, Pack* weight, StringState* state) const {
     Pack sum = 0.0;
     *weight = 0.0;
-    for (int g = 0; g < cell_.kinds; ++g) {
-      if (PartOf(cell_, g) != part || IsBeside(cell_, g)) continue;
-      MoveKind(g, carried, state);
+    for (int g = 0; g < cell_.groups; ++g) {
+      if (SubstringOf(cell_, g) != substring || IsBeside(cell_, g)) continue;
+      MoveGroup(g, carried, state);
       *weight = *weight + ShareOf(cell_, g);
       sum = sum + ShareOf(cell_, g) * state->u[g];
     }
@@ -130,13 +130,13 @@ class Bracketed {
   }
 
   // Moves a cell group to the junction voltage at which it carries `carried`.
-  void MoveKind(int kind, const Pack& carried, StringState* state) const {
+  void MoveGroup(int group, const Pack& carried, StringState* state) const {
     const Pack size = 1.0 + abs(carried);
     constexpr double kFar = 1e6;
     Pack low = -kFar, high = kFar;  // the current falls as the voltage rises
     for (int k = 0; k < kSteps; ++k) {
-      const KindPoint point = PointOf(context_, cell_, kind, *state);
-      const Pack missing = carried - point.current.a, u = state->u[kind];
+      const GroupPoint point = PointOf(context_, cell_, group, *state);
+      const Pack missing = carried - point.current.a, u = state->u[group];
       const Mask too_high = 0.0 < missing;
       high = Choose(too_high, Smaller(high, u), high);
       low = Choose(too_high, low, Larger(low, u));
@@ -144,13 +144,13 @@ class Bracketed {
           NextVoltage(cell_, limits_, u, missing / point.current.v[0], point.current, size);
       // Newton's steps may oscillate between a flat and a steep stretch: bisection ends that.
       const Mask outside = (next < low) | (high < next);
-      state->u[kind] = Choose(outside, 0.5 * (low + high), next);
-      const Pack step = state->u[kind] - u;
+      state->u[group] = Choose(outside, 0.5 * (low + high), next);
+      const Pack step = state->u[group] - u;
       Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
-      if (cell_.halved) {
-        const Pack far = state->far[kind], way = (step + point.behind) * point.follows;
-        state->far[kind] = NextVoltage(cell_, limits_, far, way, point.far, size);
-        done = done & IsShort(state->far[kind] - far, far);
+      if (cell_.parallel_halves) {
+        const Pack far = state->far[group], way = (step + point.behind) * point.follows;
+        state->far[group] = NextVoltage(cell_, limits_, far, way, point.far, size);
+        done = done & IsShort(state->far[group] - far, far);
       }
       if (All(done)) return;
     }

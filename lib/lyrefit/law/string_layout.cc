@@ -108,57 +108,57 @@ bool Alike(const StringLayout::Cells& a, const StringLayout::Cells& b) {
 
 // One part (substring) as in the file: `share` holds the cell count.
 struct WrittenSubstring {
-  Part part;
-  std::vector<StringLayout::Cells> kinds;
+  Substring substring;
+  std::vector<StringLayout::Cells> groups;
   double times = 1;
 };
 
 bool Alike(const WrittenSubstring& a, const WrittenSubstring& b) {
-  if (a.part.bypassed != b.part.bypassed || a.part.string != b.part.string) return false;
-  if (a.part.bypassed && a.part.cells != b.part.cells) return false;
-  if (a.kinds.size() != b.kinds.size()) return false;
-  const double ratio = b.part.cells / a.part.cells;
-  for (std::size_t k = 0; k < a.kinds.size(); ++k) {
-    if (!Alike(a.kinds[k], b.kinds[k])) return false;
-    if (std::fabs(a.kinds[k].share * ratio - b.kinds[k].share) > 1e-9) return false;
+  if (a.substring.bypassed != b.substring.bypassed || a.substring.string != b.substring.string) return false;
+  if (a.substring.bypassed && a.substring.cells != b.substring.cells) return false;
+  if (a.groups.size() != b.groups.size()) return false;
+  const double ratio = b.substring.cells / a.substring.cells;
+  for (std::size_t k = 0; k < a.groups.size(); ++k) {
+    if (!Alike(a.groups[k], b.groups[k])) return false;
+    if (std::fabs(a.groups[k].share * ratio - b.groups[k].share) > 1e-9) return false;
   }
   return true;
 }
 
-Expected<WrittenSubstring> ReadPart(const Node& node, int string) {
+Expected<WrittenSubstring> ReadSubstring(const Node& node, int string) {
   TRY(CheckKeys(node, {"bypass", "times", "cells"}));
   WrittenSubstring written;
-  written.part.string = string;
+  written.substring.string = string;
   if (node.Has("bypass")) {
     if (!node.At("bypass").value->is_boolean()) return node.At("bypass").Refuse("true or false");
-    written.part.bypassed = node.At("bypass").value->get<bool>();
+    written.substring.bypassed = node.At("bypass").value->get<bool>();
   }
   TRY(ReadWhole(node, "times", &written.times));
   if (!node.Has("cells") || !node.At("cells").value->is_array() ||
       node.At("cells").value->empty()) {
     return node.Refuse("a list \"cells\" of {\"count\", \"light\", \"leak_S\"}");
   }
-  written.part.cells = 0;
+  written.substring.cells = 0;
   const Node cells = node.At("cells");
   for (std::size_t k = 0; k < cells.value->size(); ++k) {
     const Node at = cells.At(k);
     TRY(CheckKeys(at, {"count", "light", "leak_S"}));
-    StringLayout::Cells kind;
+    StringLayout::Cells group;
     for (auto read :
-         {ReadWhole(at, "count", &kind.share), ReadNumber(at, "light", {0, 2}, &kind.light),
-          ReadNumber(at, "leak_S", {0, 1000}, &kind.leak_S)}) {
+         {ReadWhole(at, "count", &group.share), ReadNumber(at, "light", {0, 2}, &group.light),
+          ReadNumber(at, "leak_S", {0, 1000}, &group.leak_S)}) {
       if (!read) return tl::unexpected(read.error());
     }
-    written.part.cells += kind.share;
-    written.kinds.push_back(kind);
+    written.substring.cells += group.share;
+    written.groups.push_back(group);
   }
   return written;
 }
 
 // The parts of all strings. Equal parts of a string are merged. `cells`: cells in series of each
 // string.
-Expected<std::vector<WrittenSubstring>> ReadParts(const Node& strings, std::vector<double>* cells) {
-  std::vector<WrittenSubstring> parts;
+Expected<std::vector<WrittenSubstring>> ReadSubstrings(const Node& strings, std::vector<double>* cells) {
+  std::vector<WrittenSubstring> substrings;
   for (std::size_t s = 0; s < strings.value->size(); ++s) {
     const Node string = strings.At(s);
     if (!string.value->is_array() || string.value->empty()) {
@@ -166,20 +166,20 @@ Expected<std::vector<WrittenSubstring>> ReadParts(const Node& strings, std::vect
     }
     double count = 0;
     for (std::size_t k = 0; k < string.value->size(); ++k) {
-      TRY(auto part, ReadPart(string.At(k), static_cast<int>(s)));
-      count += part.times * part.part.cells;
+      TRY(auto substring, ReadSubstring(string.At(k), static_cast<int>(s)));
+      count += substring.times * substring.substring.cells;
       const auto same =
-          std::find_if(parts.begin(), parts.end(),
-                       [&](const WrittenSubstring& other) { return Alike(other, part); });
-      if (same == parts.end()) {
-        parts.push_back(std::move(part));
+          std::find_if(substrings.begin(), substrings.end(),
+                       [&](const WrittenSubstring& other) { return Alike(other, substring); });
+      if (same == substrings.end()) {
+        substrings.push_back(std::move(substring));
       } else {
-        same->times += part.times * part.part.cells / same->part.cells;
+        same->times += substring.times * substring.substring.cells / same->substring.cells;
       }
     }
     cells->push_back(count);
   }
-  return parts;
+  return substrings;
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
     return Fail("expected a list \"strings\" of lists of parts", path);
   }
   std::vector<double> cells;
-  TRY(const auto parts, ReadParts(file.At("strings"), &cells));
+  TRY(const auto substrings, ReadSubstrings(file.At("strings"), &cells));
   for (const double count : cells) {
     if (count == cells.front()) continue;
     return Fail(fmt::format("strings: expected as many cells in each, found {:g} and {:g}",
@@ -207,22 +207,22 @@ Expected<StringLayout> ReadStringLayout(const std::string& path) {
   }
   layout.strings = static_cast<int>(cells.size());
   layout.cells_in_series = static_cast<int>(cells.front());
-  for (const WrittenSubstring& written : parts) {
-    for (StringLayout::Cells kind : written.kinds) {
-      kind.part = static_cast<int>(layout.parts.size());
-      kind.share *= written.times / (cells.front() * layout.strings);
-      layout.kinds.push_back(kind);
+  for (const WrittenSubstring& written : substrings) {
+    for (StringLayout::Cells group : written.groups) {
+      group.substring = static_cast<int>(layout.substrings.size());
+      group.share *= written.times / (cells.front() * layout.strings);
+      layout.groups.push_back(group);
     }
-    layout.parts.push_back(written.part);
+    layout.substrings.push_back(written.substring);
   }
-  if (layout.kinds.size() == 1) {  // one cell group means "all alike, no bypass diode" (see Cell)
-    layout.kinds.front().share *= 0.5;
-    layout.kinds.push_back(layout.kinds.front());
+  if (layout.groups.size() == 1) {  // one cell group means "all alike, no bypass diode" (see Cell)
+    layout.groups.front().share *= 0.5;
+    layout.groups.push_back(layout.groups.front());
   }
-  if (layout.kinds.size() > kMostKinds) {
+  if (layout.groups.size() > kMostGroups) {
     return Fail(fmt::format("strings: expected at most {} kinds of cells that differ in part, "
                             "light or leak, found {}",
-                            kMostKinds, layout.kinds.size()),
+                            kMostGroups, layout.groups.size()),
                 path);
   }
   return layout;

@@ -18,10 +18,10 @@ struct StringLayout {
     double share = 1;   // fraction of all cells of the device
     double light = 1;   // factor of the photocurrent
     double leak_S = 0;  // additional shunt conductance of each cell
-    int part = 0;       // position of its substring in `parts`
+    int substring = 0;       // position of its substring in `substrings`
   };
-  std::vector<Cells> kinds;  // at most kMostKinds
-  std::vector<Part> parts;   // at most kMostKinds
+  std::vector<Cells> groups;  // at most kMostGroups
+  std::vector<Substring> substrings;   // at most kMostGroups
   int cells_in_series = 1;
   int strings = 1;                // in parallel, of equal cell numbers
   double bypass_voltage_V = 0.5;  // at the current scale, which is about Isc
@@ -43,7 +43,7 @@ struct StringLayout {
 // Strings are in parallel, the parts (substrings) of each in series. `times` (1) repeats a part,
 // `bypass` (false) gives each of them a bypass diode. reverse: {"law": "shunt"} (default), "bishop"
 // (a, Vbr_V, m; doi:10.1016/0379-6787(88)90059-2) or "soft" (A_V, m). Equal parts of a string are
-// merged. Errors: unknown keys, strings of unequal numbers of cells, more than kMostKinds different
+// merged. Errors: unknown keys, strings of unequal numbers of cells, more than kMostGroups different
 // cell groups, numbers outside their ranges.
 Expected<StringLayout> ReadStringLayout(const std::string& path);
 

@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kSame = 1e-9;
 
-bool HasShape(const Extension& extension, const Effect& effect) {
-  const DataTraits& traits = extension.readings.traits;
+bool HasShape(const DeviceEffects& device_effects, const Effect& effect) {
+  const DataTraits& traits = device_effects.readings.traits;
   return effect.starts != nullptr && traits.single && !traits.only_dark;
 }
 
-std::vector<ParameterBounds> OwnBounds(const Extension& extension, std::size_t use) {
-  const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
-  const auto begin = extension.bounds.begin() + first;
-  return {begin, begin + extension.uses[use].effect->size()};
+std::vector<ParameterBounds> OwnBounds(const DeviceEffects& device_effects, std::size_t use) {
+  const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
+  const auto begin = device_effects.bounds.begin() + first;
+  return {begin, begin + device_effects.uses[use].effect->size()};
 }
 
 bool SameBounds(const Variant& a, const Variant& b) {
@@ -32,11 +32,11 @@ bool SameBounds(const Variant& a, const Variant& b) {
 }
 
 // The variant as requested, of one effect.
-Variant AsAsked(const Extension& extension, std::size_t use) {
+Variant AsAsked(const DeviceEffects& device_effects, std::size_t use) {
   Variant variant;
-  variant.bounds = OwnBounds(extension, use);
-  const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
-  const auto begin = extension.usual.begin() + first;
+  variant.bounds = OwnBounds(device_effects, use);
+  const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
+  const auto begin = device_effects.usual.begin() + first;
   variant.usual.assign(begin, begin + static_cast<std::ptrdiff_t>(variant.bounds.size()));
   return variant;
 }
@@ -56,14 +56,14 @@ Variant VariantOf(const Effect& effect, const ShapeStart& start) {
   return variant;
 }
 
-std::vector<Variant> OfOneEffect(const Extension& extension, const CurveShape& shape,
+std::vector<Variant> OfOneEffect(const DeviceEffects& device_effects, const CurveShape& shape,
                                  std::size_t use) {
-  const EffectUse& asked = extension.uses[use];
-  const Variant as_asked = AsAsked(extension, use);
+  const EffectUse& asked = device_effects.uses[use];
+  const Variant as_asked = AsAsked(device_effects, use);
   std::vector<Variant> variants;
-  if (asked.ranges.empty() && HasShape(extension, *asked.effect)) {
+  if (asked.ranges.empty() && HasShape(device_effects, *asked.effect)) {
     for (const ShapeStart& start :
-         asked.effect->starts(shape, extension.readings.traits, as_asked.bounds)) {
+         asked.effect->starts(shape, device_effects.readings.traits, as_asked.bounds)) {
       Variant variant = VariantOf(*asked.effect, start);
       for (std::size_t k = 0; k < variant.bounds.size(); ++k) {  // requested whole numbers
         ParameterBounds& own = variant.bounds[k];
@@ -98,13 +98,13 @@ bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds
 }
 
 // Starts of one effect in this variant; if none fits it, all of them moved into its bounds.
-std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const CurveShape& shape,
+std::vector<std::vector<double>> OwnPlaces(const DeviceEffects& device_effects, const CurveShape& shape,
                                            std::size_t use,
                                            const std::vector<ParameterBounds>& bounds) {
-  const EffectUse& asked = extension.uses[use];
+  const EffectUse& asked = device_effects.uses[use];
   std::vector<std::vector<double>> places, others;
   for (const ShapeStart& start :
-       asked.effect->starts(shape, extension.readings.traits, OwnBounds(extension, use))) {
+       asked.effect->starts(shape, device_effects.readings.traits, OwnBounds(device_effects, use))) {
     std::vector<double> own = start.p;
     const bool same = MoveInside(*asked.effect, bounds, !asked.ranges.empty(), &own);
     std::vector<std::vector<double>>& list = same ? places : others;
@@ -115,12 +115,12 @@ std::vector<std::vector<double>> OwnPlaces(const Extension& extension, const Cur
 
 }  // namespace
 
-std::vector<Variant> VariantsOf(const Extension& extension) {
-  const CurveShape shape = ShapeOf(extension.readings);
+std::vector<Variant> VariantsOf(const DeviceEffects& device_effects) {
+  const CurveShape shape = ShapeOf(device_effects.readings);
   std::vector<Variant> variants = {{}};
-  for (std::size_t use = 0; use < extension.uses.size(); ++use) {
+  for (std::size_t use = 0; use < device_effects.uses.size(); ++use) {
     std::vector<Variant> longer;
-    for (const Variant& own : OfOneEffect(extension, shape, use)) {
+    for (const Variant& own : OfOneEffect(device_effects, shape, use)) {
       for (Variant variant : variants) {
         variant.bounds.insert(variant.bounds.end(), own.bounds.begin(), own.bounds.end());
         variant.usual.insert(variant.usual.end(), own.usual.begin(), own.usual.end());
@@ -135,16 +135,16 @@ std::vector<Variant> VariantsOf(const Extension& extension) {
   return variants;
 }
 
-std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const Variant& variant) {
-  const CurveShape shape = ShapeOf(extension.readings);
+std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects, const Variant& variant) {
+  const CurveShape shape = ShapeOf(device_effects.readings);
   std::vector<std::vector<double>> places;
-  for (std::size_t use = 0; use < extension.uses.size(); ++use) {
-    const Effect& effect = *extension.uses[use].effect;
-    if (!HasShape(extension, effect)) continue;
-    const int first = extension.law.Offset(static_cast<int>(use)) - extension.law.base_size();
+  for (std::size_t use = 0; use < device_effects.uses.size(); ++use) {
+    const Effect& effect = *device_effects.uses[use].effect;
+    if (!HasShape(device_effects, effect)) continue;
+    const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
     const auto begin = variant.bounds.begin() + first;
     for (const std::vector<double>& own :
-         OwnPlaces(extension, shape, use, {begin, begin + effect.size()})) {
+         OwnPlaces(device_effects, shape, use, {begin, begin + effect.size()})) {
       std::vector<double> place = variant.usual;
       std::copy(own.begin(), own.end(), place.begin() + first);
       places.push_back(std::move(place));
@@ -153,9 +153,9 @@ std::vector<std::vector<double>> ShapePlaces(const Extension& extension, const V
   return places;
 }
 
-void LeaveARest(const Extension& extension, const std::vector<ParameterBounds>& bounds, double* p) {
+void LeaveARest(const DeviceEffects& device_effects, const std::vector<ParameterBounds>& bounds, double* p) {
   int first = 0;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;
     std::vector<int> shares;
     for (int k = 0; k < effect.size(); ++k) {
@@ -181,17 +181,17 @@ void LeaveARest(const Extension& extension, const std::vector<ParameterBounds>& 
   }
 }
 
-std::string DescribeVariant(const Extension& extension, const Variant& variant) {
+std::string DescribeVariant(const DeviceEffects& device_effects, const Variant& variant) {
   std::string free, held;
   const auto add = [](std::string* list, const std::string& text) {
     *list += (list->empty() ? "" : ", ") + text;
   };
   int at = 0;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;
-    const std::string prefix = extension.uses.size() > 1 ? std::string(effect.id) + "." : "";
+    const std::string prefix = device_effects.uses.size() > 1 ? std::string(effect.id) + "." : "";
     const std::vector<double> reported =
-        ReportedValues(effect, variant.usual.data() + at, extension.readings.scale);
+        ReportedValues(effect, variant.usual.data() + at, device_effects.readings.scale);
     for (int k = 0; k < effect.size(); ++k, ++at) {
       const EffectParameter& info = effect.parameters[k];
       const ParameterBounds& own = variant.bounds[at];

@@ -74,7 +74,7 @@ class ActiveSet {
   };
 
   int size() const { return shape_.size(); }
-  bool Ended() const { return stopped_ || hopeless_ || now_.mean_square <= options_.enough; }
+  bool Ended() const { return stopped_ || hopeless_ || now_.mean_square <= options_.target; }
   void Measure() { now_.mean_square = model_.MeanSquare(now_.at); }
 
   void Clamp() {
@@ -160,7 +160,7 @@ class ActiveSet {
     how.trust_radius = options_.trust_radius;
     how.unit_A = std::max(std::sqrt(now_.mean_square), 1e-13 * shape_.current_scale_A);
     const double per_unit = shape_.points / (how.unit_A * how.unit_A);
-    how.enough = options_.enough * per_unit;
+    how.target = options_.target * per_unit;
     how.cutoff = options_.cutoff * per_unit;
     how.stop = options_.stop;
     SolveEnd end = SolveModel(model_, coordinates, now_.at.local, how);

@@ -13,7 +13,7 @@ struct RefineOptions {
   double function_tolerance = 1e-15;  // relative decrease of the sum of squares that ends a solve
   int max_rounds = 30;                // of finding the active bounds
   bool let_in = true;                 // whether a dropped diode may be added again
-  double enough = 0;                  // A^2; iterations end at or below this mean square
+  double target = 0;                  // A^2; iterations end at or below this mean square
   std::function<bool()> stop;         // called once per iteration; true: end at this point
   // Solves small problems in fewer evaluations (SolveOptions::small), without further rounds if the
   // first solve converged inside the bounds. For fits by the hundred that need not be exact.
@@ -55,7 +55,7 @@ RefineEnd RefineModel(const FitModel& model, FitPoint start, const RefineOptions
 
 // One bounded solve in all parameters at once: the usual least-squares step after a metaheuristic,
 // and the reference for measuring RefineModel. Reads only the options `max_iterations`,
-// `function_tolerance`, `enough`, `stop` and `evaluation_limit`.
+// `function_tolerance`, `target`, `stop` and `evaluation_limit`.
 RefineEnd RefineModelPlainly(const FitModel& model, FitPoint start,
                              const RefineOptions& options = {});
 

@@ -175,7 +175,7 @@ void AddConstant(double squares, Points* points) {
 // Effects act on single readings, and correlated errors on neighbours, so neither allows
 // coarsening.
 bool CanCoarsen(const RefineProblem& problem) {
-  return problem.voltage_V.size() > kFewPoints && problem.device.extension == nullptr &&
+  return problem.voltage_V.size() > kFewPoints && problem.device.effects == nullptr &&
          problem.errors == nullptr;
 }
 

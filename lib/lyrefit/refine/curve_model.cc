@@ -24,7 +24,7 @@ CurveModel::CurveModel(const RefineProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {}
 
 CurveModel::CurveModel(const RefineProblem& problem, GiveUp give_up) : CurveModel(problem) {
-  if (problem.device.extension != nullptr) kept_ = std::make_unique<LawWorkspace>(give_up);
+  if (problem.device.effects != nullptr) kept_ = std::make_unique<LawWorkspace>(give_up);
 }
 
 CurveModel::CurveModel(std::unique_ptr<RefineProblem> own)

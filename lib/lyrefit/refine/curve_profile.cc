@@ -50,19 +50,19 @@ class CurveRefits {
   CurveRefits(const CurveRefits&) = delete;
   CurveRefits& operator=(const CurveRefits&) = delete;
 
-  RefineEnd Refit(double value, const FitPoint& start, double enough, double tolerance) {
-    Ask(value, enough, tolerance);
+  RefineEnd Refit(double value, const FitPoint& start, double target, double tolerance) {
+    Ask(value, target, tolerance);
     FitPoint from = start;
     from.p[i_] = value;
     RefineOptions briefly = how_;
     briefly.first_iterations = kBriefly;
     briefly.max_rounds = 0;
-    if (enough > 0) briefly.cutoff = enough;
+    if (target > 0) briefly.cutoff = target;
     RefineEnd end = RefineModel(model_, from, briefly);
     // RefineFrom is tried if the brief fit did not reach its goal. It is also tried before a point
     // counts as outside, since the diodes may have exchanged roles there.
     const bool further = end.converged ? end.mean_square > outside_ && OfDiode()
-                                       : end.mean_square > enough && (OfDiode() || !(enough > 0));
+                                       : end.mean_square > target && (OfDiode() || !(target > 0));
     if (further) TakeIfLower(RefineFrom(held_, from.p, how_), &end);
     if (end.mean_square > outside_ && end.mean_square < hopeless_) {
       for (std::vector<double>& traded : Traded(value)) {
@@ -73,11 +73,11 @@ class CurveRefits {
     return end;
   }
 
-  // Whether a fit from a deterministic start ends at or below `enough`.
-  bool Elsewhere(double value, double enough, double tolerance, FitPoint* there) {
-    Ask(value, enough, tolerance);
+  // Whether a fit from a deterministic start ends at or below `target`.
+  bool Elsewhere(double value, double target, double tolerance, FitPoint* there) {
+    Ask(value, target, tolerance);
     RefineOptions reach = how_;
-    reach.cutoff = enough;
+    reach.cutoff = target;
     reach.let_in = true;
     std::vector<std::vector<double>> starts = Traded(value);
     for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
@@ -87,7 +87,7 @@ class CurveRefits {
     starts.back()[i_] = value;
     for (const std::vector<double>& from : starts) {
       RefineEnd end = RefineFrom(held_, from, reach);
-      if (end.mean_square > enough) continue;
+      if (end.mean_square > target) continue;
       *there = std::move(end);
       return true;
     }
@@ -104,10 +104,10 @@ class CurveRefits {
     if (other.mean_square < end->mean_square) *end = std::move(other);
   }
 
-  void Ask(double value, double enough, double tolerance) {
+  void Ask(double value, double target, double tolerance) {
     held_.lower[i_] = held_.upper[i_] = value;
     model_.Fix(i_, value);
-    how_.enough = enough;
+    how_.target = target;
     how_.function_tolerance = how_.first_tolerance = tolerance;
   }
 

@@ -62,13 +62,13 @@ bool TakeExtended(const JointProblem& problem, const double* p, std::vector<doub
   if (chain == nullptr) return true;
   chain->setZero(extended.size(), problem.shared());
   for (int k = 0; k < extended.size(); ++k) (*chain)(k, at.shared_of[k]) = 1;
-  const Extension& extension = *extended.extension;
-  for (std::size_t e = 0; problem.quoted && e < extension.uses.size(); ++e) {
-    const int first = extension.law.Offset(static_cast<int>(e));
-    const Effect& effect = *extension.uses[e].effect;
+  const DeviceEffects& device_effects = *extended.effects;
+  for (std::size_t e = 0; problem.quoted && e < device_effects.uses.size(); ++e) {
+    const int first = device_effects.law.Offset(static_cast<int>(e));
+    const Effect& effect = *device_effects.uses[e].effect;
     // The effects' parameters are contiguous in the shared ones.
     chain->block(first, at.shared_of[first], effect.size(), effect.size()) =
-        OwnByReported(effect, extension.readings.scale, device->data() + first);
+        OwnByReported(effect, device_effects.readings.scale, device->data() + first);
   }
   return true;
 }

@@ -135,7 +135,7 @@ std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEn
   options.proceed = proceed;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindOtherOptima(model, *problem.translation.extended->extension, model.Pack(best.point),
+  return FindOtherOptima(model, *problem.translation.extended->effects, model.Pack(best.point),
                          {}, {highest, problem.translation.first_effect, HowToRefine(options)});
 }
 
@@ -149,12 +149,12 @@ ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
   options.proceed = proceed;
   RefineOptions how = HowToRefine(options);
   ProfileRefits refits;
-  refits.refit = [&](double value, const FitPoint& start, double enough, double tolerance) {
+  refits.refit = [&](double value, const FitPoint& start, double target, double tolerance) {
     FamilyModel held = model;
     held.Fix(query.parameter, value);
     FitPoint at = start;
     at.p[query.parameter] = value;
-    how.enough = enough;
+    how.target = target;
     how.function_tolerance = tolerance;
     return RefineModel(held, std::move(at), how);
   };

@@ -158,15 +158,15 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
   const double hardly_damped = 0.1 * options.trust_radius;
   int invalid = 0;
   while (!model.free.empty() && end.iterations < options.max_iterations &&
-         trust.radius > kLeastRadius && invalid <= kMostInvalid && here.sum > options.enough) {
+         trust.radius > kLeastRadius && invalid <= kMostInvalid && here.sum > options.target) {
     end.stopped = options.stop && options.stop();
     if (end.stopped) break;
     ++end.iterations;
     const bool solved = TakeStep(problem, model, here.p, trust.radius, &next.p);
     const VectorXd step = next.p - here.p;
     const double predicted = solved ? Predicted(model, step) : 0;
-    const double enough = options.function_tolerance * here.sum;
-    const bool promising = predicted > enough || trust.radius < hardly_damped;
+    const double target = options.function_tolerance * here.sum;
+    const bool promising = predicted > target || trust.radius < hardly_damped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
     end.hopeless = !end.converged && trust.radius >= hardly_damped &&
                    here.sum - kMany * predicted > options.cutoff;
@@ -178,7 +178,7 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     }
     invalid = 0;
     double gained = here.sum - next.sum;
-    end.converged = std::fabs(gained) <= enough;
+    end.converged = std::fabs(gained) <= target;
     if (gained > kLeastQuality * predicted) {
       trust.Lengthen(gained / predicted);
     } else if (!end.converged) {

@@ -28,7 +28,7 @@ struct LeastSquaresOptions {
   // Trust radius of the first step, relative to the squared lengths of the columns: damps
   // directions that are weaker than the single columns by this factor.
   double trust_radius = 1e4;
-  double enough = 0;           // the descent ends at or below this sum of squares
+  double target = 0;           // the descent ends at or below this sum of squares
   std::function<bool()> stop;  // called once per step; true: end at this point; may be empty
 };
 

@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace lyrefit {
 namespace {
@@ -45,7 +45,7 @@ void ModelCurrents(const Device& device, Objective objective, const double* p,
                    const CurveView& points, const Kernel& kernel, double* current, double* slopes,
                    const std::vector<char>* held, LawWorkspace* kept) {
   const bool measured = objective == Objective::kMeasuredCurrent;
-  if (device.extension != nullptr) {
+  if (device.effects != nullptr) {
     if (measured || !ExtendedCurrents(device, p, current, slopes, held, kept)) {
       current[0] = kUnknown;
     }

@@ -48,9 +48,9 @@ bool Same(const Optimum& a, const Optimum& b, const std::vector<int>& numbers) {
 }
 
 // Indices of the effects' parameters that are not settings.
-std::vector<int> Numbers(const Extension& extension, int first) {
+std::vector<int> Numbers(const DeviceEffects& device_effects, int first) {
   std::vector<int> numbers;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     for (const EffectParameter& info : use.effect->parameters) {
       if (!info.searched) numbers.push_back(first);
       ++first;
@@ -80,10 +80,10 @@ std::vector<FitPoint> WithOthers(const FitModel& model, const Settings& settings
 
 }  // namespace
 
-std::vector<Settings> FindSettings(const Extension& extension, int first) {
+std::vector<Settings> FindSettings(const DeviceEffects& device_effects, int first) {
   std::vector<Settings> all;
-  auto bounds = extension.bounds.begin();
-  for (const EffectUse& use : extension.uses) {
+  auto bounds = device_effects.bounds.begin();
+  for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;
     std::vector<int> searched;
     for (int k = 0; k < effect.size(); ++k) {
@@ -93,7 +93,7 @@ std::vector<Settings> FindSettings(const Extension& extension, int first) {
       Settings settings;
       settings.parameters.reserve(searched.size());
       for (const int k : searched) settings.parameters.push_back(first + k);
-      for (const Probe& probe : effect.probes(extension.readings.traits)) {
+      for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
         std::vector<double> values;
         values.reserve(searched.size());
         for (const int k : searched) {
@@ -109,15 +109,15 @@ std::vector<Settings> FindSettings(const Extension& extension, int first) {
   return all;
 }
 
-std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
+std::vector<FitPoint> FindOtherOptima(const FitModel& model, const DeviceEffects& device_effects,
                                       const FitPoint& best, std::vector<FitPoint> ends,
                                       const OptimumQuery& query) {
-  for (const Settings& settings : FindSettings(extension, query.first)) {
+  for (const Settings& settings : FindSettings(device_effects, query.first)) {
     for (FitPoint& other : WithOthers(model, settings, best)) {
       ends.push_back(RefineModel(model, std::move(other), query.how));
     }
   }
-  const std::vector<int> numbers = Numbers(extension, query.first);
+  const std::vector<int> numbers = Numbers(device_effects, query.first);
   std::vector<Optimum> optima = {{best, Residuals(model, best)}};
   for (FitPoint& end : ends) {
     if (!(model.MeanSquare(end) < query.highest)) continue;

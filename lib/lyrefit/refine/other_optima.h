@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/refine/active_set.h"
 
 namespace lyrefit {
@@ -16,7 +16,7 @@ struct Settings {
 };
 
 // Settings of every effect with such parameters. The effects' parameters start at index `first`.
-std::vector<Settings> FindSettings(const Extension& extension, int first);
+std::vector<Settings> FindSettings(const DeviceEffects& device_effects, int first);
 
 // Optima besides the best one that are compatible with the data.
 struct OptimumQuery {
@@ -27,7 +27,7 @@ struct OptimumQuery {
 
 // The optima below `highest` among `ends` and among refits from `best` with other settings of the
 // effects. Each differs from the others in its curve or in its numbers. All in internal units.
-std::vector<FitPoint> FindOtherOptima(const FitModel& model, const Extension& extension,
+std::vector<FitPoint> FindOtherOptima(const FitModel& model, const DeviceEffects& device_effects,
                                       const FitPoint& best, std::vector<FitPoint> ends,
                                       const OptimumQuery& query);
 

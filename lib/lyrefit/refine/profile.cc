@@ -34,7 +34,7 @@ class Side {
         bounds_(BoundsAt(model.shape(), query.parameter, best.p)),
         unit_(query.variance / model.shape().points),
         rise_at_end_(query.t * query.t * unit_),
-        enough_(best.mean_square + rise_at_end_ * (1 - 2 * kCloseEnough)),
+        target_(best.mean_square + rise_at_end_ * (1 - 2 * kCloseEnough)),
         tolerance_(std::min(kSlack * rise_at_end_ / best.mean_square, kLoosest)),
         lowest_(best.mean_square) {}
 
@@ -214,9 +214,9 @@ class Side {
   }
 
   // Square root of the rise of the refitted sum of squares, in units of the variance.
-  double Rise(double value, const FitPoint& from, double enough) {
+  double Rise(double value, const FitPoint& from, double target) {
     ++side_.refits;
-    RefineEnd end = refits_.refit(value, from, enough, tolerance_);
+    RefineEnd end = refits_.refit(value, from, target, tolerance_);
     side_.stopped = side_.stopped || end.stopped;
     if (end.mean_square < lowest_ * (1 - kBetter)) {
       lowest_ = end.mean_square;
@@ -234,7 +234,7 @@ class Side {
   // Whether refits from other starts have a rise below t; their end is added to the path.
   bool InsideElsewhere(double value) {
     FitPoint there;
-    const bool inside = refits_.elsewhere && refits_.elsewhere(value, enough_, tolerance_, &there);
+    const bool inside = refits_.elsewhere && refits_.elsewhere(value, target_, tolerance_, &there);
     if (!inside && !InsideOtherOptimum(value, &there)) return false;
     const double rise = RootOfRise(model_.MeanSquare(there));
     path_.push_back({Scaled(value), rise, std::move(there)});
@@ -246,8 +246,8 @@ class Side {
     std::vector<const FitPoint*> optima = {&best_};
     for (const FitPoint& local_optimum : query_.local_optima) optima.push_back(&local_optimum);
     return std::any_of(optima.begin(), optima.end(), [&](const FitPoint* from) {
-      RefineEnd end = refits_.refit(value, *from, enough_, tolerance_);
-      const bool inside = end.mean_square <= enough_;
+      RefineEnd end = refits_.refit(value, *from, target_, tolerance_);
+      const bool inside = end.mean_square <= target_;
       if (inside) *there = std::move(end);
       return inside;
     });
@@ -271,7 +271,7 @@ class Side {
   const ParameterRange bounds_;
   const double unit_;         // of the squared rise, in mean squares
   const double rise_at_end_;  // of the mean square
-  const double enough_;       // mean square that is certainly inside
+  const double target_;       // mean square that is certainly inside
   const double tolerance_;
   FitPoint last_;            // end of the last refit
   std::vector<Place> path_;  // the optimum, then the refits on the way to the crossing

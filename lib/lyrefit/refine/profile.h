@@ -39,12 +39,12 @@ struct ProfileQuery {
 // The refits that a profile calls.
 struct ProfileRefits {
   // The fit from `start` with the query's parameter fixed at `value`. It may end at a mean square
-  // of `enough`, or at a relative decrease of the sum of squares below `tolerance`.
-  std::function<RefineEnd(double value, const FitPoint& start, double enough, double tolerance)>
+  // of `target`, or at a relative decrease of the sum of squares below `tolerance`.
+  std::function<RefineEnd(double value, const FitPoint& start, double target, double tolerance)>
       refit;
-  // Whether a fit from another start ends at or below `enough`; `there` receives its end. May be
+  // Whether a fit from another start ends at or below `target`; `there` receives its end. May be
   // empty: there is only one local optimum.
-  std::function<bool(double value, double enough, double tolerance, FitPoint* there)> elsewhere;
+  std::function<bool(double value, double target, double tolerance, FitPoint* there)> elsewhere;
 };
 
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,

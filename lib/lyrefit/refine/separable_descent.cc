@@ -189,7 +189,7 @@ class Descent {
 
 std::vector<double> SeparableDescent(const RefineProblem& problem, const std::vector<double>& start,
                                      double tolerance) {
-  if (problem.device.extension != nullptr) return start;  // not linear in Iph, Is and 1/Rsh
+  if (problem.device.effects != nullptr) return start;  // not linear in Iph, Is and 1/Rsh
   Descent descent(problem, start, tolerance);
   if (problem.objective == Objective::kMeasuredCurrent) {
     descent.Run();

@@ -159,7 +159,7 @@ std::vector<SeparableStart> Best(std::vector<SeparableStart> starts, int diodes,
 // Tries all combinations of n at each Rs.
 std::vector<SeparableStart> SeparableStarts(const RefineProblem& problem, double rs_hint,
                                             int count) {
-  if (problem.device.extension != nullptr) return {};
+  if (problem.device.effects != nullptr) return {};
   const std::vector<double> idealities = Idealities(problem);
   std::vector<SeparableStart> starts;
   for (const double rs : SeriesResistanceGrid(problem, rs_hint)) {

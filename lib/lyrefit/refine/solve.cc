@@ -51,7 +51,7 @@ class StopAsked : public ceres::IterationCallback {
   explicit StopAsked(const SolveOptions& options) : options_(options) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     stopped_ = stopped_ || (options_.stop && options_.stop());
-    const bool end = stopped_ || 2 * summary.cost <= options_.enough;
+    const bool end = stopped_ || 2 * summary.cost <= options_.target;
     return end ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
   bool stopped() const { return stopped_; }
@@ -112,7 +112,7 @@ SolveEnd SolveSmall(const FitModel& model, const Coordinates& coordinates,
   how.function_tolerance = options.function_tolerance;
   how.trust_radius = options.trust_radius;
   how.cutoff = options.cutoff;
-  how.enough = options.enough;
+  how.target = options.target;
   how.stop = options.stop;
   LeastSquaresEnd found = SolveLeastSquares(problem, coordinates.Start(), how);
   return {std::move(found.p), {}, found.converged, found.stopped, found.hopeless, found.iterations};

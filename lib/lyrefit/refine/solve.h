@@ -16,7 +16,7 @@ struct SolveOptions {
   double function_tolerance = 0;  // relative decrease of the sum of squares that ends the solve
   double trust_radius = 0;        // of the first step
   double unit_A = 1;           // unit of the residuals; makes tolerances independent of the problem
-  double enough = 0;           // sum of squares in unit_A^2 that ends the solve
+  double target = 0;           // sum of squares in unit_A^2 that ends the solve
   double cutoff = HUGE_VAL;    // in unit_A^2, as in LeastSquaresOptions; Ceres ignores it
   std::function<bool()> stop;  // called once per iteration; true: end at this point
 };

@@ -195,7 +195,7 @@ void to_json(Json& j, const FamilyReport& report) {
   if (report.taken != nullptr) {
     const std::optional<Device>& extended = report.translation.extended;
     j["law"] = SetLawJson(report.with, *report.taken,
-                          extended && !report.refined.empty() ? &*extended->extension : nullptr);
+                          extended && !report.refined.empty() ? &*extended->effects : nullptr);
     j["causes"] = j["law"]["effects"];
   }
   AddFamilyAnswer(report, &j);

@@ -84,8 +84,8 @@ Json FitRmseJson(const FitReport& report) {
 
 // The effects besides the diodes, with all readings of the measurement that they act on.
 Json FitLawJson(const FitReport& report) {
-  const Extension& extension = *report.device.extension;
-  if (extension.set != nullptr) return SetLawJson(extension.uses, *extension.set, &extension);
+  const DeviceEffects& device_effects = *report.device.effects;
+  if (device_effects.set != nullptr) return SetLawJson(device_effects.uses, *device_effects.set, &device_effects);
   const IvCurve& curve = report.curve;
   Json law = {{"effects", report.causes}, {"bypass_diodes", curve.notes.bypass_diodes}};
   if (!curve.time_s.empty()) law["time_s"] = curve.time_s;
@@ -103,7 +103,7 @@ std::vector<double> Thinned(const std::vector<double>& values, std::size_t every
 
 Json DataJson(const FitReport& report, JsonPoints points) {
   const std::size_t all = report.curve.size();
-  const bool extended = report.device.extension != nullptr;  // its measurement is part of the law
+  const bool extended = report.device.effects != nullptr;  // its measurement is part of the law
   const bool thin = points == JsonPoints::kThinned && !extended && all > kMostJsonPoints;
   const std::size_t every = thin ? (all + kMostJsonPoints - 1) / kMostJsonPoints : 1;
   Json json = {{"voltage_V", Thinned(report.curve.voltage_V, every)},
@@ -126,7 +126,7 @@ Json FitAnswerJson(const FitReport& report) {
             {"bounds", report.bounds_name}};
   if (!report.causes.empty()) j["causes"] = report.causes;
   if (report.curves > 1) j["curves"] = report.curves;
-  if (report.device.extension != nullptr) j["law"] = FitLawJson(report);
+  if (report.device.effects != nullptr) j["law"] = FitLawJson(report);
   j["parameters"] = FitParametersJson(report);
   j["nNsVth"] = report.nNsVth;
   j["singlediode"] = SingleDiodeJson(report);

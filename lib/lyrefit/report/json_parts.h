@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/curve/json_text.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/report/json.h"
 
 // Conversion of records to JSON: a function to_json for each record, which nlohmann finds by type
@@ -76,7 +76,7 @@ double RoundCelsius(double celsius);
 
 // Effects and the measured curves that they act in, sufficient to simulate each curve. `shared`:
 // the law of all curves; nullptr: each curve has its own.
-Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const Extension* shared);
+Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const DeviceEffects* shared);
 
 // json_fit.cc
 Json FitJson(const FitReport& report, JsonPoints points);

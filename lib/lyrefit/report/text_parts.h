@@ -6,7 +6,7 @@
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/report/document.h"
 
 // Functions shared by the reports.

@@ -14,7 +14,7 @@
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/law/device.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"

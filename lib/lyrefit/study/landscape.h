@@ -12,7 +12,7 @@
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/fit/bounds.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

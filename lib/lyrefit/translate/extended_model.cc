@@ -11,7 +11,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/translate/model_procedures.h"
@@ -61,12 +61,12 @@ Expected<std::vector<double>> ReportedParameters(const FitReport& fit, const Dev
 }
 
 // The model's device at conditions (g, t_C), with its reference temperature from the inputs.
-Device SkyDevice(const ExtendedModel& model, const TranslationInputs& in, double g, double t_C) {
-  Device device = UnderSky(model.device, g / kReferenceIrradiance_W_m2, t_C + kZeroCelsius_K);
-  auto extension = std::make_shared<Extension>(*device.extension);
-  extension->readings.reference_temperature_K = in.temperature_C + kZeroCelsius_K;
-  extension->law.bandgap_slope_per_K = in.dEgdT_1_K;
-  device.extension = std::move(extension);
+Device DeviceUnderConditions(const ExtendedModel& model, const TranslationInputs& in, double g, double t_C) {
+  Device device = UnderConditions(model.device, g / kReferenceIrradiance_W_m2, t_C + kZeroCelsius_K);
+  auto device_effects = std::make_shared<DeviceEffects>(*device.effects);
+  device_effects->readings.reference_temperature_K = in.temperature_C + kZeroCelsius_K;
+  device_effects->law.bandgap_slope_per_K = in.dEgdT_1_K;
+  device.effects = std::move(device_effects);
   return device;
 }
 
@@ -89,7 +89,7 @@ std::vector<double> ParametersUnder(const ExtendedModel& model, const Translatio
   const double gain = in.voltage_gain / in.current_gain;
   const double warmer =
       (model.source_temperature_C + kZeroCelsius_K) / (in.temperature_C + kZeroCelsius_K);
-  const Law& law = model.device.extension->law;
+  const Law& law = model.device.effects->law;
   p[kIph] *= in.current_gain / suns;
   for (int d = 0; d < static_cast<int>(law.model); ++d) {
     p[SaturationCurrentIndex(d)] *= in.current_gain;
@@ -112,7 +112,7 @@ struct PlacedModel {
 Expected<PlacedModel> Place(const ExtendedModel& model, const TranslationInputs& in, double g,
                             double t_C) {
   if (!(EquivalentIrradiance(in) > 0)) return Fail("the curve was taken without light");
-  PlacedModel placed = {SkyDevice(model, in, g, t_C), ParametersUnder(model, in, g)};
+  PlacedModel placed = {DeviceUnderConditions(model, in, g, t_C), ParametersUnder(model, in, g)};
   const std::vector<double>& p = placed.parameters;
   // Voc of the diodes alone exceeds that of the device with its faults; 3 % are added for causes
   // that raise it.

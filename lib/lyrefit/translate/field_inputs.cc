@@ -91,7 +91,7 @@ class Collector {
   const TranslationInputs& at_;
 };
 
-void AddSky(const TranslationInputs& at, const UncertaintyOptions& options, Collector* to) {
+void AddConditions(const TranslationInputs& at, const UncertaintyOptions& options, Collector* to) {
   to->Add("irradiance_W_m2", LightTitle(options.light_source), "light",
           at.irradiance_W_m2 * IrradianceSize_percent(options) / 100, LightWhy(options));
   to->AddPart("rear_irradiance_W_m2", "light", options.rear_percent, "by judgement");
@@ -202,7 +202,7 @@ double CellOffsetSize_K(const UncertaintyOptions& options, double irradiance_W_m
 std::vector<UncertainInput> FieldInputs(const SettledInputs& settled,
                                         const UncertaintyOptions& options) {
   Collector collector(settled.values);
-  AddSky(settled.values, options, &collector);
+  AddConditions(settled.values, options, &collector);
   AddInstrument(options, &collector);
   AddCoefficients(settled, options, &collector);
   return std::move(collector.inputs);

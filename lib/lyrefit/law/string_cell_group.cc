@@ -1,4 +1,4 @@
-#include "lyrefit/law/string_kind.h"
+#include "lyrefit/law/string_cell_group.h"
 
 namespace lyrefit {
 
@@ -40,15 +40,15 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
   return Larger(next, -2.0 * (1.0 + 2.0 * abs(u)));  // limits steps into breakdown
 }
 
-KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
+GroupPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int group,
                   const StringState& state) {
-  KindPoint point;
-  point.current = JunctionCurrent(context, cell, kind, Dual<1, Pack>(state.u[kind], 0));
-  if (!cell.halved) return point;
-  point.far = JunctionCurrent(context, cell, kind, Dual<1, Pack>(state.far[kind], 0));
+  GroupPoint point;
+  point.current = JunctionCurrent(context, cell, group, Dual<1, Pack>(state.u[group], 0));
+  if (!cell.parallel_halves) return point;
+  point.far = JunctionCurrent(context, cell, group, Dual<1, Pack>(state.far[group], 0));
   const Pack half = 0.5 * cell.lateral;
   point.follows = 1.0 / (1.0 - half * point.far.v[0]);
-  point.behind = state.u[kind] - state.far[kind] + half * point.far.a;
+  point.behind = state.u[group] - state.far[group] + half * point.far.a;
   point.current.a =
       0.5 * (point.current.a + point.far.a + point.far.v[0] * point.behind * point.follows);
   point.current.v[0] = 0.5 * (point.current.v[0] + point.far.v[0] * point.follows);

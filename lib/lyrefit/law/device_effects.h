@@ -27,7 +27,7 @@ struct EffectUse {
 // curves (extended_set.h). Effects are computed in internal units (law/effect.h): voltages per
 // cell, currents in current scales. Their parameters have internal units in the device's vector
 // too; quote.h converts to reporting units and back.
-struct Extension {
+struct DeviceEffects {
   Law law;  // including the effects
   Readings readings;
   std::vector<ReadingBlock> blocks;  // blocks of `readings`
@@ -49,23 +49,23 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout = nullptr);
 
-// Adds effects to `base` in a measurement whose law and readings are set in `extension`. Errors:
+// Adds effects to `base` in a measurement whose law and readings are set in `device_effects`. Errors:
 // those of Extend.
-Expected<Device> AddEffects(const Device& base, Extension extension,
+Expected<Device> AddEffects(const Device& base, DeviceEffects device_effects,
                             const std::vector<EffectUse>& uses, bool force);
 
 // Error if a fit cannot keep the requested ranges. A fit bounds parameters in internal units. The
 // range of a reported value is therefore lost if its conversion depends on another, free parameter.
-Expected<void> CheckFitRanges(const Extension& extension);
+Expected<void> CheckFitRanges(const DeviceEffects& device_effects);
 
 // Whether the k-th of the effects' parameters belongs to an effect with several free parameters.
 // Their joint response is less linear than that of each alone, and parameters selected by trial are
 // in no covariance.
-bool OneOfSeveral(const Extension& extension, int k);
+bool OneOfSeveral(const DeviceEffects& device_effects, int k);
 
 // Start points of a fit, over the effects' parameters: the usual values, then every probe of every
 // effect with the other effects at their usual values.
-std::vector<std::vector<double>> EffectStarts(const Extension& extension);
+std::vector<std::vector<double>> EffectStarts(const DeviceEffects& device_effects);
 
 // Text of a request, as in flags: "shading:d=0.3,w=0.2:0.4".
 std::string DescribeUse(const EffectUse& use);

@@ -9,14 +9,14 @@ namespace lyrefit {
 constexpr double kShort = 1e-9;      // relative voltage step after which the next is below rounding
 constexpr double kRounding = 3e-15;  // relative rounding error of sums of currents
 
-inline int PartOf(const Cell<Pack>& cell, int kind) {
-  return cell.kinds == 1 ? 0 : cell.kind[kind].part;
+inline int SubstringOf(const Cell<Pack>& cell, int group) {
+  return cell.groups == 1 ? 0 : cell.group[group].substring;
 }
-inline Pack ShareOf(const Cell<Pack>& cell, int kind) {
-  return cell.kinds == 1 ? Pack(1.0) : cell.kind[kind].share;
+inline Pack ShareOf(const Cell<Pack>& cell, int group) {
+  return cell.groups == 1 ? Pack(1.0) : cell.group[group].share;
 }
-inline bool IsBeside(const Cell<Pack>& cell, int kind) {
-  return cell.kinds > 1 && cell.kind[kind].beside;
+inline bool IsBeside(const Cell<Pack>& cell, int group) {
+  return cell.groups > 1 && cell.group[group].beside;
 }
 inline Mask IsShort(const Pack& step, const Pack& of) {
   return abs(step) < kShort * (1.0 + abs(of));
@@ -34,7 +34,7 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
                  const Dual<1, Pack>& current, const Pack& size);
 
 // Current of a cell group at the voltages of a state.
-KindPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int kind,
+GroupPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int group,
                   const StringState& state);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,12 +41,12 @@ std::string ErrorOf(const std::vector<EffectUse>& uses, bool force = true) {
   return device ? "no error" : device.error().ToString();
 }
 
-class ExtensionTest : public ::testing::TestWithParam<const Effect*> {};
+class DeviceEffectsTest : public ::testing::TestWithParam<const Effect*> {};
 
-TEST_P(ExtensionTest, LeadsToReportedUnitsAndBack) {
+TEST_P(DeviceEffectsTest, LeadsToReportedUnitsAndBack) {
   const auto device = ExtendModule({{GetParam(), {}}});
   ASSERT_TRUE(device) << device.error().ToString();
-  const Readings& readings = device->extension->readings;
+  const Readings& readings = device->effects->readings;
   std::vector<Probe> probes = GetParam()->probes(readings.traits);
   for (const Probe& probe : probes) {
     std::vector<double> p = kModule;
@@ -58,7 +58,7 @@ TEST_P(ExtensionTest, LeadsToReportedUnitsAndBack) {
   }
 }
 
-TEST_P(ExtensionTest, IsTheDeviceAloneWhereItsEffectIsNotThere) {
+TEST_P(DeviceEffectsTest, IsTheDeviceAloneWhereItsEffectIsNotThere) {
   const auto device = ExtendModule({{GetParam(), {}}});
   ASSERT_TRUE(device);
   std::vector<double> p = kModule;
@@ -74,11 +74,11 @@ TEST_P(ExtensionTest, IsTheDeviceAloneWhereItsEffectIsNotThere) {
   }
 }
 
-TEST_P(ExtensionTest, DifferentiatesByTheDevicesOwnParameters) {
+TEST_P(DeviceEffectsTest, DifferentiatesByTheDevicesOwnParameters) {
   const auto device = ExtendModule({{GetParam(), {}}});
   ASSERT_TRUE(device);
   std::vector<double> p = kModule;
-  const Probe probe = GetParam()->probes(device->extension->readings.traits).front();
+  const Probe probe = GetParam()->probes(device->effects->readings.traits).front();
   p.insert(p.end(), probe.begin(), probe.end());
   const std::size_t points = UpAndDown().size(), size = p.size();
   std::vector<double> current_A(points), jacobian(points * size), up(points), down(points);
@@ -110,7 +110,7 @@ std::vector<const Effect*> WithParameters() {
   return effects;
 }
 
-INSTANTIATE_TEST_SUITE_P(Effects, ExtensionTest, ::testing::ValuesIn(WithParameters()),
+INSTANTIATE_TEST_SUITE_P(Effects, DeviceEffectsTest, ::testing::ValuesIn(WithParameters()),
                          [](const auto& test) { return std::string(test.param->id); });
 
 TEST(Extend, NamesParametersAfterTheirEffect) {
@@ -127,13 +127,13 @@ TEST(Extend, HoldsAndLimitsInReportedUnits) {
   const auto device =
       ExtendModule({UseOf("nonohmic_shunt", {{"m", {2, 2}}, {"shunt_strength", {0, 1e-4}}})});
   ASSERT_TRUE(device) << device.error().ToString();
-  const std::vector<ParameterBounds>& bounds = device->extension->bounds;
+  const std::vector<ParameterBounds>& bounds = device->effects->bounds;
   EXPECT_EQ(bounds[1].lower, bounds[1].upper);
   std::vector<double> p = kModule;
   p.push_back(bounds[0].upper);
   p.push_back(2);
   EXPECT_NEAR(Reported(*device, p)[5], 1e-4, 1e-16);
-  EXPECT_EQ(DescribeUse(device->extension->uses[0]), "nonohmic_shunt:m=2,shunt_strength=0:0.0001");
+  EXPECT_EQ(DescribeUse(device->effects->uses[0]), "nonohmic_shunt:m=2,shunt_strength=0:0.0001");
 }
 
 TEST(Extend, SaysWhatCannotBe) {
@@ -171,7 +171,7 @@ TEST(Extend, KeepsToWholeNumbers) {
   const auto share_of = [&](double low, double high) {
     const auto device = extend(UseOf("shading", {{"w", {low, high}}}));
     EXPECT_TRUE(device) << device.error().ToString();
-    return device ? device->extension->bounds[1] : ParameterBounds{};
+    return device ? device->effects->bounds[1] : ParameterBounds{};
   };
   const ParameterBounds any = share_of(0.2, 0.9);  // the bounds move to whole substrings
   EXPECT_DOUBLE_EQ(any.lower, 1.0 / 3);
@@ -203,7 +203,7 @@ TEST(Extend, AWeakCellIsDarkAtMost) {
     const auto device = ExtendModule({UseOf("weak_cell")});
     std::vector<double> p = kModule;
     p.insert(p.end(), {deficit, 1, 0, 0.5, 0.1, 15, 3.4, 0.7, chains});
-    std::vector<double> current_A(device->extension->readings.points.size());
+    std::vector<double> current_A(device->effects->readings.points.size());
     EXPECT_TRUE(ExtendedCurrents(*device, p.data(), current_A.data(), nullptr));
     return current_A;
   };

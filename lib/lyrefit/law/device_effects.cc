@@ -1,4 +1,4 @@
-#include "lyrefit/law/extension.h"
+#include "lyrefit/law/device_effects.h"
 
 #include <fmt/format.h>
 #include <glog/logging.h>
@@ -51,13 +51,13 @@ Expected<void> CheckTogether(const std::vector<EffectUse>& uses, int base_size) 
 
 // Error if the lower bounds of an effect's cell shares (parameters named share...) sum to 1 or
 // more.
-Expected<void> CheckShares(const Extension& extension) {
+Expected<void> CheckShares(const DeviceEffects& device_effects) {
   int at = 0;
-  for (const EffectUse& use : extension.uses) {
+  for (const EffectUse& use : device_effects.uses) {
     double least = 0;
     for (const EffectParameter& info : use.effect->parameters) {
       const bool share = std::string(info.name).find("share") != std::string::npos;
-      if (share) least += extension.bounds[at].lower;
+      if (share) least += device_effects.bounds[at].lower;
       ++at;
     }
     if (least > 1 - 1e-9) {
@@ -91,19 +91,19 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
     TRY(CheckLayout(*layout, curve.conditions, uses));
   }
   TRY(auto readings, ReadingsOf(curve));
-  Extension extension;
-  extension.readings = std::move(readings);
-  extension.law.natural = true;
-  extension.law.model = model;
-  extension.law.constants = constants;
-  extension.law.layout = std::move(layout);
-  return AddEffects(base, std::move(extension), uses, force);
+  DeviceEffects device_effects;
+  device_effects.readings = std::move(readings);
+  device_effects.law.natural = true;
+  device_effects.law.model = model;
+  device_effects.law.constants = constants;
+  device_effects.law.layout = std::move(layout);
+  return AddEffects(base, std::move(device_effects), uses, force);
 }
 
-bool OneOfSeveral(const Extension& extension, int k) {
+bool OneOfSeveral(const DeviceEffects& device_effects, int k) {
   int first = 0;
-  for (const EffectUse& use : extension.uses) {
-    const auto bounds = extension.bounds.begin() + first;
+  for (const EffectUse& use : device_effects.uses) {
+    const auto bounds = device_effects.bounds.begin() + first;
     const int size = use.effect->size();
     first += size;
     if (k >= first) continue;
@@ -113,28 +113,28 @@ bool OneOfSeveral(const Extension& extension, int k) {
   return false;
 }
 
-Expected<Device> AddEffects(const Device& base, Extension extension,
+Expected<Device> AddEffects(const Device& base, DeviceEffects device_effects,
                             const std::vector<EffectUse>& uses, bool force) {
   TRY(CheckTogether(uses, base.size()));
-  extension.blocks = BlocksOf(extension.readings);
-  extension.uses = uses;
+  device_effects.blocks = BlocksOf(device_effects.readings);
+  device_effects.uses = uses;
   for (const EffectUse& use : uses) {
     const Effect& effect = *use.effect;
     if (effect.parameters.empty()) {
       return tl::unexpected(
           Unfit(effect, "has no parameters: it is found in the values, not fitted"));
     }
-    const auto why_not = effect.WhyNot(extension.readings.traits);
+    const auto why_not = effect.WhyNot(device_effects.readings.traits);
     if (why_not && !force) {
       return tl::unexpected(Unfit(effect, *why_not + " (--force fits it all the same)"));
     }
-    extension.law.effects.push_back(&effect);
-    TRY(AddUse(use, &extension));
+    device_effects.law.effects.push_back(&effect);
+    TRY(AddUse(use, &device_effects));
   }
-  TRY(CheckShares(extension));
+  TRY(CheckShares(device_effects));
   Device device = base;
   AddInfos(uses, &device.parameters);
-  device.extension = std::make_shared<const Extension>(std::move(extension));
+  device.effects = std::make_shared<const DeviceEffects>(std::move(device_effects));
   return device;
 }
 
@@ -148,17 +148,17 @@ void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* in
   }
 }
 
-std::vector<std::vector<double>> EffectStarts(const Extension& extension) {
-  const int base = extension.law.base_size();
-  std::vector<std::vector<double>> probes = {extension.usual};
-  for (std::size_t e = 0; e < extension.uses.size(); ++e) {
-    const Effect& effect = *extension.uses[e].effect;
+std::vector<std::vector<double>> EffectStarts(const DeviceEffects& device_effects) {
+  const int base = device_effects.law.base_size();
+  std::vector<std::vector<double>> probes = {device_effects.usual};
+  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
+    const Effect& effect = *device_effects.uses[e].effect;
     if (effect.probes == nullptr) continue;
-    const int first = extension.law.Offset(static_cast<int>(e)) - base;
-    for (const Probe& probe : effect.probes(extension.readings.traits)) {
-      std::vector<double> p = extension.usual;
+    const int first = device_effects.law.Offset(static_cast<int>(e)) - base;
+    for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
+      std::vector<double> p = device_effects.usual;
       for (int k = 0; k < effect.size(); ++k) {
-        const ParameterBounds& bounds = extension.bounds[first + k];
+        const ParameterBounds& bounds = device_effects.bounds[first + k];
         p[first + k] = std::min(std::max(probe[k], bounds.lower), bounds.upper);
       }
       probes.push_back(p);
@@ -208,17 +208,17 @@ Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage
 
 bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
                       const std::vector<char>* held, LawWorkspace* kept) {
-  const Extension& extension = *device.extension;
-  return InAmpere(extension.law, extension.readings, extension.blocks, p, current_A, jacobian, held,
+  const DeviceEffects& device_effects = *device.effects;
+  return InAmpere(device_effects.law, device_effects.readings, device_effects.blocks, p, current_A, jacobian, held,
                   kept);
 }
 
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,
                                      const std::vector<double>& voltage_V) {
-  const Extension& extension = *device.extension;
-  const Readings readings = AtVoltages(extension.readings, voltage_V);
+  const DeviceEffects& device_effects = *device.effects;
+  const Readings readings = AtVoltages(device_effects.readings, voltage_V);
   std::vector<double> current_A(voltage_V.size());
-  if (!InAmpere(extension.law, readings, BlocksOf(readings), p, current_A.data(), nullptr, nullptr,
+  if (!InAmpere(device_effects.law, readings, BlocksOf(readings), p, current_A.data(), nullptr, nullptr,
                 nullptr)) {
     std::fill(current_A.begin(), current_A.end(), kUnknown);
   }

@@ -56,7 +56,7 @@ struct DrawnEffect {
 // A random point between two probes of the effect, with the strength multiplied by 0.5 to 2 and of
 // random sign if both are possible. `device` must have this effect only.
 inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, RandomStream* random) {
-  const std::vector<Probe> probes = effect.probes(device.extension->readings.traits);
+  const std::vector<Probe> probes = effect.probes(device.effects->readings.traits);
   Probe p = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
   const Probe& other = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
   for (int k = 0; k < effect.size(); ++k) {

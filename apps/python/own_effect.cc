@@ -259,7 +259,8 @@ class EffectMaker {
     }
     const int parameters = effect_.size();
     auto stage = std::make_shared<StageFunction>(Inspect(Name() + ": " + name, *value, parameters));
-    const bool under_conditions = Has(stage->context, kConditions[0]) || Has(stage->context, kConditions[1]);
+    const bool under_conditions =
+        Has(stage->context, kConditions[0]) || Has(stage->context, kConditions[1]);
     PlainValue plain = ValueOf(std::move(stage), fault_);
     if (!slopes) {
       std::vector<std::pair<double, double>> ranges;

@@ -49,7 +49,7 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   // `--with shading` without ranges fits two model variants, and a share in whole thirds since the
   // three substrings are known.
   EXPECT_THAT(fit.out, HasSubstr("d, w, Vb free <-\n"));
-  EXPECT_EQ(report["forms"].size(), 2u);
+  EXPECT_EQ(report["variants"].size(), 2u);
   const json& share = report["parameters"]["shading.w"];
   EXPECT_NEAR(share["whole"].get<double>(), 1.0 / 3, 1e-15);
   EXPECT_TRUE(share["low_95"].is_null());

@@ -339,7 +339,7 @@ TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
   ASSERT_EQ(report.estimates.size(), 7U);
   EXPECT_EQ(report.estimates[5].info.symbol, "irr_step.s");
   // The report holds a device with this law, which reproduces the currents of the report.
-  ASSERT_NE(report.device.extension, nullptr);
+  ASSERT_NE(report.device.effects, nullptr);
   ASSERT_EQ(report.device.size(), 7);
   std::vector<double> current_A(d.points.size());
   ASSERT_TRUE(ExtendedCurrents(report.device, report.refined.data(), current_A.data(), nullptr));

@@ -103,8 +103,8 @@ TEST_P(CatalogueTest, EveryStageKnowsEveryNumberType) {
            value == (hook.wide != nullptr);
   };
   const Effect& e = effect();
-  EXPECT_TRUE(complete(e.conditions) && complete(e.cell) && complete(e.junction) && complete(e.series) &&
-              complete(e.instrument));
+  EXPECT_TRUE(complete(e.conditions) && complete(e.cell) && complete(e.junction) &&
+              complete(e.series) && complete(e.instrument));
 }
 
 TEST_P(CatalogueTest, ReportedFactorsAreFinite) {

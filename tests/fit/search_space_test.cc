@@ -95,7 +95,8 @@ TEST(SearchSpace, SharesOfSubstringsAreSearchedAsWholeNumbersOfThem) {
   const Device device = ModuleWith("shading");
   const DeviceEffects& device_effects = *device.effects;
   const std::vector<ParameterBounds> base(5, {0, 1, 0, 1, SearchScale::kLinear});
-  const SearchSpace space(base, std::vector<double>(5, 0.5), device_effects, VariantsOf(device_effects));
+  const SearchSpace space(base, std::vector<double>(5, 0.5), device_effects,
+                          VariantsOf(device_effects));
   ASSERT_EQ(space.dimensions(), 5);  // d, w, Vb, c and the variant
   EXPECT_EQ(space.box().lower[1], 0);
   EXPECT_EQ(space.box().upper[1], 2);

@@ -94,8 +94,8 @@ TEST_P(ExtendedSetTest, HasTheKeyPointsOfTheTranslatedDevice) {
     const double kelvin = at.temperature_C + kZeroCelsius_K;
     const TranslatedDevice plain = TranslateTo(law_, truth_, at.irradiance_W_m2, kelvin);
     const KeyPoints expected = ModelKeyPoints(plain.device, plain.parameters.data());
-    const KeyPoints points =
-        ModelKeyPoints(UnderConditions(*extended_.extended, at.irradiance_W_m2 / 1000, kelvin), p_.data());
+    const KeyPoints points = ModelKeyPoints(
+        UnderConditions(*extended_.extended, at.irradiance_W_m2 / 1000, kelvin), p_.data());
     EXPECT_NEAR(points.short_circuit_current_A, expected.short_circuit_current_A, 1e-6);
     EXPECT_NEAR(points.open_circuit_voltage_V, expected.open_circuit_voltage_V, 1e-4);
     EXPECT_NEAR(points.max_power_W, expected.max_power_W, 1e-3);

@@ -13,7 +13,6 @@
 namespace lyrefit {
 namespace {
 
-
 // Many single diodes, one per row. Columns: Iph, Is, Rs, Rsh, nNsVth.
 struct Many {
   std::vector<double> column[5];

@@ -93,7 +93,8 @@ class Strings {
       group.share = Draw([&] { return LogUniform(&random_, 0.01, 1); });
       group.light = Draw([&] { return OneIn(6) ? 0 : Between(0, 1.1); });
       group.leak = Draw([&] { return OneIn(2) ? 0 : LogUniform(&random_, 1e-4, 1); });
-      group.substring = g < cell_.substrings ? g : static_cast<int>(random_.Index(cell_.substrings));
+      group.substring =
+          g < cell_.substrings ? g : static_cast<int>(random_.Index(cell_.substrings));
       sum = sum + group.share;
     }
     for (int g = 0; g < cell_.groups; ++g) groups_[g].share = groups_[g].share / sum;
@@ -278,9 +279,10 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
       wrong += !(error < 1e-10);
       if (!(error < 1e-10) && wrong < 10) {
         ADD_FAILURE() << k << " lane " << lane << " error " << error << " kinds "
-                      << strings.cell().groups << " parts " << strings.cell().substrings << " strings "
-                      << strings.cell().strings << " parallel_halves " << strings.cell().parallel_halves
-                      << " reverse " << static_cast<int>(strings.cell().reverse) << " V "
+                      << strings.cell().groups << " parts " << strings.cell().substrings
+                      << " strings " << strings.cell().strings << " parallel_halves "
+                      << strings.cell().parallel_halves << " reverse "
+                      << static_cast<int>(strings.cell().reverse) << " V "
                       << strings.voltage()[lane] << " I " << root.current[lane];
       }
     }

@@ -83,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Counted, SubstringsVariants, ::testing::Values(2, 3, 4,
 TEST(Variants, ASharesWholeSubstringsStayFree) {
   const DeviceEffects device_effects = Extended(SteppedModule(5), {UseOf("shading")});
   const std::vector<Variant> variants = VariantsOf(device_effects);
-  EXPECT_THAT(Descriptions(device_effects), UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
+  EXPECT_THAT(Descriptions(device_effects),
+              UnorderedElementsAre("d, w, Vb free", "d, w, Vb, c free"));
   for (const Variant& variant : variants) {
     EXPECT_DOUBLE_EQ(variant.bounds[1].lower, 0.2);
     EXPECT_DOUBLE_EQ(variant.bounds[1].upper, 0.8);
@@ -96,7 +97,8 @@ TEST(Variants, ASharesWholeSubstringsStayFree) {
 }
 
 TEST(Variants, RangesLeaveOne) {
-  const DeviceEffects device_effects = Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
+  const DeviceEffects device_effects =
+      Extended(SteppedModule(3), {UseOf("weak_cell", {{"d", {0.1, 0.9}}})});
   const std::vector<Variant> variants = VariantsOf(device_effects);
   ASSERT_EQ(variants.size(), 1u);
   EXPECT_EQ(variants[0].free, 1);
@@ -122,7 +124,8 @@ TEST(Variants, PlacesOfAShapeAreInsideTheirBounds) {
       const DeviceEffects device_effects = Extended(SteppedModule(diodes), {{effect, {}}});
       for (const Variant& variant : VariantsOf(device_effects)) {
         const std::vector<std::vector<double>> places = ShapePlaces(device_effects, variant);
-        EXPECT_FALSE(places.empty()) << effect->id << ", " << DescribeVariant(device_effects, variant);
+        EXPECT_FALSE(places.empty())
+            << effect->id << ", " << DescribeVariant(device_effects, variant);
         for (const std::vector<double>& place : places) {
           ASSERT_EQ(place.size(), variant.bounds.size());
           for (std::size_t k = 0; k < place.size(); ++k) {

@@ -60,7 +60,7 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
            "assumptions",     "warnings", "interrupted",   "usable",      "seconds",
            "curves",          "points"}));
   EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
-                                     "departure", "cannot_be_excluded"}));
+                                     "lack_of_fit", "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
             (Set{"id", "title", "sentence", "equivalents", "separate_by", "parameters",
                  "corrected_p", "evidence", "acts", "points", "in_words", "current_effect",

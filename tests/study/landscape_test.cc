@@ -65,8 +65,8 @@ TruthFit OfCurve(const LandscapeCase& device) {
   if (!prepared) return {};
   const Device& fitted = report.device;
   std::vector<double> usual(fitted.size(), 0);
-  if (fitted.extension) {
-    const std::vector<double>& effects = fitted.extension->usual;
+  if (fitted.effects) {
+    const std::vector<double>& effects = fitted.effects->usual;
     std::copy(effects.begin(), effects.end(), usual.end() - effects.size());
   }
   std::vector<double> p = TruthIn(fitted.parameters, Reported(fitted, usual), device.truth);

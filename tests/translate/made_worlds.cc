@@ -131,7 +131,7 @@ MadeCase MakeCells(const std::string& kind, bool alike, double suns, double kelv
     rig.departure = field::DrawDeparture(&random);
     field::SettleDeparture(field::CurveOf(rig.module), random.LogUniform(5e-4, 2e-3),
                            &rig.departure);
-    rig.conditions.wander = field::DrawWander(random.LogUniform(2e-4, 2e-3), &random);
+    rig.sky.wander = field::DrawWander(random.LogUniform(2e-4, 2e-3), &random);
   }
   field::Truth truth;
   if (const field::Fault* fault = Called(field::DeviceFaults(), kind)) {

@@ -7,8 +7,8 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/search_law.h"
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/device_effects.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"
 
 namespace lyrefit {

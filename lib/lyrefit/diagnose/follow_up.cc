@@ -73,7 +73,8 @@ FollowUp SlowerSweep(const Readings& measured) {
 }
 
 FollowUp SecondLight(const Readings& measured) {
-  FollowUp follow_up = {"second_light", "the same sweep under half the light", kOtherConditions, {}, {}};
+  FollowUp follow_up = {
+      "second_light", "the same sweep under half the light", kOtherConditions, {}, {}};
   PlannedCurve curve = CurveOf(measured, Brightest(measured));
   for (Reading& r : curve.readings.points) r.irradiance *= kDimmer;
   AddUnknownConditions(&curve, &follow_up);

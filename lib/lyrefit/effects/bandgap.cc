@@ -17,7 +17,9 @@ Effect Bandgap() {
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
   e.parameters = {
       Parameter("c", "bandgap_error", "true minus stated").Unit("eV").Between(-0.5, 0.5)};
-  e.conditions = [](const auto* p, const auto&, auto* conditions) { conditions->bandgap_eV = conditions->bandgap_eV + p[0]; };
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->bandgap_eV = conditions->bandgap_eV + p[0];
+  };
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (auto why = NeedsTemperatures(traits)) return why;
     if (!traits.bandgap_known) return "no band gap is stated: the base model estimates it";

@@ -19,7 +19,9 @@ Effect SensorOffset() {
                       .Unit("W/m2")
                       .Between(-0.1, 0.1)
                       .Times(1000)};
-  e.conditions = [](const auto* p, const auto&, auto* conditions) { conditions->irradiance = conditions->irradiance + p[0]; };
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->irradiance = conditions->irradiance + p[0];
+  };
   e.why_not = NeedsIrradiances;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };
   return e;

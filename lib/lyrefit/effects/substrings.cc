@@ -140,7 +140,7 @@ template <class S>
 void SetSubstrings(const S* p, Cell<S>* cell) {
   // All lanes have the same parameters.
   const auto there = [&](int k) { return ValueOf(p[2 * k + 1])[0] > 0; };
-  int groups = 0;
+  int given = 0;
   for (int k = 0; k < kGroups; ++k) given += there(k) ? 1 : 0;
   const bool partly = given < kGroups && ValueOf(p[kCovered])[0] < 1;
   int groups = 1, substrings = 1;

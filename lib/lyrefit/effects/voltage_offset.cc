@@ -20,7 +20,9 @@ Effect VoltageOffset() {
                       .Unit("V")
                       .Between(-0.1, 0.1)
                       .CellsPower(1)};
-  e.conditions = [](const auto* p, const auto&, auto* conditions) { conditions->voltage = conditions->voltage - p[0]; };
+  e.conditions = [](const auto* p, const auto&, auto* conditions) {
+    conditions->voltage = conditions->voltage - p[0];
+  };
   e.why_not = NeedsLightLevels;
   e.probes = [](const DataTraits&) { return Strengths({0.002}); };
   return e;

@@ -169,7 +169,8 @@ std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vecto
     voltage = per_cell * device_effects->readings.scale.cells;
   }
   constexpr double kIdeality = 1.2;
-  std::vector<double> p(device_effects != nullptr ? device_effects->law.base_size() : problem.device.size());
+  std::vector<double> p(device_effects != nullptr ? device_effects->law.base_size()
+                                                  : problem.device.size());
   p[kIph] = current;
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;

@@ -56,8 +56,8 @@ bool QuotedModel::Evaluate(int block, const double* p, const double* local, doub
   for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
     const int first = device_effects.law.Offset(static_cast<int>(e));
     const int size = device_effects.uses[e].effect->size();
-    const Eigen::MatrixXd chain =
-        OwnByReported(*device_effects.uses[e].effect, device_effects.readings.scale, own.data() + first);
+    const Eigen::MatrixXd chain = OwnByReported(*device_effects.uses[e].effect,
+                                                device_effects.readings.scale, own.data() + first);
     for (std::size_t r = 0; r < problem_.voltage_V.size(); ++r) {
       Eigen::Map<Eigen::RowVectorXd> row(slopes + r * count + first, size);
       row = (row * chain).eval();

@@ -50,11 +50,13 @@ S TempcoOf(const EvaluationContext<S>& context) {
 }
 
 template <class S>
-OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context, const ReadingBlock& readings) {
+OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
+                                    const ReadingBlock& readings) {
   const Law& law = context.law;
-  OperatingConditions<S> conditions{S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
-             law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
-             TempcoOf(context)};
+  OperatingConditions<S> conditions{
+      S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
+      law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
+      TempcoOf(context)};
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const auto stage = law.effects[e]->conditions.template For<S>();
     if (stage != nullptr) stage(context.p + context.offsets[e], readings, &conditions);
@@ -92,14 +94,15 @@ void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, con
 
 // Sets all fields of a cell that depend on the temperature but not on the irradiance.
 template <class S>
-void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions, Cell<S>* cell) {
+void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions,
+               Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
   const double k_eV = ThermalVoltage(1.0, context.law.constants);
   const double reference_K = context.readings.reference_temperature_K;
   const S ratio = conditions.temperature_K * (1 / reference_K);
   const S inverse_vt = 1.0 / (conditions.temperature_K * k_eV);
-  const S barrier = DeSotoBarrier(conditions.bandgap_eV, S(context.law.bandgap_slope_per_K), reference_K,
-                                  conditions.temperature_K, k_eV);
+  const S barrier = DeSotoBarrier(conditions.bandgap_eV, S(context.law.bandgap_slope_per_K),
+                                  reference_K, conditions.temperature_K, k_eV);
   const S warmer = exp(barrier) * (ratio * ratio * ratio);
   const S warmer_2 = (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
   cell->thermal_voltage = conditions.temperature_K * k_eV;
@@ -121,15 +124,17 @@ void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>
 // Sets the fields that depend on the irradiance: photocurrent and shunt conductance. CellUnder must
 // have run before.
 template <class S>
-void Light(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions, Cell<S>* cell) {
+void Light(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions,
+           Cell<S>* cell) {
   const ReadingScale& scale = context.readings.scale;
   const S* p = context.p;
   cell->irradiance = conditions.irradiance;
   const S warmer = conditions.temperature_K - context.readings.reference_temperature_K;
   const bool natural = context.law.natural;
   const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
-  cell->photocurrent = conditions.irradiance * (photocurrent * (1.0 + conditions.isc_tempco_per_K * warmer) +
-                                         context.readings.isc_tempco_scales_per_K * warmer);
+  cell->photocurrent =
+      conditions.irradiance * (photocurrent * (1.0 + conditions.isc_tempco_per_K * warmer) +
+                               context.readings.isc_tempco_scales_per_K * warmer);
   const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
   const bool inverse = context.law.shunt == ShuntLaw::kInverse;
   cell->conductance = inverse ? conductance * conditions.irradiance : conductance;

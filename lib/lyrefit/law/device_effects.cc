@@ -209,8 +209,8 @@ Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage
 bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
                       const std::vector<char>* held, LawWorkspace* kept) {
   const DeviceEffects& device_effects = *device.effects;
-  return InAmpere(device_effects.law, device_effects.readings, device_effects.blocks, p, current_A, jacobian, held,
-                  kept);
+  return InAmpere(device_effects.law, device_effects.readings, device_effects.blocks, p, current_A,
+                  jacobian, held, kept);
 }
 
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,
@@ -218,8 +218,8 @@ std::vector<double> ExtendedCurrents(const Device& device, const double* p,
   const DeviceEffects& device_effects = *device.effects;
   const Readings readings = AtVoltages(device_effects.readings, voltage_V);
   std::vector<double> current_A(voltage_V.size());
-  if (!InAmpere(device_effects.law, readings, BlocksOf(readings), p, current_A.data(), nullptr, nullptr,
-                nullptr)) {
+  if (!InAmpere(device_effects.law, readings, BlocksOf(readings), p, current_A.data(), nullptr,
+                nullptr, nullptr)) {
     std::fill(current_A.begin(), current_A.end(), kUnknown);
   }
   return current_A;

@@ -41,10 +41,10 @@ struct ReadingBlock {
   Pack current;     // in current scales
   Pack irradiance;  // sensor value, in suns
   Pack temperature_K;
-  Pack x;               // as in Reading
-  Pack rate;            // as in Reading
-  int first = 0;        // position of the block's first reading
-  int count = 0;        // number of readings from `first` on; unused lanes repeat the last one
+  Pack x;         // as in Reading
+  Pack rate;      // as in Reading
+  int first = 0;  // position of the block's first reading
+  int count = 0;  // number of readings from `first` on; unused lanes repeat the last one
   bool same_conditions = true;  // irradiance and temperature are the same in all lanes
 };
 
@@ -82,7 +82,7 @@ struct CellGroup {
   S share;              // fraction of all cells of the device
   S light;              // factor of the photocurrent
   S leak;               // additional shunt conductance, scales per volt of a cell
-  int substring = 0;         // position of its substring
+  int substring = 0;    // position of its substring
   bool beside = false;  // forms the second chain of a half-cut substring
 };
 // A substring: cells that share a bypass diode, or none.
@@ -90,7 +90,7 @@ struct Substring {
   bool bypassed = false;  // has a bypass diode
   double cells = 1;       // number of cells that one bypass diode spans
   int string = 0;         // its string; strings are in parallel
-  bool parallel = false;    // half-cut: one of its cell groups is `beside` the others
+  bool parallel = false;  // half-cut: one of its cell groups is `beside` the others
 };
 
 // A cell at its operating conditions, in the units of Reading. A cell stage may change any field.
@@ -107,14 +107,14 @@ struct Cell {
   S thermal_voltage;    // k T / q, V
   double reach = 1;     // largest |voltage| of the readings, V per cell, where shunts are reported
   double cells = 1;     // in series
-  double substring_cells = 1;    // cells that share a bypass diode
-  int groups = 1;                 // number of cell groups; 1: all cells alike, no bypass diode
-  int substrings = 1;                 // number of substrings
-  int strings = 1;               // number of different strings in parallel
-  CellGroup<S>* group = nullptr;       // kMostGroups entries
-  Substring substring[kMostGroups];         // the first `substrings` are valid
-  S bypass;                      // voltage of a bypass diode at one current scale, V
-  double bypass_ideality = 1.2;  // of the bypass diode
+  double substring_cells = 1;        // cells that share a bypass diode
+  int groups = 1;                    // number of cell groups; 1: all cells alike, no bypass diode
+  int substrings = 1;                // number of substrings
+  int strings = 1;                   // number of different strings in parallel
+  CellGroup<S>* group = nullptr;     // kMostGroups entries
+  Substring substring[kMostGroups];  // the first `substrings` are valid
+  S bypass;                          // voltage of a bypass diode at one current scale, V
+  double bypass_ideality = 1.2;      // of the bypass diode
   ReverseLaw reverse = ReverseLaw::kShunt;
   S reverse_strength;  // Bishop's a
   S reverse_voltage;   // -Vbr of Bishop's law or A of the soft law, V, above 0
@@ -148,13 +148,14 @@ struct TangentOf<Pack> {
   using Type = Dual<1, Pack>;
 };
 // See TangentOf.
-// Short name of TangentOf<S>::Type.
+// Short name of the number type in TangentOf.
 template <class S>
 using Tangent = typename TangentOf<S>::Type;
 
 // Corrects the operating conditions of the readings.
 template <class S>
-using ConditionsStage = void (*)(const S* p, const ReadingBlock& readings, OperatingConditions<S>* conditions);
+using ConditionsStage = void (*)(const S* p, const ReadingBlock& readings,
+                                 OperatingConditions<S>* conditions);
 // Changes a cell at its operating conditions.
 template <class S>
 using CellStage = void (*)(const S* p, Cell<S>* cell);

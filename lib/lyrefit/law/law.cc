@@ -108,7 +108,8 @@ void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBloc
     state->far[g] = Choose(near, state->far[g], guess.far[g]);
   }
   for (int p = 0; p < cell.substrings; ++p) {
-    state->substring_voltage[p] = Choose(near, state->substring_voltage[p], guess.substring_voltage[p]);
+    state->substring_voltage[p] =
+        Choose(near, state->substring_voltage[p], guess.substring_voltage[p]);
   }
   for (int s = 0; s < cell.strings; ++s) {
     state->current[s] = Choose(near, state->current[s], guess.current[s]);
@@ -132,7 +133,8 @@ bool StartBeside(const ReadingBlock& before, const StringState& there, const Rea
     state->u[g] = Pack(there.u[g][kLast]);
     state->far[g] = Pack(there.far[g][kLast]);
   }
-  for (int p = 0; p < cell.substrings; ++p) state->substring_voltage[p] = Pack(there.substring_voltage[p][kLast]);
+  for (int p = 0; p < cell.substrings; ++p)
+    state->substring_voltage[p] = Pack(there.substring_voltage[p][kLast]);
   for (int s = 0; s < cell.strings; ++s) state->current[s] = Pack(there.current[s][kLast]);
   return true;
 }
@@ -183,7 +185,7 @@ void AddJunction(const Place<S>& at, int group, const Pack& voltage, const Pack&
 // half-cut.
 template <class S>
 void AddGroup(const Place<S>& at, const StringState& state, const GroupPoint& point, int group,
-             const Pack& factor, S* sum) {
+              const Pack& factor, S* sum) {
   const Pack near = at.plain.parallel_halves ? 0.5 * factor : factor;
   AddJunction(at, group, state.u[group], near, sum);
   if (!at.plain.parallel_halves) return;
@@ -217,8 +219,8 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   }
   for (int p = 0; p < plain.substrings; ++p) {
     if (!plain.substring[p].bypassed) continue;
-    Add(slopes.by_bypass[p], BypassCurrent(at.cell, plain.substring[p].cells, S(-state.substring_voltage[p])),
-        &current);
+    Add(slopes.by_bypass[p],
+        BypassCurrent(at.cell, plain.substring[p].cells, S(-state.substring_voltage[p])), &current);
   }
   return current;
 }

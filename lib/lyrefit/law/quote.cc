@@ -87,8 +87,8 @@ std::vector<double> Reported(const Device& device, std::vector<double> p) {
   const DeviceEffects& device_effects = *device.effects;
   for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
     const int first = device_effects.law.Offset(static_cast<int>(e));
-    const std::vector<double> values =
-        ReportedValues(*device_effects.uses[e].effect, p.data() + first, device_effects.readings.scale);
+    const std::vector<double> values = ReportedValues(
+        *device_effects.uses[e].effect, p.data() + first, device_effects.readings.scale);
     std::copy(values.begin(), values.end(), p.begin() + first);
   }
   return p;
@@ -114,7 +114,8 @@ double FactorOf(const Device& device, const std::vector<double>& p, int i) {
     const Effect& effect = *device_effects.uses[e].effect;
     const int first = device_effects.law.Offset(static_cast<int>(e));
     if (i < first || i >= first + effect.size()) continue;
-    return effect.parameters[i - first].ReportedFactor(p.data() + first, device_effects.readings.scale);
+    return effect.parameters[i - first].ReportedFactor(p.data() + first,
+                                                       device_effects.readings.scale);
   }
   return 1;
 }

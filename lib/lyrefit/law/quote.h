@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lyrefit/law/effect.h"
 #include "lyrefit/law/device_effects.h"
+#include "lyrefit/law/effect.h"
 #include "lyrefit/law/parameter.h"
 
 // Conversion of an effect's parameters between internal and reporting units. The factor of one

@@ -61,7 +61,7 @@ struct Linear {
   Pack slope[kMostGroups];
   Pack string_weight[kMostGroups];
   Pack string_slope[kMostGroups];
-  Pack current[kMostGroups];       // of each string, after the step
+  Pack current[kMostGroups];            // of each string, after the step
   Pack substring_current[kMostGroups];  // of each substring's cells, after the step
   Pack substring_voltage[kMostGroups];
   Chain chain[kMostGroups][2];
@@ -70,7 +70,7 @@ struct Linear {
 
 // Means over the cell groups of each substring, and the present current of its cells.
 void SumGroups(const Cell<Pack>& cell, const StringState& state, const Terms& terms, Linear* linear,
-              Pack* present, Pack* mismatch) {
+               Pack* present, Pack* mismatch) {
   bool seen[kMostGroups] = {};
   for (int p = 0; p < cell.substrings; ++p) {
     linear->weight[p] = linear->mean_voltage[p] = linear->stiffness[p] = mismatch[p] = 0.0;
@@ -136,7 +136,7 @@ void SolveStrings(const Cell<Pack>& cell, const Pack& voltage, Linear* linear, P
 // Clamps substrings that the linear step drives far below the voltage at which their bypass diode
 // conducts: they stay where it carries one current scale. Returns whether there are any.
 bool ClampSubstrings(const Cell<Pack>& cell, const StringLimits& limits, const StringState& state,
-                const Pack* shift, Linear* linear, Mask* clamped) {
+                     const Pack* shift, Linear* linear, Mask* clamped) {
   bool any = false;
   for (int p = 0; p < cell.substrings; ++p) {
     if (!cell.substring[p].bypassed) continue;
@@ -207,7 +207,8 @@ void SolveLinear(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
     }
     if (!cell.substring[p].bypassed) continue;
     const Dual<1, Pack>& bypass = terms.bypass[p];
-    const Pack beside = bypass.a + (linear->substring_voltage[p] - state.substring_voltage[p]) * bypass.v[0];
+    const Pack beside =
+        bypass.a + (linear->substring_voltage[p] - state.substring_voltage[p]) * bypass.v[0];
     const Pack drop = terms.drop[s].a + terms.drop[s].v[0] * shift[s];
     const Pack own =
         present[p] + (linear->substring_voltage[p] - linear->mean_voltage[p] + mismatch[p] + drop) /
@@ -222,8 +223,8 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
   Mask done = Pack(0.0) < 1.0;
   for (int g = 0; g < cell.groups; ++g) {
     const GroupPoint& point = terms.group[g];
-    const Pack& current =
-        (IsBeside(cell, g) ? linear.beside_current : linear.substring_current)[SubstringOf(cell, g)];
+    const Pack& current = (IsBeside(cell, g) ? linear.beside_current
+                                             : linear.substring_current)[SubstringOf(cell, g)];
     const Pack missing = current - point.current.a;
     const Pack size = 1.0 + abs(current);
     const Pack u = state->u[g], newton = missing / point.current.v[0];
@@ -232,7 +233,8 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
     // The rounding error of the voltage is amplified in a bypass diode's current.
     const int p = SubstringOf(cell, g);
     Pack sum = size;
-    if (cell.substring[p].bypassed) sum = sum + abs(terms.bypass[p].v[0] * state->substring_voltage[p]);
+    if (cell.substring[p].bypassed)
+      sum = sum + abs(terms.bypass[p].v[0] * state->substring_voltage[p]);
     done = done & ((abs(missing) < kRounding * sum) | IsShort(step, u));
     if (!cell.parallel_halves) continue;
     const Pack far = state->far[g], way = (factor * step + point.behind) * point.follows;
@@ -253,7 +255,8 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
       done = done & ((abs(bypass.v[0] * (next - before)) < kRounding * (1.0 + abs(bypass.a))) |
                      IsShort(cells * (next - before), cells * next));
     }
-    state->substring_voltage[p] = state->substring_voltage[p] + factor * (next - state->substring_voltage[p]);
+    state->substring_voltage[p] =
+        state->substring_voltage[p] + factor * (next - state->substring_voltage[p]);
   }
   for (int s = 0; s < cell.strings; ++s) {
     state->current[s] = state->current[s] + factor * (linear.current[s] - state->current[s]);
@@ -305,7 +308,8 @@ void FindSlopes(const Cell<Pack>& cell, const Pack& voltage, const StringState& 
       slopes->by_current[g] = moves * share / point.current.v[0];
       slopes->by_share[g] = 0.0;
       if (!IsBeside(cell, g)) {
-        slopes->by_share[g] = linear.current[s] + scale[s] * (voltage - linear.substring_voltage[p]) -
+        slopes->by_share[g] = linear.current[s] +
+                              scale[s] * (voltage - linear.substring_voltage[p]) -
                               moves / linear.weight[p] * (state.u[g] - linear.mean_voltage[p]);
       }
       if (g == GroupOfChain(cell, p, IsBeside(cell, g) ? 1 : 0)) slopes->by_chain_drop[g] = moves;

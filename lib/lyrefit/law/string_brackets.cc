@@ -59,7 +59,8 @@ class Bracketed {
     Pack weight = 0.0;
     for (int g = 0; g < cell_.groups; ++g) {
       if (IsBeside(cell_, g)) continue;
-      if (cell_.substring[SubstringOf(cell_, g)].string == string) weight = weight + ShareOf(cell_, g);
+      if (cell_.substring[SubstringOf(cell_, g)].string == string)
+        weight = weight + ShareOf(cell_, g);
     }
     return weight;
   }
@@ -80,7 +81,8 @@ class Bracketed {
         carried = RisingRoot(
             [&](const Pack& own) {
               const Pack reverse = drop - MeanVoltage(p, own, &weight, state);
-              return own + BypassCurrent(cell_, cell_.substring[p].cells, Dual<1, Pack>(reverse, 0)).a -
+              return own +
+                     BypassCurrent(cell_, cell_.substring[p].cells, Dual<1, Pack>(reverse, 0)).a -
                      current;
             },
             current, 1.0);

@@ -41,7 +41,7 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
 }
 
 GroupPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int group,
-                  const StringState& state) {
+                   const StringState& state) {
   GroupPoint point;
   point.current = JunctionCurrent(context, cell, group, Dual<1, Pack>(state.u[group], 0));
   if (!cell.parallel_halves) return point;

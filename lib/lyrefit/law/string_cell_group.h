@@ -35,6 +35,6 @@ Pack NextVoltage(const Cell<Pack>& cell, const StringLimits& limits, const Pack&
 
 // Current of a cell group at the voltages of a state.
 GroupPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cell, int group,
-                  const StringState& state);
+                   const StringState& state);
 
 }  // namespace lyrefit

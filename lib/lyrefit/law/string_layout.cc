@@ -114,7 +114,8 @@ struct WrittenSubstring {
 };
 
 bool Alike(const WrittenSubstring& a, const WrittenSubstring& b) {
-  if (a.substring.bypassed != b.substring.bypassed || a.substring.string != b.substring.string) return false;
+  if (a.substring.bypassed != b.substring.bypassed || a.substring.string != b.substring.string)
+    return false;
   if (a.substring.bypassed && a.substring.cells != b.substring.cells) return false;
   if (a.groups.size() != b.groups.size()) return false;
   const double ratio = b.substring.cells / a.substring.cells;
@@ -157,7 +158,8 @@ Expected<WrittenSubstring> ReadSubstring(const Node& node, int string) {
 
 // The parts of all strings. Equal parts of a string are merged. `cells`: cells in series of each
 // string.
-Expected<std::vector<WrittenSubstring>> ReadSubstrings(const Node& strings, std::vector<double>* cells) {
+Expected<std::vector<WrittenSubstring>> ReadSubstrings(const Node& strings,
+                                                       std::vector<double>* cells) {
   std::vector<WrittenSubstring> substrings;
   for (std::size_t s = 0; s < strings.value->size(); ++s) {
     const Node string = strings.At(s);

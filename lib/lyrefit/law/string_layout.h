@@ -18,10 +18,10 @@ struct StringLayout {
     double share = 1;   // fraction of all cells of the device
     double light = 1;   // factor of the photocurrent
     double leak_S = 0;  // additional shunt conductance of each cell
-    int substring = 0;       // position of its substring in `substrings`
+    int substring = 0;  // position of its substring in `substrings`
   };
-  std::vector<Cells> groups;  // at most kMostGroups
-  std::vector<Substring> substrings;   // at most kMostGroups
+  std::vector<Cells> groups;          // at most kMostGroups
+  std::vector<Substring> substrings;  // at most kMostGroups
   int cells_in_series = 1;
   int strings = 1;                // in parallel, of equal cell numbers
   double bypass_voltage_V = 0.5;  // at the current scale, which is about Isc

@@ -18,7 +18,8 @@ bool HasShape(const DeviceEffects& device_effects, const Effect& effect) {
 }
 
 std::vector<ParameterBounds> OwnBounds(const DeviceEffects& device_effects, std::size_t use) {
-  const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
+  const int first =
+      device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
   const auto begin = device_effects.bounds.begin() + first;
   return {begin, begin + device_effects.uses[use].effect->size()};
 }
@@ -35,7 +36,8 @@ bool SameBounds(const Variant& a, const Variant& b) {
 Variant AsAsked(const DeviceEffects& device_effects, std::size_t use) {
   Variant variant;
   variant.bounds = OwnBounds(device_effects, use);
-  const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
+  const int first =
+      device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
   const auto begin = device_effects.usual.begin() + first;
   variant.usual.assign(begin, begin + static_cast<std::ptrdiff_t>(variant.bounds.size()));
   return variant;
@@ -98,13 +100,13 @@ bool MoveInside(const Effect& effect, const std::vector<ParameterBounds>& bounds
 }
 
 // Starts of one effect in this variant; if none fits it, all of them moved into its bounds.
-std::vector<std::vector<double>> OwnPlaces(const DeviceEffects& device_effects, const CurveShape& shape,
-                                           std::size_t use,
+std::vector<std::vector<double>> OwnPlaces(const DeviceEffects& device_effects,
+                                           const CurveShape& shape, std::size_t use,
                                            const std::vector<ParameterBounds>& bounds) {
   const EffectUse& asked = device_effects.uses[use];
   std::vector<std::vector<double>> places, others;
-  for (const ShapeStart& start :
-       asked.effect->starts(shape, device_effects.readings.traits, OwnBounds(device_effects, use))) {
+  for (const ShapeStart& start : asked.effect->starts(shape, device_effects.readings.traits,
+                                                      OwnBounds(device_effects, use))) {
     std::vector<double> own = start.p;
     const bool same = MoveInside(*asked.effect, bounds, !asked.ranges.empty(), &own);
     std::vector<std::vector<double>>& list = same ? places : others;
@@ -135,13 +137,15 @@ std::vector<Variant> VariantsOf(const DeviceEffects& device_effects) {
   return variants;
 }
 
-std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects, const Variant& variant) {
+std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects,
+                                             const Variant& variant) {
   const CurveShape shape = ShapeOf(device_effects.readings);
   std::vector<std::vector<double>> places;
   for (std::size_t use = 0; use < device_effects.uses.size(); ++use) {
     const Effect& effect = *device_effects.uses[use].effect;
     if (!HasShape(device_effects, effect)) continue;
-    const int first = device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
+    const int first =
+        device_effects.law.Offset(static_cast<int>(use)) - device_effects.law.base_size();
     const auto begin = variant.bounds.begin() + first;
     for (const std::vector<double>& own :
          OwnPlaces(device_effects, shape, use, {begin, begin + effect.size()})) {
@@ -153,7 +157,8 @@ std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects
   return places;
 }
 
-void LeaveARest(const DeviceEffects& device_effects, const std::vector<ParameterBounds>& bounds, double* p) {
+void LeaveARest(const DeviceEffects& device_effects, const std::vector<ParameterBounds>& bounds,
+                double* p) {
   int first = 0;
   for (const EffectUse& use : device_effects.uses) {
     const Effect& effect = *use.effect;

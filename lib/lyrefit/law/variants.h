@@ -23,11 +23,13 @@ std::vector<Variant> VariantsOf(const DeviceEffects& device_effects);
 
 // Start points in this variant, from the shape of the curve: all of the effects' parameters, within
 // its bounds. Empty if no effect has starts from the shape.
-std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects, const Variant& variant);
+std::vector<std::vector<double>> ShapePlaces(const DeviceEffects& device_effects,
+                                             const Variant& variant);
 
 // Reduces cell shares that sum to 1 or more, the largest first, until cells remain for the rest.
 // `p`: the effects' parameters.
-void LeaveARest(const DeviceEffects& device_effects, const std::vector<ParameterBounds>& bounds, double* p);
+void LeaveARest(const DeviceEffects& device_effects, const std::vector<ParameterBounds>& bounds,
+                double* p);
 
 // Text that distinguishes the variant from others of these effects: "d, Vb, m, A free; chains 2".
 std::string DescribeVariant(const DeviceEffects& device_effects, const Variant& variant);

@@ -135,8 +135,8 @@ std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEn
   options.proceed = proceed;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindOtherOptima(model, *problem.translation.extended->effects, model.Pack(best.point),
-                         {}, {highest, problem.translation.first_effect, HowToRefine(options)});
+  return FindOtherOptima(model, *problem.translation.extended->effects, model.Pack(best.point), {},
+                         {highest, problem.translation.first_effect, HowToRefine(options)});
 }
 
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,

@@ -131,7 +131,8 @@ Json TakenJson(const IvCurve& curve) {
 
 }  // namespace
 
-Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const DeviceEffects* shared) {
+Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set,
+                const DeviceEffects* shared) {
   const IvCurve& first = set.curves.front();
   Json effects = Json::array();
   for (const EffectUse& use : with) effects.push_back(use.effect->id);

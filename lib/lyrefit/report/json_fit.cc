@@ -85,7 +85,8 @@ Json FitRmseJson(const FitReport& report) {
 // The effects besides the diodes, with all readings of the measurement that they act on.
 Json FitLawJson(const FitReport& report) {
   const DeviceEffects& device_effects = *report.device.effects;
-  if (device_effects.set != nullptr) return SetLawJson(device_effects.uses, *device_effects.set, &device_effects);
+  if (device_effects.set != nullptr)
+    return SetLawJson(device_effects.uses, *device_effects.set, &device_effects);
   const IvCurve& curve = report.curve;
   Json law = {{"effects", report.causes}, {"bypass_diodes", curve.notes.bypass_diodes}};
   if (!curve.time_s.empty()) law["time_s"] = curve.time_s;

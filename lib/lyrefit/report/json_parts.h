@@ -76,7 +76,8 @@ double RoundCelsius(double celsius);
 
 // Effects and the measured curves that they act in, sufficient to simulate each curve. `shared`:
 // the law of all curves; nullptr: each curve has its own.
-Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set, const DeviceEffects* shared);
+Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set,
+                const DeviceEffects* shared);
 
 // json_fit.cc
 Json FitJson(const FitReport& report, JsonPoints points);

@@ -43,7 +43,7 @@ std::string PlusEffects(const std::vector<EffectUse>& uses) {
 }
 
 std::vector<EffectUse> EffectsOf(const Device& device) {
-  return device.extension == nullptr ? std::vector<EffectUse>() : device.extension->uses;
+  return device.effects == nullptr ? std::vector<EffectUse>() : device.effects->uses;
 }
 
 std::string Plural(std::size_t count, const std::string& noun) {

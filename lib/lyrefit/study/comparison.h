@@ -37,13 +37,13 @@ struct RunRecord {
 
 // Distribution of a figure over the runs of one algorithm.
 struct RunSpread {
-  double min = kUnknown;
-  double mean = kUnknown;
-  double median = kUnknown;
-  double max = kUnknown;
-  double std = kUnknown;  // sample standard deviation (n - 1); 0 for one run
-  int within_1e9 = 0;     // runs at most 1e-9 (relative) above the reference
-  int within_1e6 = 0;     // runs at most 1e-6 (relative) above the reference
+  double min = kUnknown;     // smallest value
+  double mean = kUnknown;    // arithmetic mean
+  double median = kUnknown;  // middle value
+  double max = kUnknown;     // largest value
+  double std = kUnknown;     // sample standard deviation (n - 1); 0 for one run
+  int within_1e9 = 0;        // runs at most 1e-9 (relative) above the reference
+  int within_1e6 = 0;        // runs at most 1e-6 (relative) above the reference
 };
 
 // A point of the median convergence curve of the searches.

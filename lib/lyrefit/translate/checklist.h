@@ -42,8 +42,8 @@ struct CheckedCondition {
 struct Checklist {
   std::vector<CheckedCondition> conditions;  // in a fixed order
   int met = 0;                               // conditions that are met
-  int not_met = 0;
-  int not_known = 0;
+  int not_met = 0;                           // conditions that are not met
+  int not_known = 0;                         // conditions that nobody stated or measured
   std::string sentence;
 };
 

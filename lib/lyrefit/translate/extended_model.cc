@@ -10,8 +10,8 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/device_effects.h"
+#include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/model_points.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/translate/model_procedures.h"
@@ -61,8 +61,10 @@ Expected<std::vector<double>> ReportedParameters(const FitReport& fit, const Dev
 }
 
 // The model's device at conditions (g, t_C), with its reference temperature from the inputs.
-Device DeviceUnderConditions(const ExtendedModel& model, const TranslationInputs& in, double g, double t_C) {
-  Device device = UnderConditions(model.device, g / kReferenceIrradiance_W_m2, t_C + kZeroCelsius_K);
+Device DeviceUnderConditions(const ExtendedModel& model, const TranslationInputs& in, double g,
+                             double t_C) {
+  Device device =
+      UnderConditions(model.device, g / kReferenceIrradiance_W_m2, t_C + kZeroCelsius_K);
   auto device_effects = std::make_shared<DeviceEffects>(*device.effects);
   device_effects->readings.reference_temperature_K = in.temperature_C + kZeroCelsius_K;
   device_effects->law.bandgap_slope_per_K = in.dEgdT_1_K;

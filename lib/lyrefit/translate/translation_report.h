@@ -31,6 +31,7 @@ struct TranslatedResult {
   // parts of the target's Isc.
   double extrapolated = 0;
 
+  // Whether the procedure gave a result.
   bool computed() const { return why_not.empty(); }
 };
 

@@ -193,7 +193,7 @@ Document BudgetDocument(const Comparison& comparison) {
            &head);
   AddField("hit",
            pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
-                       "have several forms, RMSEs count as BIC prices their parameters"
+                       "have several variants, RMSEs count as BIC prices their parameters"
                      : "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference",
            &head);
   AddField("time", Duration(comparison.seconds), &head);

@@ -314,8 +314,11 @@ const VerbLine* CommandLine::Chosen() const {
 }
 
 Expected<std::string> CommandLine::Parse(int argc, char** argv) {
+  std::vector<std::string> words = CurrentWords(argc, argv);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
   try {
-    impl_->app.parse(argc, argv);
+    impl_->app.parse(argc, pointers.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help, --version
       std::ostringstream text;

@@ -32,7 +32,7 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
       .Type("FILE")
       .Reads()
       .Group(kGroup);
-  AddNamedFlags(verb, kFamilyOptionTable, {"free-fits"}, &flags->options);
+  AddNamedFlags(verb, kFamilyOptionTable, {"individual-fits"}, &flags->options);
   AddTableFlags(verb, kFamilyOptionTable, &flags->options);
   verb->AddOption("--truth", &flags->truth_file,
                   "parameters the curves were made from, as the ivcurves contest states them: "

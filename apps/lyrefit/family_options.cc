@@ -25,7 +25,7 @@ constexpr const char* kShared[] = {"--shunt",
                                    "--irradiance-accuracy",
                                    "--free",
                                    "--temperature-accuracy",
-                                   "--no-free-fits",
+                                   "--no-individual-fits",
                                    "--against",
                                    "--pvlib"};
 // Options that --family auto selects.

@@ -1,6 +1,9 @@
 #include "line_errors.h"
 
 #include <algorithm>
+#include <iostream>
+
+#include "lyrefit/base/former_names.h"
 
 namespace lyrefit {
 namespace {
@@ -25,6 +28,19 @@ std::size_t Distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::vector<std::string> CurrentWords(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  for (std::string& word : words) {
+    if (word.rfind("--", 0) != 0) continue;
+    const std::string flag = word.substr(0, word.find('='));
+    const std::string now = "--" + std::string(CurrentOption(flag.substr(2)));
+    if (now == flag) continue;
+    std::cerr << "lyrefit: " << flag << " is now " << now << '\n';
+    word.replace(0, flag.size(), now);
+  }
+  return words;
+}
 
 std::string FirstWord(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {

@@ -8,7 +8,11 @@
 
 namespace lyrefit {
 
-// Error messages with suggestions for wrong command lines.
+// Flags of version 0.1, and error messages with suggestions for wrong command lines.
+
+// The words of the command line, with each flag of version 0.1 (base/former_names.h) under its name
+// now. A note on standard error tells of it.
+std::vector<std::string> CurrentWords(int argc, char** argv);
 
 // The first word of the line that is not a flag; empty if there is none.
 std::string FirstWord(int argc, char** argv);

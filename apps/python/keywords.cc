@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/base/former_names.h"
+
 namespace lyrefit::python {
 namespace {
 
@@ -159,6 +161,22 @@ void CheckRange(const std::string& keyword, double value, double lower, double u
          {}});
 }
 
+namespace {
+
+// The keyword now of one that version 0.1 had; warns about it.
+std::string CurrentKeyword(const std::string& keyword) {
+  for (const FormerName& option : kFormerOptions) {
+    if (!IsKeywordOf(option.former, keyword)) continue;
+    const std::string name = KeywordOf(option.name);
+    const std::string note = "the keyword '" + keyword + "' is now '" + name + "'";
+    if (PyErr_WarnEx(PyExc_DeprecationWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+    return name;
+  }
+  return keyword;
+}
+
+}  // namespace
+
 bool IsNoted(const std::string& keyword, const std::vector<KeywordNote>& notes) {
   return std::any_of(notes.begin(), notes.end(),
                      [&keyword](const KeywordNote& note) { return note.name == keyword; });
@@ -167,7 +185,8 @@ bool IsNoted(const std::string& keyword, const std::vector<KeywordNote>& notes) 
 Keywords::Keywords(const char* verb, const py::kwargs& given) : verb_(verb) {
   given_.reserve(given.size());
   for (const auto& [name, value] : given) {
-    given_.push_back({name.cast<std::string>(), py::reinterpret_borrow<py::object>(value)});
+    given_.push_back({CurrentKeyword(name.cast<std::string>()),
+                      py::reinterpret_borrow<py::object>(value)});
   }
 }
 

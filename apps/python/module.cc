@@ -1,6 +1,7 @@
 #include <glog/logging.h>
 
 #include "bindings.h"
+#include "lyrefit/base/former_names.h"
 #include "lyrefit/base/version.h"
 
 namespace lyrefit::python {
@@ -14,6 +15,9 @@ PYBIND11_MODULE(_lyrefit, module) {
   options.disable_function_signatures();
   module.doc() = "The compiled part of lyrefit.";
   module.attr("__version__") = Version();
+  py::list former_keys;
+  for (const FormerName& key : kFormerKeys) former_keys.append(py::make_tuple(key.former, key.name));
+  module.attr("_former_keys") = former_keys;
   BindErrors(&module);
   BindResult(&module);
   BindCurve(&module);

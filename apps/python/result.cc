@@ -49,7 +49,7 @@ const std::string& Result::Json() const {
 }
 
 const py::dict& Result::Dictionary() const {
-  if (!dictionary_) dictionary_ = py::module_::import("json").attr("loads")(Json());
+  if (!dictionary_) dictionary_ = py::module_::import("lyrefit._former").attr("loads")(Json());
   return static_cast<const py::dict&>(dictionary_);
 }
 

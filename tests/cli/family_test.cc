@@ -32,7 +32,7 @@ TEST(FamilyFlags, OfASetNeedFamily) {
         std::string("--fit-curves 9"), std::string("--irradiance-offset"),
         std::string("--temperature-offset"), std::string("--irradiance-accuracy 2%"),
         std::string("--temperature-accuracy 1"), std::string("--free EgRef"),
-        std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-free-fits"),
+        std::string("--leave-out 3"), std::string("--folds 2"), std::string("--no-individual-fits"),
         std::string("--against x.json"), "--pvlib " + folder.Path("x.json")}) {
     ExpectRefused(kRtc + " " + flag,
                   flag.substr(0, flag.find(' ')) + " is about a set of curves: it needs --family");
@@ -145,7 +145,7 @@ class FamilyVerbOnASet : public ::testing::Test {
 };
 
 // Options of a short run, for tests of other results.
-const std::string kQuickFamily = " --folds 0 --no-free-fits --iterations 20 --population 15";
+const std::string kQuickFamily = " --folds 0 --no-individual-fits --iterations 20 --population 15";
 
 TEST_F(FamilyVerbOnASet, FindsTheDeviceBehindTheCurves) {
   const json j = FitJson(Set() + " --family desoto");

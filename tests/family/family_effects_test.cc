@@ -302,9 +302,9 @@ TEST_F(FamilyEffectsTest, EveryCurveOnItsOwnHasThemToo) {
   const auto report = FitIndividually(set_, options_);
   ASSERT_TRUE(report) << report.error().ToString();
   for (const FamilyCurve& curve : report->curves) {
-    ASSERT_EQ(curve.free_parameters.size(), 7U);
-    EXPECT_NEAR(curve.free_parameters[5], 0.15, 0.02) << curve.id;
-    EXPECT_EQ(curve.individual_estimates[5].refined, curve.free_parameters[5]);
+    ASSERT_EQ(curve.individual_parameters.size(), 7U);
+    EXPECT_NEAR(curve.individual_parameters[5], 0.15, 0.02) << curve.id;
+    EXPECT_EQ(curve.individual_estimates[5].refined, curve.individual_parameters[5]);
     EXPECT_NEAR(curve.individual_rmse.solved_current_A, 1e-4, 3e-5);
   }
 }

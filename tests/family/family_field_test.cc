@@ -69,7 +69,7 @@ TEST_P(FamilyOfThePvue125, PredictsTheCurvesItDidNotSeeBetterThanTheDataSheet) {
   EXPECT_EQ(report->against[0].result.curves, 548);
   EXPECT_GT(report->against[0].result.median_rmse_A, report->held_out->median_rmse_A);
   for (const FamilyCurve& curve : report->curves) {
-    EXPECT_EQ(curve.free_parameters.size(), 5U) << curve.id;
+    EXPECT_EQ(curve.individual_parameters.size(), 5U) << curve.id;
     EXPECT_LT(curve.individual_rmse.solved_current_A, 0.02 * curve.short_circuit_current_A)
         << curve.id;
   }

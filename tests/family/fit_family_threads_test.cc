@@ -39,7 +39,7 @@ class Numbers {
       Add(curve.temperature_offset_K);
       AddAll(curve.parameters);
       AddAll(curve.residual_A);
-      AddAll(curve.free_parameters);
+      AddAll(curve.individual_parameters);
       Add(curve.rmse);
       Add(curve.individual_rmse);
     }

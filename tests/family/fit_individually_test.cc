@@ -36,7 +36,7 @@ TEST_F(FitIndividuallyTest, IsAFitOfEveryCurve) {
   for (int c = 0; c < 6; ++c) {
     const FitReport fit = *Fit(set_.curves[c], single);
     EXPECT_EQ(report.curves[c].id, set_.curves[c].name);
-    EXPECT_EQ(report.curves[c].free_parameters, fit.refined);
+    EXPECT_EQ(report.curves[c].individual_parameters, fit.refined);
     EXPECT_EQ(report.curves[c].individual_rmse.solved_current_A, fit.rmse.refined.solved_current_A);
     EXPECT_EQ(report.curves[c].individual_estimates[0].high_95, fit.estimates[0].high_95);
   }
@@ -56,10 +56,10 @@ TEST_F(FitIndividuallyTest, SaysWhichCurvesCannotBeFitted) {
   for (const int broken : {0, 3}) {
     EXPECT_EQ(report.curves[broken].role, CurveRole::kLeftOut);
     EXPECT_THAT(report.curves[broken].reason, HasSubstr("points"));
-    EXPECT_TRUE(report.curves[broken].free_parameters.empty());
+    EXPECT_TRUE(report.curves[broken].individual_parameters.empty());
   }
   EXPECT_EQ(report.curves[1].reason, "left out as asked");
-  EXPECT_FALSE(report.curves[2].free_parameters.empty());
+  EXPECT_FALSE(report.curves[2].individual_parameters.empty());
   EXPECT_EQ(report.warnings.size(), 2U);
   EXPECT_TRUE(report.usable);
 }
@@ -85,7 +85,7 @@ TEST_F(FitIndividuallyTest, StopsWhenAsked) {
   EXPECT_TRUE(report.interrupted);
   ASSERT_EQ(report.curves.size(), 6U);
   for (int c = 0; c < 6; ++c) {
-    EXPECT_EQ(report.curves[c].free_parameters.empty(), c >= 2);
+    EXPECT_EQ(report.curves[c].individual_parameters.empty(), c >= 2);
     EXPECT_EQ(report.curves[c].reason, c >= 2 ? "interrupted before its turn" : "");
   }
 }

@@ -26,7 +26,7 @@ class Verbs(unittest.TestCase):
 
     def test_family(self):
         joint = lyrefit.fit_family(FAMILY, family="desoto", folds=0, individual_fits=False, search_curves=4, seed=3)
-        self.same(joint, "fit", FAMILY, "--family", "desoto", "--folds", 0, "--no-free-fits", "--search-curves", 4,
+        self.same(joint, "fit", FAMILY, "--family", "desoto", "--folds", 0, "--no-individual-fits", "--search-curves", 4,
                   "--seed", 3)
         self.assertEqual(len(joint.frame()), len(joint["curves"]))
         self.assertEqual(list(joint.parameter_frame()["parameter"]), list(joint.parameters))

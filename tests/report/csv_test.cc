@@ -93,7 +93,7 @@ FamilyReport TwoCurves() {
   report.curves.resize(2);
   report.curves[0].id = "1";
   report.curves[0].parameters = {1, 2, 3, 4, 5};
-  report.curves[0].free_parameters = {6.1, 1.25e-10, 1.1, 0.3, 400};
+  report.curves[0].individual_parameters = {6.1, 1.25e-10, 1.1, 0.3, 400};
   report.curves[1].id = "2,b";
   report.curves[1].parameters = {6, 1e-9, 1, 0.25, 500};
   return report;
@@ -110,7 +110,7 @@ TEST(IndividualFitsCsv, HasTheColumnsOfThePublishedParameterSets) {
 TEST(IndividualFitsCsv, AddsTheSecondDiode) {
   FamilyReport report = TwoCurves();
   report.translation.spec.model = Model::kDoubleDiode;
-  report.curves[0].free_parameters.insert(report.curves[0].free_parameters.end(), {1e-7, 2});
+  report.curves[0].individual_parameters.insert(report.curves[0].individual_parameters.end(), {1e-7, 2});
   const std::string csv = IndividualFitsCsv(report);
   EXPECT_THAT(csv, HasSubstr(",cells_in_series,saturation_current_2,n_2\n"));
   EXPECT_THAT(csv, HasSubstr("\n1,6.1,1.25e-10,0.3,400,1.1,60,1e-07,2\n"));
@@ -119,7 +119,7 @@ TEST(IndividualFitsCsv, AddsTheSecondDiode) {
 TEST(IndividualFitsCsv, KeepsTheRowOfACurveWithoutParameters) {
   FamilyReport report = TwoCurves();
   report.curves[0].parameters.clear();
-  report.curves[0].free_parameters.clear();
+  report.curves[0].individual_parameters.clear();
   EXPECT_THAT(IndividualFitsCsv(report), HasSubstr("\n1,,,,,,60\n"));
 }
 

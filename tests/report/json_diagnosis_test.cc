@@ -159,7 +159,7 @@ TEST(ReferenceJson, HoldsTheComparisonAndTheDiagnosis) {
 
 TEST(OutlierSweepsJson, ListsAllSweeps) {
   const json j = json::parse(OutlierSweepsJson(SampleOutlierSweeps()));
-  EXPECT_EQ(j["outlier"], 1);
+  EXPECT_EQ(j["outliers"], 1);
   ASSERT_EQ(j["sweeps"].size(), 2U);
   EXPECT_EQ(j["sweeps"][1]["differs"], false);
   EXPECT_EQ(j["rejected"][0], "night: the curve is dark");

@@ -156,7 +156,7 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
     {"random-baseline", "", "the best of as many random points beside the search's figure",
      &FamilyOptions::random_baseline, OptionTrait::kNoFlag},
     {"intervals", "", "95 % intervals", &FamilyOptions::intervals, OptionTrait::kNoFlag},
-    {"free-fits", "", "do not also fit every curve on its own, the floor of the joint fit",
+    {"individual-fits", "", "do not also fit every curve on its own, the floor of the joint fit",
      &FamilyOptions::individual_fits},
     {"folds", "N", "whole curves left out in turn, to test the answer; 0: none",
      &FamilyOptions::folds, 0, 1e6, OptionTrait::kQuiet},

@@ -61,7 +61,7 @@ struct FamilyCurve {
   std::vector<double> residual_A;     // model - measured, solved-current
   // An individual fit of this curve with the same number of diodes: its parameters, estimates,
   // error model and RMSE.
-  std::vector<double> free_parameters;         // empty: no individual fit
+  std::vector<double> individual_parameters;   // empty: no individual fit
   std::vector<Estimate> individual_estimates;  // with intervals; empty: not requested
   // `individual_estimates` with intervals under correlated errors, as the residuals show them.
   // Empty if the errors are taken as independent or the fit was weighted by them.

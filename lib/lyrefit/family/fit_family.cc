@@ -97,7 +97,7 @@ void FitFreely(Job* job, FamilyReport* report) {
     if (std::find(search.begin(), search.end(), rows[k]) == search.end()) continue;
     if (member.IsDark()) continue;
     std::vector<double> start =
-        StartFromIndividualFit(job->family, member.joint, row.free_parameters);
+        StartFromIndividualFit(job->family, member.joint, row.individual_parameters);
     if (!start.empty()) job->starts.push_back({std::move(start), {}});
   }
 }
@@ -136,9 +136,9 @@ void FollowCandidate(Job* job, const JointProblem& problem, FamilyReport* report
 
 // Fills the differences of the individual fit from the shared parameters.
 void FillExcess(const TranslatedDevice& shared, FamilyCurve* row) {
-  if (row->free_parameters.size() != shared.parameters.size()) return;
+  if (row->individual_parameters.size() != shared.parameters.size()) return;
   const KeyPoints model = ModelKeyPoints(shared.device, shared.parameters.data());
-  const KeyPoints own = ModelKeyPoints(shared.device, row->free_parameters.data());
+  const KeyPoints own = ModelKeyPoints(shared.device, row->individual_parameters.data());
   row->isc_excess = own.short_circuit_current_A / model.short_circuit_current_A - 1;
   row->voc_excess_V = own.open_circuit_voltage_V - model.open_circuit_voltage_V;
 }

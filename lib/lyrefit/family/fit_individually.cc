@@ -52,7 +52,7 @@ IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const Fi
 }
 
 void FillIndividualFit(const FitReport& fit, FamilyCurve* curve) {
-  curve->free_parameters = Reported(fit.device, fit.refined);
+  curve->individual_parameters = Reported(fit.device, fit.refined);
   curve->individual_estimates = fit.estimates;
   curve->individual_under_errors = fit.under_errors;
   curve->free_errors = fit.errors;

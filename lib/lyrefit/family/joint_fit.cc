@@ -106,7 +106,7 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
 }
 
 std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
-                                           const std::vector<double>& free_parameters) {
+                                           const std::vector<double>& individual_parameters) {
   const Translation& at = family.translation;
   std::vector<double> shared(at.size() + 2, 0);
   for (int i = 0; i < at.size() + 2; ++i) {
@@ -125,12 +125,12 @@ std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const Jo
   set(at.bandgap, 1.121);
   set(at.alpha_sc, 5e-4 * family.curves.reference_current_A);
   set(at.n_slope, 0);
-  set(at.n, free_parameters[IdealityIndex(0)]);
+  set(at.n, individual_parameters[IdealityIndex(0)]);
   const double dt = curve.temperature_K - kReferenceTemperature_K;
-  set(at.photocurrent, free_parameters[kIph] / g - shared[at.alpha_sc] * dt);
-  set(at.resistance_series, free_parameters[kRs]);
+  set(at.photocurrent, individual_parameters[kIph] / g - shared[at.alpha_sc] * dt);
+  set(at.resistance_series, individual_parameters[kRs]);
   const double resistance = family.bounds[at.resistance_series].upper;
-  const double shunt = std::min(free_parameters[kRsh], 1e5 * resistance);
+  const double shunt = std::min(individual_parameters[kRsh], 1e5 * resistance);
   set(at.resistance_shunt, at.spec.shunt == ShuntLaw::kConstant ? shunt : shunt * g);
   if (at.resistance_shunt_dark >= 0) set(at.resistance_shunt_dark, 4 * shared[at.resistance_shunt]);
   if (at.recombination >= 0) set(at.recombination, 0);
@@ -140,7 +140,7 @@ std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const Jo
   std::vector<double> device(at.device.size());
   Translate(at, shared.data(), curve.irradiance_W_m2, curve.temperature_K, device.data());
   const double factor = device[SaturationCurrentIndex(0)];
-  const double saturation = free_parameters[SaturationCurrentIndex(0)];
+  const double saturation = individual_parameters[SaturationCurrentIndex(0)];
   if (!(factor > 0) || !(saturation > 0) || !std::isfinite(factor)) return {};
   set(at.saturation_current, saturation / factor);
   if (!std::isnan(family.fixed[at.saturation_current])) {

@@ -37,6 +37,6 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
 // Builds a start from a curve's individual fit: its parameters translated to the reference with
 // usual coefficients. Empty if no saturation current at the reference gives that of the curve.
 std::vector<double> StartFromIndividualFit(const FamilyProblem& family, const JointCurve& curve,
-                                           const std::vector<double>& free_parameters);
+                                           const std::vector<double>& individual_parameters);
 
 }  // namespace lyrefit

@@ -164,7 +164,7 @@ std::string IndividualFitsCsv(const FamilyReport& report) {
   csv += "\n";
   for (const FamilyCurve& curve : report.curves) {
     const std::vector<double>& values =
-        curve.free_parameters.empty() ? curve.parameters : curve.free_parameters;
+        curve.individual_parameters.empty() ? curve.parameters : curve.individual_parameters;
     const auto field = [&values](int index) {
       const bool there = index < static_cast<int>(values.size());
       return "," + CsvField(there ? values[index] : kUnknown);

@@ -144,7 +144,7 @@ Section IndividualFitSection(const FamilyReport& report) {
   }
   const std::vector<const FamilyCurve*> shown = Shown(report);
   for (const FamilyCurve* curve : shown) {
-    const std::vector<double>& values = curve->free_parameters;
+    const std::vector<double>& values = curve->individual_parameters;
     std::vector<std::string> row = {ShortId(curve->id),
                                     Stated(curve->irradiance_W_m2, curve->irradiance_known),
                                     Stated(curve->temperature_C, curve->temperature_known),

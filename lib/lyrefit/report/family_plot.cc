@@ -49,8 +49,8 @@ std::vector<double> ExtendedModelCurrents(const FamilyReport& report, const Fami
   const TranslationSpec& spec = at.spec;
   const auto device = Extend(MakeDevice(spec.model, found->conditions, spec.constants), spec.model,
                              spec.constants, *found, report.with, /*force=*/true);
-  if (!device || static_cast<int>(curve.free_parameters.size()) != device->size()) return {};
-  return SolveCurrents(*device, Inner(*device, curve.free_parameters).data(), voltage_V);
+  if (!device || static_cast<int>(curve.individual_parameters.size()) != device->size()) return {};
+  return SolveCurrents(*device, Inner(*device, curve.individual_parameters).data(), voltage_V);
 }
 
 // The model's currents; empty where the curve has no parameters.
@@ -68,8 +68,8 @@ std::vector<double> ModelCurrents(const FamilyReport& report, const FamilyCurve&
   conditions.cells_in_series = report.cells_in_series;
   const TranslationSpec& spec = report.translation.spec;
   const Device device = MakeDevice(spec.model, conditions, spec.constants);
-  if (static_cast<int>(curve.free_parameters.size()) != device.size()) return {};
-  return SolveCurrents(device, curve.free_parameters.data(), voltage_V);
+  if (static_cast<int>(curve.individual_parameters.size()) != device.size()) return {};
+  return SolveCurrents(device, curve.individual_parameters.data(), voltage_V);
 }
 
 // Up to twelve curves, evenly spread over the irradiances; most curves of a sunny day are alike.

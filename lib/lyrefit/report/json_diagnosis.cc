@@ -208,7 +208,7 @@ std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis
 
 std::string OutlierSweepsJson(const OutlierSweeps& outlier) {
   return Dump({{"lyrefit_version", Version()},
-               {"outlier", outlier.outlier},
+               {"outliers", outlier.outlier},
                {"sweeps", outlier.sweeps},
                {"rejected", outlier.rejected}});
 }

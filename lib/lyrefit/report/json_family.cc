@@ -108,7 +108,7 @@ Json FamilyCurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>&
           {"short_circuit_current_A", curve.short_circuit_current_A},
           {"parameters", ValuesJson(device, curve.parameters)},
           {"rmse", curve.rmse},
-          {"free_parameters", ValuesJson(device, curve.free_parameters)},
+          {"individual_parameters", ValuesJson(device, curve.individual_parameters)},
           {"individual_rmse", curve.individual_rmse},
           {"isc_excess", curve.isc_excess},
           {"voc_excess_V", curve.voc_excess_V},

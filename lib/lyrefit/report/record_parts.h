@@ -34,7 +34,7 @@ inline const char* LawTitle(TranslationLaw law) {
   return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
 }
 
-// Parameters of an individually fitted curve, in the order of FamilyCurve::free_parameters.
+// Parameters of an individually fitted curve, in the order of FamilyCurve::individual_parameters.
 inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
   std::vector<ParameterInfo> infos = MakeDevice(report.translation.spec.model, {}).parameters;
   if (report.free) AddInfos(report.with, &infos);

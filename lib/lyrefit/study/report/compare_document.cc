@@ -52,7 +52,7 @@ block::Table CostTable(const CompareOptions& options, const ProblemResult& probl
       fmt::format("Cost of a run, runs whose search hits the target{} ({})",
                   polish || plain ? ", runs within 1e-9 by polish" : "", ObjectiveText(options))};
   block::Table::Row& head = table.heads[0];
-  if (polish) head.insert(head.end(), {"polish", "all starts", "best candidate"});
+  if (polish) head.insert(head.end(), {"polish", "all starts", "best only"});
   if (plain) head.emplace_back("plain");
   table.alignment.resize(head.size());
   for (const AlgorithmResult& c : problem.algorithms) {

@@ -69,12 +69,11 @@ Expected<std::vector<ComparedAlgorithm>> BudgetAlgorithms(const StudyFlags& stud
   std::vector<ComparedAlgorithm> algorithms;
   for (const std::string& name : names) {
     if (name == ToText(AlgorithmKind::kShape) || name == ToText(AlgorithmKind::kDefault)) {
-      algorithms.push_back(*ParseAlgorithm(name, study.search, study.candidates));  // has no budget
+      algorithms.push_back(*ParseAlgorithm(name, study.search));  // has no budget
       continue;
     }
     for (const std::int64_t budget : budgets) {
-      TRY(ComparedAlgorithm compared,
-          ParseAlgorithm(name, BudgetSearch(budget, study.search), study.candidates));
+      TRY(ComparedAlgorithm compared, ParseAlgorithm(name, BudgetSearch(budget, study.search)));
       compared.name = fmt::format("{}@{}", name, budget);
       compared.budget = budget;
       algorithms.push_back(std::move(compared));

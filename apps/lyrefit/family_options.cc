@@ -11,8 +11,8 @@ namespace {
 constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
 // Flags of a fit of one curve that a joint fit does not have.
 constexpr const char* kOneCurve[] = {
-    "--floor", "--bounds",     "--loss",      "--loss-scale",    "--kernel",
-    "--curve", "--candidates", "--no-polish", "--temperature-C", "--irradiance-Wm2"};
+    "--floor", "--bounds",    "--loss",          "--loss-scale",   "--kernel",
+    "--curve", "--no-polish", "--temperature-C", "--irradiance-Wm2"};
 // Flags about the parameters that the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",

@@ -41,7 +41,6 @@ void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {
                       pagmo + " (default " + flags->algorithms + ")")
       .Type("LIST")
       .Group("Search");
-  AddNamedFlags(verb, kStudyFlagTable, {"candidates"}, flags);
 }
 
 void AddSearchRows(VerbLine* verb, const std::vector<std::string>& names, StudyFlags* flags) {
@@ -69,16 +68,13 @@ Expected<std::vector<double>> ParseNumbers(const std::string& flag, const std::s
   return numbers;
 }
 
-Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
-                                           SearchVariables candidates) {
+Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search) {
   for (const AlgorithmKind kind : {AlgorithmKind::kShape, AlgorithmKind::kDefault}) {
     if (name == ToText(kind)) return OwnAlgorithm(kind);
   }
   const std::string pagmo = "pagmo:";
   if (name.rfind(pagmo, 0) == 0) {
-    auto peer = PagmoAlgorithm(name.substr(pagmo.size()), search);
-    if (peer) peer->candidates = candidates;
-    return peer;
+    return PagmoAlgorithm(name.substr(pagmo.size()), search);
   }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
   if (!algorithm) {
@@ -86,16 +82,14 @@ Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const Search
         fmt::format("--algorithms: expected a list of {}, shape, default or pagmo:NAME, found '{}'",
                     AllTexts<Algorithm>(), name));
   }
-  ComparedAlgorithm compared = PlainAlgorithms({*algorithm}, search)[0];
-  compared.candidates = candidates;
-  return compared;
+  return PlainAlgorithms({*algorithm}, search)[0];
 }
 
 Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags) {
   TRY(const auto names, ParseList("--algorithms", flags.algorithms));
   std::vector<ComparedAlgorithm> algorithms;
   for (const std::string& name : names) {
-    TRY(ComparedAlgorithm compared, ParseAlgorithm(name, flags.search, flags.candidates));
+    TRY(ComparedAlgorithm compared, ParseAlgorithm(name, flags.search));
     algorithms.push_back(std::move(compared));
   }
   return algorithms;

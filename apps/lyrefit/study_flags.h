@@ -24,7 +24,6 @@ struct StudyFlags {
   ConditionOptions conditions;
   CompareOptions options;
   SearchOptions search;
-  SearchVariables candidates = SearchVariables::kAll;  // for --algorithms that are searches
   std::string landscape;  // synthetic problems, not curves: "strings_2,strings_3", "all"
   int devices = 50;       // for each problem
   ReportFlags output;
@@ -41,9 +40,6 @@ inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
     OptionRow<StudyFlags>("Model"),
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&StudyFlags::ranges>(), OptionTrait::kNoFlag},
-    OptionRow<StudyFlags>("Search"),
-    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&StudyFlags::candidates>(),
-     OptionTrait::kNoFlag},
 };
 
 // Declares the flags of curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
@@ -79,8 +75,7 @@ Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
 Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // An algorithm by its name, and all those of --algorithms, with these settings.
-Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search,
-                                           SearchVariables candidates);
+Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search);
 Expected<std::vector<ComparedAlgorithm>> ParseAlgorithms(const StudyFlags& flags);
 
 // A picture that is written at the end.

@@ -48,7 +48,6 @@ class CompareResult : public Result {
 struct CompareAsked {
   CompareOptions options;
   SearchOptions search;
-  SearchVariables candidates = SearchVariables::kAll;
   std::vector<ComparedAlgorithm> algorithms;
   std::string bounds = "physical";
   BoundsSpec box;
@@ -67,9 +66,7 @@ ComparedAlgorithm NamedAlgorithm(const std::string& name, const CompareAsked& as
                ", shape, default or functions, found '" + name + "'",
            {}});
   }
-  ComparedAlgorithm compared = PlainAlgorithms({*algorithm}, asked.search).front();
-  compared.candidates = asked.candidates;
-  return compared;
+  return PlainAlgorithms({*algorithm}, asked.search).front();
 }
 
 ComparedAlgorithm OwnSearch(const std::string& name, py::handle search, CompareAsked* asked) {
@@ -78,7 +75,6 @@ ComparedAlgorithm OwnSearch(const std::string& name, py::handle search, CompareA
   compared.name = name;
   compared.search = asked->search;
   compared.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault);
-  compared.candidates = asked->candidates;
   asked->faults.Add(std::move(fault));
   return compared;
 }
@@ -129,15 +125,6 @@ CompareAsked ReadCompareKeywords(Keywords* keywords) {
   asked.search.iterations = 1000;
   const py::object algorithms =
       keywords->Take("algorithms").value_or(py::str("lo,lo+mblss,lo+dmlss,mlo,de,random"));
-  if (const auto candidates = keywords->Take("candidates")) {
-    const std::string text = TextOf("candidates", *candidates);
-    const auto found = FromText<SearchVariables>(text);
-    if (!found)
-      Raise(
-          {"candidates: expected one of " + AllTexts<SearchVariables>() + ", found '" + text + "'",
-           {}});
-    asked.candidates = *found;
-  }
   if (const auto journal = keywords->Take("resume")) options.journal = TextOf("resume", *journal);
   if (const auto with = keywords->Take("with_")) {
     EffectsAsked effects = EffectsOf(*with);
@@ -264,7 +251,6 @@ std::vector<KeywordNote> CompareNotes() {
   notes.push_back({"bounds", "str | PathLike[str] | Mapping[str, tuple[float, float]]",
                    "'physical'", "Model", ""});
   notes.push_back({"bound", "Mapping[str, tuple[float, float]]", "None", "Model", ""});
-  notes.push_back({"candidates", "str", "'all'", "Search", kSearchVariablesDoc});
   notes.push_back({"resume", "str | PathLike[str]", "None", "Runs", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kCompareOptionTable, CompareOptions(), &notes);

@@ -116,30 +116,5 @@ TEST(With, SearchesAreComparedOnIt) {
   EXPECT_THAT(budget.out, HasSubstr("solved-current, with shading:w=0.3333"));
 }
 
-TEST(With, HardCandidatesAreSaidAndCounted) {
-  SKIP_IF_SANITIZED();
-  const TempFolder folder;
-  const std::string file = folder.Path("fit.json");
-  const AppResult fit =
-      RunApp("fit " + kShaded + " --with shading:w=0.3333 --candidates hard --json '" + file + "'");
-  ASSERT_EQ(fit.exit_code, 0) << fit.err;
-  EXPECT_THAT(fit.out, HasSubstr("candidates = hard (default all)"));
-  EXPECT_THAT(fit.out, HasSubstr(" of the"));
-  const json search = json::parse(ReadFile(file))["search"];
-  EXPECT_GT(search["curve_evaluations"], search["evaluations"]);
-  const AppResult budget =
-      RunApp("budget " + kShaded +
-             " --with shading:w=0.3333 --models sd --algorithms random,shape "
-             "--budgets 20 --runs 2 --multistart 2 --candidates hard --json -");
-  ASSERT_EQ(budget.exit_code, 0) << budget.err;
-  const json algorithms = json::parse(budget.out)["problems"][0]["algorithms"];
-  EXPECT_EQ(algorithms[0]["candidates"], "hard");
-  EXPECT_GT(algorithms[0]["curve_evaluations"], 20);
-  EXPECT_EQ(algorithms[1]["candidates"], "all") << "no search";
-  const AppResult family = RunApp("fit " + kShaded + " --family free --candidates hard");
-  EXPECT_EQ(family.exit_code, 1);
-  EXPECT_THAT(family.err, HasSubstr("--candidates is for one curve, not for --family"));
-}
-
 }  // namespace
 }  // namespace lyrefit

@@ -189,6 +189,28 @@ TEST(FitWith, TakesPlainFunctionsForAnEffect) {
   }
 }
 
+// A suggested point is evaluated once more, for its rank.
+TEST(FitWith, BeginsAtTheKneesIfTheSearchAsksForThem) {
+  const std::pair<double, double> third = {1.0 / 3, 1.0 / 3};
+  EffectUse use{FindEffect("substrings"), {{"w1", third}, {"w2", third}}};
+  SimulateOptions options = Module();
+  options.with = {use};
+  options.with[0].ranges["d1"] = {0.5, 0.5};
+  options.with[0].ranges["d2"] = {0.25, 0.25};
+  const auto curve = Simulate(options);
+  ASSERT_TRUE(curve) << curve.error().ToString();
+  FitOptions fit;
+  fit.with = {use};
+  fit.intervals = Intervals::kNone;
+  const auto plain = Fit(*curve, fit);
+  fit.search.algorithm = Algorithm::kMloKnees;
+  const auto knees = Fit(*curve, fit);
+  ASSERT_TRUE(plain && knees);
+  EXPECT_EQ(plain->curve_evaluations, plain->search.evaluations);
+  EXPECT_GT(knees->curve_evaluations, knees->search.evaluations);
+  EXPECT_LT(knees->search.trace[0].best, plain->search.trace[0].best);
+}
+
 TEST(FitWith, SaysWhatDoesNotGoWithEffects) {
   const auto curve = Simulate(Module());
   ASSERT_TRUE(curve);

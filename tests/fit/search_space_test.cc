@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/search_candidates.h"
+#include "lyrefit/fit/fit_job.h"
 #include "lyrefit/fit/simulate.h"
 #include "module_with.h"
 
@@ -145,7 +145,7 @@ TEST(SearchSpace, LeadsBackFromTheParametersOfEveryVariant) {
     FitReport report;
     FitJob job{*curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}};
     ASSERT_TRUE(PrepareFit(&job, &report));
-    const SearchSpace space = CompleteSpace(job);
+    const SearchSpace space = SpaceOf(job);
     RandomStream random(2, 0);
     std::vector<double> p(report.device.size()), again(p.size());
     std::vector<int> variants(job.variants.size(), 0);

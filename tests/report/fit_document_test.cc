@@ -188,9 +188,9 @@ TEST(FullReport, ShowsHowItWasFound) {
   EXPECT_THAT(text,
               HasSubstr("2 of 3 came to the same curve; the best end came from start 2: elite 2"));
   EXPECT_THAT(text, HasSubstr("seed = 7 (default 0)"));
-  FitReport hard = SampleReport();
-  hard.curve_evaluations = 5432;
-  EXPECT_THAT(FullReport(hard), HasSubstr("1200 evaluations (5432 of the"));
+  FitReport knees = SampleReport();
+  knees.curve_evaluations = 5432;
+  EXPECT_THAT(FullReport(knees), HasSubstr("1200 evaluations (5432 of the"));
   EXPECT_THAT(text, HasSubstr("irradiance not given: assumed 1000 W/m2"));
 }
 

@@ -39,14 +39,6 @@ std::vector<CompareCurve> StringsAndFamilies() {
   return subjects;
 }
 
-TEST(ComparePooled, HasNoHardCandidatesOfFamilies) {
-  std::vector<ComparedAlgorithm> algorithms = PooledAlgorithms();
-  algorithms[0].candidates = SearchVariables::kHard;
-  const auto comparison = Compare(StringsAndFamilies(), algorithms, PooledOptions());
-  ASSERT_FALSE(comparison);
-  EXPECT_THAT(comparison.error().ToString(), HasSubstr("candidates hard is for curves"));
-}
-
 TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
   SKIP_IF_SANITIZED();
   const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
@@ -117,6 +109,19 @@ TEST(ComparePooled, IsTakenUpWithTheSameBits) {
   const Comparison again = Compared(StringsAndFamilies(), options);
   EXPECT_THAT(again.remarks, ElementsAre(HasSubstr("18 of 18 runs were done before")));
   EXPECT_EQ(Figures(again), whole);
+}
+
+TEST(ComparePooled, TakesUpWhatTheKneesCost) {
+  const TempFolder folder;
+  CompareOptions options = PooledOptions();
+  options.journal = folder.Path("study.jsonl");
+  for (int time = 0; time < 2; ++time) {
+    const auto comparison =
+        Compare(MadeSubjects("strings_2", 1), BudgetAlgorithms({Algorithm::kMloKnees}, {40}), options);
+    ASSERT_TRUE(comparison) << comparison.error().ToString();
+    const RunRecord& run = comparison->problems.at(0).algorithms.at(0).runs.at(0);
+    EXPECT_GT(run.curve_evaluations, run.evaluations) << time;
+  }
 }
 
 TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {

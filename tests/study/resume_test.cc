@@ -42,34 +42,6 @@ class ResumeTest : public testing::Test {
   std::int64_t first_ = -1;  // number of finished runs in the first report
 };
 
-TEST_F(ResumeTest, KnowsWhatHardCandidatesCost) {
-  std::vector<ComparedAlgorithm> algorithms = SmallAlgorithms();
-  const auto run = [&](std::int64_t stop_after) {
-    return Compare({RtcFrance()}, algorithms, options_, [&](const Progress& progress) {
-      return progress.iteration >= stop_after ? ObserverAction::kStop : ObserverAction::kContinue;
-    });
-  };
-  algorithms[0].candidates = SearchVariables::kHard;
-  ASSERT_TRUE(run(7));
-  const auto whole = run(1 << 20);
-  ASSERT_TRUE(whole) << whole.error().ToString();
-  for (const AlgorithmResult& compared : whole->problems.at(0).algorithms) {
-    const bool hard = compared.name == algorithms[0].name;
-    EXPECT_EQ(compared.candidates, hard ? SearchVariables::kHard : SearchVariables::kAll);
-    for (const RunRecord& record : compared.runs) {
-      if (hard) {
-        EXPECT_GE(record.curve_evaluations, 2 * record.evaluations);
-      } else {
-        EXPECT_EQ(record.curve_evaluations, record.evaluations);
-      }
-    }
-  }
-  algorithms[0].candidates = SearchVariables::kAll;
-  const auto other = run(1 << 20);
-  ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().ToString(), HasSubstr("hard candidates"));
-}
-
 TEST_F(ResumeTest, EndsWithTheBitsOfAStudyThatWasNeverInterrupted) {
   CompareOptions plain = options_;
   plain.journal.clear();

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
@@ -18,7 +20,6 @@
 #include "lyrefit/fit/prove_floor.h"
 #include "lyrefit/fit/refuted_bound.h"
 #include "lyrefit/fit/robust.h"
-#include "lyrefit/fit/search_candidates.h"
 #include "lyrefit/fit/search_space.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
@@ -34,49 +35,97 @@ namespace {
 
 constexpr int kGridStarts = 4;
 
+// RMSE of the points of the search space on the points of a problem, in the objective of the fit, in
+// ampere. Space and problem must outlive the function.
+ObjectiveFunction RmseIn(const SearchSpace& space, const RefineProblem& problem) {
+  std::vector<double> p(problem.device.size());
+  return [&space, &problem, p](const double* x) mutable {
+    space.ToParameters(x, p.data());
+    return std::sqrt(MeanSquare(problem, p));
+  };
+}
+
+std::vector<double> DeviceAt(const SearchSpace& space, const FitJob& job, const double* x) {
+  std::vector<double> p(job.problem.device.size());
+  space.ToParameters(x, p.data());
+  return p;
+}
+
+// Starts as points of the search space, sorted by rank within their variant: the best of each
+// variant first, then the second of each. Costs one evaluation of the objective each.
+std::vector<std::vector<double>> Suggestions(const SearchSpace& space,
+                                             const RefineProblem& problem,
+                                             const std::vector<PolishStart>& starts) {
+  struct Place {
+    const PolishStart* start;
+    double mean_square;
+    int rank;  // within its variant
+  };
+  std::vector<Place> places;
+  for (const PolishStart& start : starts) {
+    places.push_back({&start, MeanSquare(problem, start.p), 0});
+    if (!std::isfinite(places.back().mean_square)) places.pop_back();
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.mean_square < b.mean_square; });
+  std::map<int, int> of_variant;
+  for (Place& place : places) place.rank = of_variant[place.start->variant]++;
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.rank < b.rank; });
+  std::vector<std::vector<double>> suggested;
+  for (const Place& place : places) {
+    suggested.push_back(space.FromParameters(place.start->p.data(), place.start->variant));
+  }
+  return suggested;
+}
+
 // Evaluates as many random points as the search did and reports the best one.
-void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, SearchCandidates* places,
+void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, const SearchSpace& space,
                        FitReport* report) {
   SearchOptions random = job->options.search;
   random.algorithm = Algorithm::kRandom;
   random.max_evaluations = std::max<std::int64_t>(report->search.evaluations, 4);
   random.target = -kInfinity;
   random.patience = 0;
-  const SearchSummary baseline = Search(objective, places->box(), random, job->observer);
+  const SearchSummary baseline = Search(objective, space.box(), random, job->observer);
   if (baseline.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
-  const std::vector<double> p = places->DeviceAt(baseline.best.x.data());
+  const std::vector<double> p = DeviceAt(space, *job, baseline.best.x.data());
   report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
 }
 
 // Runs the search; returns the elites.
-Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
+Expected<std::vector<PolishStart>> RunSearch(const SearchSpace& space, FitJob* job,
+                                             FitReport* report) {
   const Instant begin = Now();
-  SearchCandidates coarse(*job, job->coarse), all(*job, job->problem);
-  TRY(coarse.Check());
-  if (job->options.search.algorithm == Algorithm::kMloKnees) coarse.Suggest(ShapeStarts(*job));
+  Box box = space.box();
+  if (job->options.search.algorithm == Algorithm::kMloKnees) {
+    const std::vector<PolishStart> starts = ShapeStarts(*job);
+    box.suggested = Suggestions(space, job->coarse, starts);
+    report->curve_evaluations = static_cast<std::int64_t>(starts.size());
+  }
   const double getting_ready = SecondsSince(begin);
-  const Box& box = coarse.box();
-  const ObjectiveFunction objective = [&](const double* x) { return coarse.RmseAt(x); };
+  const ObjectiveFunction objective = [&report, rmse = RmseIn(space, job->coarse)](const double* x) {
+    ++report->curve_evaluations;
+    return rmse(x);
+  };
   const SearchFunction& searcher = job->options.searcher;
   report->search = searcher ? searcher(objective, box, job->options.search, job->observer)
                             : Search(objective, box, job->options.search, job->observer);
   report->search.seconds += getting_ready;
-  report->curve_evaluations = coarse.evaluations();
   if (searcher || job->coarse.points.size < job->problem.points.size) {
-    const auto valid =
-        CheckCandidates([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
+    const auto valid = CheckCandidates(RmseIn(space, job->problem), box, &report->search);
     if (!valid) return tl::unexpected(valid.error());
   }
   if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
   if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
-    RunRandomBaseline(job, objective, &coarse, report);
+    RunRandomBaseline(job, RmseIn(space, job->coarse), space, report);
   }
   std::vector<PolishStart> elites;
   for (const Candidate& candidate : report->search.elites) {
     elites.push_back(
         {elites.empty() ? "best candidate" : fmt::format("elite {}", elites.size() + 1),
-         all.DeviceAt(candidate.x.data()), all.VariantAt(candidate.x.data())});
+         DeviceAt(space, *job, candidate.x.data()), space.VariantAt(candidate.x.data())});
   }
   return elites;
 }
@@ -250,7 +299,8 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   report.search_options = options.search;
   report.non_default_options = NonDefaults(options, kFitOptionTable);
 
-  TRY(const auto candidates, RunSearch(&job, &report));
+  const SearchSpace space = SpaceOf(job);
+  TRY(const auto candidates, RunSearch(space, &job, &report));
   const PolishStart& best = candidates.front();
   report.searched = report.refined = best.p;
   OrderAlike(report.device, job.bounds, &report.searched, nullptr);
@@ -258,7 +308,7 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (extended) report.best_candidate_penalty = VariantPenaltyOf(job, best.variant);
   if (options.plain_polish) PolishPlainly(best, &job, &report);
   if (options.polish) {
-    PolishAndJudge(&job, candidates, CompleteSpace(job), &report);
+    PolishAndJudge(&job, candidates, space, &report);
   } else {
     if (extended) SelectVariant(best.variant, best.p, &job, &report);
     report.refined = report.searched;

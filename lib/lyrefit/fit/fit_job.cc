@@ -161,6 +161,15 @@ Expected<void> PrepareFit(FitJob* job, FitReport* report) {
   return {};
 }
 
+SearchSpace SpaceOf(const FitJob& job) {
+  if (job.variants.empty()) return {job.bounds, job.fixed};
+  const int base = job.base_size();
+  return {{job.bounds.begin(), job.bounds.begin() + base},
+          {job.fixed.begin(), job.fixed.begin() + base},
+          *job.problem.device.effects,
+          job.variants};
+}
+
 double VariantPenaltyOf(const FitJob& job, int variant) {
   const double price = VariantPenalty(job.problem, job.variants[variant]);
   double lowest = price;

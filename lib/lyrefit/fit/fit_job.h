@@ -6,6 +6,7 @@
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/fit/fit_watch.h"
+#include "lyrefit/fit/search_space.h"
 #include "lyrefit/law/variants.h"
 #include "lyrefit/refine/refine.h"
 
@@ -41,6 +42,9 @@ Expected<void> CheckObjectiveOfEffects(Objective objective);
 // Checks the curve and the options. Sets the device, the bounds and the problem. Errors: those of
 // Fit().
 Expected<void> PrepareFit(FitJob* job, FitReport* report);
+
+// The box of the search; `job` must outlive it.
+SearchSpace SpaceOf(const FitJob& job);
 
 // Penalty factor on the RMSE; see FitReport::variant_penalty.
 double VariantPenaltyOf(const FitJob& job, int variant);

@@ -48,24 +48,6 @@ struct EnumTable<StartsFrom> {
       {StartsFrom::kAll, "all"}, {StartsFrom::kSearch, "search"}, {StartsFrom::kShape, "shape"}};
 };
 
-// Variables of a search candidate.
-enum class SearchVariables {
-  kAll,   // a complete device
-  kHard,  // only Rs, the n and the effects; see fit/search_candidates.h
-};
-
-template <>
-struct EnumTable<SearchVariables> {
-  static constexpr EnumText<SearchVariables> kRows[] = {{SearchVariables::kAll, "all"},
-                                                        {SearchVariables::kHard, "hard"}};
-};
-
-// Help text of `candidates`.
-inline constexpr char kSearchVariablesDoc[] =
-    "a candidate is a complete device, or a place in the hard parameters (Rs, n, effects), where "
-    "Iph, "
-    "Is and Rsh are solved for";
-
 enum class Intervals { kNone, kSymmetric, kProfile };  // Intervals of a fit.
 
 template <>
@@ -88,7 +70,6 @@ struct FitOptions {
   std::vector<EffectUse> with;
   bool force_effects = false;  // also effects that the data cannot show
   SearchOptions search;
-  SearchVariables candidates = SearchVariables::kAll;
   SearchFunction searcher;  // replaces Search(); empty: Search()
   bool random_baseline =
       true;  // also evaluate as many random points as the search did and report the best
@@ -149,7 +130,6 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
      &FitOptions::plain_polish, OptionTrait::kNoFlag},
     {"algorithm", "NAME", "how to search",
      EnumOption<&FitOptions::search, &SearchOptions::algorithm>()},
-    {"candidates", "NAME", kSearchVariablesDoc, EnumOption<&FitOptions::candidates>()},
     {"search", "", "the search's own options",
      OptionNest<FitOptions>{[](const FitOptions& options, const FitOptions& defaults,
                                std::vector<OptionEcho>* echoes) {

@@ -158,8 +158,7 @@ std::vector<std::vector<double>> PlacesOf(std::vector<Trial> trials) {
 
 }  // namespace
 
-std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
-                                  const std::vector<double>& idealities) {
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place) {
   const DeviceEffects* const device_effects = problem.device.effects.get();
   const double current = *std::max_element(problem.current_A.begin(), problem.current_A.end());
   double voltage = problem.voltage_scale_V;
@@ -174,17 +173,9 @@ std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vecto
   p[kIph] = current;
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;
-  const auto saturation = [&](double share, double n) {
-    return share * current / std::expm1(voltage / (n * problem.device.module_thermal_voltage_V));
-  };
-  p[SaturationCurrentIndex(0)] = saturation(1, kIdeality);
+  p[SaturationCurrentIndex(0)] =
+      current / std::expm1(voltage / (kIdeality * problem.device.module_thermal_voltage_V));
   for (int d = 0; d < DiodeCount(problem.device); ++d) p[IdealityIndex(d)] = kIdeality;
-  for (std::size_t d = 0; d < idealities.size(); ++d) {
-    const int diode = static_cast<int>(d);
-    p[SaturationCurrentIndex(diode)] =
-        saturation(1 / static_cast<double>(idealities.size()), idealities[d]);
-    p[IdealityIndex(diode)] = idealities[d];
-  }
   for (std::size_t i = 0; i < p.size(); ++i) {
     p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);
   }

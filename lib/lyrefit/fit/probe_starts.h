@@ -28,9 +28,7 @@ std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, cons
 // A typical crystalline device with the largest current and the open-circuit voltage of the
 // readings (without effects: the largest forward voltage), and its effects at `place`. Such a start
 // is needed if cells are under unlike irradiance, since no base device alone then resembles the one
-// behind the curve. `idealities`: n of each diode, which then share the current equally; empty: a
-// typical n, with all current in the first diode.
-std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place,
-                                  const std::vector<double>& idealities = {});
+// behind the curve. All current is in the first diode.
+std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vector<double>& place);
 
 }  // namespace lyrefit

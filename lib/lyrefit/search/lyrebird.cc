@@ -6,9 +6,6 @@
 // In short, the choices are: in Eq. 20 the memory is that of a random candidate, and z is one
 // number a move. The paper prints the candidate's own memory and a vector z (kMloVector uses the
 // vector). Eq. 23 and 24 are missing in print, and the code is a reconstruction.
-//
-// kMloTuned comes from no paper: each move draws Pm or gamma near values that recently improved a
-// candidate.
 
 #include <algorithm>
 #include <optional>
@@ -17,13 +14,10 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/search/candidate_order.h"
 #include "lyrefit/search/crowding.h"
-#include "lyrefit/search/learned_setting.h"
 #include "lyrefit/search/run.h"
 
 namespace lyrefit {
 namespace {
-
-bool Learns(const SearchOptions& options) { return options.algorithm == Algorithm::kMloTuned; }
 
 // LO and its ablations are MLO with strategies switched off.
 double MemoryRateOf(const SearchOptions& options) {
@@ -46,14 +40,7 @@ class Lyrebird {
   void Move(double t, double planned);
 
  private:
-  struct Learned {
-    LearnedSetting rate;
-    LearnedSetting gamma;
-  };
-
   bool Propose(int i, double t, double planned);
-  double MemoryRate();
-  double Gamma();
   bool Escape(int i);
   void Imitate(int i);
   void Hide(int i, double t);
@@ -68,15 +55,11 @@ class Lyrebird {
   const int n_;
   const double memory_rate_;
   const double gamma_;
-  const bool keeps_distances_;
   const bool vector_;  // draw z of Eq. 20 for each coordinate
   std::vector<double> candidate_;
   std::vector<double> unit_;
   CandidateOrder order_;
   std::optional<Crowding> crowding_;
-  std::optional<Learned> learned_;
-  bool escaped_ = false;  // whether the current move is of the escape phase
-  double drawn_ = 0;      // the current move's learned setting
 };
 
 Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* random)
@@ -86,43 +69,31 @@ Lyrebird::Lyrebird(SearchRun* run, const SearchOptions& options, RandomStream* r
       n_(run->population()),
       memory_rate_(MemoryRateOf(options)),
       gamma_(GammaOf(options)),
-      keeps_distances_(gamma_ > 0 || Learns(options)),
       vector_(options.algorithm == Algorithm::kMloVector),
       candidate_(d_),
       unit_(d_),
       order_(*run) {
-  if (keeps_distances_) crowding_.emplace(n_, d_, UnitPopulation());
-  if (Learns(options)) learned_ = {LearnedSetting(memory_rate_), LearnedSetting(gamma_)};
+  if (gamma_ > 0) crowding_.emplace(n_, d_, UnitPopulation());
 }
 
 void Lyrebird::Move(double t, double planned) {
   for (int i = 0; i < n_ && !run_->stopped(); ++i) {
     if (Propose(i, t, planned)) Accept(i);
   }
-  if (!learned_) return;
-  learned_->rate.EndIteration();
-  learned_->gamma.EndIteration();
 }
-
-// Pm and gamma of the current move.
-double Lyrebird::MemoryRate() {
-  return learned_ ? drawn_ = learned_->rate.Draw(random_) : memory_rate_;
-}
-
-double Lyrebird::Gamma() { return learned_ ? drawn_ = learned_->gamma.Draw(random_) : gamma_; }
 
 // Computes the new position in candidate_; false if the candidate does not move.
 bool Lyrebird::Propose(int i, double t, double planned) {
-  escaped_ = random_->Uniform() < 0.5;
-  if (!escaped_) run_->CountHide();
-  if (escaped_) {
-    const double rate = MemoryRate() * t / planned;  // Eq. 21
+  const bool escapes = random_->Uniform() < 0.5;
+  if (!escapes) run_->CountHide();
+  if (escapes) {
+    const double rate = memory_rate_ * t / planned;  // Eq. 21
     if (rate > 0 && random_->Uniform() < rate) {
       Imitate(i);
     } else if (!Escape(i)) {
       return false;
     }
-  } else if (crowding_ && crowding_->MeanDistance(i) < Gamma() * crowding_->LargestDistance()) {
+  } else if (crowding_ && crowding_->MeanDistance(i) < gamma_ * crowding_->LargestDistance()) {
     run_->CountDispersal();
     Disperse(i);
   } else {
@@ -184,9 +155,6 @@ void Lyrebird::Disperse(int i) {
 void Lyrebird::Accept(int i) {
   const double value = run_->Evaluate(candidate_.data());
   if (!(value < run_->f(i))) return;
-  if (learned_) {
-    (escaped_ ? learned_->rate : learned_->gamma).Gained(drawn_, run_->f(i) - value);
-  }
   run_->Replace(i, candidate_.data(), value);
   order_.Improved(i);
   if (!crowding_) return;

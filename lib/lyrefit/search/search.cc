@@ -161,7 +161,6 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
     case Algorithm::kLo:
     case Algorithm::kLoMblss:
     case Algorithm::kLoDmlss:
-    case Algorithm::kMloTuned:
     case Algorithm::kMloVector:
     case Algorithm::kMloKnees:
       RunLyrebird(&run, options);

@@ -16,7 +16,6 @@ enum class Algorithm {
   kLo,         // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
   kLoMblss,    // with the memory-based learn search strategy only
   kLoDmlss,    // with the diversity-maintenance learn search strategy only
-  kMloTuned,   // mlo that adapts Pm and gamma to the values of improving moves
   kMloKnees,   // mlo whose first population contains points that the problem suggests
   kRandom,     // uniform random points: the baseline
   kDe,         // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
@@ -30,7 +29,6 @@ struct EnumTable<Algorithm> {
       {Algorithm::kLo, "lo"},
       {Algorithm::kLoMblss, "lo+mblss"},
       {Algorithm::kLoDmlss, "lo+dmlss"},
-      {Algorithm::kMloTuned, "mlo+tuned"},
       {Algorithm::kMloVector, "mlo+vector"},
       {Algorithm::kMloKnees, "mlo+knees"},
       {Algorithm::kRandom, "random"},

@@ -57,13 +57,6 @@ Expected<void> CheckComparison(const std::vector<CompareCurve>& curves,
                                const std::vector<ComparedAlgorithm>& algorithms,
                                const CompareOptions& options) {
   if (auto checked = CheckAlgorithms(algorithms); !checked) return checked;
-  const bool hard =
-      std::any_of(algorithms.begin(), algorithms.end(),
-                  [](const ComparedAlgorithm& c) { return c.candidates != SearchVariables::kAll; });
-  const bool family = std::any_of(curves.begin(), curves.end(),
-                                  [](const CompareCurve& curve) { return curve.set.has_value(); });
-  if (hard && family)
-    return Fail("candidates hard is for curves: families are searched completely");
   return CheckOptions(curves.size(), algorithms.size(), options);
 }
 

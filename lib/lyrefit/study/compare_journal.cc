@@ -68,8 +68,6 @@ std::string SettingsText(const ComparedAlgorithm& compared) {
   std::vector<OptionEcho> echoes;
   AppendNonDefaults(compared.search, kSearchOptionTable, &echoes);
   std::string text = compared.searcher ? "a search of its own" : ToText(compared.search.algorithm);
-  if (compared.candidates != SearchVariables::kAll)
-    text += ", " + ToText(compared.candidates) + " candidates";
   if (compared.kind != AlgorithmKind::kSearch) text = ToText(compared.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;
@@ -134,8 +132,9 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
                       {"refine_seconds", ExactNumber(record.polish_seconds)},
                       {"parameters", ExactNumbers(outcome.parameters)},
                       {"trace", std::move(gains)}};
-  if (compared.candidates != SearchVariables::kAll)
+  if (record.curve_evaluations != record.evaluations) {
     line["curve_evaluations"] = record.curve_evaluations;
+  }
   if (problem.problem.empty()) return line;
   line["plain_seconds"] = ExactNumber(record.plain_seconds);
   line["best_candidate_seconds"] = ExactNumber(record.own_seconds);

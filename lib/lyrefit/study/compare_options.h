@@ -45,8 +45,6 @@ struct ComparedAlgorithm {
   SearchFunction searcher;  // empty: Search() is used
   AlgorithmKind kind = AlgorithmKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
-  // See FitOptions; kHard applies to curves, not to families.
-  SearchVariables candidates = SearchVariables::kAll;
   std::int64_t budget = 0;  // nominal budget of evaluations in a study of budgets; 0: none
 };
 

@@ -185,7 +185,6 @@ Expected<std::optional<RunOutcome>> RunOnce(const CompareCurve& subject,
   }
   FitOptions fit = FitOptionsOf(subject, problem, options);
   if (!problem.with.empty()) fit.search = FitOptions::SearchBesideShapes();
-  fit.candidates = compared.candidates;
   SetAlgorithm(compared, options, run, &fit);
   const auto report = Fit(subject.curve, fit, observer);
   if (!report) return tl::unexpected(report.error());

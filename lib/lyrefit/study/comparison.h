@@ -58,7 +58,6 @@ struct AlgorithmResult {
   std::string algorithm;
   SearchOptions search;  // settings used by the runs
   AlgorithmKind kind = AlgorithmKind::kSearch;
-  SearchVariables candidates = SearchVariables::kAll;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
   RunSpread searched;

@@ -169,7 +169,6 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
   result.algorithm = compared.algorithm.empty() ? compared.name : compared.algorithm;
   result.search = compared.search;
   result.kind = compared.kind;
-  result.candidates = compared.candidates;
   result.budget = compared.budget;
   for (RunOutcome& outcome : *outcomes) {
     outcome.record.evaluations_to_target =

@@ -33,7 +33,7 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(compared),
             (Set{"name", "algorithm", "settings", "searched", "plain_polished",
                  "refined_best_candidate", "refined", "evaluations", "curve_evaluations",
-                 "candidates", "target", "search", "refine", "median_trace", "runs"}));
+                 "target", "search", "refine", "median_trace", "runs"}));
   EXPECT_EQ(Keys(compared["settings"]),
             (Set{"population", "iterations", "memory_rate", "distance_coefficient", "de_scale",
                  "de_crossover", "max_evaluations", "elites"}));

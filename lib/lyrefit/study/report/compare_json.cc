@@ -86,7 +86,6 @@ Json AlgorithmJson(const AlgorithmResult& compared, bool pooled) {
       {"name", compared.name},
       {"algorithm", compared.algorithm},
       {"settings", compared.search},
-      {"candidates", compared.candidates},
       {"searched", compared.searched},
       {"plain_polished", compared.plain_polished},
       {"refined_best_candidate", compared.own_polished},

@@ -8,7 +8,7 @@
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/descent_starts.h"
-#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/study/landscape.h"
@@ -20,44 +20,43 @@ namespace {
 // effect `substrings` without ranges.
 class DescentsTest : public ::testing::Test {
  protected:
-  DescentsTest() : made_(MakeLandscape("strings_4", 1, 3).value().front()) {
-    options_.with = {{FindEffect("substrings"), {}}};
-    const auto ready = PrepareFit(&job_, &report_);
-    EXPECT_TRUE(ready) << ready.error().ToString();
+  static FitOptions WithSubstrings() {
+    FitOptions options;
+    options.with = {{FindEffect("substrings"), {}}};
+    return options;
   }
 
   // The true parameters, in the variant in which shades cover all cells of a substring.
   PolishStart Truth() const {
-    std::vector<double> p = job_.variants[0].usual;
-    p.insert(p.begin(), job_.base_size(), 1);
-    p = Reported(report_.device, p);
-    for (int i = 0; i < report_.device.size(); ++i) {
-      const auto known = made_.truth.find(report_.device.parameters[i].symbol);
+    std::vector<double> p = fit_.variants[0].usual;
+    p.insert(p.begin(), fit_.base_size(), 1);
+    p = Reported(fit_.device, p);
+    for (int i = 0; i < fit_.device.size(); ++i) {
+      const auto known = made_.truth.find(fit_.device.parameters[i].symbol);
       if (known != made_.truth.end()) p[i] = known->second;
     }
-    return {"truth", Inner(report_.device, p), 0};
+    return {"truth", Inner(fit_.device, p), 0};
   }
   // The true parameters with other shading depths.
   PolishStart Changed(double d1, double d2, double d3) const {
     PolishStart start = Truth();
-    double* const own = start.p.data() + job_.base_size();
+    double* const own = start.p.data() + fit_.base_size();
     own[0] = d1, own[2] = d2, own[4] = d3;
     return start;
   }
 
-  LandscapeCase made_;
-  FitOptions options_;
-  Observer observer_;
-  FitJob job_{made_.curve, options_, observer_, {}, {}, 0, {}, {}, FitWatch(observer_), {}};
-  FitReport report_;
+  const LandscapeCase made_ = MakeLandscape("strings_4", 1, 3).value().front();
+  const FitOptions options_ = WithSubstrings();
+  const PreparedFit fit_ = PrepareFit(made_.curve, options_).value();
+  const ProgressReporter progress_;
 };
 
 TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
   const PolishStart truth = Truth();
-  const RefineEnd end = Refine(InVariant(job_.problem, job_.variants[0], truth.p), truth.p);
+  const RefineEnd end = Refine(InVariant(fit_.problem, fit_.variants[0], truth.p), truth.p);
   EXPECT_NEAR(std::sqrt(end.mean_square) / made_.noise_A, 1, 0.2);
-  Descents descents(job_.problem, job_.variants, &job_.watch);
-  descents.Descend(ShapeStarts(job_));
+  Descents descents(fit_.problem, fit_.variants, progress_);
+  descents.Descend(ShapeStarts(fit_));
   const DescentEnd& best = descents.ends()[descents.best()];
   EXPECT_TRUE(best.finished);
   EXPECT_EQ(best.start.variant, 0);
@@ -66,18 +65,18 @@ TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
 }
 
 TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
-  descents.Descend(ShapeStarts(job_));
+  Descents descents(fit_.problem, fit_.variants, progress_);
+  descents.Descend(ShapeStarts(fit_));
   const double points = static_cast<double>(made_.curve.size());
   for (const DescentEnd& end : descents.ends()) {
-    const double free = job_.variants[end.start.variant].free;
+    const double free = fit_.variants[end.start.variant].free;
     EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points),
                 1e-6);
   }
 }
 
 TEST_F(DescentsTest, CountsWhatWasMet) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(fit_.problem, fit_.variants, progress_);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
@@ -99,7 +98,7 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
 }
 
 TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(fit_.problem, fit_.variants, progress_);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
@@ -116,32 +115,32 @@ TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
   EXPECT_EQ(count.independent.once, 1);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_FALSE(std::isfinite(count.unseen));
-  for (const PolishStart& start : Neighbours(job_, descents.ends()[descents.best()])) {
+  for (const PolishStart& start : Neighbours(fit_, descents.ends()[descents.best()])) {
     EXPECT_TRUE(start.beside) << start.origin;
   }
-  for (const PolishStart& start : ShapeStarts(job_)) EXPECT_FALSE(start.beside) << start.origin;
+  for (const PolishStart& start : ShapeStarts(fit_)) EXPECT_FALSE(start.beside) << start.origin;
 }
 
 TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
-  ASSERT_EQ(job_.variants.size(), 2u);
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  ASSERT_EQ(fit_.variants.size(), 2u);
+  Descents descents(fit_.problem, fit_.variants, progress_);
   descents.Descend({Truth()});
   const DescentEnd& end = descents.ends()[0];
   int others = 0;
-  for (const PolishStart& start : Neighbours(job_, end)) {
+  for (const PolishStart& start : Neighbours(fit_, end)) {
     if (start.variant == end.start.variant) continue;
     ++others;
     EXPECT_EQ(start.variant, 1);
     EXPECT_EQ(start.origin, "another variant");
-    for (int i = 0; i < job_.base_size(); ++i) EXPECT_EQ(start.p[i], end.end.p[i]);
-    for (int k = 0; k < job_.effects(); ++k) {
-      const ParameterBounds& bounds = job_.variants[1].bounds[k];
-      const double value = start.p[job_.base_size() + k];
+    for (int i = 0; i < fit_.base_size(); ++i) EXPECT_EQ(start.p[i], end.end.p[i]);
+    for (int k = 0; k < fit_.effects(); ++k) {
+      const ParameterBounds& bounds = fit_.variants[1].bounds[k];
+      const double value = start.p[fit_.base_size() + k];
       EXPECT_GE(value, bounds.lower) << k;
       EXPECT_LE(value, bounds.upper) << k;
-      const ParameterBounds& before = job_.variants[0].bounds[k];
+      const ParameterBounds& before = fit_.variants[0].bounds[k];
       if (before.lower == before.upper) {
-        EXPECT_EQ(value, job_.variants[1].usual[k]) << k;
+        EXPECT_EQ(value, fit_.variants[1].usual[k]) << k;
       }
     }
   }
@@ -149,13 +148,13 @@ TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
 }
 
 TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
-  std::vector<PolishStart> starts = ShapeStarts(job_);  // two variants
+  std::vector<PolishStart> starts = ShapeStarts(fit_);  // two variants
   for (const double light : {0.02, 0.3, 0.6, 0.9}) starts.push_back(Changed(light, 0.3, 0.9));
   // One start that leads into each of three local optima, keyed by the objective at its end.
   std::map<double, PolishStart> into;
   for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
     const PolishStart& start = starts[k];
-    Descents alone(job_.problem, job_.variants, &job_.watch);
+    Descents alone(fit_.problem, fit_.variants, progress_);
     alone.Descend({start});
     const double end = alone.ends()[0].penalised;
     const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
@@ -165,7 +164,7 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   }
   ASSERT_EQ(into.size(), 3u);
   // The worst first, so that no descent is given up for a better known end.
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(fit_.problem, fit_.variants, progress_);
   for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
   OptimumCount count = descents.Count();
   EXPECT_EQ(count.local_optima, 3);

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/simulate.h"
 #include "module_with.h"
 
@@ -141,14 +141,12 @@ TEST(SearchSpace, LeadsBackFromTheParametersOfEveryVariant) {
   for (const char* effect : {"weak_cell", "substrings", "shading"}) {
     FitOptions options;
     options.with = {{FindEffect(effect), {}}};
-    const Observer none;
-    FitReport report;
-    FitJob job{*curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}};
-    ASSERT_TRUE(PrepareFit(&job, &report));
-    const SearchSpace space = SpaceOf(job);
+    const auto prepared = PrepareFit(*curve, options);
+    ASSERT_TRUE(prepared);
+    const SearchSpace space = SpaceOf(*prepared);
     RandomStream random(2, 0);
-    std::vector<double> p(report.device.size()), again(p.size());
-    std::vector<int> variants(job.variants.size(), 0);
+    std::vector<double> p(prepared->device.size()), again(p.size());
+    std::vector<int> variants(prepared->variants.size(), 0);
     for (int k = 0; k < 300; ++k) {
       std::vector<double> x;
       for (int j = 0; j < space.dimensions(); ++j) {

@@ -11,7 +11,7 @@
 
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"
 
@@ -57,13 +57,10 @@ TruthFit OfCurve(const LandscapeCase& device) {
   options.model = device.model;
   options.bounds = device.bounds;
   options.with = device.with;
-  const Observer observer;
-  FitJob job{device.curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
-  FitReport report;
-  const auto prepared = PrepareFit(&job, &report);
+  const auto prepared = PrepareFit(device.curve, options);
   EXPECT_TRUE(prepared) << prepared.error().ToString();
   if (!prepared) return {};
-  const Device& fitted = report.device;
+  const Device& fitted = prepared->device;
   std::vector<double> usual(fitted.size(), 0);
   if (fitted.effects) {
     const std::vector<double>& effects = fitted.effects->usual;
@@ -71,14 +68,14 @@ TruthFit OfCurve(const LandscapeCase& device) {
   }
   std::vector<double> p = TruthIn(fitted.parameters, Reported(fitted, usual), device.truth);
   p = Inner(fitted, p);
-  TruthFit result{std::sqrt(MeanSquare(job.problem, p)), device.curve.size(), {}};
+  TruthFit result{std::sqrt(MeanSquare(prepared->problem, p)), device.curve.size(), {}};
   for (int i = 0; i < fitted.size(); ++i) {
     // The fit itself selects the reverse law of a weak cell, and with it the fixed parameters.
-    const bool held = job.problem.lower[i] == job.problem.upper[i];
+    const bool held = prepared->problem.lower[i] == prepared->problem.upper[i];
     if (held && fitted.parameters[i].symbol.rfind("weak_cell.", 0) == 0) continue;
     const double slack = 1e-9 * std::fabs(p[i]);
     const bool inside =
-        p[i] >= job.problem.lower[i] - slack && p[i] <= job.problem.upper[i] + slack;
+        p[i] >= prepared->problem.lower[i] - slack && p[i] <= prepared->problem.upper[i] + slack;
     if (!inside) result.outside.push_back(fitted.parameters[i].symbol);
   }
   return result;

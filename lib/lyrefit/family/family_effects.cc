@@ -12,7 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"

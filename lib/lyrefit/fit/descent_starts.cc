@@ -30,21 +30,21 @@ bool Beside(const Draw& a, const Draw& b, const Box& box) {
   return true;
 }
 
-void AddWholeNumbers(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
-  const Variant& variant = job.variants[at.start.variant];
-  const int first = job.base_size();
+void AddWholeNumbers(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+  const Variant& variant = fit.variants[at.start.variant];
+  const int first = fit.base_size();
   std::vector<std::pair<int, double>> steps;
-  for (int k = 0; k < job.effects(); ++k) {
+  for (int k = 0; k < fit.effects(); ++k) {
     if (variant.bounds[k].whole == 0) continue;
     steps.emplace_back(first + k, variant.bounds[k].whole);
     steps.emplace_back(first + k, -variant.bounds[k].whole);
   }
   const auto add = [&](std::vector<double> p) {
     const std::vector<double> wanted = p;
-    for (int k = 0; k < job.effects(); ++k) {
+    for (int k = 0; k < fit.effects(); ++k) {
       p[first + k] = WithinBounds(variant.bounds[k], p[first + k]);
     }
-    LeaveARest(*job.problem.device.effects, variant.bounds, p.data() + first);
+    LeaveARest(*fit.problem.device.effects, variant.bounds, p.data() + first);
     for (const auto& [i, step] : steps) {
       if (std::fabs(p[i] - wanted[i]) > 0.5 * std::fabs(step)) return;
     }
@@ -69,8 +69,8 @@ struct Setting {
   std::set<double> values;
 };
 
-std::vector<Setting> SettingsOf(const FitJob& job, const Variant& variant) {
-  const DeviceEffects& device_effects = *job.problem.device.effects;
+std::vector<Setting> SettingsOf(const PreparedFit& fit, const Variant& variant) {
+  const DeviceEffects& device_effects = *fit.problem.device.effects;
   std::vector<Setting> settings;
   int first = 0;
   for (const EffectUse& use : device_effects.uses) {
@@ -79,7 +79,7 @@ std::vector<Setting> SettingsOf(const FitJob& job, const Variant& variant) {
       const ParameterBounds& bounds = variant.bounds[first + k];
       const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
       if (!effect.parameters[k].searched || !free) continue;
-      Setting setting{job.base_size() + first + k, {}};
+      Setting setting{fit.base_size() + first + k, {}};
       for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
         if (WithinBounds(bounds, probe[k]) == probe[k]) setting.values.insert(probe[k]);
       }
@@ -90,8 +90,8 @@ std::vector<Setting> SettingsOf(const FitJob& job, const Variant& variant) {
   return settings;
 }
 
-void AddNextSettings(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
-  for (const Setting& setting : SettingsOf(job, job.variants[at.start.variant])) {
+void AddNextSettings(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+  for (const Setting& setting : SettingsOf(fit, fit.variants[at.start.variant])) {
     const double here = at.end.p[setting.parameter];
     const auto add = [&](double value) {
       starts->push_back({"next setting", at.end.p, at.start.variant, true});
@@ -105,30 +105,30 @@ void AddNextSettings(const FitJob& job, const DescentEnd& at, std::vector<Polish
 
 // The end in every other variant. A parameter that only the other variant has free starts at its
 // usual value.
-void AddOtherVariants(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
-  const int first = job.base_size();
-  for (std::size_t f = 0; f < job.variants.size(); ++f) {
+void AddOtherVariants(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+  const int first = fit.base_size();
+  for (std::size_t f = 0; f < fit.variants.size(); ++f) {
     if (static_cast<int>(f) == at.start.variant) continue;
-    const Variant& variant = job.variants[f];
+    const Variant& variant = fit.variants[f];
     std::vector<double> p = at.end.p;
-    for (int k = 0; k < job.effects(); ++k) {
-      const ParameterBounds& before = job.variants[at.start.variant].bounds[k];
+    for (int k = 0; k < fit.effects(); ++k) {
+      const ParameterBounds& before = fit.variants[at.start.variant].bounds[k];
       double& value = p[first + k];
       if (before.lower == before.upper) value = variant.usual[k];
       value = WithinBounds(variant.bounds[k], value);
     }
-    LeaveARest(*job.problem.device.effects, variant.bounds, p.data() + first);
+    LeaveARest(*fit.problem.device.effects, variant.bounds, p.data() + first);
     starts->push_back({"another variant", std::move(p), static_cast<int>(f), true});
   }
 }
 
 // Moves one parameter within its range: those that describe how an effect acts (forward voltage of
 // a bypass diode, exponent of a reverse characteristic), not its strength.
-void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishStart>* starts) {
+void AddElsewhere(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
   constexpr double kFar = 0.15;  // of the range
-  const Variant& variant = job.variants[at.start.variant];
+  const Variant& variant = fit.variants[at.start.variant];
   int first = 0;
-  for (const EffectUse& use : job.problem.device.effects->uses) {
+  for (const EffectUse& use : fit.problem.device.effects->uses) {
     const Effect& effect = *use.effect;
     for (int k = 0; k < effect.size(); ++k) {
       const ParameterBounds& bounds = variant.bounds[first + k];
@@ -136,7 +136,7 @@ void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishSta
       const bool strength = k == 0 || info.scatter > 0;
       const bool free = bounds.lower < bounds.upper && bounds.whole == 0;
       if (!free || strength || info.searched) continue;
-      const int i = job.base_size() + first + k;
+      const int i = fit.base_size() + first + k;
       const double range = bounds.upper - bounds.lower;
       for (const double part : {0.15, 0.5, 0.85}) {
         const double value = bounds.lower + part * range;
@@ -151,19 +151,19 @@ void AddElsewhere(const FitJob& job, const DescentEnd& at, std::vector<PolishSta
 
 }  // namespace
 
-std::vector<PolishStart> ShapeStarts(const FitJob& job) {
+std::vector<PolishStart> ShapeStarts(const PreparedFit& fit) {
   std::vector<PolishStart> starts;
-  for (std::size_t f = 0; f < job.variants.size(); ++f) {
+  for (std::size_t f = 0; f < fit.variants.size(); ++f) {
     for (const std::vector<double>& place :
-         ShapePlaces(*job.problem.device.effects, job.variants[f])) {
+         ShapePlaces(*fit.problem.device.effects, fit.variants[f])) {
       starts.push_back({fmt::format("{}{}", kShapeOrigin, starts.size() + 1),
-                        TypicalDevice(job.problem, place), static_cast<int>(f)});
+                        TypicalDevice(fit.problem, place), static_cast<int>(f)});
     }
   }
   return starts;
 }
 
-std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
+std::vector<PolishStart> RandomStarts(const PreparedFit& fit, const SearchSpace& space,
                                       const std::vector<double>& best, RandomStream* random) {
   const Box& box = space.box();
   std::vector<Draw> drawn;
@@ -174,8 +174,8 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
     }
     draw.p.resize(best.size());
     space.ToParameters(draw.x.data(), draw.p.data());
-    if (k % 2 == 1) std::copy(best.begin(), best.begin() + job.base_size(), draw.p.begin());
-    draw.mean_square = MeanSquare(job.coarse, draw.p);
+    if (k % 2 == 1) std::copy(best.begin(), best.begin() + fit.base_size(), draw.p.begin());
+    draw.mean_square = MeanSquare(fit.coarse, draw.p);
     if (std::isfinite(draw.mean_square)) drawn.push_back(std::move(draw));
   }
   std::stable_sort(drawn.begin(), drawn.end(),
@@ -193,23 +193,23 @@ std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& spac
   return starts;
 }
 
-std::vector<PolishStart> Neighbours(const FitJob& job, const DescentEnd& at) {
+std::vector<PolishStart> Neighbours(const PreparedFit& fit, const DescentEnd& at) {
   std::vector<PolishStart> starts;
-  AddWholeNumbers(job, at, &starts);
-  AddNextSettings(job, at, &starts);
-  AddOtherVariants(job, at, &starts);
+  AddWholeNumbers(fit, at, &starts);
+  AddNextSettings(fit, at, &starts);
+  AddOtherVariants(fit, at, &starts);
   return starts;
 }
 
-std::vector<PolishStart> Elsewhere(const FitJob& job, const DescentEnd& at) {
+std::vector<PolishStart> Elsewhere(const PreparedFit& fit, const DescentEnd& at) {
   std::vector<PolishStart> starts;
-  AddElsewhere(job, at, &starts);
+  AddElsewhere(fit, at, &starts);
   return starts;
 }
 
-std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at) {
+std::vector<PolishStart> SpreadSettings(const PreparedFit& fit, const PolishStart& at) {
   std::vector<PolishStart> starts;
-  for (const Setting& setting : SettingsOf(job, job.variants[at.variant])) {
+  for (const Setting& setting : SettingsOf(fit, fit.variants[at.variant])) {
     const std::vector<double> values(setting.values.begin(), setting.values.end());
     const std::size_t count = std::min(kSpread, values.size());
     for (std::size_t k = 0; k < count; ++k) {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/descents.h"
-#include "lyrefit/fit/fit_job.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/fit/search_space.h"
 
@@ -16,24 +16,24 @@ namespace lyrefit {
 // Starts from the shape of the curve, in every variant, on a typical device. Their origins are
 // "shape 1", ...
 constexpr char kShapeOrigin[] = "shape ";
-std::vector<PolishStart> ShapeStarts(const FitJob& job);
+std::vector<PolishStart> ShapeStarts(const PreparedFit& fit);
 
 // The best of many random points, none close to another. Every second one has the base parameters
 // of `best`, so that only the effects are random.
-std::vector<PolishStart> RandomStarts(const FitJob& job, const SearchSpace& space,
+std::vector<PolishStart> RandomStarts(const PreparedFit& fit, const SearchSpace& space,
                                       const std::vector<double>& best, RandomStream* random);
 
 // Starts near an end: with one integer parameter a step up or down, with one integer up and another
 // down, or with the next settings of each enumerated parameter. The end transferred to the other
 // variants is added.
-std::vector<PolishStart> Neighbours(const FitJob& job, const DescentEnd& at);
+std::vector<PolishStart> Neighbours(const PreparedFit& fit, const DescentEnd& at);
 
 // Starts from an end with one parameter moved within its range. Parameters that describe how an
 // effect acts are moved, not its strength.
-std::vector<PolishStart> Elsewhere(const FitJob& job, const DescentEnd& at);
+std::vector<PolishStart> Elsewhere(const PreparedFit& fit, const DescentEnd& at);
 
 // Starts with each enumerated parameter at values spread over its settings.
-std::vector<PolishStart> SpreadSettings(const FitJob& job, const PolishStart& at);
+std::vector<PolishStart> SpreadSettings(const PreparedFit& fit, const PolishStart& at);
 
 // Starts at `places` in one variant, with the origins "ORIGIN 1", "ORIGIN 2", ...
 std::vector<PolishStart> Named(const std::string& origin, int variant,

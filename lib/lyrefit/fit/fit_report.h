@@ -210,9 +210,22 @@ struct ErrorReport {
   RmsePair least_squares;  // if weighed: RMSE of the least-squares fit
 };
 
-// Results of a fit of one curve. Vectors of parameters are in the order of `device`; vectors of
-// currents are in ampere, one value per reading of `curve`.
-struct FitReport {
+// Results that follow from the refined parameters. Vectors are of currents in ampere, one value for
+// each reading of the curve.
+struct ModelResults {
+  double nNsVth = kUnknown;             // n Ns Vth of the first diode, in volt; pvlib's nNsVth
+  KeyPoints measured;                   // of the readings
+  KeyPoints simulated;                  // of the model
+  std::vector<double> model_current_A;  // I(V) of the model at the measured voltages
+  std::vector<double> residual_A;       // model_current_A - current_A
+  InformationCriteria criteria;         // of the parameters
+  ResidualStatistics residuals;         // solved-current
+  bool usable = true;                   // finite and near the readings; see WhyNotUsable
+  std::string not_usable_because;       // empty: usable
+};
+
+// Report of a fit of one curve. Vectors of parameters are in the order of `device`.
+struct FitReport : ModelResults {
   std::string version;  // of lyrefit
   IvCurve curve;
   Model model = Model::kSingleDiode;
@@ -232,15 +245,8 @@ struct FitReport {
   // Estimates with intervals under `errors`, in addition to those that assume independent errors.
   // Empty if `errors` are not believed, or if `estimates` already have such intervals.
   std::vector<Estimate> under_errors;
-  double nNsVth = kUnknown;          // n Ns Vth of the first diode, in volt; pvlib's nNsVth
   RmseTable rmse;                    // RMSEs of search and polish
   std::optional<FloorReport> floor;  // only if requested
-  KeyPoints measured;
-  KeyPoints simulated;                    // of the refined model
-  std::vector<double> model_current_A;    // I(V) of the refined model at the measured voltages
-  std::vector<double> residual_A;         // model_current_A - current_A
-  InformationCriteria criteria;           // of the refined parameters
-  ResidualStatistics residuals;           // of the refined model, solved-current
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
   SearchOptions search_options;           // options of the search
   SearchSummary search;                   // result of the search
@@ -266,8 +272,6 @@ struct FitReport {
   std::vector<std::string> doubts;    // about the readings, before any fit; see JudgeReadings
   std::vector<std::string> warnings;  // sentences; include the doubts
   bool interrupted = false;
-  bool usable = true;              // finite and near the readings; see WhyNotUsable
-  std::string not_usable_because;  // empty: usable
 };
 
 // A file and its fit or error.

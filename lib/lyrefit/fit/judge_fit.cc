@@ -1,90 +1,108 @@
 #include "lyrefit/fit/judge_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "lyrefit/fit/error_degrees.h"
-#include "lyrefit/fit/intervals.h"
 #include "lyrefit/fit/order_alike.h"
-#include "lyrefit/fit/weigh.h"
+#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/fit/refuted_bound.h"
 
 namespace lyrefit {
 namespace {
 
-// Records the restart from `better` as the end of the polish.
-void StartOver(const RefineProblem& problem, const RefineEnd& end,
-               const std::vector<double>& better, RefineReport* report) {
-  for (StartReport& start : report->starts) start.agrees = false;
-  report->starts.push_back(
-      {"profile", std::sqrt(MeanSquare(problem, better)), std::sqrt(end.mean_square), true});
-  report->winner = static_cast<int>(report->starts.size()) - 1;
-  report->agreeing = 1;
+std::string TooFewReadings(const PreparedFit& fit) {
+  return fmt::format("{} different readings fix {} parameters without a remainder", fit.readings(),
+                     fit.free_parameters);
 }
 
-int SpareReadings(const FitJob& job) { return std::max(job.readings() - job.free_parameters, 1); }
+bool IsSaturated(const PreparedFit& fit) { return fit.readings() <= fit.free_parameters; }
 
-}  // namespace
+std::string WhyNoIntervals(const RefinedFit& refined, bool usable,
+                           const ProgressReporter& progress) {
+  const PreparedFit& fit = refined.prepared;
+  if (fit.options.intervals == Intervals::kNone) return "";
+  if (!usable) {
+    return "the fit is not usable: around parameters of a curve that the model does not describe no "
+           "interval means anything";
+  }
+  if (IsSaturated(fit)) return TooFewReadings(fit) + ", and nothing is left over to tell how well";
+  return RefutedBound(refined, progress);
+}
 
-void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
-                     const std::vector<int>& degrees, RefineEnd* end, FitReport* report) {
-  const FitOptions& options = job->options;
-  const bool wanted = report->no_intervals_because.empty();
-  // With many correlated readings that are not averaged, profiles would take minutes.
+// Method of the intervals. With many correlated readings that are not averaged, profiles would take
+// minutes.
+Intervals MethodOf(const RefinedFit& refined) {
   constexpr std::size_t kMostProfiled = 2000;
-  const bool many = problem.errors != nullptr && problem.voltage_V.size() > kMostProfiled;
+  const Intervals wanted = refined.prepared.options.intervals;
+  const bool many =
+      refined.problem.errors != nullptr && refined.problem.voltage_V.size() > kMostProfiled;
+  return many && wanted == Intervals::kProfile ? Intervals::kSymmetric : wanted;
+}
+
+void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double>& searched,
+                             const ProgressReporter& progress, JudgedFit* judged) {
+  const PreparedFit& fit = refined.prepared;
   const Intervals method =
-      many && options.intervals == Intervals::kProfile ? Intervals::kSymmetric : options.intervals;
+      judged->no_intervals_because.empty() ? MethodOf(refined) : Intervals::kNone;
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
-    OrderAlike(report->device, job->bounds, &end->p, &end->held);
-    report->refined = end->p;
-    report->estimates = EstimatesOf(*job, *report);
-    report->correlations.clear();
-    const IntervalInput input{problem,
-                              *end,
-                              ends,
-                              wanted ? method : Intervals::kNone,
-                              job->free_parameters,
-                              job->readings(),
-                              options.threads,
-                              &job->watch,
+    OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.held);
+    judged->estimates = EstimatesOf(fit, searched, judged->end.p);
+    judged->correlations.clear();
+    const IntervalInput input{refined.problem,
+                              judged->end,
+                              refined.ends,
+                              method,
+                              fit.free_parameters,
+                              fit.readings(),
+                              fit.options.threads,
+                              progress,
                               round == kRestarts,
                               nullptr,
-                              degrees};
+                              refined.degrees};
     const std::vector<double> better =
-        FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
+        FindIntervals(input, &judged->estimates, &judged->correlations, &judged->condition);
     if (better.empty() || round == kRestarts) break;
     RefineOptions how;
-    how.stop = job->watch.stop();
-    *end = Refine(problem, better, how);
-    StartOver(problem, *end, better, &report->refine);
+    how.stop = progress.stop();
+    judged->end = Refine(refined.problem, better, how);
+    judged->restarts.push_back({"profile", std::sqrt(MeanSquare(refined.problem, better)),
+                                std::sqrt(judged->end.mean_square), true});
   }
 }
 
-void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
-                              FitReport* report) {
-  const bool possible = job->options.loss == Loss::kSquared && report->no_intervals_because.empty();
-  if (job->options.intervals == Intervals::kNone || !possible || job->watch.stopped()) return;
-  const std::optional<FoundErrors> found = FindErrors(job->problem, job->fitted(), end);
+// Estimates the errors of a least-squares fit, and finds intervals under them if they are believed
+// (kGainToBelieve).
+void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<double>& searched,
+                              const ProgressReporter& progress, JudgedFit* judged) {
+  const PreparedFit& fit = refined.prepared;
+  const bool possible =
+      fit.options.loss == Loss::kSquared && judged->no_intervals_because.empty();
+  const bool wanted = fit.options.find_errors && fit.options.intervals != Intervals::kNone;
+  if (refined.errors || !wanted || !possible || progress.stop().requested()) return;
+  const RefineEnd& end = judged->end;
+  const std::optional<FoundErrors> found = FindErrors(fit.problem, fit.fitted(), end);
   if (!found) return;
   ErrorReport errors;
   errors.sizes = found->sizes;
   errors.gain = found->gain;
-  errors.current_stated = !job->fitted().sigma_A.empty();
+  errors.current_stated = !fit.fitted().sigma_A.empty();
   errors.believed = found->gain > kGainToBelieve;
-  report->errors = errors;
+  judged->errors = errors;
   if (!errors.believed) return;
-  const ErrorShape shape = ShapeOfErrors(job->problem, job->fitted(), end.p);
+  const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
   const auto input_under = [&](const ErrorModel& model) {
-    return IntervalInput{job->problem,
+    return IntervalInput{fit.problem,
                          end,
-                         ends,
-                         job->options.intervals,
-                         job->free_parameters,
-                         job->readings(),
-                         job->options.threads,
-                         &job->watch,
+                         refined.ends,
+                         fit.options.intervals,
+                         fit.free_parameters,
+                         fit.readings(),
+                         fit.options.threads,
+                         progress,
                          true,
                          &model};
   };
@@ -93,27 +111,31 @@ void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, co
   };
   const ErrorModel model = MakeErrorModel(shape, found->sizes);
   IntervalInput input = input_under(model);
-  input.degrees = FindDegrees(*found, errors_at, SpareReadings(*job));
-  report->under_errors = EstimatesOf(*job, *report);
+  input.degrees = FindDegrees(*found, errors_at, fit.spare_readings());
+  judged->under_errors = EstimatesOf(fit, searched, end.p);
   std::vector<Correlation> correlations;
   double condition = 0;
-  FindIntervals(input, &report->under_errors, &correlations, &condition);
+  FindIntervals(input, &judged->under_errors, &correlations, &condition);
 }
 
-std::vector<int> DegreesOfWeighed(FitJob* job, const FoundErrors& found, const RefineEnd& end) {
-  const auto errors_at = [&](const ErrorSizes& sizes) {
-    const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
-    const RefineProblem there = WeighByErrors(job->problem, job->fitted(), spec, end.p);
-    return StandardErrors({there,
-                           end,
-                           {},
-                           Intervals::kSymmetric,
-                           job->free_parameters,
-                           job->readings(),
-                           job->options.threads,
-                           &job->watch});
-  };
-  return FindDegrees(found, errors_at, SpareReadings(*job));
+}  // namespace
+
+JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searched, bool usable,
+                   const ProgressReporter& progress) {
+  JudgedFit judged;
+  judged.end = refined.end;
+  judged.errors = refined.errors;
+  judged.no_intervals_because = WhyNoIntervals(refined, usable, progress);
+  FindIntervalsAndImprove(refined, searched, progress, &judged);
+  if (IsSaturated(refined.prepared)) {
+    for (Estimate& e : judged.estimates) {
+      if (e.fixed) continue;
+      e.identifiable = false;
+      e.reason = TooFewReadings(refined.prepared);
+    }
+  }
+  FindIntervalsUnderErrors(refined, searched, progress, &judged);
+  return judged;
 }
 
 }  // namespace lyrefit

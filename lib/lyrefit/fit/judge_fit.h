@@ -1,24 +1,30 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "lyrefit/fit/fit_job.h"
-#include "lyrefit/fit/reading_errors.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/fit/intervals.h"
+#include "lyrefit/fit/refine_fit.h"
 
 namespace lyrefit {
 
-// Finds intervals around `end`. If a profile finds a lower optimum, the polish restarts there and
-// the intervals are found again. `ends`: other local optima. `degrees`: degrees of freedom of each
-// standard error; empty: readings minus free parameters.
-void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vector<FitPoint>& ends,
-                     const std::vector<int>& degrees, RefineEnd* end, FitReport* report);
+// Last stage of a fit: intervals around the refined end, or the reason why there are none.
+struct JudgedFit {
+  RefineEnd end;  // lower than the refined one if a profile found a better optimum
+  std::vector<Estimate> estimates;
+  std::vector<Correlation> correlations;
+  double condition = kUnknown;
+  std::vector<StartReport> restarts;  // of the polish, from lower optima that a profile found
+  std::optional<ErrorReport> errors;  // of a least-squares fit; none: not requested
+  std::vector<Estimate> under_errors;  // see FitReport
+  std::string no_intervals_because;    // empty: present, or not requested
+};
 
-// Estimates the errors of a least-squares fit, and finds intervals under them if they are believed
-// (kGainToBelieve).
-void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
-                              FitReport* report);
-
-// Degrees of freedom of the standard errors of a fit that is weighted by estimated errors.
-std::vector<int> DegreesOfWeighed(FitJob* job, const FoundErrors& found, const RefineEnd& end);
+// Finds intervals around the refined end. If a profile finds a lower optimum, the polish restarts
+// there and the intervals are found again. `usable`: whether the model describes the readings;
+// otherwise no interval is found. `searched`: best candidate of the search.
+JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searched, bool usable,
+                   const ProgressReporter& progress);
 
 }  // namespace lyrefit

@@ -21,9 +21,9 @@ constexpr int kAgain = 2;    // ends in the best optimum that make further round
 constexpr int kSteps = 6;    // rounds of neighbours of the best end
 
 // For each effect whether the shape of the curve gives no start for it.
-std::vector<bool> Shapeless(const FitJob& job) {
+std::vector<bool> Shapeless(const PreparedFit& fit) {
   std::vector<bool> shapeless;
-  for (const EffectUse& use : job.problem.device.effects->uses) {
+  for (const EffectUse& use : fit.problem.device.effects->uses) {
     shapeless.push_back(use.effect->starts == nullptr);
   }
   return shapeless;
@@ -31,20 +31,21 @@ std::vector<bool> Shapeless(const FitJob& job) {
 
 // Whether the residuals of the best end are like noise (Durbin and Watson 1950,
 // doi:10.1093/biomet/37.3-4.409). Then no better local optimum is expected.
-bool LeavesNoise(const FitJob& job, const Descents& descents) {
+bool LeavesNoise(const PreparedFit& fit, const Descents& descents) {
   constexpr double kLeast = 1.2;  // 2: independent residuals; 0: all equal
-  std::vector<double> residuals(job.problem.voltage_V.size());
-  Residuals(job.problem, descents.ends()[descents.best()].end.p.data(), residuals.data(), nullptr);
-  return FindResidualStatistics(job.problem.voltage_V, residuals).durbin_watson > kLeast;
+  std::vector<double> residuals(fit.problem.voltage_V.size());
+  Residuals(fit.problem, descents.ends()[descents.best()].end.p.data(), residuals.data(), nullptr);
+  return FindResidualStatistics(fit.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
-void AscentSettings(const FitJob& job, Descents* descents) {
-  for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
+void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress,
+                    Descents* descents) {
+  for (int step = 0; step < kSteps && !progress.stop().requested(); ++step) {
     const int before = descents->best();
-    std::vector<PolishStart> neighbours = Neighbours(job, descents->ends()[before]);
+    std::vector<PolishStart> neighbours = Neighbours(fit, descents->ends()[before]);
     // Variants can differ by less than the noise.
-    if (job.variants.size() > 1 || !LeavesNoise(job, *descents)) {
-      std::vector<PolishStart> elsewhere = Elsewhere(job, descents->ends()[before]);
+    if (fit.variants.size() > 1 || !LeavesNoise(fit, *descents)) {
+      std::vector<PolishStart> elsewhere = Elsewhere(fit, descents->ends()[before]);
       std::move(elsewhere.begin(), elsewhere.end(), std::back_inserter(neighbours));
     }
     if (neighbours.empty()) return;
@@ -54,12 +55,12 @@ void AscentSettings(const FitJob& job, Descents* descents) {
 }
 
 // Reports the best end of each variant that has one.
-std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& descents) {
+std::vector<VariantReport> ReportVariants(const PreparedFit& fit, const Descents& descents) {
   std::vector<VariantReport> reports;
-  if (job.variants.size() < 2) return reports;
+  if (fit.variants.size() < 2) return reports;
   const DescentEnd& best = descents.ends()[descents.best()];
-  const double points = static_cast<double>(job.problem.voltage_V.size());
-  for (std::size_t f = 0; f < job.variants.size(); ++f) {
+  const double points = static_cast<double>(fit.problem.voltage_V.size());
+  for (std::size_t f = 0; f < fit.variants.size(); ++f) {
     const DescentEnd* lowest = nullptr;
     for (const DescentEnd& end : descents.ends()) {
       const bool own = end.start.variant == static_cast<int>(f);
@@ -69,8 +70,8 @@ std::vector<VariantReport> ReportVariants(const FitJob& job, const Descents& des
     // Two ends in one local optimum may differ by rounding of repeated evaluations.
     const bool chosen = best.start.variant == static_cast<int>(f);
     if (chosen) lowest = &best;
-    reports.push_back({DescribeVariant(*job.problem.device.effects, job.variants[f]),
-                       job.variants[f].free, std::sqrt(lowest->end.mean_square),
+    reports.push_back({DescribeVariant(*fit.problem.device.effects, fit.variants[f]),
+                       fit.variants[f].free, std::sqrt(lowest->end.mean_square),
                        std::max(0.0, points * std::log(lowest->penalised / best.penalised)),
                        lowest->finished, chosen});
   }
@@ -95,17 +96,18 @@ std::vector<PolishStart> BestShapes(const Descents& descents) {
 
 // Finds effects that the shape of the curve does not show. Starts first from settings spread over
 // the best shape starts, then from probes near the best fit, repeatedly while it improves.
-void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents* descents) {
+void ProbeBeside(const PreparedFit& fit, const std::vector<bool>& shapeless,
+                 const ProgressReporter& progress, Descents* descents) {
   for (const PolishStart& shape : BestShapes(*descents)) {
-    descents->Descend(SpreadSettings(job, shape));
+    descents->Descend(SpreadSettings(fit, shape));
   }
-  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
+  for (int round = 0; round < kFurther && !progress.stop().requested(); ++round) {
     const int before = descents->best();
     const DescentEnd best = descents->ends()[before];
     const int variant = best.start.variant;
     std::vector<PolishStart> probes =
         Named("probe beside", variant,
-              ProbesBeside(job.problem, job.variants[variant], best.end, shapeless, kProbes));
+              ProbesBeside(fit.problem, fit.variants[variant], best.end, shapeless, kProbes));
     for (PolishStart& probe : probes) probe.beside = true;
     descents->Descend(std::move(probes));
     if (descents->best() == before) return;
@@ -113,9 +115,9 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents
 }
 
 void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& space,
-               const FitJob& job, Descents* descents) {
-  const StartsFrom from = job.options.starts;
-  const std::vector<bool> shapeless = Shapeless(job);
+               const PreparedFit& fit, const ProgressReporter& progress, Descents* descents) {
+  const StartsFrom from = fit.options.starts;
+  const std::vector<bool> shapeless = Shapeless(fit);
   const bool some = std::find(shapeless.begin(), shapeless.end(), true) != shapeless.end();
   const bool all = std::find(shapeless.begin(), shapeless.end(), false) == shapeless.end();
   const std::size_t first = from == StartsFrom::kAll ? 1 : kCandidates;
@@ -127,48 +129,49 @@ void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& sp
   std::vector<PolishStart> starts;
   if (from != StartsFrom::kShape) starts = candidates_between(0, first);
   if (from != StartsFrom::kSearch) {
-    std::vector<PolishStart> more = ShapeStarts(job);
+    std::vector<PolishStart> more = ShapeStarts(fit);
     if (more.empty()) {
-      more = Named("probe", 0, ProbeStarts(job.problem, job.variants[0], kProbes));
+      more = Named("probe", 0, ProbeStarts(fit.problem, fit.variants[0], kProbes));
     }
     std::move(more.begin(), more.end(), std::back_inserter(starts));
   }
   descents->Descend(std::move(starts));
-  if (from != StartsFrom::kSearch && some && !all) ProbeBeside(job, shapeless, descents);
+  if (from != StartsFrom::kSearch && some && !all) ProbeBeside(fit, shapeless, progress, descents);
   if (from == StartsFrom::kShape) return;
-  if (from == StartsFrom::kAll && LeavesNoise(job, *descents)) return;
+  if (from == StartsFrom::kAll && LeavesNoise(fit, *descents)) return;
   if (descents->visits() < kAgain) descents->Descend(candidates_between(first, kCandidates));
-  RandomStream random(job.options.search.seed, ~job.options.search.run);
-  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
-    if (descents->visits() >= kAgain && LeavesNoise(job, *descents)) return;
-    descents->Descend(RandomStarts(job, space, descents->ends()[descents->best()].end.p, &random));
+  RandomStream random(fit.options.search.seed, ~fit.options.search.run);
+  for (int round = 0; round < kFurther && !progress.stop().requested(); ++round) {
+    if (descents->visits() >= kAgain && LeavesNoise(fit, *descents)) return;
+    descents->Descend(RandomStarts(fit, space, descents->ends()[descents->best()].end.p, &random));
   }
 }
 
 }  // namespace
 
-PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const SearchSpace& space,
-                            FitJob* job, FitReport* report) {
+ExtendedPolish PolishExtended(const PreparedFit& fit, const std::vector<PolishStart>& candidates,
+                              const SearchSpace& space, const ProgressReporter& progress) {
   const Instant begin = Now();
-  job->watch.Begin("polish", 0);
-  Descents descents(job->problem, job->variants, &job->watch);
-  TryStarts(candidates, space, *job, &descents);
-  AscentSettings(*job, &descents);
+  progress.BeginSilently("polish", 0);
+  Descents descents(fit.problem, fit.variants, progress);
+  TryStarts(candidates, space, fit, progress, &descents);
+  AscentSettings(fit, progress, &descents);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
   for (const DescentEnd& end : descents.ends()) {
     starts.push_back(end.start);
     ends.push_back(end.end);
   }
+  ExtendedPolish polish;
   const std::vector<FitPoint> all(ends.begin(), ends.end());
-  const DescentEnd best = descents.ends()[descents.best()];
-  PolishResult result = ReportEnds(job->problem, starts, std::move(ends), descents.best(),
-                                   job->watch.stopped(), begin);
-  result.ends = all;
-  result.report.local_optima = descents.Count();
-  report->variants = ReportVariants(*job, descents);
-  SelectVariant(best.start.variant, best.end.p, job, report);
-  return result;
+  static_cast<PolishResult&>(polish) =
+      ReportEnds(fit.problem, starts, std::move(ends), descents.best(),
+                 progress.stop().requested(), begin);
+  polish.ends = all;
+  polish.report.local_optima = descents.Count();
+  polish.variants = ReportVariants(fit, descents);
+  polish.variant = descents.ends()[descents.best()].start.variant;
+  return polish;
 }
 
 }  // namespace lyrefit

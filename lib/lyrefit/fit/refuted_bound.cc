@@ -17,14 +17,14 @@ constexpr double kRefutedAt = 0.05;
 
 // Indices of the idealities at a bound that can be widened. Below `steepest_n` a diode is a step in
 // the current (law/term.h), so that bound is excluded.
-std::vector<int> AtBound(const FitJob& job, const RefineEnd& end, const FitReport& report) {
+std::vector<int> AtBound(const PreparedFit& fit, const RefineEnd& end) {
   std::vector<int> found;
-  for (int d = 0; d < DiodeCount(report.device); ++d) {
+  for (int d = 0; d < DiodeCount(fit.device); ++d) {
     const int i = IdealityIndex(d);
-    const ParameterBounds& bounds = job.bounds[i];
+    const ParameterBounds& bounds = fit.bounds[i];
     const bool absent = !(end.p[SaturationCurrentIndex(d)] > 0);
     if (absent || bounds.lower == bounds.upper) continue;
-    const bool low = end.p[i] <= bounds.lower && bounds.lower != report.steepest_n;
+    const bool low = end.p[i] <= bounds.lower && bounds.lower != fit.steepest_n;
     if (low || end.p[i] >= bounds.upper) found.push_back(i);
   }
   return found;
@@ -50,43 +50,43 @@ double PValue(const RefineProblem& problem, double bound, double free, int extra
 
 // p-value with both ends refitted under the errors estimated from the wider fit; `p` if these show
 // no correlated errors.
-double UnderTheirErrors(FitJob* job, const RefineProblem& wide, const RefineEnd& free,
-                        const RefineEnd& end, int extra, int spare, double p) {
-  const std::optional<FoundErrors> found = FindErrors(wide, job->fitted(), free);
+double UnderTheirErrors(const RefinedFit& refined, const RefineProblem& wide, const RefineEnd& free,
+                        const RefineOptions& how, int extra, int spare, double p) {
+  const PreparedFit& fit = refined.prepared;
+  const std::optional<FoundErrors> found = FindErrors(wide, fit.fitted(), free);
   if (!found || found->gain <= kGainToBelieve) return p;
-  RefineOptions how;
-  how.stop = job->watch.stop();
   const RefineProblem beyond =
-      WeighByErrors(wide, job->fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);
+      WeighByErrors(wide, fit.fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);
   RefineProblem within = beyond;
-  within.lower = job->problem.lower;
-  within.upper = job->problem.upper;
-  const double bound = Refine(within, end.p, how).mean_square;
+  within.lower = fit.problem.lower;
+  within.upper = fit.problem.upper;
+  const double bound = Refine(within, refined.end.p, how).mean_square;
   return PValue(beyond, bound, Refine(beyond, free.p, how).mean_square, extra, spare);
 }
 
 }  // namespace
 
-std::string RefutedBound(FitJob* job, const RefineProblem& problem, const RefineEnd& end,
-                         const FitReport& report) {
-  if (job->watch.stopped()) return "";
-  const std::vector<int> at_bound = AtBound(*job, end, report);
+std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& progress) {
+  if (progress.stop().requested()) return "";
+  const PreparedFit& fit = refined.prepared;
+  const RefineEnd& end = refined.end;
+  const std::vector<int> at_bound = AtBound(fit, end);
   if (at_bound.empty()) return "";
-  const RefineProblem wide = WithRoom(problem, at_bound, report.steepest_n);
+  const RefineProblem wide = WithRoom(refined.problem, at_bound, fit.steepest_n);
   RefineOptions how;
-  how.stop = job->watch.stop();
+  how.stop = progress.stop();
   const RefineEnd free = Refine(wide, end.p, how);
   const int extra = static_cast<int>(at_bound.size());
-  const int spare = job->readings() - job->free_parameters;
+  const int spare = fit.readings() - fit.free_parameters;
   double p = PValue(wide, end.mean_square, free.mean_square, extra, spare);
-  if (p < kRefutedAt && problem.errors == nullptr) {
-    p = UnderTheirErrors(job, wide, free, end, extra, spare, p);
+  if (p < kRefutedAt && refined.problem.errors == nullptr) {
+    p = UnderTheirErrors(refined, wide, free, how, extra, spare, p);
   }
   if (!(p < kRefutedAt)) return "";
   std::string where, room;
   for (const int i : at_bound) {
-    const ParameterBounds& bounds = job->bounds[i];
-    const std::string& symbol = report.device.parameters[i].symbol;
+    const ParameterBounds& bounds = fit.bounds[i];
+    const std::string& symbol = fit.device.parameters[i].symbol;
     const bool low = end.p[i] <= bounds.lower;
     where += fmt::format("{}{} = {:g}, its {} bound", where.empty() ? "" : ", ", symbol, end.p[i],
                          low ? "lower" : "upper");

@@ -45,17 +45,18 @@ double Typical(const std::vector<double>& residuals, bool robust) {
 // Whether a line describes the curve as well as parameters with `misfit`: by AICc, or by BIC if the
 // readings are too few for AICc. An interrupted or unpolished fit does not show what the model can
 // reach, so only its misfit is compared with that of the line.
-bool LineDoesAsWell(const FitReport& report, double misfit, bool robust, bool at_its_end) {
+bool LineDoesAsWell(const IvCurve& curve, const InformationCriteria& of_model, double misfit,
+                    bool robust, bool at_its_end) {
   constexpr double kRounding = 1e-11;  // of the largest current: smaller residuals are rounding
   constexpr int kLineParameters = 2;
-  const double line = Typical(StraightLineResiduals(report.curve), robust);
+  const double line = Typical(StraightLineResiduals(curve), robust);
   if (!at_its_end) return misfit >= line;
-  const double smallest = kRounding * LargestMagnitude(report.curve.current_A);
+  const double smallest = kRounding * LargestMagnitude(curve.current_A);
   const auto criteria = [&](double size, int parameters) {
     const double mean_square = std::pow(std::max(size, smallest), 2);
-    return FindInformation(mean_square, report.criteria.points, parameters);
+    return FindInformation(mean_square, of_model.points, parameters);
   };
-  const InformationCriteria of_fit = criteria(misfit, report.criteria.parameters);
+  const InformationCriteria of_fit = criteria(misfit, of_model.parameters);
   const InformationCriteria of_line = criteria(line, kLineParameters);
   if (std::isnan(of_fit.aicc)) return of_line.bic <= of_fit.bic;
   return of_line.aicc <= of_fit.aicc;
@@ -68,42 +69,37 @@ struct Scale {
   const char* name = "Isc";
 };
 
-Scale ScaleOf(const FitReport& report) {
+Scale ScaleOf(const IvCurve& curve, const KeyPoints& measured) {
   constexpr double kToSpeakOf = 0.1;
-  const double largest = LargestMagnitude(report.curve.current_A);
-  const double isc = report.measured.short_circuit_current_A;
+  const double largest = LargestMagnitude(curve.current_A);
+  const double isc = measured.short_circuit_current_A;
   if (isc > kToSpeakOf * largest) return {isc, "Isc"};
   return {largest, "the largest current"};
 }
 
 }  // namespace
 
-std::string WhyNotUsable(const FitReport& report, bool interrupted, bool robust) {
-  const double rmse =
-      (report.polished ? report.rmse.refined : report.rmse.searched).solved_current_A;
-  if (!std::isfinite(rmse)) return "the model gives no finite current at these readings";
-  const Scale scale = ScaleOf(report);
-  const double misfit = robust ? RobustScale(report.residual_A) : rmse;
-  const bool at_its_end = report.polished && !interrupted;
-  if (LineDoesAsWell(report, misfit, robust, at_its_end)) {
+std::string WhyNotUsable(const IvCurve& curve, const ModelResults& results,
+                         const UsabilityFacts& facts) {
+  if (!std::isfinite(facts.rmse_A)) return "the model gives no finite current at these readings";
+  const Scale scale = ScaleOf(curve, results.measured);
+  const double misfit = facts.robust ? RobustScale(results.residual_A) : facts.rmse_A;
+  if (LineDoesAsWell(curve, results.criteria, misfit, facts.robust, facts.at_its_end)) {
     return "a straight line describes these points as well";
   }
-  const bool misses = at_its_end && misfit > kLargestMisfit * scale.current_A;
-  if (misses) {
-    const std::string size =
-        fmt::format("{} is {:.1f} % of {}", robust ? "the typical residual" : "RMSE",
-                    100 * misfit / scale.current_A, scale.name);
-    if (const auto step = FindStep(report.curve)) {
-      return fmt::format(
-          "the curve has a step near {:.3g} V: no diode model describes it ({}); a diagnosis can "
-          "name the cause (lyrefit diagnose)",
-          step->voltage_V, size);
-    }
-    return fmt::format("no diode model within the bounds describes this curve: {}; {}", size,
-                       report.doubts.empty() ? "a diagnosis may name the cause (lyrefit diagnose)"
-                                             : "look first at what is doubtful about its readings");
+  if (!facts.at_its_end || !(misfit > kLargestMisfit * scale.current_A)) return "";
+  const std::string size =
+      fmt::format("{} is {:.1f} % of {}", facts.robust ? "the typical residual" : "RMSE",
+                  100 * misfit / scale.current_A, scale.name);
+  if (const auto step = FindStep(curve)) {
+    return fmt::format(
+        "the curve has a step near {:.3g} V: no diode model describes it ({}); a diagnosis can "
+        "name the cause (lyrefit diagnose)",
+        step->voltage_V, size);
   }
-  return "";
+  return fmt::format("no diode model within the bounds describes this curve: {}; {}", size,
+                     facts.doubtful ? "look first at what is doubtful about its readings"
+                                    : "a diagnosis may name the cause (lyrefit diagnose)");
 }
 
 }  // namespace lyrefit

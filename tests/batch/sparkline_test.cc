@@ -27,7 +27,7 @@ TEST(Sparkline, ReadsBackWithinHalfAStep) {
 TEST(Sparkline, OfNothingIsNothing) {
   EXPECT_EQ(Sparkline({}, {}, 40), "");
   EXPECT_EQ(Sparkline({0, 1, 2}, {-1, -1, -1}, 40), "");
-  EXPECT_TRUE(ReadSparkline("no sketch").empty());
+  EXPECT_TRUE(ReadSparkline("no sparkline").empty());
 }
 
 }  // namespace

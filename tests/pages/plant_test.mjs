@@ -89,7 +89,7 @@ test('the table shows the rows, to five digits, and the panel all of them', asyn
     const said = value === null ? 'not known' : typeof value === 'boolean' ? (value ? 'yes' : 'no') : String(value);
     assert.equal(text, said, name);
   }
-  assert.equal(panel.length, Object.keys(rows[0]).length - 1);  // all but the sketch
+  assert.equal(panel.length, Object.keys(rows[0]).length - 1);  // all but the sparkline
   await page.keyboard.press('Escape');
   const ill = rows.find((row) => row.cause_sentence && row.performance_factor < 0.95);
   await page.click(`.card:has-text("${ill.id}")`);

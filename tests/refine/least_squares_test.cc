@@ -18,8 +18,8 @@ LeastSquaresProblem Unbounded(int parameters, int residuals) {
   return problem;
 }
 
-// Rosenbrock's valley: optimum at (1, 1).
-LeastSquaresProblem LocalOptimum() {
+// Rosenbrock's function: optimum at (1, 1).
+LeastSquaresProblem Rosenbrock() {
   LeastSquaresProblem problem = Unbounded(2, 2);
   problem.evaluate = [](const double* p, double* r, double* jacobian) {
     r[0] = 10 * (p[1] - p[0] * p[0]);
@@ -34,7 +34,7 @@ LeastSquaresProblem LocalOptimum() {
 }
 
 TEST(LeastSquaresTest, FindsTheOptimum) {
-  const LeastSquaresEnd end = SolveLeastSquares(LocalOptimum(), {-1.2, 1});
+  const LeastSquaresEnd end = SolveLeastSquares(Rosenbrock(), {-1.2, 1});
   EXPECT_TRUE(end.usable);
   EXPECT_TRUE(end.converged);
   EXPECT_GT(end.iterations, 1);
@@ -44,7 +44,7 @@ TEST(LeastSquaresTest, FindsTheOptimum) {
 }
 
 TEST(LeastSquaresTest, StopsAtBounds) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.upper = {0.5, kInfinity};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1});
   EXPECT_DOUBLE_EQ(end.p[0], 0.5);
@@ -53,7 +53,7 @@ TEST(LeastSquaresTest, StopsAtBounds) {
 }
 
 TEST(LeastSquaresTest, MovesAStartInsideTheBounds) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.lower = {-2, -2};
   problem.upper = {2, 2};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {50, -50});
@@ -84,7 +84,7 @@ TEST(LeastSquaresTest, WhatNothingHangsOnStays) {
 }
 
 TEST(LeastSquaresTest, HeldParametersStay) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.held = {1, 0};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {0.3, 7});
   EXPECT_EQ(end.p[0], 0.3);
@@ -93,7 +93,7 @@ TEST(LeastSquaresTest, HeldParametersStay) {
 }
 
 TEST(LeastSquaresTest, WithAllHeldOnlyMeasures) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.held = {1, 1};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {0, 1});
   EXPECT_TRUE(end.usable);
@@ -103,7 +103,7 @@ TEST(LeastSquaresTest, WithAllHeldOnlyMeasures) {
 }
 
 TEST(LeastSquaresTest, AnUnusableStartIsSaidToBe) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.evaluate = [](const double*, double*, double*) { return false; };
   const LeastSquaresEnd end = SolveLeastSquares(problem, {-1.2, 1});
   EXPECT_FALSE(end.usable);
@@ -127,13 +127,13 @@ TEST(LeastSquaresTest, StepsBackFromWhereTheModelEnds) {
 TEST(LeastSquaresTest, NeverEndsAboveItsStart) {
   LeastSquaresOptions options;
   options.max_iterations = 1;
-  const LeastSquaresEnd end = SolveLeastSquares(LocalOptimum(), {-1.2, 1}, options);
+  const LeastSquaresEnd end = SolveLeastSquares(Rosenbrock(), {-1.2, 1}, options);
   EXPECT_LE(end.sum_of_squares, 24.2 + 1e-9);
   EXPECT_FALSE(end.converged);
 }
 
 TEST(LeastSquaresTest, GivesUpWhereOthersWereBetter) {
-  LeastSquaresProblem problem = LocalOptimum();
+  LeastSquaresProblem problem = Rosenbrock();
   problem.lower = {3, -kInfinity};
   LeastSquaresOptions options;
   const LeastSquaresEnd all = SolveLeastSquares(problem, {5, 1}, options);

@@ -28,7 +28,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   performance_factor, else group_deviation_percent, recoverable_power_W, lack_of_fit_percent
 //                            the column that ranks the worst strings
 //   Pmax_stc_W, Pmax_stc_U_W (k = 2), rated_power_W, recoverable_power_W
-//   sketch                   currents at even steps of V / Voc from 0 to 1, a byte each, in 1/255
+//   sparkline                currents at even steps of V / Voc from 0 to 1, a byte each, in 1/255
 //                            of the largest, base64
 //   page                     the string's own page: a path from PlantPageOptions::results
 

@@ -163,7 +163,7 @@ Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
 
 // Adds one fitted model for each cause that explains the readings as well as the first diagnosed
 // cause, in place of that cause.
-void AddRivals(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
+void AddAlternatives(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
                Preparation* made) {
   constexpr std::size_t kMostFittedCandidates = 4;
   const Verdict& verdict = made->diagnosis->verdict;
@@ -218,7 +218,7 @@ Expected<void> AddModels(const IvCurve& curve, const TranslateOptions& options,
     return {};
   }
   made->curve.models.push_back(*model);
-  AddRivals(curve, options, inputs, made);
+  AddAlternatives(curve, options, inputs, made);
   return {};
 }
 

@@ -12,8 +12,8 @@ async function showRow(row) {
   const cells = await loadRow(row);
   const title = cells.id || `row ${row + 1}`;
   const link = has("page") ? pageOf(cells.page) : null;
-  const sketches = has("sparkline") && cells.sparkline ? await load("sparkline") : null;
-  const median = sketches && cells.id ? await groupMedian(cells.id, sketches) : null;
+  const sparklines = has("sparkline") && cells.sparkline ? await load("sparkline") : null;
+  const median = sparklines && cells.id ? await groupMedian(cells.id, sparklines) : null;
   const lines = columnNames.filter((name) => name !== "sparkline").map((name) => {
     const value = cells[name];
     const known = value !== null && value !== undefined && !Number.isNaN(value);
@@ -25,7 +25,7 @@ async function showRow(row) {
       make("button", { type: "button", onclick: () => dialog.close() }, "Close")),
     ...[cells.cause_sentence, cells.reason].filter(Boolean).map((text) => make("p", {}, text)),
     link ? make("p", {}, make("a", { href: link }, "The page of this string")) : "",
-    sketches ? make("figure", {}, sparklinePicture(sparklineOf(cells.sparkline), median, 320, 170), make("figcaption", {},
+    sparklines ? make("figure", {}, sparklinePicture(sparklineOf(cells.sparkline), median, 320, 170), make("figcaption", {},
       "Current over V / Voc, in parts of its largest" + (median ? "; dashed the median of its group." : "."))) : "",
     plainTable("All that is known of it", ["Column", "Value", "What it is"], lines));
   dialog.showModal();

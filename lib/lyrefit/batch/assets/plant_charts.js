@@ -6,32 +6,32 @@ const mostPoints = 4000;
 const worstChoices = () => ["performance_factor", "group_deviation_percent", "history_p", "FF", "recoverable_power_W", "lack_of_fit_percent", ...numberColumns]
   .filter((name, i, all) => isNumber(name) && all.indexOf(name) === i);
 
-async function groupMedian(id, sketches) {
-  const siblings = siblingsOf(id).filter((row) => sketches[row]).slice(0, 200);
-  return siblings.length > 2 ? medianSparkline(siblings.map((row) => sparklineOf(sketches[row]))) : null;
+async function groupMedian(id, sparklines) {
+  const siblings = siblingsOf(id).filter((row) => sparklines[row]).slice(0, 200);
+  return siblings.length > 2 ? medianSparkline(siblings.map((row) => sparklineOf(sparklines[row]))) : null;
 }
 
 async function drawWorst() {
   const host = byId("live-worst");
   if (!has("sparkline") || !charts.worstBy) return;
-  const { id: ids, sparkline: sketches, cause_title: causes, cause } = await loadWhere(["id", "sparkline", "cause_title", "cause"]);
+  const { id: ids, sparkline: sparklines, cause_title: causes, cause } = await loadWhere(["id", "sparkline", "cause_title", "cause"]);
   const values = await load(charts.worstBy);
   const sign = worstFirst(charts.worstBy) ? 1 : -1;
-  const rows = Array.from(state.rows).filter((row) => sketches[row] && Number.isFinite(values[row]))
+  const rows = Array.from(state.rows).filter((row) => sparklines[row] && Number.isFinite(values[row]))
     .sort((a, b) => sign * (values[a] - values[b]) || a - b).slice(0, 24);
   const cards = [];
   for (const row of rows) {
     const name = ids ? ids[row] : `row ${row + 1}`;
-    const median = ids ? await groupMedian(name, sketches) : null;
+    const median = ids ? await groupMedian(name, sparklines) : null;
     const what = (causes || cause || [])[row] || "";
     cards.push(make("li", {}, make("button", { type: "button", class: "card", onclick: () => showRow(row) },
-      sparklinePicture(sparklineOf(sketches[row]), median, 150, 80),
+      sparklinePicture(sparklineOf(sparklines[row]), median, 150, 80),
       make("span", { class: "name" }, name), make("span", {}, `${charts.worstBy} ${shortNumber(values[row])}`), make("span", {}, what))));
   }
   host.replaceChildren(
     make("div", { class: "controls" }, select("Worst by", worstChoices(), charts.worstBy, (name) => { charts.worstBy = name; drawWorst(); })),
     rows.length ? make("p", { class: "tip" }, `Current over V / Voc of the ${rows.length} worst, each in parts of its largest; dashed behind it the median of its group.`)
-      : make("p", {}, "No string that is shown has a sketch and this number."),
+      : make("p", {}, "No string that is shown has a sparkline and this number."),
     make("ul", { class: "cards" }, cards));
 }
 

@@ -182,10 +182,10 @@ function sparklinePicture(sparkline, median, width, height) {
     makeSvg("path", { d: linePath(sparkline, width, height), class: "curve" }));
 }
 
-function medianSparkline(sketches) {
-  if (sketches.length === 0) return null;
-  return Uint8Array.from(sketches[0], (_, i) => {
-    const at = sketches.map((sparkline) => sparkline[i] ?? 0).sort((a, b) => a - b);
+function medianSparkline(sparklines) {
+  if (sparklines.length === 0) return null;
+  return Uint8Array.from(sparklines[0], (_, i) => {
+    const at = sparklines.map((sparkline) => sparkline[i] ?? 0).sort((a, b) => a - b);
     return (at[(at.length - 1) >> 1] + at[at.length >> 1]) / 2;
   });
 }

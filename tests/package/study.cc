@@ -15,12 +15,12 @@ int main(int argc, char** argv) {
   search.iterations = 20;
   const auto comparison = lyrefit::Compare(
       {lyrefit::MakeSubject(std::move(*curve), {})},
-      lyrefit::PlainContenders({lyrefit::Algorithm::kLo, lyrefit::Algorithm::kMlo}, search),
+      lyrefit::PlainAlgorithms({lyrefit::Algorithm::kLo, lyrefit::Algorithm::kMlo}, search),
       options);
   if (!comparison) return std::puts(comparison.error().ToString().c_str()), 1;
   std::fputs(lyrefit::CompareText(*comparison).c_str(), stdout);
-  for (const auto& contender : comparison->problems.at(0).contenders) {
-    if (contender.runs.size() != 2) return 1;
+  for (const auto& compared : comparison->problems.at(0).algorithms) {
+    if (compared.runs.size() != 2) return 1;
   }
   return 0;
 }

@@ -53,8 +53,7 @@ std::vector<double> DeviceAt(const SearchSpace& space, const FitJob& job, const 
 
 // Starts as points of the search space, sorted by rank within their variant: the best of each
 // variant first, then the second of each. Costs one evaluation of the objective each.
-std::vector<std::vector<double>> Suggestions(const SearchSpace& space,
-                                             const RefineProblem& problem,
+std::vector<std::vector<double>> Suggestions(const SearchSpace& space, const RefineProblem& problem,
                                              const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
@@ -104,7 +103,8 @@ Expected<std::vector<PolishStart>> RunSearch(const SearchSpace& space, FitJob* j
     report->curve_evaluations = static_cast<std::int64_t>(starts.size());
   }
   const double getting_ready = SecondsSince(begin);
-  const ObjectiveFunction objective = [&report, rmse = RmseIn(space, job->coarse)](const double* x) {
+  const ObjectiveFunction objective = [&report,
+                                       rmse = RmseIn(space, job->coarse)](const double* x) {
     ++report->curve_evaluations;
     return rmse(x);
   };

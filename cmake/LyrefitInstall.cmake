@@ -123,19 +123,13 @@ set(LYREFIT_STUDY_PUBLIC_HEADERS
   study/compare_options.h
   study/comparison.h
   study/algorithms.h
-  study/coverage.h
-  study/coverage_options.h
-  study/landscape.h
   study/rank_tests.h
   study/read_audit_rows.h
-  study/truth.h
   study/report/audit_csv.h
   study/report/audit_json.h
   study/report/compare_csv.h
   study/report/compare_json.h
   study/report/compare_plot.h
-  study/report/coverage_csv.h
-  study/report/coverage_json.h
   study/report/documents.h)
 set(LYREFIT_BATCH_PUBLIC_HEADERS
   batch.h

@@ -5,17 +5,18 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-InstallPackages build peers
+InstallPackages build test peers
 cd -- "$LYREFIT_ROOT"
-Configure build
-Build build --target lyrefit_app
+Configure build -DLYREFIT_BUILD_TESTS=ON
+Build build --target lyrefit_app lyrefit_studies
 lyrefit=build/apps/lyrefit/lyrefit
+studies=build/tests/studies/lyrefit_studies
 folder=data/landscapes
 
-Say "lyrefit budget --landscape all"
-$lyrefit budget --landscape all --devices 50 --multistart 50 --budgets 100,300,1000,3000 \
+Say "lyrefit_studies landscape"
+$studies landscape --devices 50 --multistart 50 --budgets 100,300,1000,3000 \
   --algorithms shape,default,mlo,mlo+knees,lo,de,random,pagmo:cmaes,pagmo:de \
-  --resume build/landscapes.journal --plot "$folder/made.svg" --force > "$folder/made.txt"
+  --resume build/landscapes.journal --plot "$folder/made.svg" > "$folder/made.txt"
 
 if [[ -n ${LYREFIT_FIELD_DATA:-} ]]; then
   for effect in substrings weak_cell; do

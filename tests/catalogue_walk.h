@@ -15,7 +15,7 @@
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/quote.h"
-#include "lyrefit/study/coverage.h"
+#include "studies/coverage.h"
 
 // Shared parts of the rate tests of the catalogue for single curves and for sets of curves. They
 // draw an effect and suitable noise, fit the effect, and count how often the interval contains its

@@ -13,17 +13,15 @@ namespace {
 
 constexpr double kLeast = 4;
 constexpr double kMost = 1e9;
-constexpr char kLandscapeBudgets[] = "30,100,300,1000,3000";
+constexpr int kMultistart = 100;  // default with effects
 
 constexpr char kBudgetFooter[] =
     "Examples:\n"
     "  lyrefit budget data/rtc_france --algorithms mlo,de,random --plot budget.svg\n"
     "  lyrefit budget data/rtc_france --models td --budgets 10,100,1000 --runs 20\n"
     "\n"
-    "  lyrefit budget --landscape strings_2,strings_3 --devices 10 --budgets 100,1000\n"
-    "\n"
     "A hit is a run within 1e-6 (search alone) or 1e-9 (polished) of the reference; of problems\n"
-    "with effects and of --landscape one within 1e-6 of the best known optimum of its device.";
+    "with effects one within 1e-6 of the best known optimum.";
 
 struct BudgetRequest {
   StudyFlags study;
@@ -35,11 +33,11 @@ void DeclareBudget(VerbLine* verb, BudgetRequest* request) {
   study.options.plain_polish = true;
   study.options.rankings = false;
   AddStudyFlags(verb, &study);
-  AddLandscapeFlags(verb, &study);
+  AddNamedFlags(verb, kCompareOptionTable, {"multistart"}, &study.options);
   AddAlgorithmsFlag(verb, &study);
   verb->AddOption("--budgets", &request->budgets,
                   "list of evaluations; the population is about their root (default " +
-                      request->budgets + ", with --landscape " + kLandscapeBudgets + ")")
+                      request->budgets + ")")
       .Type("LIST")
       .Group("Search");
   AddSearchRows(verb, {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
@@ -84,9 +82,10 @@ Expected<std::vector<ComparedAlgorithm>> BudgetAlgorithms(const StudyFlags& stud
 
 Expected<int> RunBudget(VerbLine& verb, BudgetRequest& request) {
   StudyFlags& study = request.study;
-  TRY(CheckLandscape(verb, &study));
-  const bool usual = study.landscape.empty() || verb.Given("--budgets");
-  TRY(const auto algorithms, BudgetAlgorithms(study, usual ? request.budgets : kLandscapeBudgets));
+  if (!study.options.with.empty() && !verb.Given("--multistart")) {
+    study.options.multistart = kMultistart;
+  }
+  TRY(const auto algorithms, BudgetAlgorithms(study, request.budgets));
   return RunStudy(verb, study, algorithms, BudgetDocument, {{study.output.plot_file, PlotBudget}});
 }
 

@@ -27,7 +27,7 @@ void DeclareCompare(VerbLine* verb, CompareRequest* request) {
   StudyFlags& study = request->study;
   study.search.population = 100;
   study.search.iterations = 1000;
-  AddStudyFlags(verb, &study).Required();
+  AddStudyFlags(verb, &study);
   AddAlgorithmsFlag(verb, &study);
   AddSearchRows(verb,
                 {"population", "iterations", "memory-rate", "distance-coefficient", "de-scale",

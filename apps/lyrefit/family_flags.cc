@@ -34,12 +34,6 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
       .Group(kGroup);
   AddNamedFlags(verb, kFamilyOptionTable, {"individual-fits"}, &flags->options);
   AddTableFlags(verb, kFamilyOptionTable, &flags->options);
-  verb->AddOption("--truth", &flags->truth_file,
-                  "parameters the curves were made from, as the ivcurves contest states them: "
-                  "prints the errors")
-      .Group(kGroup)
-      .Type("FILE")
-      .Reads();
   verb->AddOption("--csv", &output->csv_file, "the parameters of each curve as a table, a row each")
       .Writes();
   verb->AddOption("--pvlib", &flags->pvlib_file,

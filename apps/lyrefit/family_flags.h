@@ -33,7 +33,6 @@ struct FamilyFlags {
   FamilyOptions options;  // targets of the flags
   std::vector<std::string> against_files;
   std::string pvlib_file;
-  std::string truth_file;
 };
 
 // Declares the flags of a set, and --csv, which curves fitted individually have too.

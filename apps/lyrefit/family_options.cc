@@ -8,11 +8,11 @@ namespace lyrefit {
 namespace {
 
 // Flags about a set of curves, but not about their common device.
-constexpr const char* kSetOnly[] = {"--leave-out", "--truth"};
+constexpr const char* kSetOnly[] = {"--leave-out"};
 // Flags of a fit of one curve that a joint fit does not have.
-constexpr const char* kOneCurve[] = {
-    "--floor", "--bounds",    "--loss",          "--loss-scale",   "--kernel",
-    "--curve", "--no-polish", "--temperature-C", "--irradiance-Wm2"};
+constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss",
+                                     "--loss-scale", "--kernel",        "--curve",
+                                     "--no-polish",  "--temperature-C", "--irradiance-Wm2"};
 // Flags about the parameters that the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",

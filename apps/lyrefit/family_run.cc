@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <optional>
 
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
@@ -16,8 +15,6 @@
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/study/report/documents.h"
-#include "lyrefit/study/truth.h"
 #include "output.h"
 
 namespace lyrefit {
@@ -43,13 +40,6 @@ Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOp
   return FitFamily(set, options, TerminalObserver());
 }
 
-Expected<void> CheckFiles(const VerbLine& verb, const FamilyFlags& flags) {
-  if (!flags.truth_file.empty() && verb.StandardOutputTaken()) {
-    return Fail("--truth prints to standard output, which is taken: name files for the others");
-  }
-  return verb.CheckFiles();
-}
-
 Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
                           const std::string& file) {
   const auto keywords = PvlibParameters(report.translation, report.refined);
@@ -62,8 +52,7 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
 
 // Writes the output for pvlib last: it may fail, and all other files are then complete.
 Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const CurveSet& set,
-                     const std::optional<std::vector<TruthRow>>& truth, const FamilyFlags& flags,
-                     const ReportFlags& output) {
+                     const FamilyFlags& flags, const ReportFlags& output) {
   TRY(WriteWanted(output.json_file, [&] { return FamilyJson(report); }));
   TRY(WriteWanted(output.csv_file, [&] { return IndividualFitsCsv(report); }));
   TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
@@ -72,10 +61,6 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(FamilyDocument(report, set), FamilyJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
-  if (truth) {
-    const std::string text = TruthText(CompareWithTruth(report, *truth));
-    TRY(WriteOutput("-", "\n" + text));
-  }
   return flags.pvlib_file.empty() ? Expected<void>() : WritePvlib(report, set, flags.pvlib_file);
 }
 
@@ -83,15 +68,11 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
 
 Expected<int> RunFamily(const VerbLine& verb, const CurveFlags& flagged, const FamilyFlags& flags,
                         const FamilyOptions& options, const ReportFlags& output) {
-  TRY(CheckFiles(verb, flags));
+  TRY(verb.CheckFiles());
   TRY(const CurveSet set, ReadFlaggedSet(flagged));
-  std::optional<std::vector<TruthRow>> truth;
-  if (!flags.truth_file.empty()) {
-    TRY(truth, ReadTruth(flags.truth_file));
-  }
   const InterruptGuard guard;
   TRY(const FamilyReport report, FitSet(set, *flags.family, options));
-  TRY(Write(verb, report, set, truth, flags, output));
+  TRY(Write(verb, report, set, flags, output));
   if (report.interrupted) return kExitInterrupted;
   return report.usable ? kExitFine : kExitNotUsable;
 }

@@ -26,7 +26,7 @@ void DeclareSensitivity(VerbLine* verb, SensitivityRequest* request) {
   study.search.population = 100;
   study.search.iterations = 1000;
   study.options.rankings = false;
-  AddStudyFlags(verb, &study).Required();
+  AddStudyFlags(verb, &study);
   const auto list = [verb](const char* flag, const char* doc, std::string* target) {
     verb->AddOption(flag, target, std::string(doc) + " (default " + *target + ")")
         .Type("LIST")

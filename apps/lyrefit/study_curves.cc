@@ -100,7 +100,6 @@ Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& te
 }
 
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags) {
-  if (!flags.landscape.empty()) return LandscapeSubjects(flags);
   const bool choosing = !flags.at.empty() || !flags.curve_ids.empty();
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {

@@ -10,9 +10,10 @@
 
 namespace lyrefit {
 
-Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
-  Flag curves = verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders");
-  curves.ReadsCurves();
+void AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
+  verb->AddOption("CURVE", &flags->curve_files, "one or more curve files or folders")
+      .ReadsCurves()
+      .Required();
   AddTableFlags(verb, kConditionOptionTable, &flags->conditions);
   AddTableFlags(verb, kStudyFlagTable, flags);
   AddTableFlags(verb, kCompareOptionTable, &flags->options, "Model");
@@ -26,7 +27,6 @@ Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags) {
   AddCsvFlag(verb, "one row a run", &flags->output);
   AddHtmlFlag(verb, "report", &flags->output);
   verb->AddQuietSwitch();
-  return curves;
 }
 
 void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags) {

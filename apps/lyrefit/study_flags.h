@@ -24,8 +24,6 @@ struct StudyFlags {
   ConditionOptions conditions;
   CompareOptions options;
   SearchOptions search;
-  std::string landscape;  // synthetic problems, not curves: "strings_2,strings_3", "all"
-  int devices = 50;       // for each problem
   ReportFlags output;
 };
 
@@ -35,21 +33,13 @@ inline constexpr OptionRow<StudyFlags> kStudyFlagTable[] = {
      "of a set of curves: those nearest to 1000x25,200x25 (W/m2 x C; 10 W/m2 are as far as 1 K)",
      &StudyFlags::at},
     {"curves", "LIST", "of a set of curves: those with these ids", &StudyFlags::curve_ids},
-    {"devices", "N", "made devices of each problem", &StudyFlags::devices, 1, 10000,
-     OptionTrait::kQuiet | OptionTrait::kNoFlag},
     OptionRow<StudyFlags>("Model"),
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&StudyFlags::ranges>(), OptionTrait::kNoFlag},
 };
 
 // Declares the flags of curves, models, objective, bounds, runs, seed, threads, JSON and CSV.
-// Returns the flag of the curves: the verb decides whether it is required.
-Flag AddStudyFlags(VerbLine* verb, StudyFlags* flags);
-// --landscape, --devices and --multistart. CheckLandscape() rejects invalid combinations.
-void AddLandscapeFlags(VerbLine* verb, StudyFlags* flags);
-// Checks that either curves or synthetic problems are given, without flags that the problems define
-// themselves. Sets the defaults of runs and multistart for problems with effects.
-Expected<void> CheckLandscape(const VerbLine& verb, StudyFlags* flags);
+void AddStudyFlags(VerbLine* verb, StudyFlags* flags);
 void AddAlgorithmsFlag(VerbLine* verb, StudyFlags* flags);
 // Declares the rows of these names of the search's option table; `flags->search` holds the
 // defaults.
@@ -67,12 +57,8 @@ struct StudyCondition {
 // Parses "1000x25,200x25", given to --at.
 Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text);
 
-// The synthetic problems of --landscape, or the curves of all files, with their bounds. --curves
-// and --at select the curves of sets.
+// The curves of all files, with their bounds. --curves and --at select the curves of sets.
 Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags);
-
-// The synthetic devices of --landscape.
-Expected<std::vector<CompareCurve>> LandscapeSubjects(const StudyFlags& flags);
 
 // An algorithm by its name, and all those of --algorithms, with these settings.
 Expected<ComparedAlgorithm> ParseAlgorithm(const std::string& name, const SearchOptions& search);

@@ -15,7 +15,6 @@ extern const Verb kBudgetVerb;
 extern const Verb kSensitivityVerb;
 extern const Verb kDataSheetVerb;
 extern const Verb kAuditVerb;
-extern const Verb kCoverageVerb;
 extern const Verb kDiagnoseVerb;
 extern const Verb kTranslateVerb;
 extern const Verb kPackVerb;

@@ -1,21 +1,15 @@
 #pragma once
 
 // Public header of lyrefit::study, a library on top of lyrefit::lyrefit that evaluates repeated
-// fits. Compare runs search algorithms, including a caller's own, on measured curves or on
-// simulated ones with many local optima (MakeLandscape). Audit checks published parameters.
-// Coverage counts how often the confidence intervals of joint fits contain the true values.
-// CompareTruth compares a fit with known parameters. As in lyrefit.h nothing throws or prints.
+// fits. Compare runs search algorithms, including a caller's own, on measured curves. Audit checks
+// published parameters. As in lyrefit.h nothing throws or prints.
 
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/coverage.h"
-#include "lyrefit/study/landscape.h"
 #include "lyrefit/study/report/audit_csv.h"
 #include "lyrefit/study/report/audit_json.h"
 #include "lyrefit/study/report/compare_csv.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "lyrefit/study/report/compare_plot.h"
-#include "lyrefit/study/report/coverage_json.h"
 #include "lyrefit/study/report/documents.h"
-#include "lyrefit/study/truth.h"

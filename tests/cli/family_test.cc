@@ -178,25 +178,6 @@ TEST_F(FamilyVerbOnASet, PrintsTheReportAndWritesEveryFile) {
   EXPECT_THAT(FileText(picture), HasSubstr("</svg>"));
 }
 
-TEST_F(FamilyVerbOnASet, PrintsTheErrorsAgainstAKnownTruth) {
-  const std::string header =
-      "Index,photocurrent,saturation_current,resistance_series,resistance_shunt,n,cells_in_"
-      "series\n";
-  const std::string truth = folder_.Write("truth.csv", header + "1,5,1e-9,0.3,300,1.1,36\n");
-  const AppResult result =
-      RunApp("fit " + Set() + " --family free --quiet --truth '" + truth + "'");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("Truth (one device): 6 curves fitted alone"));
-  EXPECT_THAT(result.out, HasSubstr("mean of the fits"));
-  const AppResult broken =
-      RunApp("fit " + Set() + " --family free --truth '" +
-             folder_.Write("broken.csv", header + "1,5,x,0.3,300,1.1,36\n") + "'");
-  EXPECT_EQ(broken.exit_code, 1);
-  EXPECT_THAT(broken.err, HasSubstr("broken.csv:2:5: expected a number"));
-  EXPECT_EQ(RunApp("fit " + Set() + " --family free --json - --truth '" + truth + "'").exit_code,
-            1);
-}
-
 TEST_F(FamilyVerbOnASet, TestsParametersFromElsewhereOnTheSameCurves) {
   SKIP_IF_SANITIZED();
   const std::string own = folder_.Path("own.json");

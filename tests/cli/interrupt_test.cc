@@ -112,14 +112,6 @@ TEST_P(InterruptTest, KeepsWhatIsProved) {
   EXPECT_GT(j["floor"]["rmse_A"], 0);
 }
 
-TEST_P(InterruptTest, KeepsTheSetsOfACoverageStudy) {
-  const nlohmann::json j =
-      JsonOf({"coverage", "--sets", "100000", "--curves", "5", "--points", "10"},
-             "coverage \\[[.#]*\\] [1-9]");
-  ASSERT_TRUE(j.is_object());
-  EXPECT_EQ(j["interrupted"], true);
-}
-
 TEST_P(InterruptTest, KeepsTheBudgetOfATranslationWithoutItsDraws) {
   const nlohmann::json j = JsonOf({"translate", DataFolder("rtc_france"), "--irradiance-Wm2", "800",
                                    "--temperature-C", "33", "--draws", "10000000"},

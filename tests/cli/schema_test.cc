@@ -104,7 +104,6 @@ std::vector<SchemaCase> SchemaCases() {
        "comparison"},
       {"Audit", "audit " + kData + "paper/rows.csv --json FILE", "audit"},
       {"AuditOfClaims", "audit " + kData + "published/rows.csv --json FILE", "audit"},
-      {"Coverage", "coverage --sets 2 --curves 5 --json FILE --quiet", "coverage"},
   };
 }
 

@@ -45,7 +45,7 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   EXPECT_EQ(bare.err, "");
   EXPECT_EQ(bare.out, RunApp("help").out);
   for (const char* verb : {"fit", "simulate", "certify", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "coverage", "diagnose", "pack"}) {
+                           "datasheet", "audit", "diagnose", "pack"}) {
     EXPECT_THAT(bare.out, HasSubstr(std::string("\n  ") + verb + " ")) << verb;
     EXPECT_THAT(bare.out, HasSubstr(std::string(" lyrefit ") + verb + " ")) << verb;
   }
@@ -65,7 +65,7 @@ TEST(Verbs, TermsFitATerminalAndCoverTheTables) {
   std::istringstream lines(terms);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   for (const char* term : {"Isc", "Rsh", "n1", "AICc", "corrected p", "misfit", "kept", "floor",
-                           "searched", "refined", "std err", "95 % interval", "coverage"}) {
+                           "searched", "refined", "std err", "95 % interval"}) {
     EXPECT_THAT(terms, HasSubstr(term));
   }
 }
@@ -160,11 +160,10 @@ TEST(Verbs, RefuseNumbersThatCountNothing) {
   const std::string cases[] = {
       "fit " + kCurve + "--threads -3",         "diagnose " + kCurve + "--threads -3",
       "compare " + kCurve + "--threads -3",     "budget " + kCurve + "--threads 5000",
-      "sensitivity " + kCurve + "--threads -1", "coverage --threads -3",
+      "sensitivity " + kCurve + "--threads -1", "certify " + kCurve + "--cells -1",
       "compare " + kCurve + "--runs -1",        "compare " + kCurve + "--runs 0",
       "compare " + kCurve + "--seed -1",        "simulate --set Iph=1 --points -5",
-      "coverage --set Iph=8 --cells -3",        "fit " + kCurve + "--loss-scale -1",
-      "certify " + kCurve + "--cells -1",
+      "fit " + kCurve + "--loss-scale -1",
   };
   for (const std::string& arguments : cases) {
     const AppResult result = RunApp(arguments);
@@ -176,8 +175,8 @@ TEST(Verbs, RefuseNumbersThatCountNothing) {
 
 TEST(Verbs, ThatPrintAReportKnowQuiet) {
   SKIP_IF_SANITIZED();
-  for (const char* verb : {"fit", "certify", "diagnose", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "coverage"}) {
+  for (const char* verb :
+       {"fit", "certify", "diagnose", "compare", "budget", "sensitivity", "datasheet", "audit"}) {
     EXPECT_THAT(RunApp(std::string(verb) + " --help").out, HasSubstr("--quiet")) << verb;
   }
   const AppResult audit = RunApp("audit '" + DataFolder("paper") + "/rows.csv' --quiet");

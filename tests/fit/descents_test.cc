@@ -11,7 +11,7 @@
 #include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/quote.h"
-#include "lyrefit/study/landscape.h"
+#include "studies/landscape.h"
 
 namespace lyrefit {
 namespace {

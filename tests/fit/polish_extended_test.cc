@@ -10,9 +10,9 @@
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/fit/simulate.h"
-#include "lyrefit/study/landscape.h"
 #include "module_with.h"
 #include "repeats.h"
+#include "studies/landscape.h"
 
 namespace lyrefit {
 namespace {

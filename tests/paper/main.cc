@@ -5,10 +5,8 @@
 //   lyrefit_paper data/paper --only pwp201
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -33,6 +31,7 @@
 #include "paper/paper_study.h"
 #include "paper/proof_blocks.h"
 #include "paper/sound_page.h"
+#include "studies/watch.h"
 
 namespace lyrefit {
 namespace {
@@ -111,25 +110,7 @@ Expected<CornerOptions> CornerOptionsOf(const PaperStudyOptions& options) {
   return corner;
 }
 
-volatile std::sig_atomic_t interrupted = 0;
-
-// The first signal requests a stop, a second one ends the program.
-void OnInterrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
-// Shows the progress on a terminal, in one line.
-ObserverAction Watch(const Progress& progress) {
-  if (isatty(STDERR_FILENO) != 0 && progress.iterations > 0) {
-    fmt::print(stderr, "\r{:<20}{:>8} of {:<8}", progress.stage, progress.iteration,
-               progress.iterations);
-  }
-  return interrupted != 0 ? ObserverAction::kStop : ObserverAction::kContinue;
-}
-
 constexpr int kExitViolated = 2;  // a bound lies above a reached RMSE
-constexpr int kExitInterrupted = 130;
 
 int SayInterrupted(const PaperArguments& arguments) {
   fmt::print(stderr, "interrupted; nothing is written, {}\n",
@@ -216,7 +197,7 @@ Expected<int> RunWide(const PaperArguments& arguments) {
 Expected<int> Run(const std::vector<std::string>& words) {
   TRY(PaperArguments arguments, ReadArguments(words));
   TRY(AddPeers(arguments.peers, &arguments.options));
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, OnInterrupt);
+  WatchSignals();
   const struct {
     const char* name;
     Expected<int> (*run)(const PaperArguments&);

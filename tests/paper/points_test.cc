@@ -11,7 +11,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/study/named_table.h"
+#include "studies/named_table.h"
 
 namespace lyrefit {
 namespace {

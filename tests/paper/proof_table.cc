@@ -10,7 +10,7 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/bounds.h"
 #include "lyrefit/fit/floor.h"
-#include "lyrefit/study/named_table.h"
+#include "studies/named_table.h"
 
 namespace lyrefit {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/study/named_table.h"
 #include "lyrefit/study/summary.h"
+#include "studies/named_table.h"
 
 namespace lyrefit {
 namespace {

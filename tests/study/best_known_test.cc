@@ -7,8 +7,8 @@
 
 #include "../repeats.h"
 #include "lyrefit/study/compare_run.h"
-#include "lyrefit/study/landscape.h"
 #include "pooled_study.h"
+#include "studies/landscape.h"
 
 namespace lyrefit {
 namespace {

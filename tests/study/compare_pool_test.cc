@@ -116,8 +116,8 @@ TEST(ComparePooled, TakesUpWhatTheKneesCost) {
   CompareOptions options = PooledOptions();
   options.journal = folder.Path("study.jsonl");
   for (int time = 0; time < 2; ++time) {
-    const auto comparison =
-        Compare(MadeSubjects("strings_2", 1), BudgetAlgorithms({Algorithm::kMloKnees}, {40}), options);
+    const auto comparison = Compare(MadeSubjects("strings_2", 1),
+                                    BudgetAlgorithms({Algorithm::kMloKnees}, {40}), options);
     ASSERT_TRUE(comparison) << comparison.error().ToString();
     const RunRecord& run = comparison->problems.at(0).algorithms.at(0).runs.at(0);
     EXPECT_GT(run.curve_evaluations, run.evaluations) << time;

@@ -7,7 +7,7 @@
 
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
-#include "lyrefit/study/landscape.h"
+#include "studies/landscape.h"
 
 namespace lyrefit {
 

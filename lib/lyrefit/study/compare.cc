@@ -257,16 +257,6 @@ CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds) {
   return subject;
 }
 
-CompareCurve SubjectOf(LandscapeCase made) {
-  CompareCurve subject = MakeSubject(std::move(made.curve), std::move(made.bounds));
-  subject.problem = std::move(made.problem);
-  subject.model = made.model;
-  subject.with = std::move(made.with);
-  subject.set = std::move(made.set);
-  subject.family = std::move(made.family);
-  return subject;
-}
-
 Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
                              const std::vector<ComparedAlgorithm>& algorithms,
                              const CompareOptions& options, const Observer& observer) {

@@ -7,15 +7,11 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/study/compare_options.h"
 #include "lyrefit/study/comparison.h"
-#include "lyrefit/study/landscape.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
 // A comparison input that is a single curve.
 CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds);
-
-// A comparison input that is one of the synthetic devices of a problem.
-CompareCurve SubjectOf(LandscapeCase made);
 
 // Runs every algorithm `runs` times on every curve with every model. All inputs are checked before
 // the first run. Run r of all algorithms precedes run r + 1 of any. The observer receives stage

@@ -108,7 +108,7 @@ inline constexpr OptionRow<CompareOptions> kCompareOptionTable[] = {
      &CompareOptions::threads, 0, kMostThreads, OptionTrait::kQuiet | OptionTrait::kNoEcho},
     {"multistart", "N",
      "random points polished to their end to know the best optimum of a problem that no "
-     "certificate is at hand for (default 100 with effects or --landscape, else 0)",
+     "certificate is at hand for (default 100 with effects, else 0)",
      &CompareOptions::multistart, 0, 1e6,
      OptionTrait::kQuiet | OptionTrait::kNoDefault | OptionTrait::kNoFlag},
     {"target-gap", "NUMBER", "relative distance from the reference that counts as reached",

@@ -32,8 +32,8 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
   const json& compared = problem["algorithms"][0];
   EXPECT_EQ(Keys(compared),
             (Set{"name", "algorithm", "settings", "searched", "plain_polished",
-                 "refined_best_candidate", "refined", "evaluations", "curve_evaluations",
-                 "target", "search", "refine", "median_trace", "runs"}));
+                 "refined_best_candidate", "refined", "evaluations", "curve_evaluations", "target",
+                 "search", "refine", "median_trace", "runs"}));
   EXPECT_EQ(Keys(compared["settings"]),
             (Set{"population", "iterations", "memory_rate", "distance_coefficient", "de_scale",
                  "de_crossover", "max_evaluations", "elites"}));

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lyrefit/study/coverage.h"
-#include "lyrefit/study/truth.h"
 #include "report/well_formed.h"
 #include "sample_audit.h"
 #include "sample_comparison.h"
@@ -19,13 +17,9 @@ TEST(StudyDocuments, AreWellFormedPages) {
   outlier.interrupted = true;
   const Comparison pooled = MadeComparison(
       {MadeDevice("x 0", "x <1>", {SyntheticAlgorithm("random", 100, {{9, 2, 2}})})});
-  const std::vector<Document> documents = {AuditDocument(SampleAudit()),
-                                           CompareDocument(outlier),
-                                           BudgetDocument(SampleComparison()),
-                                           BudgetDocument(pooled),
-                                           SensitivityDocument(SampleComparison()),
-                                           CoverageDocument({}),
-                                           TruthDocument({})};
+  const std::vector<Document> documents = {
+      AuditDocument(SampleAudit()), CompareDocument(outlier), BudgetDocument(SampleComparison()),
+      BudgetDocument(pooled), SensitivityDocument(SampleComparison())};
   for (const Document& document : documents) {
     EXPECT_EQ(Complaints(DrawHtml(document)), "") << document.head.heading;
   }

@@ -12,8 +12,6 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 struct AuditReport;
 struct Comparison;
-struct CoverageReport;
-struct TruthComparison;
 
 // An audit: a table for every source and curve, remarks on single rows below it, and a summary at
 // the end. '*' marks the type of RMSE that the claims are of.
@@ -35,13 +33,5 @@ std::string BudgetText(const Comparison& comparison);
 // Algorithms of SensitivityAlgorithms(): grids of Pm and gamma.
 Document SensitivityDocument(const Comparison& comparison);
 std::string SensitivityText(const Comparison& comparison);
-
-// How often the 95 % intervals of joint fits hold the truth.
-Document CoverageDocument(const CoverageReport& report);
-std::string CoverageText(const CoverageReport& report);
-
-// Fits compared with known parameters.
-Document TruthDocument(const TruthComparison& comparison);
-std::string TruthText(const TruthComparison& comparison);
 
 }  // namespace lyrefit

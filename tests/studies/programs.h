@@ -1,0 +1,18 @@
+#pragma once
+
+#include "studies/flags.h"
+
+// The studies as programs: each reads its flags, prints its text and returns the exit code.
+namespace lyrefit {
+
+// --csv FILE and the options of coverage_options.h.
+Expected<int> RunCoverage(ProgramFlags flags);
+
+// --problems LIST|all, --devices N, --algorithms LIST, --budgets LIST, --resume FILE, --csv FILE,
+// --plot FILE and runs, seed, threads and multistart of compare_options.h.
+Expected<int> RunLandscape(ProgramFlags flags);
+
+// CURVES TRUTH.csv, --family free|desoto|pvsyst, --bound P=LOWER:UPPER, --noise NAME, --csv FILE.
+Expected<int> RunTruth(ProgramFlags flags);
+
+}  // namespace lyrefit

@@ -48,7 +48,8 @@ class DescentsTest : public ::testing::Test {
   LandscapeCase made_;
   FitOptions options_;
   Observer observer_;
-  FitJob job_{made_.curve, options_, observer_, {}, {}, 0, {}, {}, FitWatch(observer_), {}};
+  FitJob job_{made_.curve, options_, observer_, {}, {}, 0, {}, {}, ProgressReporter(observer_, 0),
+              {}};
   FitReport report_;
 };
 
@@ -56,7 +57,7 @@ TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
   const PolishStart truth = Truth();
   const RefineEnd end = Refine(InVariant(job_.problem, job_.variants[0], truth.p), truth.p);
   EXPECT_NEAR(std::sqrt(end.mean_square) / made_.noise_A, 1, 0.2);
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   descents.Descend(ShapeStarts(job_));
   const DescentEnd& best = descents.ends()[descents.best()];
   EXPECT_TRUE(best.finished);
@@ -66,7 +67,7 @@ TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
 }
 
 TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   descents.Descend(ShapeStarts(job_));
   const double points = static_cast<double>(made_.curve.size());
   for (const DescentEnd& end : descents.ends()) {
@@ -77,7 +78,7 @@ TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
 }
 
 TEST_F(DescentsTest, CountsWhatWasMet) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
@@ -99,7 +100,7 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
 }
 
 TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   const double d1 = made_.truth.at("substrings.d1");
   const double d2 = made_.truth.at("substrings.d2");
   const double d3 = made_.truth.at("substrings.d3");
@@ -124,7 +125,7 @@ TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
 
 TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
   ASSERT_EQ(job_.variants.size(), 2u);
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   descents.Descend({Truth()});
   const DescentEnd& end = descents.ends()[0];
   int others = 0;
@@ -155,7 +156,7 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   std::map<double, PolishStart> into;
   for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
     const PolishStart& start = starts[k];
-    Descents alone(job_.problem, job_.variants, &job_.watch);
+    Descents alone(job_.problem, job_.variants, job_.progress);
     alone.Descend({start});
     const double end = alone.ends()[0].penalised;
     const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
@@ -165,7 +166,7 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   }
   ASSERT_EQ(into.size(), 3u);
   // The worst first, so that no descent is given up for a better known end.
-  Descents descents(job_.problem, job_.variants, &job_.watch);
+  Descents descents(job_.problem, job_.variants, job_.progress);
   for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
   OptimumCount count = descents.Count();
   EXPECT_EQ(count.local_optima, 3);

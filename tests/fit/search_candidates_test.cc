@@ -19,7 +19,10 @@ constexpr double kCertified_A = 9.860218778918e-4;  // data/rtc_france/expected.
 // A prepared fit for search candidates.
 struct Nest {
   Nest(const IvCurve& curve, FitOptions how)
-      : options(std::move(how)), job{curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}} {
+      : options(std::move(how)), job{curve, options, none,
+                                     {},    {},      0,
+                                     {},    {},      ProgressReporter(none, 0),
+                                     {}} {
     const auto ready = PrepareFit(&job, &report);
     EXPECT_TRUE(ready) << ready.error().ToString();
   }

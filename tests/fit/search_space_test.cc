@@ -143,7 +143,7 @@ TEST(SearchSpace, LeadsBackFromTheParametersOfEveryVariant) {
     options.with = {{FindEffect(effect), {}}};
     const Observer none;
     FitReport report;
-    FitJob job{*curve, options, none, {}, {}, 0, {}, {}, FitWatch(none), {}};
+    FitJob job{*curve, options, none, {}, {}, 0, {}, {}, ProgressReporter(none, 0), {}};
     ASSERT_TRUE(PrepareFit(&job, &report));
     const SearchSpace space = CompleteSpace(job);
     RandomStream random(2, 0);

@@ -58,7 +58,7 @@ TruthFit OfCurve(const LandscapeCase& device) {
   options.bounds = device.bounds;
   options.with = device.with;
   const Observer observer;
-  FitJob job{device.curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
+  FitJob job{device.curve, options, observer, {}, {}, 0, {}, {}, ProgressReporter(observer, 0), {}};
   FitReport report;
   const auto prepared = PrepareFit(&job, &report);
   EXPECT_TRUE(prepared) << prepared.error().ToString();

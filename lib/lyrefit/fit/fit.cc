@@ -43,7 +43,7 @@ void RunRandomBaseline(FitJob* job, const ObjectiveFunction& objective, SearchCa
   random.target = -kInfinity;
   random.patience = 0;
   const SearchSummary baseline = Search(objective, places->box(), random, job->observer);
-  if (baseline.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
+  if (baseline.termination == SearchTermination::kInterrupted) job->progress.stop().Request();
   const std::vector<double> p = places->DeviceAt(baseline.best.x.data());
   report->rmse.random_baseline = BothRmse(report->device, p, job->curve);
 }
@@ -67,9 +67,9 @@ Expected<std::vector<PolishStart>> RunSearch(FitJob* job, FitReport* report) {
         CheckCandidates([&](const double* x) { return all.RmseAt(x); }, box, &report->search);
     if (!valid) return tl::unexpected(valid.error());
   }
-  if (report->search.termination == SearchTermination::kInterrupted) job->watch.MarkStopped();
+  if (report->search.termination == SearchTermination::kInterrupted) job->progress.stop().Request();
   const bool is_random = job->options.search.algorithm == Algorithm::kRandom;
-  if (job->options.random_baseline && !is_random && !job->watch.stopped()) {
+  if (job->options.random_baseline && !is_random && !job->progress.stop().requested()) {
     RunRandomBaseline(job, objective, &coarse, report);
   }
   std::vector<PolishStart> elites;
@@ -119,13 +119,13 @@ void FillResults(const FitJob& job, FitReport* report) {
   report->residuals = all ? FindResidualStatistics(curve.voltage_V, report->residual_A)
                           : StatisticsOfDistinct(job, p);
   report->not_usable_because =
-      WhyNotUsable(*report, job.watch.stopped(), job.options.loss != Loss::kSquared);
+      WhyNotUsable(*report, job.progress.stop().requested(), job.options.loss != Loss::kSquared);
   report->usable = report->not_usable_because.empty();
 }
 
 // Proves the floor: the lowest RMSE that any number of diodes can reach.
 void FindFloor(FitJob* job, FitReport* report) {
-  if (!job->options.floor || job->watch.Stop()) return;
+  if (!job->options.floor || job->progress.Stopped()) return;
   if (!report->usable) {
     report->warnings.emplace_back("No floor was looked for: the fit is not usable.");
     return;
@@ -138,7 +138,7 @@ void FindFloor(FitJob* job, FitReport* report) {
   bool interrupted = false;
   Expected<FloorReport> floor =
       ProveFloor(job->curve, ranges, refined_A, job->observer, &interrupted);
-  if (interrupted) job->watch.MarkStopped();
+  if (interrupted) job->progress.stop().Request();
   if (!floor) {
     report->warnings.push_back("No floor was found: " + floor.error().message + ".");
     return;
@@ -156,7 +156,7 @@ void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report)
       extended ? InVariant(job->problem, job->variants[candidate.variant], candidate.p)
                : job->problem;
   RefineOptions how;
-  how.stop = job->watch.stop();
+  how.stop = job->progress.stop();
   how.evaluation_limit = true;
   Instant begin = Now();
   const RefineEnd plain = RefinePlainly(problem, candidate.p, how);
@@ -165,7 +165,7 @@ void PolishPlainly(const PolishStart& candidate, FitJob* job, FitReport* report)
   begin = Now();
   report->refined_best_candidate =
       extended ? Refine(problem, candidate.p, how).p
-               : PolishStarts(problem, job->coarse, {candidate}, &job->watch).first.p;
+               : PolishStarts(problem, job->coarse, {candidate}, job->progress).first.p;
   report->refine.best_candidate_seconds = SecondsSince(begin);
 }
 
@@ -182,7 +182,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
   PolishResult polish =
       extended ? PolishExtended(elites, space, job, report)
                : PolishStarts(job->problem, job->coarse,
-                              CollectStarts(job->coarse, elites, kGridStarts), &job->watch);
+                              CollectStarts(job->coarse, elites, kGridStarts), job->progress);
   report->polished = true;
   const double best_candidate_seconds = report->refine.best_candidate_seconds;
   report->refine = polish.report;
@@ -194,13 +194,14 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
     OrderAlike(report->device, job->bounds, &report->refined_best_candidate, nullptr);
   }
   RefineEnd end = polish.best;
-  if (options.loss != Loss::kSquared) Robustify(options, job->watch.stop(), &job->problem, &end);
+  if (options.loss != Loss::kSquared) Robustify(options, job->progress.stop(), &job->problem, &end);
 
   RefineProblem problem = job->problem;
   std::vector<int> degrees;
   if (options.errors.kind != ErrorKind::kWhite) {
     const RmsePair least_squares = BothRmse(report->device, end.p, job->curve);
-    const auto weighed = WeighAndRefine(options.errors, job->fitted(), &job->watch, &problem, &end);
+    const auto weighed =
+        WeighAndRefine(options.errors, job->fitted(), job->progress, &problem, &end);
     if (weighed) {
       report->errors = weighed->errors;
       report->errors->least_squares = least_squares;
@@ -239,7 +240,7 @@ void PolishAndJudge(FitJob* job, const std::vector<PolishStart>& elites, const S
 
 Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
   FitReport report;
-  FitJob job{curve, options, observer, {}, {}, 0, {}, {}, FitWatch(observer), {}};
+  FitJob job{curve, options, observer, {}, {}, 0, {}, {}, ProgressReporter(observer, 0), {}};
   TRY(PrepareFit(&job, &report));
   report.version = Version();
   report.curve = curve;
@@ -265,10 +266,10 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     report.estimates = EstimatesOf(job, report);
     FillResults(job, &report);
   }
-  report.interrupted = job.watch.stopped();
+  report.interrupted = job.progress.stop().requested();
   report.warnings = FindWarnings(report);
   FindFloor(&job, &report);
-  report.interrupted = job.watch.stopped();
+  report.interrupted = job.progress.stop().requested();
   return report;
 }
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/law/variants.h"
 #include "lyrefit/refine/refine.h"
 
@@ -21,7 +21,7 @@ struct FitJob {
   int free_parameters = 0;
   RefineProblem problem;  // of the distinct readings; with effects of all
   RefineProblem coarse;   // Coarsen(problem)
-  FitWatch watch;
+  ProgressReporter progress;
   std::vector<Variant> variants = {};  // only with effects
   IvCurve distinct = {};               // the curve without duplicate readings
 

@@ -48,7 +48,7 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
                               job->free_parameters,
                               job->readings(),
                               options.threads,
-                              &job->watch,
+                              job->progress,
                               round == kRestarts,
                               nullptr,
                               degrees};
@@ -56,7 +56,7 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
         FindIntervals(input, &report->estimates, &report->correlations, &report->refine.condition);
     if (better.empty() || round == kRestarts) break;
     RefineOptions how;
-    how.stop = job->watch.stop();
+    how.stop = job->progress.stop();
     *end = Refine(problem, better, how);
     StartOver(problem, *end, better, &report->refine);
   }
@@ -65,7 +65,8 @@ void JudgeAndImprove(FitJob* job, const RefineProblem& problem, const std::vecto
 void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, const RefineEnd& end,
                               FitReport* report) {
   const bool possible = job->options.loss == Loss::kSquared && report->no_intervals_because.empty();
-  if (job->options.intervals == Intervals::kNone || !possible || job->watch.stopped()) return;
+  if (job->options.intervals == Intervals::kNone || !possible || job->progress.stop().requested())
+    return;
   const std::optional<FoundErrors> found = FindErrors(job->problem, job->fitted(), end);
   if (!found) return;
   ErrorReport errors;
@@ -84,7 +85,7 @@ void FindIntervalsUnderErrors(FitJob* job, const std::vector<FitPoint>& ends, co
                          job->free_parameters,
                          job->readings(),
                          job->options.threads,
-                         &job->watch,
+                         job->progress,
                          true,
                          &model};
   };
@@ -111,7 +112,7 @@ std::vector<int> DegreesOfWeighed(FitJob* job, const FoundErrors& found, const R
                            job->free_parameters,
                            job->readings(),
                            job->options.threads,
-                           &job->watch});
+                           job->progress});
   };
   return FindDegrees(found, errors_at, SpareReadings(*job));
 }

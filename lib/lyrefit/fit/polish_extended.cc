@@ -39,7 +39,7 @@ bool LeavesNoise(const FitJob& job, const Descents& descents) {
 }
 
 void AscentSettings(const FitJob& job, Descents* descents) {
-  for (int step = 0; step < kSteps && !job.watch.stopped(); ++step) {
+  for (int step = 0; step < kSteps && !job.progress.stop().requested(); ++step) {
     const int before = descents->best();
     std::vector<PolishStart> neighbours = Neighbours(job, descents->ends()[before]);
     // Variants can differ by less than the noise.
@@ -99,7 +99,7 @@ void ProbeBeside(const FitJob& job, const std::vector<bool>& shapeless, Descents
   for (const PolishStart& shape : BestShapes(*descents)) {
     descents->Descend(SpreadSettings(job, shape));
   }
-  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
+  for (int round = 0; round < kFurther && !job.progress.stop().requested(); ++round) {
     const int before = descents->best();
     const DescentEnd best = descents->ends()[before];
     const int variant = best.start.variant;
@@ -139,7 +139,7 @@ void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& sp
   if (from == StartsFrom::kAll && LeavesNoise(job, *descents)) return;
   if (descents->visits() < kAgain) descents->Descend(candidates_between(first, kCandidates));
   RandomStream random(job.options.search.seed, ~job.options.search.run);
-  for (int round = 0; round < kFurther && !job.watch.stopped(); ++round) {
+  for (int round = 0; round < kFurther && !job.progress.stop().requested(); ++round) {
     if (descents->visits() >= kAgain && LeavesNoise(job, *descents)) return;
     descents->Descend(RandomStarts(job, space, descents->ends()[descents->best()].end.p, &random));
   }
@@ -150,8 +150,8 @@ void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& sp
 PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const SearchSpace& space,
                             FitJob* job, FitReport* report) {
   const Instant begin = Now();
-  job->watch.Begin("polish", 0);
-  Descents descents(job->problem, job->variants, &job->watch);
+  job->progress.BeginSilently("polish", 0);
+  Descents descents(job->problem, job->variants, job->progress);
   TryStarts(candidates, space, *job, &descents);
   AscentSettings(*job, &descents);
   std::vector<PolishStart> starts;
@@ -163,7 +163,7 @@ PolishResult PolishExtended(const std::vector<PolishStart>& candidates, const Se
   const std::vector<FitPoint> all(ends.begin(), ends.end());
   const DescentEnd best = descents.ends()[descents.best()];
   PolishResult result = ReportEnds(job->problem, starts, std::move(ends), descents.best(),
-                                   job->watch.stopped(), begin);
+                                   job->progress.stop().requested(), begin);
   result.ends = all;
   result.report.local_optima = descents.Count();
   report->variants = ReportVariants(*job, descents);

@@ -55,7 +55,7 @@ double UnderTheirErrors(FitJob* job, const RefineProblem& wide, const RefineEnd&
   const std::optional<FoundErrors> found = FindErrors(wide, job->fitted(), free);
   if (!found || found->gain <= kGainToBelieve) return p;
   RefineOptions how;
-  how.stop = job->watch.stop();
+  how.stop = job->progress.stop();
   const RefineProblem beyond =
       WeighByErrors(wide, job->fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);
   RefineProblem within = beyond;
@@ -69,12 +69,12 @@ double UnderTheirErrors(FitJob* job, const RefineProblem& wide, const RefineEnd&
 
 std::string RefutedBound(FitJob* job, const RefineProblem& problem, const RefineEnd& end,
                          const FitReport& report) {
-  if (job->watch.stopped()) return "";
+  if (job->progress.stop().requested()) return "";
   const std::vector<int> at_bound = AtBound(*job, end, report);
   if (at_bound.empty()) return "";
   const RefineProblem wide = WithRoom(problem, at_bound, report.steepest_n);
   RefineOptions how;
-  how.stop = job->watch.stop();
+  how.stop = job->progress.stop();
   const RefineEnd free = Refine(wide, end.p, how);
   const int extra = static_cast<int>(at_bound.size());
   const int spare = job->readings() - job->free_parameters;

@@ -107,7 +107,7 @@ class ProgressDisplay {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() : reads_(Interrupted) {
+InterruptGuard::InterruptGuard() : reads_(StopToken(Interrupted)) {
   interrupted = 0;
   Catch(OnInterrupt);
 }

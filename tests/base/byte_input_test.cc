@@ -38,8 +38,8 @@ TEST(StoppableReads, EndTheWaitingForAPipe) {
   const std::string path = folder.Path("pipe");  // no process writes into it
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   int asked = 0;
-  const StoppableReads outer([&asked] { return ++asked > 3; });
-  const StoppableReads inner([] { return false; });
+  const StoppableReads outer(StopToken([&asked] { return ++asked > 3; }));
+  const StoppableReads inner(StopToken([] { return false; }));
   const auto text = ReadFileBytes(path, kMostBytes);
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().message, "stopped before the end of it was read");
@@ -51,7 +51,7 @@ TEST(StoppableReads, EndTheReadingOfAFileAndGoWithTheirLife) {
   const std::string path = folder.Write("file", std::string(1 << 18, 'x'));
   {
     int asked = 0;
-    const StoppableReads reads([&asked] { return ++asked > 2; });
+    const StoppableReads reads(StopToken([&asked] { return ++asked > 2; }));
     EXPECT_FALSE(ReadFileBytes(path, kMostBytes));
     EXPECT_EQ(asked, 3) << "of more blocks";
   }
@@ -59,7 +59,7 @@ TEST(StoppableReads, EndTheReadingOfAFileAndGoWithTheirLife) {
 }
 
 TEST(StoppableReads, AreOfOneThread) {
-  const StoppableReads reads([] { return true; });
+  const StoppableReads reads(StopToken([] { return true; }));
   EXPECT_TRUE(StoppableReads::Stopped());
   std::thread([] { EXPECT_FALSE(StoppableReads::Stopped()); }).join();
 }

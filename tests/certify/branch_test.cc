@@ -94,7 +94,7 @@ TEST(Branch, GivesUpWhenToldTo) {
   EXPECT_FALSE(few.complete);
   EXPECT_LT(few.lower, few.best.primal);
   limits.most_solved = 100000;
-  limits.proceed = [](std::int64_t solved, double, double) { return solved < 12; };
+  limits.stop = [](std::int64_t solved, double, double) { return solved >= 12; };
   const BranchEnd stopped = BranchOverResistance(data, WindowOf(curve, 1, 2), limits);
   EXPECT_FALSE(stopped.complete);
   EXPECT_LE(stopped.solved, 14);

@@ -229,7 +229,7 @@ TEST(CauseFloor, HoldsWhereItIsStopped) {
     EXPECT_FALSE(few.causes[k].complete);
     EXPECT_LE(few.causes[k].lower_bound_A, many.causes[k].rmse_A);
   }
-  options.stop = [] { return true; };
+  options.stop = StopToken([] { return true; });
   EXPECT_FALSE(ProveOrFail(Shipped("rtc_france"), options).without.complete);
 }
 

@@ -94,7 +94,7 @@ TEST(CurveSets, StopAmongCountlessColumns) {
   const TempFolder folder;
   const std::string path = folder.Write("wide.csv", table + "\n");
   int asked = 0;
-  const StoppableReads reads([&asked] { return ++asked > 100; });
+  const StoppableReads reads(StopToken([&asked] { return ++asked > 100; }));
   const auto set = ReadCurveSet(path);
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().message, "stopped before the end of it was read");

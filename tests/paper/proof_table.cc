@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <map>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
@@ -109,15 +109,14 @@ Expected<ProofTable> ProveShipped(const std::string& folder, std::int64_t effort
   }
   const int count = static_cast<int>(table.rows.size());
   std::vector<Expected<void>> done(count);
-  SharedObserver shared(observer, "shipped curves", count);
-  shared.Begin();
+  const ProgressReporter progress(observer, "shipped curves", count);
   ParallelFor(count, threads, [&](int i) {
-    if (shared.Stopped()) return;
+    if (progress.Stopped()) return;
     ProofRow& row = table.rows[i];
-    done[i] = Prove(curves.at(row.curve), shared.Inside(), &row);
-    shared.FinishJob();
+    done[i] = Prove(curves.at(row.curve), progress.stop().AsObserver(), &row);
+    progress.Step();
   });
-  table.interrupted = shared.Stopped();
+  table.interrupted = progress.Stopped();
   for (const Expected<void>& one : done) TRY(one);
   return table;
 }

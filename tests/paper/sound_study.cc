@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/read_curve.h"
@@ -148,14 +148,13 @@ Expected<SoundStudy> RunJobs(int count, const SoundOptions& options, const char*
   study.version = Version();
   study.options = options;
   std::vector<std::optional<Expected<HeldCertificate>>> done(count);
-  SharedObserver shared(observer, stage, count);
-  shared.Begin();
+  const ProgressReporter progress(observer, stage, count);
   ParallelFor(count, options.threads, [&](int i) {
-    if (shared.Stopped()) return;
-    done[i] = job(i, shared.Inside());
-    shared.FinishJob();
+    if (progress.Stopped()) return;
+    done[i] = job(i, progress.stop().AsObserver());
+    progress.Step();
   });
-  study.interrupted = shared.Stopped();
+  study.interrupted = progress.Stopped();
   for (auto& one : done) {
     if (!one || study.interrupted) continue;
     if (*one) {

@@ -142,7 +142,7 @@ TEST_F(RefineJointlyTest, EndsAtTheBestPointSoFarWhenAskedTo) {
   for (const int steps : {0, 1, 2}) {
     JointOptions options;
     int asked = 0;
-    options.proceed = [&] { return asked++ < steps; };
+    options.stop = StopToken([&] { return asked++ >= steps; });
     const JointEnd end = RefineJointly(problem, PointAt(problem, start), options);
     EXPECT_TRUE(end.stopped);
     EXPECT_FALSE(end.converged);

@@ -112,7 +112,7 @@ TEST(FindProfileSide, EndsOutsideWhenItIsStopped) {
   const ProfileQuery query = {kRs, true, 2.03, VarianceOf(problem, best, 35), 0};
   const ProfileSide whole = FindProfileSide(problem, best, query);
   EXPECT_TRUE(whole.settled);
-  const ProfileSide stopped = FindProfileSide(problem, best, query, [] { return true; });
+  const ProfileSide stopped = FindProfileSide(problem, best, query, StopToken([] { return true; }));
   EXPECT_FALSE(stopped.settled);
   EXPECT_GE(stopped.value, whole.value);
 }

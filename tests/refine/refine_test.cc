@@ -151,7 +151,7 @@ TEST(Refine, StopsWithinAnIteration) {
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);
   RefineOptions how;
   int asked = 0;
-  how.stop = [&] { return ++asked > 2; };
+  how.stop = StopToken([&] { return ++asked > 2; });
   const RefineEnd end = Refine(problem, {3.7, 1e-7, 1.3, 0.2, 200}, how);
   EXPECT_FALSE(end.converged);
   EXPECT_EQ(asked, 3);

@@ -52,7 +52,7 @@ TEST(SolveModel, EndsWhenAskedToAndAtItsTarget) {
   const Decay model(1);
   SolveOptions options = Thorough();
   int asked = 0;
-  options.stop = [&] { return ++asked > 2; };
+  options.stop = StopToken([&] { return ++asked > 2; });
   const SolveEnd stopped = SolveFrom(model, {0.5, 3}, {false, false}, options);
   EXPECT_TRUE(stopped.stopped);
   EXPECT_FALSE(stopped.converged);
@@ -91,7 +91,7 @@ TEST(SolveModel, EndsAlikeByEitherSolver) {
     EXPECT_LT(small.iterations, 20);
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(small.theta[k] / ceres.theta[k], 1, 1e-5) << k;
   }
-  options.stop = [] { return true; };
+  options.stop = StopToken([] { return true; });
   EXPECT_TRUE(SolveModel(model, coordinates, {}, options).stopped);
   options.stop = {};
   options.cutoff = 1;  // the noise alone leaves about 35

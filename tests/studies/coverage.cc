@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "studies/coverage_sets.h"
 
@@ -64,12 +64,12 @@ std::vector<CoverageRow> RowsOf(const SimulatedSet& made, const FamilyReport& re
 }
 
 CoverageSet FitSet(const SimulatedSet& made, const CoverageOptions& options,
-                   const FamilyFitter& fit, const Observer& watch, bool* interrupted) {
+                   const FamilyFitter& fit, const Observer& observer, bool* interrupted) {
   CoverageSet set;
   const Instant begin = Now();
   set.cells_in_series = made.translation.spec.cells_in_series;
   set.curves = static_cast<int>(made.set.curves.size());
-  const Expected<FamilyReport> report = fit(made.set, FitOptionsOf(options), watch);
+  const Expected<FamilyReport> report = fit(made.set, FitOptionsOf(options), observer);
   set.seconds = SecondsSince(begin);
   *interrupted = report && report->interrupted;
   if (!report) {
@@ -115,13 +115,12 @@ ParameterCoverage Count(const ParameterInfo& info, bool offset, std::size_t inde
 class CoverageRun {
  public:
   CoverageRun(const CoverageOptions& options, const FamilyFitter& fit, const Observer& observer)
-      : options_(options),
-        fit_(fit),
-        slots_(options.sets),
-        watch_(observer, "coverage", options.sets) {}
+      : options_(options), fit_(fit), slots_(options.sets), progress_(observer) {
+    progress_.BeginSilently("coverage", options.sets);
+  }
 
   std::vector<CoverageSet> Run() {
-    watch_.Begin();
+    progress_.Report();
     ParallelFor(options_.sets, options_.threads, [this](int index) { RunSet(index); });
     std::vector<CoverageSet> done;
     for (auto& slot : slots_) {
@@ -132,23 +131,23 @@ class CoverageRun {
 
  private:
   void RunSet(int index) {
-    if (watch_.Stopped()) return;
+    if (progress_.Stopped()) return;
     CoverageSet set;
     if (const auto made = SimulateSet(options_, index)) {
       bool interrupted = false;
-      set = FitSet(*made, options_, fit_, watch_.Inside(), &interrupted);
+      set = FitSet(*made, options_, fit_, progress_.stop().AsObserver(), &interrupted);
       if (interrupted) return;
     } else {
       set.error = made.error().ToString();
     }
     slots_[index] = std::move(set);
-    watch_.FinishJob();
+    progress_.Step();
   }
 
   const CoverageOptions& options_;
   const FamilyFitter& fit_;
   std::vector<std::optional<CoverageSet>> slots_;
-  SharedObserver watch_;
+  const ProgressReporter progress_;
 };
 
 }  // namespace

@@ -32,14 +32,14 @@ tl::unexpected<Error> FailAsStopped(const std::string& path) {
   return Fail("stopped before the end of it was read", path);
 }
 
-StoppableReads::StoppableReads(std::function<bool()> stopped)
-    : stopped_(std::move(stopped)), outer_(std::exchange(innermost, this)) {}
+StoppableReads::StoppableReads(StopToken stop)
+    : stop_(std::move(stop)), outer_(std::exchange(innermost, this)) {}
 
 StoppableReads::~StoppableReads() { innermost = outer_; }
 
 bool StoppableReads::Stopped() {
   for (const StoppableReads* one = innermost; one != nullptr; one = one->outer_) {
-    if (one->stopped_ && one->stopped_()) return true;
+    if (one->stop_.Stopped()) return true;
   }
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "lyrefit/base/public.h"
@@ -34,5 +35,59 @@ using Observer = std::function<ObserverAction(const Progress&)>;
 inline bool StopRequested(const Observer& observer, const Progress& progress) {
   return observer && observer(progress) == ObserverAction::kStop;
 }
+
+// A request to end a computation. Copies share it. The default token never requests a stop.
+class StopToken {
+ public:
+  StopToken() = default;
+  // Without a request, Stopped() calls `poll`; true is a request. A token that several threads poll
+  // needs a thread-safe `poll`. Empty: only Request() makes a request.
+  explicit StopToken(std::function<bool()> poll);
+
+  bool Stopped() const;    // polls; true: end the computation
+  bool requested() const;  // whether there was a request so far; does not poll
+  void Request() const;    // not for the default token
+  // An observer that ignores the progress and forwards the request.
+  Observer AsObserver() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+// Reports the progress of a computation to an observer and holds its request to stop. Thread-safe:
+// the observer is called from one thread at a time, and not again after its request. Copies share
+// one state. The default reporter reports to nobody.
+class ProgressReporter {
+ public:
+  ProgressReporter() = default;
+  // Polls of the token call the observer if its last call was at least `period_s` seconds ago.
+  // `observer` must outlive the reporter, and the reporter its token.
+  explicit ProgressReporter(const Observer& observer, double period_s = 0.05);
+  // A reporter that begins its first stage.
+  ProgressReporter(const Observer& observer, std::string_view stage, std::int64_t steps);
+
+  // Begins a stage of `steps` steps (0: unknown) and reports it. `stage` must outlive the reporter.
+  void Begin(std::string_view stage, std::int64_t steps) const;
+  // The same without a report. `work` is the total over all steps, in any unit, if steps differ in
+  // size; 0: they do not.
+  void BeginSilently(std::string_view stage, std::int64_t steps, double work = 0) const;
+  // Counts a step without a report.
+  void Count(double work = 0, std::int64_t evaluations = 0) const;
+  // Counts a step and reports it. True: stop.
+  bool Step(double work = 0, std::int64_t evaluations = 0) const;
+  // Reports the present counts. True: stop.
+  bool Report() const;
+  // Reports other figures than those counted here; the seconds are filled in. True: stop.
+  bool Report(Progress progress) const;
+
+  // Polls whether the observer requests a stop.
+  bool Stopped() const { return stop().Stopped(); }
+  const StopToken& stop() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
 
 }  // namespace lyrefit

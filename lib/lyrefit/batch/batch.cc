@@ -96,15 +96,12 @@ class RowMaker {
         columns_(RowColumns(task, options)),
         remark_(ColumnNamed("remark", columns_)) {}
 
-  PipelineStep Make(const BatchItem& item, const std::function<bool()>& stopped) const {
+  PipelineStep Make(const BatchItem& item, const StopToken& stop) const {
     BatchCurve curve = source_.Read(item);
     if (curve.curve) Settle(&curve);
     TaskResult result{RowStatus::kBroken, "", {}, false};
     if (curve.curve) {
-      const Observer observer = [&stopped](const Progress&) {
-        return stopped() ? ObserverAction::kStop : ObserverAction::kContinue;
-      };
-      result = task_.run(curve, SeedOf(options_.seed, curve.id), observer);
+      result = task_.run(curve, SeedOf(options_.seed, curve.id), stop.AsObserver());
       AddDoubt(curve, &result);
     } else {
       result.reason = ReasonOf(curve.curve.error());
@@ -164,8 +161,8 @@ Expected<PipelineEnd> WriteRows(BatchSource* source, const BatchTaskType& task,
   Pipeline pipeline;
   pipeline.threads = options.threads;
   pipeline.skip = before;
-  pipeline.work = [&maker](const BatchItem& item, const std::function<bool()>& stopped) {
-    return maker.Make(item, stopped);
+  pipeline.work = [&maker](const BatchItem& item, const StopToken& stop) {
+    return maker.Make(item, stop);
   };
   pipeline.write = [part](const std::string& texts, std::int64_t rows) {
     return part->Append(texts, rows);

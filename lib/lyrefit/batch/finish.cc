@@ -11,7 +11,6 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
-#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/neighbours.h"
@@ -110,31 +109,21 @@ std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColum
   return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
 }
 
-// Asks an observer at intervals whether to continue.
-class Watch {
- public:
-  explicit Watch(const Observer& observer) : observer_(observer) {}
-  bool stopped() const { return stopped_; }
-  // An error without text after the observer requested a stop.
-  Expected<void> Hear(std::size_t rows) {
-    rows_ += static_cast<std::int64_t>(rows);
-    if (rows_ < next_) return {};
-    next_ = rows_ + 500;
-    Progress progress;
-    progress.stage = "results";
-    progress.iteration = rows_;
-    progress.seconds = SecondsSince(begin_);
-    stopped_ = StopRequested(observer_, progress);
-    return stopped_ ? Expected<void>(Fail("")) : Expected<void>();
-  }
-
- private:
-  const Observer& observer_;
-  const Instant begin_ = Now();
-  std::int64_t rows_ = 0;
-  std::int64_t next_ = 0;
-  bool stopped_ = false;
+// Rows passed so far, reported to an observer at intervals.
+struct RowProgress {
+  ProgressReporter progress;
+  std::int64_t rows = 0;
+  std::int64_t next = 0;
 };
+
+// An error without text after the observer requested a stop.
+Expected<void> Pass(std::size_t rows, RowProgress* passed) {
+  passed->rows += static_cast<std::int64_t>(rows);
+  if (passed->rows < passed->next) return {};
+  passed->next = passed->rows + 500;
+  return passed->progress.Report({"results", passed->rows}) ? Expected<void>(Fail(""))
+                                                            : Expected<void>();
+}
 
 // How rows are converted to results, from the head of the checkpoint file.
 struct ResultsPlan {
@@ -159,11 +148,11 @@ Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::strin
 }
 
 Expected<NeighbourScatter> LearnScatter(const std::vector<std::string>& parts,
-                                        const ResultsPlan& plan, Watch* watch) {
+                                        const ResultsPlan& plan, RowProgress* passed) {
   NeighbourScatter scatter;
   TRY(ForGroups(parts, plan.rows, [&](const Group& group) -> Expected<void> {
     if (!group.members.empty()) scatter.Add(DeviationsAmong(group.members, plan.like_light));
-    return watch->Hear(group.rows.size());
+    return Pass(group.rows.size(), passed);
   }));
   return scatter;
 }
@@ -208,12 +197,12 @@ CheckpointHead ResultsHead(const std::string& folder) {
 namespace {
 
 Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
-                               const RowObserver& row_observer, Watch* watch,
+                               const RowObserver& row_observer, RowProgress* passed,
                                BatchSummary* summary) {
   // Its digest covers all of the input.
   TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
-  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, watch));
+  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, passed));
   const fs::path base(folder);
   NewFile csv((base / kCsv).string());
   NewFile lines((base / kLines).string());
@@ -237,7 +226,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
       counter.Count(row);
       if (row_observer) row_observer(plan.results, row);
     }
-    return watch->Hear(group.rows.size());
+    return Pass(group.rows.size(), passed);
   };
   TRY(ForGroups(parts, plan.rows, write));
   TRY(schema.Add(SchemaJson(last.head(), plan.results)));
@@ -251,10 +240,10 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
 Expected<void> WriteResults(const std::vector<std::string>& parts, const std::string& folder,
                             const Observer& observer, const RowObserver& row_observer,
                             BatchSummary* summary) {
-  Watch watch(observer);
-  auto written = WriteAllResults(parts, folder, row_observer, &watch, summary);
-  summary->interrupted = watch.stopped();
-  return watch.stopped() ? Expected<void>() : written;
+  RowProgress passed{ProgressReporter(observer)};
+  auto written = WriteAllResults(parts, folder, row_observer, &passed, summary);
+  summary->interrupted = passed.progress.stop().requested();
+  return summary->interrupted ? Expected<void>() : written;
 }
 
 Expected<void> CountRows(const std::string& part, BatchSummary* summary) {

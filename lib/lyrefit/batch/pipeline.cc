@@ -1,7 +1,6 @@
 #include "lyrefit/batch/pipeline.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -48,7 +47,7 @@ class Crew {
   void Stop() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      stopped_ = true;
+      stop_.Request();
     }
     changed_.notify_all();
   }
@@ -59,7 +58,7 @@ class Crew {
   const Pipeline& pipeline_;
   BatchSource* const source_;
   std::int64_t ahead_ = 0;
-  std::atomic<bool> stopped_{false};
+  const StopToken stop_{nullptr};
   std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::int64_t read_;     // number of curves passed on by the reader, including those skipped
@@ -73,12 +72,12 @@ class Crew {
 };
 
 void Crew::Read() {
-  const StoppableReads reads([this] { return stopped_.load(); });
+  const StoppableReads reads(stop_);
   for (std::int64_t place = 0;; ++place) {
     Expected<std::optional<BatchItem>> item = source_->Next();
     std::unique_lock<std::mutex> lock(mutex_);
     if (!item) failure_ = item.error();
-    if (!item || !*item || stopped_) {
+    if (!item || !*item || stop_.requested()) {
       all_read_ = true;
       changed_.notify_all();
       return;
@@ -89,21 +88,20 @@ void Crew::Read() {
     waiting_.emplace_back(place, std::move(**item));
     read_ = place + 1;
     changed_.notify_all();
-    changed_.wait(lock, [this] { return stopped_ || read_ - written_ < ahead_; });
+    changed_.wait(lock, [this] { return stop_.requested() || read_ - written_ < ahead_; });
   }
 }
 
 void Crew::Work() {
-  const std::function<bool()> stopped = [this] { return stopped_.load(); };
-  const StoppableReads reads(stopped);
+  const StoppableReads reads(stop_);
   while (true) {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [this] { return stopped_ || !waiting_.empty() || all_read_; });
-    if (stopped_ || waiting_.empty()) return;
+    changed_.wait(lock, [this] { return stop_.requested() || !waiting_.empty() || all_read_; });
+    if (stop_.requested() || waiting_.empty()) return;
     auto [place, item] = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    PipelineStep step = pipeline_.work(item, stopped);
+    PipelineStep step = pipeline_.work(item, stop_);
     lock.lock();
     done_.emplace(place, Done{std::move(step), item.end});
     lock.unlock();

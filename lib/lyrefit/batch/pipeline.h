@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/batch/batch_source.h"
 
 namespace lyrefit {
@@ -29,9 +30,8 @@ struct PipelineProgress {
 struct Pipeline {
   int threads = 0;        // number of workers; 0: all cores
   std::int64_t skip = 0;  // number of curves at the beginning that are not processed
-  // Processes one curve. Must be thread-safe. `stopped` returns true if the work is to be
-  // abandoned.
-  std::function<PipelineStep(const BatchItem& item, const std::function<bool()>& stopped)> work;
+  // Processes one curve. Must be thread-safe. `stop` requests that the work be abandoned.
+  std::function<PipelineStep(const BatchItem& item, const StopToken& stop)> work;
   // Writes the concatenated texts of `rows` curves. Called from the calling thread.
   std::function<Expected<void>(const std::string& texts, std::int64_t rows)> write;
   // Called from the calling thread after each write and ten times a second. True: stop.

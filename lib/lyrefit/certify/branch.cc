@@ -93,7 +93,7 @@ class Branch {
       const BranchPart part = open_.top();
       if (part.lower >= Target()) break;
       if (incumbent_.solved >= limits_.most_solved) break;
-      if (limits_.proceed && !limits_.proceed(incumbent_.solved, incumbent_.primal, part.lower)) {
+      if (limits_.stop && limits_.stop(incumbent_.solved, incumbent_.primal, part.lower)) {
         break;
       }
       open_.pop();

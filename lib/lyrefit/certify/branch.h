@@ -30,8 +30,8 @@ struct BranchLimits {
   bool rigorous = false;          // true: rounding cannot raise `lower` above the truth
   int most_solved = 20000;        // convex problems solved before giving up
   // Called before each split with the number of convex problems solved, the lowest half sum of
-  // squares found and the lower bound proved so far. Returning false ends the search. May be empty.
-  std::function<bool(std::int64_t, double, double)> proceed;
+  // squares found and the lower bound proved so far. Returning true ends the search. May be empty.
+  std::function<bool(std::int64_t, double, double)> stop;
   // Refines a mixture to a model; see Incumbent::polish in relaxation.h.
   std::function<double(const Mixture&)> polish;
 };

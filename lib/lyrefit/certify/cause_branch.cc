@@ -49,7 +49,7 @@ class CauseBranch {
     Fill(&whole, region_.rs_lower, region_.rs_upper);
     Push(std::move(whole));
     while (!open_.empty() && open_.top().lower < Target()) {
-      if (end_.solved >= limits_.most_solved || (limits_.stop && limits_.stop())) break;
+      if (end_.solved >= limits_.most_solved || limits_.stop.Stopped()) break;
       const CausePart part = open_.top();
       open_.pop();
       Split(part);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/certify/mixture.h"
 
 namespace lyrefit {
@@ -20,7 +20,7 @@ struct CauseLimits {
   double relative_gap = 0.02;  // closes a part: fraction of the half sum of squares reached
   double absolute_gap = 0;     // closes a part: absolute; the larger of both gaps applies
   int most_solved = 2000;      // convex problems solved before giving up
-  std::function<bool()> stop;  // called before each split; true ends the search; may be empty
+  StopToken stop;              // polled before each split; a stop ends the search
 };
 
 // A model within the region: Rs in ohm, u in 1/V, and the parameter theta of the cause.

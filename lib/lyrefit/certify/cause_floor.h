@@ -29,8 +29,8 @@ struct CauseFloorOptions {
   // reached without a cause.
   double relative_gap = 0.02;
   double absolute_gap = 0.005;
-  std::int64_t effort = 4000;       // convex problems solved for one cause before giving up
-  std::function<bool()> stop = {};  // polled during the search; true ends it; may be empty
+  std::int64_t effort = 4000;  // convex problems solved for one cause before giving up
+  StopToken stop = {};         // polled during the search
 };
 
 // Result for one cause. No model of one diode, a shunt, a series resistance and the cause has an

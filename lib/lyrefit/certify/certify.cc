@@ -30,7 +30,7 @@ constexpr double kMostDivided = 4;
 struct Proof {
   const IvCurve& curve;
   const CertifyOptions& options;
-  const Observer& observer;
+  const ProgressReporter progress;
   MixtureData data;
   Window window;
   BranchLimits limits;
@@ -39,7 +39,6 @@ struct Proof {
   std::vector<Mixture> upper_bound = {};  // lowest mixtures of the floor and of every model so far
   double rounding_A = 0;                  // RMSEs no further apart than this are equal
   std::vector<std::string> doubts = {};   // about the readings
-  bool stopped = false;
 
   double Rmse(double half_sum_of_squares) const {
     return std::sqrt(2 * half_sum_of_squares / static_cast<double>(curve.size()));
@@ -315,14 +314,12 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
   const Instant begin = Now();
   TRY(CheckOptions(asked));
   const CertifyOptions options = WithEveryDiode(asked);
-  Proof proof{curve, options, observer, {}, {}, {}};
+  Proof proof{curve, options, ProgressReporter(observer), {}, {}, {}};
   TRY(Prepare(&proof));
   const char* stage = "floor";
-  proof.limits.proceed = [&](std::int64_t solved, double best, double lower) {
-    Progress progress{stage, solved, 0, solved, proof.Rmse(best), SecondsSince(begin)};
-    progress.lower_bound = proof.Rmse(lower);
-    if (StopRequested(observer, progress)) proof.stopped = true;
-    return !proof.stopped;
+  proof.limits.stop = [&](std::int64_t solved, double best, double lower) {
+    return proof.progress.Report(
+        {stage, solved, 0, solved, proof.Rmse(best), /*seconds=*/0, proof.Rmse(lower)});
   };
 
   Certificate certificate;
@@ -336,7 +333,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
   BranchEnd floor = RunBranch(proof.limits, 0, kInfinity, &proof);
   proof.upper_bound.push_back(floor.best);
   for (const Model model : options.models) {
-    if (proof.stopped) break;
+    if (proof.progress.stop().requested()) break;
     const std::string name = ToText(model);
     stage = name.c_str();
     certificate.models.push_back(CertifyModel(model, floor, &proof));
@@ -349,7 +346,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
   }
   certificate.rs_upper_ohm =
       std::min(options.rs_upper_ohm, std::max(proof.limits.rs_cut, proof.rs_reached));
-  certificate.interrupted = proof.stopped;
+  certificate.interrupted = proof.progress.stop().requested();
   certificate.seconds = SecondsSince(begin);
   return certificate;
 }

@@ -137,13 +137,14 @@ bool CurrentsAt(const Readings& readings, const LawFit& fit, std::vector<double>
 
 // The base model fitted to plain means of the currents. It is accurate enough to describe the
 // curvature within groups.
-LawFit FitPlainMeans(const Measurement& measurement, const Law& base, Watch* watch) {
+LawFit FitPlainMeans(const Measurement& measurement, const Law& base,
+                     const ProgressReporter& progress) {
   std::vector<double> currents;
   for (const Reading& r : measurement.readings.points) currents.push_back(r.current);
   const Averaged plain =
       TakeMeans(measurement, GroupStretches(measurement.readings, SetApart(measurement)), currents);
   WeightedData weighted = WeightedDataOf(plain.measurement);
-  if (plain.measurement.readings.points.size() > kQuickToFit) weighted.watch = watch;
+  if (plain.measurement.readings.points.size() > kQuickToFit) weighted.progress = progress;
   return FitBase(weighted, base);
 }
 
@@ -153,9 +154,10 @@ bool IsLong(const Readings& readings) {
   return 2 * static_cast<int>(readings.points.size()) >= 3 * kEnough;
 }
 
-Averaged Average(const Measurement& measurement, const Law& base, Watch* watch) {
+Averaged Average(const Measurement& measurement, const Law& base,
+                 const ProgressReporter& progress) {
   const Readings& readings = measurement.readings;
-  LawFit fit = FitPlainMeans(measurement, base, watch);
+  LawFit fit = FitPlainMeans(measurement, base, progress);
   const bool known = fit.usable && CurrentsAt(readings, fit, &fit.current);
   if (!known) fit.current.assign(readings.points.size(), 0.0);
   std::vector<double> off;

@@ -21,7 +21,7 @@ bool IsLong(const Readings& readings);
 
 // Averages a measurement. Readings at an instrument limit and sudden outliers keep a group of their
 // own, and no average spans a jump of the current. `base`: law of the model that is subtracted.
-Averaged Average(const Measurement& measurement, const Law& base, Watch* watch);
+Averaged Average(const Measurement& measurement, const Law& base, const ProgressReporter& progress);
 
 // The fits of a selection, evaluated at every reading.
 struct AtReadings {

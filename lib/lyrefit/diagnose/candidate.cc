@@ -204,7 +204,7 @@ std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, con
   auto signature = std::make_shared<Signature>();
   signature->fit = fit;
   for (const Effect* effect : effects) {
-    if (Stopped(weighted.watch)) break;
+    if (weighted.progress.Stopped()) break;
     if (effect->probes == nullptr) continue;
     signature->moved.emplace(effect, Move(*weighted.readings, fit, *effect));
   }
@@ -220,7 +220,7 @@ Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
   prepared.degrees = weighted.count() - static_cast<int>(prepared.linear.basis.cols());
   const double sum = prepared.linear.residual.squaredNorm();
   for (const Effect* effect : effects) {
-    if (Stopped(weighted.watch)) break;
+    if (weighted.progress.Stopped()) break;
     const bool single = effect->found_by == FoundBy::kSingleReading;
     CandidateEffect candidate = single ? PrepareOutliers(weighted, prepared.linear, *effect)
                                        : Prepare(weighted, prepared.linear, *effect, *signature);

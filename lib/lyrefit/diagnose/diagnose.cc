@@ -29,6 +29,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kPollPeriod_s = 0.02;  // shortest time between calls of the observer by polls
+
 // Selects causes, and repeats the selection with whitened noise if the residuals of the extended
 // model are correlated. Without whitening, correlated noise makes every test see effects.
 Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptions& options,
@@ -38,7 +40,7 @@ Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptio
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
   *selection = SelectCauses(measurement, used, 0, options);
-  if (!selection->base.usable || Stopped(options.watch)) return {};
+  if (!selection->base.usable || options.progress.Stopped()) return {};
   std::vector<double> whitened;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     whitened.push_back((selection->extended.current[k] - readings.points[k].current) /
@@ -137,7 +139,8 @@ void AddWarnings(const Selection& selection, const Measurement& measurement, Dia
 }
 
 SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions& options,
-                                const std::vector<const Effect*>& candidates, Watch* watch) {
+                                const std::vector<const Effect*>& candidates,
+                                const ProgressReporter& progress) {
   SelectOptions select;
   select.level = options.level;
   select.draws = options.draws;
@@ -146,7 +149,7 @@ SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions&
   select.floors = {options.floor_current, options.floor_power};
   select.base = StartingLaw(readings, options.base);
   select.candidates = candidates;
-  select.watch = watch;
+  select.progress = progress;
   return select;
 }
 
@@ -191,7 +194,8 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
                      const DiagnoseOptions& options, const std::vector<const Effect*>& known,
                      Diagnosis* diagnosis) {
   const bool is_long = IsLong(measurement.readings);
-  const Averaged averaged = is_long ? Average(measurement, select.base, select.watch) : Averaged();
+  const Averaged averaged =
+      is_long ? Average(measurement, select.base, select.progress) : Averaged();
   const Measurement& seen = is_long ? averaged.measurement : measurement;
   Outcome outcome;
   outcome.correlation = SelectWhitened(seen, select, &outcome.found);
@@ -201,7 +205,7 @@ Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select
       is_long ? AtItsReadings(outcome.found, averaged, measurement) : AtItsReadings(outcome.found);
   diagnosis->trials =
       DescribeTrials(measurement.readings, outcome.found, known, select.candidates, options);
-  if (options.held_out && !Stopped(select.watch)) {
+  if (options.held_out && !select.progress.Stopped()) {
     MeasureHeldOut(seen, select, outcome.found, options.folds, options.threads, &diagnosis->gain,
                    &diagnosis->trials);
   }
@@ -283,29 +287,29 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   const CurveSet set = InOrder(taken, &disorder);
   TRY(const Measurement measurement, TakeIn(set, disorder, options));
   const Readings& readings = measurement.readings;
-  Watch watch(observer);
-  watch.Begin("base fit", 3);
+  const ProgressReporter progress(observer, kPollPeriod_s);
+  progress.Begin("base fit", 3);
   const SelectOptions select =
-      MakeSelectOptions(readings, options, Candidates(known, readings.traits, options), &watch);
+      MakeSelectOptions(readings, options, Candidates(known, readings.traits, options), progress);
   Diagnosis diagnosis = BeginDiagnosis(set, measurement, options);
   diagnosis.doubts = std::move(doubts);
   const Outcome outcome = SearchCauses(measurement, select, options, known, &diagnosis);
   const Selection& found = outcome.found;
   if (!found.base.usable || !found.extended.usable) {
-    return Fail(diagnosis.name + (watch.Stopped() ? ": stopped before the base model was fitted"
-                                                  : ": no diode model fits these readings"));
+    return Fail(diagnosis.name + (progress.Stopped() ? ": stopped before the base model was fitted"
+                                                     : ": no diode model fits these readings"));
   }
   DescribeEvidenceAndVerdict(measurement, outcome, options, &diagnosis);
   DescribeGain(found, outcome.at, measurement.has_path(), &diagnosis.gain);
-  if (options.plan && !watch.Stopped()) {
+  if (options.plan && !progress.Stopped()) {
     diagnosis.plan = MakePlan(found, options.seed, options.threads);
   }
-  if (options.proofs && !watch.Stopped()) {
-    diagnosis.proofs = FindProofs(set, found, outcome.at, diagnosis, &watch);
+  if (options.proofs && !progress.Stopped()) {
+    diagnosis.proofs = FindProofs(set, found, outcome.at, diagnosis, progress);
   }
   DescribePoints(set, measurement, outcome.at, &diagnosis);
   AddWarnings(found, measurement, &diagnosis);
-  if (watch.Stopped()) MarkInterrupted(&diagnosis);
+  if (progress.Stopped()) MarkInterrupted(&diagnosis);
   diagnosis.extended = ExtendedReport(
       set, found, outcome.at, options.extend && !diagnosis.interrupted, options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;

@@ -203,10 +203,10 @@ Plan MakePlan(const Selection& selection, std::uint64_t seed, int threads) {
     const std::vector<FollowUp> all = FollowUpMeasurements(*selection.weighted.readings);
     std::vector<std::vector<PlannedCause>> causes(all.size());
     const double deviation = DeviationOf(selection);
-    Begin(selection.weighted.watch, "plan", static_cast<std::int64_t>(all.size()));
+    selection.weighted.progress.Begin("plan", static_cast<std::int64_t>(all.size()));
     ParallelFor(static_cast<int>(all.size()), threads, [&](int k) {
       causes[k] = Foresee(selection.weighted, deviation, all[k], candidates, seed);
-      Step(selection.weighted.watch);
+      selection.weighted.progress.Count();
     });
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double probability = Mean(causes[k]);

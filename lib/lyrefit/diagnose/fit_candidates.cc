@@ -82,15 +82,15 @@ std::vector<FittedCandidate> FitCandidates(const SelectionState& now,
   const bool may_matter = floor > 0 && MissedBy(now.weighted, now.fit) > floor;
   const bool astray = may_matter || LeadsAstray(now.weighted, now.fit);
   const bool single = now.measurement.readings.traits.single;
-  Begin(ObserverOf(now), "selection", static_cast<std::int64_t>(scores.size()));
+  ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
   for (const Score& score : scores) {
-    Step(ObserverOf(now));
+    ReporterOf(now).Count();
     // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
     // spoil the scores.
     const bool by_shape = astray && is_there && score.effect->starts != nullptr && single;
     const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
                                    score.effect->probes != nullptr);
-    if (!fits || Stopped(now.weighted.watch)) continue;
+    if (!fits || now.weighted.progress.Stopped()) continue;
     const bool briefly = !by_shape && (!is_there || score.statistic < hopeless);
     LawFit fit = FitCandidate(now, score, briefly);
     if (fit.usable) fitted_candidates.push_back({score, std::move(fit), 0});
@@ -104,10 +104,10 @@ void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
   const LawFit& extended = selection->extended;
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     ChosenCause& cause = selection->causes[c];
-    Begin(options.watch, "candidates", static_cast<std::int64_t>(options.candidates.size()));
+    options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size()));
     selection->without.push_back(FitWithout(weighted, extended, static_cast<int>(c)));
     const LawFit& without = selection->without.back();
-    if (!without.usable || Stopped(options.watch) || cause.in_values) continue;
+    if (!without.usable || options.progress.Stopped() || cause.in_values) continue;
     std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
     open.erase(std::remove_if(open.begin(), open.end(),
                               [](const Effect* effect) { return effect->probes == nullptr; }),
@@ -117,9 +117,9 @@ void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
         PrepareAll(weighted, without, open, &selection->signatures), *selection->calibration);
     const double hopeless = HopelessStatistic(scores);
     for (const Score& score : scores) {
-      Step(options.watch);
+      options.progress.Count();
       if (!score.testable) continue;
-      if (Stopped(options.watch)) break;
+      if (options.progress.Stopped()) break;
       const bool own = score.effect == cause.effect;
       if (score.statistic < hopeless && !own) continue;
       FittedCandidate fitted{score, FitEffect(weighted, without, score), 0};

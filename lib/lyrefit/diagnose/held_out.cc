@@ -102,7 +102,7 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
   const Selection again =
       SelectCauses(measurement, used, selection.weighted.correlation, Repeated(options, selection));
   Fold fold;
-  if (!again.base.usable || !again.extended.usable || Stopped(options.watch)) return fold;
+  if (!again.base.usable || !again.extended.usable || options.progress.Stopped()) return fold;
   fold.before = SquaresAt(readings, held, again.base.current);
   fold.after = SquaresAt(readings, held, again.extended.current);
   WeightedData weighted = selection.base_weighted;
@@ -116,7 +116,7 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
     }
     fold.trials.push_back(squares);
   }
-  Step(options.watch);
+  options.progress.Count();
   return fold;
 }
 
@@ -178,15 +178,15 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
   const std::vector<int> of = MakeFolds(readings, folds);
   const int used_folds = *std::max_element(of.begin(), of.end()) + 1;
   std::vector<Fold> results(used_folds);
-  Begin(options.watch, "held out", used_folds);
+  options.progress.Begin("held out", used_folds);
   ParallelFor(used_folds, threads, [&](int f) {
     const std::vector<int> held = HeldReadings(of, f, selection.weighted.used);
-    if (held.empty() || Stopped(options.watch)) return;
+    if (held.empty() || options.progress.Stopped()) return;
     std::vector<char> used(of.size(), 1);
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
     results[f] = MissOf(held, used, measurement, options, selection);
   });
-  if (Stopped(options.watch)) return;
+  if (options.progress.Stopped()) return;
   Summarise(results, readings, selection.trials, gain, trials);
 }
 

@@ -106,7 +106,7 @@ MatrixXf SimulateNullDistribution(const WeightedData& weighted, const Prepared& 
   const Stack stack = MakeStack(weighted, prepared);
   const VectorXf room = (1 - stack.basis.rowwise().squaredNorm().array()).max(1e-9F).rsqrt();
   MatrixXf statistics = MatrixXf::Zero(draws.cols(), static_cast<int>(stack.candidates.size()));
-  for (int first = 0; first < draws.cols() && !Stopped(weighted.watch); first += kLot) {
+  for (int first = 0; first < draws.cols() && !weighted.progress.Stopped(); first += kLot) {
     const int lot = std::min(kLot, static_cast<int>(draws.cols()) - first);
     const MatrixXf noise = stack.used.asDiagonal() * draws.middleCols(first, lot);
     const MatrixXf left = noise - Times(stack.basis, TransposedTimes(stack.basis, noise));
@@ -137,9 +137,9 @@ MatrixXf SimulateRefits(const WeightedData& weighted, const Prepared& prepared,
   for (int first = 0; first < draws.cols(); first += kLot) {
     const int size = std::min(kLot, static_cast<int>(draws.cols()) - first);
     for (int d = 0; d < size; ++d) {
-      if (Stopped(weighted.watch)) return statistics.topRows(first);
+      if (weighted.progress.Stopped()) return statistics.topRows(first);
       Reweight(weighted, stack, estimator, stack.used.cwiseProduct(draws.col(first + d)), d, &lot);
-      Step(weighted.watch);
+      weighted.progress.Count();
     }
     const MatrixXf lengths = TransposedTimes(squared, lot.weights).cwiseMax(1e-12F);
     const MatrixXf scores = TransposedTimes(stack.directions, lot.rest);

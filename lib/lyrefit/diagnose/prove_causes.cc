@@ -65,10 +65,10 @@ void Finish(const Diagnosis& diagnosis, const Trial& trial, CauseProof* proof) {
 }
 
 void AddLinear(const IvCurve& curve, const Selection& selection, const Diagnosis& diagnosis,
-               Watch* watch, Proofs* proofs) {
+               const ProgressReporter& progress, Proofs* proofs) {
   CauseFloorOptions options;
   options.recombination = selection.base.law.model == Model::kDoubleDiode;
-  options.stop = [watch] { return Stopped(watch); };
+  options.stop = progress.stop();
   const auto unknown = [&](const std::string& id) { return TrialOf(diagnosis, id) == nullptr; };
   options.causes.erase(std::remove_if(options.causes.begin(), options.causes.end(), unknown),
                        options.causes.end());
@@ -129,12 +129,12 @@ void AddShapes(const IvCurve& curve, const Selection& selection, const Diagnosis
 }  // namespace
 
 Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
-                  const Diagnosis& diagnosis, Watch* watch) {
+                  const Diagnosis& diagnosis, const ProgressReporter& progress) {
   Proofs proofs;
   proofs.sentence = WhyNothing(set, *selection.weighted.readings);
   if (!proofs.sentence.empty()) return proofs;
   const IvCurve curve = UsedPart(set.curves.front(), at.weighted);
-  AddLinear(curve, selection, diagnosis, watch, &proofs);
+  AddLinear(curve, selection, diagnosis, progress, &proofs);
   AddShapes(curve, selection, diagnosis, &proofs);
   std::stable_sort(proofs.causes.begin(), proofs.causes.end(),
                    [](const CauseProof& a, const CauseProof& b) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/watch.h"
 
 namespace lyrefit {
 
@@ -14,6 +14,6 @@ namespace lyrefit {
 // No proofs for dark curves, several conditions, readings with their own light or temperature, or
 // more than 2000 readings.
 Proofs FindProofs(const CurveSet& set, const Selection& selection, const AtReadings& at,
-                  const Diagnosis& diagnosis, Watch* watch);
+                  const Diagnosis& diagnosis, const ProgressReporter& progress);
 
 }  // namespace lyrefit

@@ -62,7 +62,7 @@ Calibration Calibrate(const WeightedData& weighted, const Prepared& prepared,
                       const ListDistribution& list, const NoiseEstimator& noise,
                       const Draws& draws) {
   Calibration calibration;
-  Begin(weighted.watch, "null statistics", draws.cols());
+  weighted.progress.Begin("null statistics", draws.cols());
   const Eigen::MatrixXf null_statistics = SimulateRefits(weighted, prepared, noise, draws);
   for (int d = 0; d < null_statistics.rows(); ++d) {
     double smallest = 1;

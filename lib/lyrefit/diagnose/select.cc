@@ -23,7 +23,7 @@ SelectionState BeginSelection(const Measurement& measurement, const std::vector<
   now.weighted.sigma.assign(measurement.readings.points.size(), 1e-3);
   now.weighted.used = used;
   now.weighted.correlation = correlation;
-  now.weighted.watch = options.watch;
+  now.weighted.progress = options.progress;
   for (const int k : measurement.values.at_lower) now.weighted.used[k] = 0;
   for (const int k : measurement.values.at_voltage_limit) now.weighted.used[k] = 0;
   return now;
@@ -36,20 +36,20 @@ void FitBaseLaw(const Law& law, SelectionState* now) {
 
 // Fits the base model and its noise. False if there is no usable fit.
 bool SettleBase(SelectionState* now, Selection* selection) {
-  Begin(ObserverOf(*now), "base fit", 3);
+  ReporterOf(*now).Begin("base fit", 3);
   Law law = now->options.base;
-  if (now->weighted.readings->points.size() <= kQuickToFit) now->weighted.watch = nullptr;
+  if (now->weighted.readings->points.size() <= kQuickToFit) now->weighted.progress = {};
   FitBaseLaw(law, now);
-  now->weighted.watch = now->options.watch;
+  now->weighted.progress = now->options.progress;
   selection->base = selection->extended = now->fit;
   selection->weighted = selection->base_weighted = now->weighted;
   if (!now->fit.usable) return false;
-  Step(ObserverOf(*now));
+  ReporterOf(*now).Count();
   SettleNoise(now);
-  Step(ObserverOf(*now));
+  ReporterOf(*now).Count();
   if (now->options.start.empty()) law = ChooseLaw(now->weighted, law);
   FitBaseLaw(law, now);
-  if (Stopped(now->weighted.watch)) now->fit = selection->base;
+  if (now->weighted.progress.Stopped()) now->fit = selection->base;
   selection->base = now->fit;
   selection->base_weighted = now->weighted;
   return true;
@@ -188,7 +188,7 @@ void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
   for (int step = 0;; ++step) {
     if (step > 0) prepared = PrepareOpen(now);
     const std::vector<Score> scores = JudgeScores(prepared, *now->calibration);
-    if (Stopped(now->weighted.watch)) return;
+    if (now->weighted.progress.Stopped()) return;
     selection->unknown_p = UnknownP(scores);
     const bool is_there = IsAnythingThere(scores, step, now);
     if (step == 0 && options.trials) {
@@ -202,7 +202,7 @@ void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
     const bool left = step > 0 && !fitted_candidates.empty();
     if (left && StandsOut(scores) && LeaveOut(scores, fitted_candidates, now)) continue;
     if (step > 0 || !options.trials) fitted_candidates = FitCandidates(*now, scores);
-    if (Stopped(now->weighted.watch)) return;
+    if (now->weighted.progress.Stopped()) return;
     if (LeaveOut(scores, fitted_candidates, now)) continue;
     if (!KeepWorthy(now, selection, &fitted_candidates)) return;
     if (fitted_candidates.empty() || !Accept(fitted_candidates.front(), now)) {

@@ -28,14 +28,14 @@ struct SelectOptions {
   Law base;                        // initial variant of the base law
   std::vector<double> start;       // parameters of `base`, which is then final; empty: unknown
   bool trials = true;              // fit every effect on the base model for the record, and report
-                                   // stages to `watch`
+                                   // stages to `progress`
   int most_fitted_candidates = 0;  // number of effects fitted in a step, by score; 0: all
   LawFit hint;                     // earlier fit with effects, as further start; may be unusable
   bool in_passing = false;         // fits start from the best probe only, and no cause is exchanged
                                    // later
   const std::vector<FittedCandidate>* met = nullptr;  // earlier fits of each effect with `base`
   std::vector<const Effect*> candidates;              // possible for the type of data
-  Watch* watch = nullptr;
+  ProgressReporter progress;
 };
 
 struct ChosenCause {

@@ -24,9 +24,9 @@ struct SelectionState {
   double first_misfit = 0;  // mean square removed by the first cause, in squared scales
 };
 
-// Watch for progress reports. Null in repetitions of the selection, which do not report.
-inline Watch* ObserverOf(const SelectionState& now) {
-  return now.options.trials ? now.options.watch : nullptr;
+// Receives the stages. Repetitions of the selection report to nobody.
+inline ProgressReporter ReporterOf(const SelectionState& now) {
+  return now.options.trials ? now.options.progress : ProgressReporter();
 }
 
 // Estimates the noise from the residuals of the present fit and repeats the fit with it.

@@ -19,7 +19,7 @@ bool PutBetter(const ChosenCause& cause, const LawFit& present, SelectionState* 
                           ? 0
                           : own->Charged() + std::max(0.0, own->fit.sum - present.sum) /
                                                  NoiseVariance(now->weighted, present);
-  const bool stopped = Stopped(now->weighted.watch);
+  const bool stopped = now->weighted.progress.Stopped();
   std::vector<FittedCandidate> below;
   if (now->options.floors.Any()) fitted_candidates = Weigh(*now, fitted_candidates, &below);
   if (stopped || fitted_candidates.empty()) return false;
@@ -50,7 +50,7 @@ void SwapCauses(SelectionState* now) {
     bool changed = false;
     for (int c = 0; c + 1 < static_cast<int>(now->causes.size()); ++c) {
       if (now->causes[c].in_values) continue;
-      if (Stopped(now->weighted.watch)) return;
+      if (now->weighted.progress.Stopped()) return;
       changed = SwapOne(c, now) || changed;
     }
     if (!changed) return;
@@ -63,7 +63,7 @@ void Prune(SelectionState* now) {
     const ChosenCause& cause = now->causes[c];
     if (cause.in_values) continue;
     LawFit without = FitWithout(now->weighted, fit, c);
-    if (!without.usable || Stopped(now->weighted.watch)) continue;
+    if (!without.usable || now->weighted.progress.Stopped()) continue;
     const double loss = (without.sum - fit.sum) / NoiseVariance(now->weighted, fit);
     const double p = CorrectedP(cause.score, loss, Degrees(now->weighted, fit.law),
                                 now->calibration->calibration);

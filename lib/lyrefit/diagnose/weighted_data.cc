@@ -59,7 +59,7 @@ bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::v
                       double* residuals, double* jacobian) {
   const Readings& readings = *weighted.readings;
   const int count = static_cast<int>(readings.points.size());
-  if (jacobian == nullptr && Stopped(weighted.watch)) return false;
+  if (jacobian == nullptr && weighted.progress.Stopped()) return false;
   if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &held)) {
     if (jacobian == nullptr) return false;
     if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
@@ -135,7 +135,7 @@ LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<do
   LawWorkspace workspace;
   const LeastSquaresProblem problem = MakeProblem(weighted, law, &workspace, &fit.current);
   LeastSquaresOptions watched = options;
-  if (!watched.stop) watched.stop = [&weighted] { return Stopped(weighted.watch); };
+  watched.stop = weighted.progress.stop();
   const LeastSquaresEnd end = SolveLeastSquares(problem, start, watched);
   fit.p = end.p;
   fit.sum = end.sum_of_squares;
@@ -149,7 +149,7 @@ LawFit FitBase(const WeightedData& weighted, const Law& law) {
   for (const auto& [n, resistance] : {std::pair{1.2, 0.015}, {1.7, 0.05}, {1.2, 0.15}}) {
     LawFit fit = FitLaw(weighted, law, BaseStart(*weighted.readings, law, 1, n, resistance));
     if (fit.usable && (!best.usable || fit.sum < best.sum)) best = std::move(fit);
-    if (Stopped(weighted.watch)) break;
+    if (weighted.progress.Stopped()) break;
   }
   return best;
 }
@@ -159,7 +159,7 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   LawWorkspace workspace;
   std::vector<double> current;
   WeightedData unwatched = weighted;  // a fit found before a stop request is still described
-  unwatched.watch = nullptr;
+  unwatched.progress = {};
   const LeastSquaresProblem problem = MakeProblem(unwatched, fit.law, &workspace, &current);
   Linearized linear;
   linear.residual.resize(count);
@@ -251,7 +251,7 @@ namespace {
 WeightedData Plain(const WeightedData& weighted) {
   WeightedData plain = weighted;
   plain.path = plain.correlation = 0;
-  plain.watch = nullptr;
+  plain.progress = {};
   plain.sigma.assign(weighted.sigma.size(), 1.0);
   return plain;
 }

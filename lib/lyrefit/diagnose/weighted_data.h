@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "lyrefit/diagnose/watch.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/law/law.h"
 #include "lyrefit/law/reading.h"
 #include "lyrefit/refine/error_model.h"
@@ -25,7 +25,7 @@ struct WeightedData {
   // The noise variance is scaled to the residuals, but not below this fraction of sigma^2. 1: sigma
   // contains more than noise.
   double least_variance = 0;
-  Watch* watch = nullptr;  // after a stop request, fits end at their present parameters
+  ProgressReporter progress;  // after a stop request, fits end at their present parameters
 
   int count() const;  // number of used readings
 };

@@ -74,7 +74,7 @@ bool LeaveOutFurthest(const std::vector<Score>& scores,
   WeightedData without = *weighted;
   without.used[furthest->outlier] = 0;
   LawFit rest = FitLaw(without, fit->law, fit->p);
-  if (!rest.usable || Stopped(weighted->watch)) return false;
+  if (!rest.usable || weighted->progress.Stopped()) return false;
   if (!fitted_candidates.empty()) {
     const FittedCandidate& best = fitted_candidates.front();
     const double gain = (fit->sum - rest.sum) / NoiseVariance(*weighted, best.fit);

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
@@ -111,23 +111,23 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
   JointProblem held = problem;
   std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.lower.begin() + first);
   std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.upper.begin() + first);
-  SharedObserver watch(observer, "without effects", static_cast<std::int64_t>(starts.size()));
-  watch.Begin();
+  const ProgressReporter progress(observer, "without effects",
+                                  static_cast<std::int64_t>(starts.size()));
   std::vector<JointEnd> ends(starts.size());
   ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
-    if (watch.Stopped()) return;
+    if (progress.Stopped()) return;
     JointOptions quick;
     quick.function_tolerance = 1e-10;
-    quick.proceed = watch.Proceed();
+    quick.stop = progress.stop();
     std::vector<double>& shared = starts[s].shared;
     std::copy(device_effects.usual.begin(), device_effects.usual.end(), shared.begin() + first);
     ends[s] = RefineJointly(held, {shared, none}, quick);
-    watch.FinishJob();
+    progress.Step();
   });
   std::vector<JointPoint> chosen(
       elites.begin(),
       elites.begin() + static_cast<std::ptrdiff_t>(std::min(kElites, elites.size())));
-  if (watch.Stopped()) return chosen;
+  if (progress.Stopped()) return chosen;
   const auto best =
       std::min_element(ends.begin(), ends.end(),
                        [](const JointEnd& a, const JointEnd& b) { return a.squares < b.squares; });
@@ -165,11 +165,10 @@ ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> 
 
 std::vector<FitPoint> MoreOptima(const FamilyProblem& family, const JointProblem& problem,
                                  const JointEnd& end, const Observer& observer) {
-  SharedObserver watch(observer, "other optima", 0);
-  watch.Begin();
+  const ProgressReporter progress(observer, "other optima", 0);
   const double degrees = JointDegrees(problem, family.free_parameters, 0);
   return FindOtherOptima(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
-                         watch.Proceed());
+                         progress.stop());
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/statistics.h"
 
@@ -93,10 +93,9 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
   const std::vector<int>& fitted = family.curves.fitted;
   const int folds = std::min(options.folds, static_cast<int>(fitted.size()));
   std::vector<std::vector<Tested>> parts(folds);
-  SharedObserver watch(observer, "held out", folds);
-  watch.Begin();
+  const ProgressReporter progress(observer, "held out", folds);
   ParallelFor(folds, options.threads, [&](int f) {
-    if (watch.Stopped()) return;
+    if (progress.Stopped()) return;
     std::vector<int> kept, left;
     for (std::size_t k = 0; k < fitted.size(); ++k) {
       (static_cast<int>(k) % folds == f ? left : kept).push_back(fitted[k]);
@@ -106,12 +105,12 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
     const JointPoint start{end.point.shared, std::vector<JointLocal>(kept.size(), {0, 0})};
     JointOptions quick;
     quick.function_tolerance = 1e-10;
-    quick.proceed = watch.Proceed();
+    quick.stop = progress.stop();
     const JointEnd refit = RefineJointly(rest, start, quick);
     parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
-    watch.FinishJob();
+    progress.Step();
   });
-  if (watch.Stopped()) return {};
+  if (progress.Stopped()) return {};
   std::vector<Tested> tested;
   for (const auto& part : parts) tested.insert(tested.end(), part.begin(), part.end());
   HeldOut result = Summarise(tested, set);

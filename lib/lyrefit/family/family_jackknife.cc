@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
@@ -14,21 +14,20 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
   const int curves = static_cast<int>(problem.curves.size());
   const int count = family.translation.size();
   std::vector<std::vector<double>> without(curves);
-  SharedObserver watch(observer, "jackknife", curves);
-  watch.Begin();
+  const ProgressReporter progress(observer, "jackknife", curves);
   ParallelFor(curves, threads, [&](int c) {
-    if (watch.Stopped()) return;
+    if (progress.Stopped()) return;
     JointProblem rest = problem;
     JointPoint start = end.point;
     rest.curves.erase(rest.curves.begin() + c);
     start.local.erase(start.local.begin() + c);
     JointOptions quick;
     quick.function_tolerance = 1e-9;
-    quick.proceed = watch.Proceed();
+    quick.stop = progress.stop();
     without[c] = ReportedShared(family.translation, RefineJointly(rest, start, quick).point.shared);
-    watch.FinishJob();
+    progress.Step();
   });
-  if (watch.Stopped()) {
+  if (progress.Stopped()) {
     report->interrupted = true;
     return;
   }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
@@ -138,14 +138,13 @@ bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
     }
   }
   std::vector<ProfileSide> sides(queries.size());
-  SharedObserver watch(observer, "intervals", static_cast<std::int64_t>(queries.size()));
-  watch.Begin();
+  const ProgressReporter progress(observer, "intervals", static_cast<std::int64_t>(queries.size()));
   ParallelFor(static_cast<int>(queries.size()), judged.options.threads, [&](int q) {
-    if (watch.Stopped()) return;
-    sides[q] = FindProfileSide(judged.fit.problem, judged.fit.end, queries[q], watch.Proceed());
-    watch.FinishJob();
+    if (progress.Stopped()) return;
+    sides[q] = FindProfileSide(judged.fit.problem, judged.fit.end, queries[q], progress.stop());
+    progress.Step();
   });
-  if (watch.Stopped()) return false;
+  if (progress.Stopped()) return false;
   for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
     const int i = queries[q].parameter;
     Estimate& e = (*estimates)[i];

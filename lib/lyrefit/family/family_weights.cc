@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/base/shared_observer.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_members.h"
 #include "lyrefit/family/joint_fit.h"
 #include "lyrefit/fit/statistics.h"
@@ -70,13 +70,12 @@ WeightChoice SettleWeights(const FamilyOptions& options, const Observer& observe
   for (std::size_t k = 0; k < relative.curves.size(); ++k) {
     relative.curves[k].weight = weighed.members[weighed.fitted[k]].joint.weight;
   }
-  SharedObserver watch(observer, "joint fit", 0);
-  watch.Begin();
+  const ProgressReporter progress(observer, "joint fit", 0);
   JointOptions how;
-  how.proceed = watch.Proceed();
+  how.stop = progress.stop();
   JointEnd there = RefineJointly(relative, end->point, how);
   SettleNoise(*family, how, &relative, &there);
-  if (watch.Stopped()) {
+  if (progress.Stopped()) {
     end->stopped = true;
     return choice;
   }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/family/curve_subset.h"
@@ -185,10 +185,9 @@ void FindOutlier(Job* job, const JointProblem& problem, const JointEnd& end, Fam
   // The test frees the irradiance and temperature of a curve, which a curve with effects does not
   // have as unknowns.
   if (job->family.translation.extended) return;
-  SharedObserver watch(job->observer, "outlier curves", 0);
-  watch.Begin();
-  const std::vector<int> outlier = FindOutlierCurves(problem, end, watch.Proceed());
-  job->stopped = watch.Stopped();
+  const ProgressReporter progress(job->observer, "outlier curves", 0);
+  const std::vector<int> outlier = FindOutlierCurves(problem, end, progress.stop());
+  job->stopped = progress.Stopped();
   if (outlier.empty() || job->stopped) return;
   WithoutOutliers without;
   JointProblem rest = problem;
@@ -198,7 +197,7 @@ void FindOutlier(Job* job, const JointProblem& problem, const JointEnd& end, Fam
     start.local.erase(start.local.begin() + *c);
   }
   JointOptions options;
-  options.proceed = watch.Proceed();
+  options.stop = progress.stop();
   const JointEnd refit = RefineJointly(rest, start, options);
   job->stopped = refit.stopped;
   if (job->stopped) return;

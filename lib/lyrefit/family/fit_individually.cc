@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
@@ -37,16 +37,15 @@ IndividualFits FitEveryCurve(const std::vector<const IvCurve*>& curves, const Fi
   const Instant begin = Now();
   IndividualFits fits;
   fits.reports.resize(curves.size());
-  SharedObserver watch(observer, "curves", static_cast<std::int64_t>(curves.size()));
-  watch.Begin();
+  const ProgressReporter progress(observer, "curves", static_cast<std::int64_t>(curves.size()));
   ParallelFor(static_cast<int>(curves.size()), threads, [&](int c) {
-    if (watch.Stopped()) return;
-    Expected<FitReport> report = Fit(*curves[c], options, watch.Inside());
+    if (progress.Stopped()) return;
+    Expected<FitReport> report = Fit(*curves[c], options, progress.stop().AsObserver());
     if (report && report->interrupted) return;
     fits.reports[c] = std::move(report);
-    watch.FinishJob();
+    progress.Step();
   });
-  fits.interrupted = watch.Stopped();
+  fits.interrupted = progress.Stopped();
   fits.seconds = SecondsSince(begin);
   return fits;
 }

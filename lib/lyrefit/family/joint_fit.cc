@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/family/family_judge.h"
 
 namespace lyrefit {
@@ -42,10 +42,9 @@ JointProblem HoldingWhole(JointProblem problem, const FamilyProblem& family,
 JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
                     const std::vector<int>& search_curves, const std::vector<JointPoint>& starts,
                     const Observer& observer, JointProblem* problem) {
-  SharedObserver watch(observer, "joint fit", 0);
-  watch.Begin();
+  const ProgressReporter progress(observer, "joint fit", 0);
   JointOptions thorough;
-  thorough.proceed = watch.Proceed();
+  thorough.stop = progress.stop();
   JointProblem small = JointProblemOn(family, options, search_curves);
   // Priors count from the start. The first guess of the noise is 0.1 % of the current scale.
   small.noise_A = problem->noise_A = 1e-3 * problem->current_scale_A;
@@ -71,7 +70,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   }
   *problem = HoldingWhole(std::move(*problem), family, best.point.shared);
   SettleNoise(family, thorough, problem, &best);
-  best.stopped = watch.Stopped();
+  best.stopped = progress.Stopped();
   return best;
 }
 
@@ -79,7 +78,7 @@ void SettleNoise(const FamilyProblem& family, const JointOptions& how, JointProb
                  JointEnd* end) {
   constexpr int kRounds = 4;
   if (!HasPriors(*problem)) return;
-  for (int round = 0; round < kRounds && (!how.proceed || how.proceed()); ++round) {
+  for (int round = 0; round < kRounds && !how.stop.Stopped(); ++round) {
     const double before = problem->noise_A;
     problem->noise_A = std::max(NoiseOf(family, *problem, *end), 1e-9 * problem->current_scale_A);
     *end = RefineJointly(*problem, end->point, how);
@@ -93,9 +92,9 @@ CandidateEnds PolishCandidate(const FamilyProblem& family, const FamilyOptions& 
   CandidateEnds ends;
   JointPoint start = candidate;
   start.local.assign(problem.curves.size(), {0, 0});
-  SharedObserver watch(observer, "joint fit", 0);
+  const ProgressReporter progress(observer, "joint fit", 0);
   JointOptions how;
-  how.proceed = watch.Proceed();
+  how.stop = progress.stop();
   Instant begin = Now();
   ends.plain = RefineJointlyPlainly(problem, start, how);
   ends.plain_seconds = SecondsSince(begin);

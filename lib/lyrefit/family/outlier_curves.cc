@@ -19,7 +19,7 @@ double CurveSquare(const JointProblem& problem, const JointPoint& point, int c) 
 // Whether ordinary errors of its readings explain a curve under these shared parameters. Sensors of
 // a good set differ by a few percent, and such a curve does not belong to another device.
 bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c, double noise_A,
-                     double limit_A, const std::function<bool()>& proceed) {
+                     double limit_A, const StopToken& stop) {
   constexpr double kIrradianceSd = 0.02;
   constexpr double kTemperatureSd_K = 2;
   constexpr double kOrdinary = 3;  // standard deviations
@@ -34,7 +34,7 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
   curve.irradiance_sd = std::max(curve.irradiance_sd, kIrradianceSd);
   curve.temperature_sd_K = std::max(curve.temperature_sd_K, kTemperatureSd_K);
   JointOptions options;
-  options.proceed = proceed;
+  options.stop = stop;
   const JointEnd end = RefineJointly(alone, {point.shared, {point.local[c]}}, options);
   const JointLocal& own = end.point.local[0];
   return std::fabs(own[0]) <= kOrdinary * curve.irradiance_sd &&
@@ -45,7 +45,7 @@ bool ReadingsExplain(const JointProblem& problem, const JointPoint& point, int c
 }  // namespace
 
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
-                                   const std::function<bool()>& proceed) {
+                                   const StopToken& stop) {
   constexpr double kSuspicious = 4;  // times the median RMSE
   constexpr double kOutlier = 6;
   constexpr double kVisible = 5e-3;  // of the largest current
@@ -74,7 +74,7 @@ std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& 
     }
     JointOptions quick;
     quick.function_tolerance = 1e-8;
-    quick.proceed = proceed;
+    quick.stop = stop;
     point = RefineJointly(robust, point, quick).point;
     median = measure(point);
   }
@@ -83,7 +83,7 @@ std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& 
     const double limit = std::max(kOutlier * median, visible);
     const double noise = std::max(median, 1e-9 * problem.current_scale_A);
     const bool far = rmse[c] > limit;
-    if (far && !ReadingsExplain(problem, point, c, noise, limit, proceed)) outlier.push_back(c);
+    if (far && !ReadingsExplain(problem, point, c, noise, limit, stop)) outlier.push_back(c);
   }
   // Outliers cannot be more than a third of the curves.
   if (3 * static_cast<int>(outlier.size()) > curves) outlier.clear();

@@ -9,9 +9,9 @@ namespace lyrefit {
 
 // Finds curves that do not belong to the device of the others (positions among the problem's
 // curves). A robust fit misses such a curve by far more than the other curves, by a visible amount,
-// and by more than ordinary errors of its irradiance and temperature explain. `proceed` is called
+// and by more than ordinary errors of its irradiance and temperature explain. `stop` is polled
 // as in JointOptions; the result is meaningless after it returned false.
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
-                                   const std::function<bool()>& proceed = {});
+                                   const StopToken& stop = {});
 
 }  // namespace lyrefit

@@ -51,12 +51,12 @@ bool DiodesIdentifiable(double simple_rmse, double rich_rmse, int degrees_of_fre
 }
 
 CandidateReport Judge(const FitReport& report, const FitOptions& options, const FitReport* simpler,
-                      FitWatch* watch) {
+                      const ProgressReporter& progress) {
   CandidateReport candidate;
   candidate.model = report.model;
   candidate.rmse_A = report.rmse.refined.Of(report.objective);
   candidate.aicc = report.criteria.aicc;
-  candidate.held_out_rmse_A = HeldOutRmse(report, options, watch);
+  candidate.held_out_rmse_A = HeldOutRmse(report, options, progress);
   if (simpler != nullptr) {
     const double simple = simpler->rmse.refined.Of(report.objective);
     const int extra = report.criteria.parameters - simpler->criteria.parameters;
@@ -93,7 +93,7 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
   std::vector<FitReport> fits;
   ModelChoice choice;
   std::string sentence;
-  FitWatch watch(observer);
+  const ProgressReporter progress(observer, 0);
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
     FitOptions own = ForModel(options, model, curve);
     own.polish = true;
@@ -108,8 +108,8 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
     fits.push_back(std::move(*fit));
     const bool first = fits.size() == 1;
     choice.candidates.push_back(
-        Judge(fits.back(), own, first ? nullptr : &fits[fits.size() - 2], &watch));
-    if (fits.back().interrupted || watch.stopped()) {
+        Judge(fits.back(), own, first ? nullptr : &fits[fits.size() - 2], progress));
+    if (fits.back().interrupted || progress.stop().requested()) {
       sentence += " The comparison was interrupted.";
       break;
     }
@@ -132,7 +132,7 @@ Expected<FitReport> FitAuto(const IvCurve& curve, const FitOptions& options,
   }
   choice.chosen = choice.candidates[chosen].model;
   choice.sentence = fmt::format("The data support {}.", Capital(choice.chosen)) + sentence;
-  const bool interrupted = fits.back().interrupted || watch.stopped();
+  const bool interrupted = fits.back().interrupted || progress.stop().requested();
   FitOptions final_options = ForModel(options, choice.chosen, curve);
   final_options.polish = true;
   auto final_fit = interrupted ? Expected<FitReport>(std::move(fits[chosen]))

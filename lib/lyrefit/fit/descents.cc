@@ -58,12 +58,12 @@ void Descents::GoOn(std::vector<int>* ways, int steps, std::size_t most) {
   briefly.max_iterations = briefly.first_iterations = steps;
   briefly.trust_radius = 1e4;
   briefly.evaluation_limit = true;
-  briefly.stop = watch_->stop();
+  briefly.stop = progress_.stop();
   for (const int way : *ways) {
     const DescentEnd& at = ends_[way];
     const RefineProblem own = InVariant(problem_, variants_[at.start.variant], at.end.p);
     Take(way, Refine(own, at.end.p, briefly));
-    if (watch_->Next()) break;
+    if (progress_.Step()) break;
   }
   std::stable_sort(ways->begin(), ways->end(),
                    [this](int a, int b) { return ends_[a].penalised < ends_[b].penalised; });
@@ -83,13 +83,13 @@ bool Descents::IsHopeless(const DescentEnd& end) const {
 
 void Descents::Finish(const std::vector<int>& ways) {
   RefineOptions whole;
-  whole.stop = watch_->stop();
+  whole.stop = progress_.stop();
   for (const int way : ways) {
     DescentEnd& at = ends_[way];
     const DescentEnd& best = ends_[best_];
     const bool known =
         best.finished && best.start.variant == at.start.variant && visits() >= kEnough;
-    if (watch_->stopped()) break;
+    if (progress_.stop().requested()) break;
     if (known || at.penalised > kClose * kClose * best.penalised) continue;
     // This descent has already reached the optimum of a finished one.
     at.finished = best.finished && best.start.variant == at.start.variant && SameOptimum(at, best);

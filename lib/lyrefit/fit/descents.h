@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/polish.h"
 #include "lyrefit/law/variants.h"
 #include "lyrefit/refine/refine.h"
@@ -24,8 +24,9 @@ struct DescentEnd {
 // until enough of them have reached the best optimum.
 class Descents {
  public:
-  Descents(const RefineProblem& problem, const std::vector<Variant>& variants, FitWatch* watch)
-      : problem_(problem), variants_(variants), watch_(watch) {}
+  Descents(const RefineProblem& problem, const std::vector<Variant>& variants,
+           const ProgressReporter& progress)
+      : problem_(problem), variants_(variants), progress_(progress) {}
 
   // Descends from `starts`. The other members need at least one start before their first call.
   void Descend(std::vector<PolishStart> starts);
@@ -43,7 +44,7 @@ class Descents {
 
   const RefineProblem& problem_;
   const std::vector<Variant>& variants_;
-  FitWatch* watch_;
+  const ProgressReporter progress_;
   std::vector<DescentEnd> ends_;
   int best_ = -1;
 };

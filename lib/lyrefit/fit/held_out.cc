@@ -43,7 +43,8 @@ Split MakeSplit(const IvCurve& curve, int block, int blocks) {
 
 }  // namespace
 
-double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch) {
+double HeldOutRmse(const FitReport& report, const FitOptions& options,
+                   const ProgressReporter& progress) {
   const int points = static_cast<int>(report.curve.size());
   const int blocks = std::min(kMostBlocks, (points - 2) / kSmallestBlock);
   if (blocks < 2) return kUnknown;
@@ -54,11 +55,8 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
     lower.push_back(e.bounds.lower);
     upper.push_back(e.bounds.upper);
   }
-  const Observer nobody;
-  FitWatch unobserved(nobody);
-  if (watch == nullptr) watch = &unobserved;
   std::vector<double> squares(blocks);
-  watch->Begin("held out", blocks);
+  progress.BeginSilently("held out", blocks);
   ParallelFor(blocks, options.threads, [&](int block) {
     const Split split = MakeSplit(report.curve, block, blocks);
     std::vector<double> weights;
@@ -69,8 +67,8 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
     RefineOptions how;
     how.function_tolerance = kTolerance;
     how.max_iterations = kMaxIterations;
-    how.stop = watch->stop();
-    if (watch->Next()) return;
+    how.stop = progress.stop();
+    if (progress.Step()) return;
     RefineEnd end = Refine(problem, SeparableDescent(problem, report.refined), how);
     for (const SeparableStart& start : SeparableStarts(problem, report.refined[kRs], 1)) {
       RefineEnd other = Refine(problem, SeparableDescent(problem, start.p), how);
@@ -80,7 +78,7 @@ double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch*
                              split.left_out.voltage_V, split.left_out.current_A);
     squares[block] = rmse * rmse * static_cast<double>(split.left_out.size());
   });
-  if (watch->stopped()) return kUnknown;
+  if (progress.stop().requested()) return kUnknown;
   double sum = 0;
   for (const double square : squares) sum += square;
   return std::sqrt(sum / (points - 2));

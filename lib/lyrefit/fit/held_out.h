@@ -1,8 +1,8 @@
 #pragma once
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 
 namespace lyrefit {
 
@@ -11,7 +11,9 @@ namespace lyrefit {
 // in turn, the model is refitted to the rest, and the residuals on the block are counted. Blocks
 // are contiguous because residuals of neighbours are correlated and single points would be too easy
 // to predict. The first and the last point are never left out, since models extrapolate poorly.
-// Refits use Coarsen() of the rest. NaN: too few points for a refit, or `watch` requested a stop.
-double HeldOutRmse(const FitReport& report, const FitOptions& options, FitWatch* watch = nullptr);
+// Refits use Coarsen() of the rest. NaN: too few points for a refit, or the observer requested a
+// stop.
+double HeldOutRmse(const FitReport& report, const FitOptions& options,
+                   const ProgressReporter& progress = {});
 
 }  // namespace lyrefit

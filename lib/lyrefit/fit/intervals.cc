@@ -148,7 +148,7 @@ bool Coarsened(const IntervalInput& input, const RefineProblem& coarse) {
 
 RefineOptions HowToRefine(const IntervalInput& input) {
   RefineOptions how;
-  how.stop = input.watch->stop();
+  how.stop = input.progress.stop();
   return how;
 }
 
@@ -175,7 +175,7 @@ void FindMoreOptima(IntervalWork* work) {
       reach * reach * VarianceOf(work->degrees, work->input.problem, work->input.end) / points;
   work->local_optima =
       FindOtherOptima(work->input.problem, work->input.end, work->input.ends,
-                      work->input.end.mean_square + rise, work->input.watch->stop());
+                      work->input.end.mean_square + rise, work->input.progress.stop());
   for (const FitPoint& local_optimum : work->local_optima) TakeIfBetter(work, local_optimum.p);
 }
 
@@ -221,7 +221,7 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
 }
 
 ProfileSide SideOf(IntervalWork* work, const ProfileQuery& query) {
-  const auto stop = work->input.watch->stop();
+  const StopToken& stop = work->input.progress.stop();
   return OfEffect(work->input, query.parameter)
              ? FindQuotedSide(work->coarse, work->coarse_end, query, stop)
              : FindProfileSide(work->coarse, work->coarse_end, query, stop);
@@ -243,11 +243,11 @@ void ProfileWhereNeeded(IntervalWork* work, bool saturation_currents) {
   if (count == 0) return;
   std::vector<ProfileSide> sides(count);
   std::vector<char> done(count, 0);
-  work->input.watch->Begin("intervals", count);
+  work->input.progress.BeginSilently("intervals", count);
   ParallelFor(count, work->input.threads, [&](int q) {
-    if (work->input.watch->Next()) return;
+    if (work->input.progress.Step()) return;
     sides[q] = SideOf(work, queries[q]);
-    done[q] = sides[q].settled || !work->input.watch->stopped() ? 1 : 0;
+    done[q] = sides[q].settled || !work->input.progress.stop().requested() ? 1 : 0;
   });
   for (int q = 0; q + 1 < count; q += 2) {
     if (!done[q] || !done[q + 1]) continue;

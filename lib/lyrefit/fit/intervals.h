@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/error_model.h"
 #include "lyrefit/refine/refine.h"
 
@@ -18,7 +18,7 @@ struct IntervalInput {
   int free_parameters = 0;
   int readings = 0;  // distinct readings
   int threads = 0;
-  FitWatch* watch;
+  const ProgressReporter& progress;
   bool final = false;  // true: profiles continue past a lower optimum
   // Errors of the residuals, in A, if they differ from those that the fit assumed. Each profile is
   // then extended by the ratio of the standard errors.

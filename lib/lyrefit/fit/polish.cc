@@ -107,7 +107,7 @@ std::vector<double> SingleDiodeStart(const RefineProblem& problem) {
 RefineEnd Restart(const RefineProblem& problem, const RefineOptions& how, RefineEnd end) {
   constexpr int kAttempts = 3;
   for (int attempt = 0; attempt < kAttempts && !end.converged; ++attempt) {
-    if (how.stop()) break;
+    if (how.stop.Stopped()) break;
     std::vector<RefineEnd> others = {Refine(problem, end.p, how)};
     for (int d = 0; d < DiodeCount(problem.device); ++d) {
       const int is = SaturationCurrentIndex(d);
@@ -201,11 +201,12 @@ std::vector<PolishStart> CollectStarts(const RefineProblem& problem,
 }
 
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coarse,
-                          const std::vector<PolishStart>& starts, FitWatch* watch) {
+                          const std::vector<PolishStart>& starts,
+                          const ProgressReporter& progress) {
   const Instant begin = Now();
-  watch->Begin("polish", static_cast<std::int64_t>(starts.size()));
+  progress.BeginSilently("polish", static_cast<std::int64_t>(starts.size()));
   RefineOptions how;
-  how.stop = watch->stop();
+  how.stop = progress.stop();
   std::vector<std::vector<double>> descended;
   Groups groups(coarse);
   bool stopped = false;
@@ -213,7 +214,7 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
     descended.push_back(SeparableDescent(coarse, start.p));
     groups.Add(descended.back());
     if (groups.BestGroupSize() >= Enough(coarse)) break;
-    stopped = watch->Next();
+    stopped = progress.Step();
     if (stopped) break;
   }
   const int count = static_cast<int>(descended.size());
@@ -233,7 +234,8 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
   std::vector<RefineEnd> end_of;
   end_of.reserve(count);
   for (int s = 0; s < count; ++s) end_of.push_back(ends[groups.Leader(s)]);
-  return ReportEnds(problem, starts, std::move(end_of), -1, stopped || watch->stopped(), begin);
+  return ReportEnds(problem, starts, std::move(end_of), -1, stopped || progress.stop().requested(),
+                    begin);
 }
 
 }  // namespace lyrefit

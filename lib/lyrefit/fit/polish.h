@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
@@ -38,9 +38,9 @@ PolishResult ReportEnds(const RefineProblem& problem, const std::vector<PolishSt
 // the same best curve or no start is left. Then one bounded least-squares solve is run for each
 // distinct curve; starts with the same curve share an end. All this uses `coarse`, which is
 // Coarsen(problem). If it has fewer points than `problem`, the ends that may be the best are solved
-// again on all points. Starts after the first are skipped when `watch` requests a stop.
+// again on all points. Starts after the first are skipped when the observer requests a stop.
 PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coarse,
-                          const std::vector<PolishStart>& starts, FitWatch* watch);
+                          const std::vector<PolishStart>& starts, const ProgressReporter& progress);
 
 // Starts: the best candidate, then the separable grid and further elites in alternation. For more
 // than one diode the best single-diode curve is included, so that a richer model never ends above a

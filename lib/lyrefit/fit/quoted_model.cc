@@ -29,7 +29,7 @@ ModelShape QuotedShape(const RefineProblem& problem, ModelShape shape) {
 }
 
 // Cheap solver options for hundreds of refits.
-RefineOptions BrieflySmall(const std::function<bool()>& stop) {
+RefineOptions BrieflySmall(const StopToken& stop) {
   RefineOptions how;
   how.small = true;
   how.let_in = false;
@@ -71,7 +71,7 @@ double QuotedModel::MeanSquare(const FitPoint& point) const {
 }
 
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
-                           const ProfileQuery& query, const std::function<bool()>& stop) {
+                           const ProfileQuery& query, const StopToken& stop) {
   const QuotedModel model(problem);
   QuotedModel held(problem);
   RefineEnd quoted = best;
@@ -94,7 +94,7 @@ ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
 
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                       std::vector<FitPoint> ends, double highest,
-                                      const std::function<bool()>& stop) {
+                                      const StopToken& stop) {
   const DeviceEffects& device_effects = *problem.device.effects;
   OptimumQuery query{highest, device_effects.law.base_size(), BrieflySmall(stop)};
   query.how.cutoff = highest;

@@ -29,12 +29,12 @@ class QuotedModel : public FitModel {
 // FindProfileSide() for a parameter of an effect. Values of `query` and result are in reporting
 // units; `best`, the local optima and `better` of the result are in internal units.
 ProfileSide FindQuotedSide(const RefineProblem& problem, const RefineEnd& best,
-                           const ProfileQuery& query, const std::function<bool()>& stop);
+                           const ProfileQuery& query, const StopToken& stop);
 
 // FindOtherOptima() for one curve, all in internal units.
 std::vector<FitPoint> FindOtherOptima(const RefineProblem& problem, const RefineEnd& best,
                                       std::vector<FitPoint> ends, double highest,
-                                      const std::function<bool()>& stop);
+                                      const StopToken& stop);
 
 // Marks the enumerated parameters of effects that cannot be found by descent, since no current
 // depends on them locally at `quoted`. An example is the moment of a step between two readings.

@@ -8,13 +8,13 @@
 
 namespace lyrefit {
 
-void Robustify(const FitOptions& options, const std::function<bool()>& stop, RefineProblem* problem,
+void Robustify(const FitOptions& options, const StopToken& stop, RefineProblem* problem,
                RefineEnd* end) {
   constexpr int kRounds = 50;
   const std::vector<double> given = problem->weights;
   RefineOptions how;
   how.stop = stop;
-  for (int round = 0; round < kRounds && !stop(); ++round) {
+  for (int round = 0; round < kRounds && !stop.Stopped(); ++round) {
     std::vector<double> residual(given.size());
     ModelCurrents(problem->device, problem->objective, end->p.data(),
                   {problem->voltage_V, problem->current_A, problem->points}, *problem->kernel,

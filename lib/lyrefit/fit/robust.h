@@ -10,7 +10,7 @@ namespace lyrefit {
 // Reweights iteratively for the robust loss of `options` until the parameters are stationary (at
 // most 50 rounds). On return `problem` is the weighted problem whose least-squares solution, `end`,
 // is the robust estimate, so later stages only need the weights. Returns early if `stop` is true.
-void Robustify(const FitOptions& options, const std::function<bool()>& stop, RefineProblem* problem,
+void Robustify(const FitOptions& options, const StopToken& stop, RefineProblem* problem,
                RefineEnd* end);
 
 }  // namespace lyrefit

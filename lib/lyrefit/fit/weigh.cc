@@ -4,8 +4,9 @@
 
 namespace lyrefit {
 
-std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
-                                         RefineProblem* problem, RefineEnd* end) {
+std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve,
+                                         const ProgressReporter& progress, RefineProblem* problem,
+                                         RefineEnd* end) {
   constexpr int kRounds = 5;
   constexpr double kSettled = 0.01;  // relative change of every size
   WeighedFit weighed;
@@ -14,9 +15,9 @@ std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, F
   errors.stated = spec.kind == ErrorKind::kStated;
   errors.current_stated = !errors.stated && !curve.sigma_A.empty();
   RefineOptions how;
-  how.stop = watch->stop();
+  how.stop = progress.stop();
   const RefineProblem plain = *problem;
-  for (int round = 0; round < kRounds && !watch->stopped(); ++round) {
+  for (int round = 0; round < kRounds && !progress.stop().requested(); ++round) {
     if (!errors.stated) {
       const std::optional<FoundErrors> found = FindErrors(plain, curve, *end);
       if (!found) return {};

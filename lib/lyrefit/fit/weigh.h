@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_report.h"
-#include "lyrefit/fit/fit_watch.h"
 #include "lyrefit/fit/reading_errors.h"
 
 namespace lyrefit {
@@ -17,7 +17,8 @@ struct WeighedFit {
 // by the stated ones, and refits until both are stationary. On return `problem` and `end` are the
 // weighted ones. Returns none, and changes nothing, if there are too few readings to estimate
 // errors.
-std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve, FitWatch* watch,
-                                         RefineProblem* problem, RefineEnd* end);
+std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve,
+                                         const ProgressReporter& progress, RefineProblem* problem,
+                                         RefineEnd* end);
 
 }  // namespace lyrefit

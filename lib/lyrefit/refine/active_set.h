@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/refine/model.h"
 
 namespace lyrefit {
@@ -14,7 +14,7 @@ struct RefineOptions {
   int max_rounds = 30;                // of finding the active bounds
   bool let_in = true;                 // whether a dropped diode may be added again
   double target = 0;                  // A^2; iterations end at or below this mean square
-  std::function<bool()> stop;         // called once per iteration; true: end at this point
+  StopToken stop;                     // polled once per iteration; a stop ends at this point
   // Solves small problems in fewer evaluations (SolveOptions::small), without further rounds if the
   // first solve converged inside the bounds. For fits by the hundred that need not be exact.
   bool small = false;

@@ -35,7 +35,7 @@ bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>
 class CurveRefits {
  public:
   CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
-              const std::function<bool()>& stop)
+              const StopToken& stop)
       : i_(query.parameter), best_(best), held_(problem), model_(held_) {
     const double rise = query.t * query.t * query.variance / model_.shape().points;
     outside_ = best.mean_square + kInside * rise;
@@ -45,7 +45,7 @@ class CurveRefits {
     how_.let_in = false;  // the separable descents add diodes
     how_.max_iterations = how_.first_iterations = kMaxIterations;
     how_.max_rounds = kMaxRounds;
-    how_.stop = [this, stop] { return stopped_ = stopped_ || (stop && stop()); };
+    how_.stop = stop;
   }
   CurveRefits(const CurveRefits&) = delete;
   CurveRefits& operator=(const CurveRefits&) = delete;
@@ -69,7 +69,7 @@ class CurveRefits {
         TakeIfLower(RefineModel(model_, {std::move(traded), {}}, how_), &end);
       }
     }
-    end.stopped = stopped_;
+    end.stopped = how_.stop.requested();
     return end;
   }
 
@@ -130,13 +130,12 @@ class CurveRefits {
   double outside_ = 0;  // mean square of a point outside the interval
   double hopeless_ = HUGE_VAL;
   RefineOptions how_;
-  bool stopped_ = false;
 };
 
 }  // namespace
 
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& stop) {
+                            const ProfileQuery& query, const StopToken& stop) {
   CurveRefits curve(problem, best, query, stop);
   const auto bind = [&](auto member) {
     return [&, member](auto&&... of) { return (curve.*member)(of...); };

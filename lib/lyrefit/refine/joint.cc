@@ -18,7 +18,7 @@ constexpr double kAbsent = -25;  // ln(current of a dropped diode at V0 / I0)
 RefineOptions HowToRefine(const JointOptions& options) {
   RefineOptions how;
   how.function_tolerance = options.function_tolerance;
-  if (options.proceed) how.stop = [&options] { return !options.proceed(); };
+  how.stop = options.stop;
   how.trust_radius = 1e6;  // starts are worse than a curve's: a longer step leads astray
   return how;
 }
@@ -129,10 +129,10 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 }
 
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                      double variance, const std::function<bool()>& proceed) {
+                                      double variance, const StopToken& stop) {
   const FamilyModel model(problem);
   JointOptions options;
-  options.proceed = proceed;
+  options.stop = stop;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
   return FindOtherOptima(model, *problem.translation.extended->effects, model.Pack(best.point), {},
@@ -140,13 +140,13 @@ std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEn
 }
 
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& proceed) {
+                            const ProfileQuery& query, const StopToken& stop) {
   const FamilyModel model(problem);
   RefineEnd from;
   static_cast<FitPoint&>(from) = model.Pack(best.point);
   from.mean_square = (best.squares + best.prior_squares) / model.shape().points;
   JointOptions options;
-  options.proceed = proceed;
+  options.stop = stop;
   RefineOptions how = HowToRefine(options);
   ProfileRefits refits;
   refits.refit = [&](double value, const FitPoint& start, double target, double tolerance) {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/law/translation.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
@@ -81,7 +81,7 @@ struct JointEnd {
   double squares = 0;        // weighted sum over the points, A^2
   double prior_squares = 0;  // sum of squares of the priors
   bool converged = false;
-  bool stopped = false;  // by `proceed`
+  bool stopped = false;  // by `stop`
   int iterations = 0;
   std::vector<bool> held;         // see RefineEnd
   double projected_gradient = 1;  // of the shared parameters, see RefineEnd
@@ -89,8 +89,7 @@ struct JointEnd {
 
 struct JointOptions {
   double function_tolerance = 1e-15;  // as in RefineOptions
-  // Called once per iteration; false ends the fit at the best point so far. May be empty.
-  std::function<bool()> proceed;
+  StopToken stop;  // polled once per iteration; a stop ends the fit at the best point so far
 };
 
 // RefineModel of a joint problem. Only the saturation current of a second diode may vanish. Its
@@ -112,10 +111,10 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 // FindOtherOptima of a joint problem with effects, in internal units, from the end of its fit.
 // Accepts optima within the threshold of t and the variance of a point of weight 1.
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                      double variance, const std::function<bool()>& proceed = {});
+                                      double variance, const StopToken& stop = {});
 
-// FindProfileSide of a shared parameter; `proceed` as in JointOptions.
+// FindProfileSide of a shared parameter; `stop` as in JointOptions.
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& proceed = {});
+                            const ProfileQuery& query, const StopToken& stop = {});
 
 }  // namespace lyrefit

@@ -159,7 +159,7 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
   int invalid = 0;
   while (!model.free.empty() && end.iterations < options.max_iterations &&
          trust.radius > kLeastRadius && invalid <= kMostInvalid && here.sum > options.target) {
-    end.stopped = options.stop && options.stop();
+    end.stopped = options.stop.Stopped();
     if (end.stopped) break;
     ++end.iterations;
     const bool solved = TakeStep(problem, model, here.p, trust.radius, &next.p);

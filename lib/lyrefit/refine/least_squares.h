@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/observer.h"
 
 namespace lyrefit {
 
@@ -28,8 +29,8 @@ struct LeastSquaresOptions {
   // Trust radius of the first step, relative to the squared lengths of the columns: damps
   // directions that are weaker than the single columns by this factor.
   double trust_radius = 1e4;
-  double target = 0;           // the descent ends at or below this sum of squares
-  std::function<bool()> stop;  // called once per step; true: end at this point; may be empty
+  double target = 0;  // the descent ends at or below this sum of squares
+  StopToken stop;     // polled once per step; a stop ends at this point
 };
 
 inline LeastSquaresOptions UpTo(int max_iterations, double function_tolerance) {

@@ -51,8 +51,8 @@ ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const 
                             const ProfileRefits& refits);
 
 // FindProfileSide for one curve, whose diodes may exchange roles along the profile. `stop` is
-// called once per iteration of every refit.
+// polled once per iteration of every refit.
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
-                            const ProfileQuery& query, const std::function<bool()>& stop = {});
+                            const ProfileQuery& query, const StopToken& stop = {});
 
 }  // namespace lyrefit

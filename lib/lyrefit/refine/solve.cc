@@ -45,20 +45,17 @@ class BlockCost : public ceres::CostFunction {
   double unit_A_;
 };
 
-// Ends a solve if `stop` returns true or the sum of squares is low enough.
+// Ends a solve at a stop request, or if the sum of squares is low enough.
 class StopAsked : public ceres::IterationCallback {
  public:
   explicit StopAsked(const SolveOptions& options) : options_(options) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    stopped_ = stopped_ || (options_.stop && options_.stop());
-    const bool end = stopped_ || 2 * summary.cost <= options_.target;
+    const bool end = options_.stop.Stopped() || 2 * summary.cost <= options_.target;
     return end ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
-  bool stopped() const { return stopped_; }
 
  private:
   const SolveOptions& options_;
-  bool stopped_ = false;
 };
 
 void SetBounds(const Coordinates& coordinates, std::vector<double>* theta, ceres::Problem* solver) {
@@ -161,7 +158,7 @@ SolveEnd SolveModel(const FitModel& model, const Coordinates& coordinates,
   ceres::Solve(how, &solver, &summary);
   end.iterations = static_cast<int>(summary.iterations.size());
   end.converged = summary.termination_type == ceres::CONVERGENCE;
-  end.stopped = stop.stopped();
+  end.stopped = options.stop.requested();
   return end;
 }
 

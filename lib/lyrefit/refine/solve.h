@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/refine/coordinates.h"
 
 namespace lyrefit {
@@ -15,10 +15,10 @@ struct SolveOptions {
   int max_iterations = 0;
   double function_tolerance = 0;  // relative decrease of the sum of squares that ends the solve
   double trust_radius = 0;        // of the first step
-  double unit_A = 1;           // unit of the residuals; makes tolerances independent of the problem
-  double target = 0;           // sum of squares in unit_A^2 that ends the solve
-  double cutoff = HUGE_VAL;    // in unit_A^2, as in LeastSquaresOptions; Ceres ignores it
-  std::function<bool()> stop;  // called once per iteration; true: end at this point
+  double unit_A = 1;         // unit of the residuals; makes tolerances independent of the problem
+  double target = 0;         // sum of squares in unit_A^2 that ends the solve
+  double cutoff = HUGE_VAL;  // in unit_A^2, as in LeastSquaresOptions; Ceres ignores it
+  StopToken stop;            // polled once per iteration; a stop ends at this point
 };
 
 struct SolveEnd {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/study/best_known.h"
@@ -83,7 +83,9 @@ class Study {
         options_(options),
         runs_per_problem_(static_cast<int>(algorithms.size()) * options.runs),
         problems_(MakeProblems(curves, options, runs_per_problem_)),
-        watch_(observer, "compare", jobs(), WorkOfAll(problems_, algorithms, options.runs)) {}
+        progress_(observer) {
+    progress_.BeginSilently("compare", jobs(), WorkOfAll(problems_, algorithms, options.runs));
+  }
 
   // Runs one cheap search for each problem, which returns every error that a fit would return.
   Expected<void> Try() const {
@@ -125,13 +127,13 @@ class Study {
       if (slot) continue;
       slot = std::move(run->outcome);
       ++taken_up_;
-      watch_.SkipJob(WorkOf(*problems_[at.problem], algorithms_[at.compared]));
+      progress_.Count(WorkOf(*problems_[at.problem], algorithms_[at.compared]));
     }
     return {};
   }
 
   Comparison Run() {
-    watch_.Begin();
+    progress_.Report();
     ParallelFor(jobs(), options_.threads, [this](int job) { RunJob(job); });
     Comparison comparison;
     comparison.version = Version();
@@ -169,7 +171,7 @@ class Study {
   }
 
   void RunJob(int job) {
-    if (watch_.Stopped()) return;
+    if (progress_.Stopped()) return;
     const RunPlace at = PlaceOf(job);
     Problem* problem = problems_[at.problem].get();
     std::optional<RunOutcome>& slot = SlotOf(at);
@@ -178,14 +180,14 @@ class Study {
     if (!slot) return;
     const std::int64_t evaluations = slot->record.evaluations;
     if (--problem->left == 0) SumUp(at.problem);
-    if (!taken_up) watch_.FinishJob(WorkOf(*problem, algorithms_[at.compared]), evaluations);
+    if (!taken_up) progress_.Step(WorkOf(*problem, algorithms_[at.compared]), evaluations);
   }
 
   // Empty if the observer stopped the run.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
     const ComparedAlgorithm& compared = algorithms_[at.compared];
-    auto done =
-        RunOnce(problem.subject, problem.result, options_, compared, at.run, watch_.Inside());
+    auto done = RunOnce(problem.subject, problem.result, options_, compared, at.run,
+                        progress_.stop().AsObserver());
     CHECK(done.has_value()) << done.error().ToString();  // Try() has found all errors before
     if (!*done) return {};
     RunOutcome outcome = std::move(**done);
@@ -221,12 +223,14 @@ class Study {
     if (plain) {
       CompareOptions options = options_;
       options.objective = result.objective;
-      reference = FindReference(problem->subject, result.model, options, best, watch_.Inside());
+      reference = FindReference(problem->subject, result.model, options, best,
+                                progress_.stop().AsObserver());
       const bool enough = reference.certified || reference.interrupted;
       if (enough || options.multistart == 0) return reference;
     }
     if (!problem->known) {
-      problem->known = FindBestKnown(problem->subject, result, options_, watch_.Inside());
+      problem->known =
+          FindBestKnown(problem->subject, result, options_, progress_.stop().AsObserver());
       const bool whole = !problem->known->interrupted && options_.multistart > 0;
       if (journal_ && whole) journal_->Append(WriteBestKnown(which, *problem->known));
     }
@@ -243,7 +247,7 @@ class Study {
   const Instant begin_ = Now();
   const int runs_per_problem_;
   const Problems problems_;
-  SharedObserver watch_;
+  const ProgressReporter progress_;
   std::unique_ptr<Journal> journal_;  // null: none
   int taken_up_ = 0;
 };

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/base/shared_observer.h"
 #include "lyrefit/translate/linear_budget.h"
 
 namespace lyrefit {
@@ -41,10 +41,11 @@ void AddChoice(const ChoiceRange& range, const std::vector<double>& reported, Ra
   }
 }
 
-// samples[result][draw]; incomplete if `shared` was stopped.
+// samples[result][draw]; incomplete if the observer requested a stop.
 std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
                                          const UncertaintySources& sources, int threads,
-                                         const UncertaintyBudget& budget, SharedObserver* shared) {
+                                         const UncertaintyBudget& budget,
+                                         const ProgressReporter& progress) {
   std::vector<double> reported;
   for (const UncertainOutput& output : budget.outputs) reported.push_back(output.value);
   std::vector<ChoiceRange> ranges;
@@ -61,10 +62,10 @@ std::vector<std::vector<double>> DrawAll(const UncertainModel& model,
     for (std::size_t k = 0; k < outputs.size(); ++k) samples[k][draw] = outputs[k];
   };
   ParallelFor(BlocksOf(budget.draws), threads, [&](int block) {
-    if (shared->Stopped()) return;
+    if (progress.Stopped()) return;
     const int end = std::min(budget.draws, (block + 1) * kBlock);
     for (int draw = block * kBlock; draw < end; ++draw) draw_one(draw);
-    shared->FinishJob();
+    progress.Step();
   });
   return samples;
 }
@@ -111,10 +112,9 @@ void AddInterval(const std::vector<double>& rising, double probability, DrawnInt
 
 void AddDraws(const UncertainModel& model, const UncertaintySources& sources, int threads,
               const Observer& observer, UncertaintyBudget* budget) {
-  SharedObserver shared(observer, "draws", BlocksOf(budget->draws));
-  shared.Begin();
-  std::vector<std::vector<double>> samples = DrawAll(model, sources, threads, *budget, &shared);
-  if (shared.Stopped()) {
+  const ProgressReporter progress(observer, "draws", BlocksOf(budget->draws));
+  std::vector<std::vector<double>> samples = DrawAll(model, sources, threads, *budget, progress);
+  if (progress.Stopped()) {
     budget->draws = 0;
     return;
   }

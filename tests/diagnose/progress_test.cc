@@ -1,4 +1,4 @@
-#include "lyrefit/diagnose/watch.h"
+#include "lyrefit/diagnose/diagnose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "law/made_curve.h"
-#include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit {
 namespace {
@@ -22,21 +21,7 @@ IvCurve CurveWithAStep(int points) {
   return curve;
 }
 
-TEST(WatchTest, RemembersThatItWasToldToStop) {
-  int asked = 0;
-  Watch watch([&](const Progress& progress) {
-    EXPECT_EQ(progress.stage, "stage");
-    EXPECT_EQ(progress.iterations, 7);
-    return ++asked == 1 ? ObserverAction::kStop : ObserverAction::kContinue;
-  });
-  EXPECT_FALSE(watch.Stopped());
-  watch.Begin("stage", 7);
-  EXPECT_TRUE(watch.Stopped());
-  EXPECT_TRUE(watch.Stopped());
-  EXPECT_FALSE(Stopped(nullptr));
-}
-
-TEST(WatchTest, HearsOfEveryStageOfADiagnosis) {
+TEST(DiagnosisProgress, HearsOfEveryStageOfADiagnosis) {
   std::vector<std::string> stages;
   const Observer observer = [&](const Progress& progress) {
     if (stages.empty() || stages.back() != progress.stage) stages.emplace_back(progress.stage);
@@ -53,7 +38,7 @@ TEST(WatchTest, HearsOfEveryStageOfADiagnosis) {
 }
 
 // A stop during any stage ends all fits, and the diagnosis is marked as unfinished.
-TEST(WatchTest, AStopEndsEveryStageAtOnce) {
+TEST(DiagnosisProgress, AStopEndsEveryStageAtOnce) {
   for (const char* stage : {"base fit", "null statistics", "selection", "candidates", "held out"}) {
     const Observer observer = [&](const Progress& progress) {
       return progress.stage == stage ? ObserverAction::kStop : ObserverAction::kContinue;

@@ -185,8 +185,8 @@ bool IsNoted(const std::string& keyword, const std::vector<KeywordNote>& notes) 
 Keywords::Keywords(const char* verb, const py::kwargs& given) : verb_(verb) {
   given_.reserve(given.size());
   for (const auto& [name, value] : given) {
-    given_.push_back({CurrentKeyword(name.cast<std::string>()),
-                      py::reinterpret_borrow<py::object>(value)});
+    given_.push_back(
+        {CurrentKeyword(name.cast<std::string>()), py::reinterpret_borrow<py::object>(value)});
   }
 }
 

@@ -16,7 +16,8 @@ PYBIND11_MODULE(_lyrefit, module) {
   module.doc() = "The compiled part of lyrefit.";
   module.attr("__version__") = Version();
   py::list former_keys;
-  for (const FormerName& key : kFormerKeys) former_keys.append(py::make_tuple(key.former, key.name));
+  for (const FormerName& key : kFormerKeys)
+    former_keys.append(py::make_tuple(key.former, key.name));
   module.attr("_former_keys") = former_keys;
   BindErrors(&module);
   BindResult(&module);

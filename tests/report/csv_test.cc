@@ -110,7 +110,8 @@ TEST(IndividualFitsCsv, HasTheColumnsOfThePublishedParameterSets) {
 TEST(IndividualFitsCsv, AddsTheSecondDiode) {
   FamilyReport report = TwoCurves();
   report.translation.spec.model = Model::kDoubleDiode;
-  report.curves[0].individual_parameters.insert(report.curves[0].individual_parameters.end(), {1e-7, 2});
+  report.curves[0].individual_parameters.insert(report.curves[0].individual_parameters.end(),
+                                                {1e-7, 2});
   const std::string csv = IndividualFitsCsv(report);
   EXPECT_THAT(csv, HasSubstr(",cells_in_series,saturation_current_2,n_2\n"));
   EXPECT_THAT(csv, HasSubstr("\n1,6.1,1.25e-10,0.3,400,1.1,60,1e-07,2\n"));

@@ -111,7 +111,7 @@ TEST(FamilyJson, HoldsEveryCurve) {
   EXPECT_EQ(Keys(curve["irradiance_offset_Wm2"]), kInterval);
   EXPECT_TRUE(curve["temperature_offset_K"].is_null());
   EXPECT_EQ(Keys(curve["individual_parameters"]), (Set{"photocurrent", "saturation_current", "n",
-                                                 "resistance_series", "resistance_shunt"}));
+                                                       "resistance_series", "resistance_shunt"}));
   EXPECT_EQ(j["curves"][0]["role"], "held-out");
   EXPECT_EQ(j["curves"][1]["reason"], "taken in the dark");
 }
@@ -135,7 +135,8 @@ TEST(FamilyJson, HoldsCurvesFittedOneByOne) {
   EXPECT_TRUE(j["held_out"].is_null());
   EXPECT_TRUE(j["curves"][0]["parameters"].is_null());
   EXPECT_TRUE(j["curves"][0]["rmse"]["solved_current_A"].is_null());
-  EXPECT_NEAR(j["curves"][0]["individual_parameters"]["resistance_series"].get<double>(), 0.3162, 1e-12);
+  EXPECT_NEAR(j["curves"][0]["individual_parameters"]["resistance_series"].get<double>(), 0.3162,
+              1e-12);
 }
 
 TEST(FamilyJson, TakesNamesThatAreNotUtf8) {

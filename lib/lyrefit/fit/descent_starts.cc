@@ -30,7 +30,8 @@ bool Beside(const Draw& a, const Draw& b, const Box& box) {
   return true;
 }
 
-void AddWholeNumbers(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+void AddWholeNumbers(const PreparedFit& fit, const DescentEnd& at,
+                     std::vector<PolishStart>* starts) {
   const Variant& variant = fit.variants[at.start.variant];
   const int first = fit.base_size();
   std::vector<std::pair<int, double>> steps;
@@ -90,7 +91,8 @@ std::vector<Setting> SettingsOf(const PreparedFit& fit, const Variant& variant) 
   return settings;
 }
 
-void AddNextSettings(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+void AddNextSettings(const PreparedFit& fit, const DescentEnd& at,
+                     std::vector<PolishStart>* starts) {
   for (const Setting& setting : SettingsOf(fit, fit.variants[at.start.variant])) {
     const double here = at.end.p[setting.parameter];
     const auto add = [&](double value) {
@@ -105,7 +107,8 @@ void AddNextSettings(const PreparedFit& fit, const DescentEnd& at, std::vector<P
 
 // The end in every other variant. A parameter that only the other variant has free starts at its
 // usual value.
-void AddOtherVariants(const PreparedFit& fit, const DescentEnd& at, std::vector<PolishStart>* starts) {
+void AddOtherVariants(const PreparedFit& fit, const DescentEnd& at,
+                      std::vector<PolishStart>* starts) {
   const int first = fit.base_size();
   for (std::size_t f = 0; f < fit.variants.size(); ++f) {
     if (static_cast<int>(f) == at.start.variant) continue;

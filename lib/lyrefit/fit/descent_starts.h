@@ -5,8 +5,8 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/descents.h"
-#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/fit/floor.h"
@@ -14,7 +15,6 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/fit/usable.h"
 #include "lyrefit/fit/warnings.h"
-#include "lyrefit/base/seconds.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
 
@@ -187,8 +187,8 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   if (options.polish) {
     AddPolish(RefineFit(prepared, searched.candidates, space, progress), progress, &report);
   } else {
-    AddUnpolished(
-        prepared.extended() ? WithVariant(prepared, best.variant, best.p) : prepared, &report);
+    AddUnpolished(prepared.extended() ? WithVariant(prepared, best.variant, best.p) : prepared,
+                  &report);
   }
   report.interrupted = progress.stop().requested();
   report.warnings = FindWarnings(report);

@@ -245,8 +245,8 @@ struct FitReport : ModelResults {
   // Estimates with intervals under `errors`, in addition to those that assume independent errors.
   // Empty if `errors` are not believed, or if `estimates` already have such intervals.
   std::vector<Estimate> under_errors;
-  RmseTable rmse;                    // RMSEs of search and polish
-  std::optional<FloorReport> floor;  // only if requested
+  RmseTable rmse;                         // RMSEs of search and polish
+  std::optional<FloorReport> floor;       // only if requested
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
   SearchOptions search_options;           // options of the search
   SearchSummary search;                   // result of the search

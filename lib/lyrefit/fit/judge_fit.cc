@@ -25,7 +25,8 @@ std::string WhyNoIntervals(const RefinedFit& refined, bool usable,
   const PreparedFit& fit = refined.prepared;
   if (fit.options.intervals == Intervals::kNone) return "";
   if (!usable) {
-    return "the fit is not usable: around parameters of a curve that the model does not describe no "
+    return "the fit is not usable: around parameters of a curve that the model does not describe "
+           "no "
            "interval means anything";
   }
   if (IsSaturated(fit)) return TooFewReadings(fit) + ", and nothing is left over to tell how well";
@@ -52,17 +53,9 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
     OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.held);
     judged->estimates = EstimatesOf(fit, searched, judged->end.p);
     judged->correlations.clear();
-    const IntervalInput input{refined.problem,
-                              judged->end,
-                              refined.ends,
-                              method,
-                              fit.free_parameters,
-                              fit.readings(),
-                              fit.options.threads,
-                              progress,
-                              round == kRestarts,
-                              nullptr,
-                              refined.degrees};
+    const IntervalInput input{refined.problem,     judged->end,    refined.ends,        method,
+                              fit.free_parameters, fit.readings(), fit.options.threads, progress,
+                              round == kRestarts,  nullptr,        refined.degrees};
     const std::vector<double> better =
         FindIntervals(input, &judged->estimates, &judged->correlations, &judged->condition);
     if (better.empty() || round == kRestarts) break;
@@ -79,8 +72,7 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
 void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<double>& searched,
                               const ProgressReporter& progress, JudgedFit* judged) {
   const PreparedFit& fit = refined.prepared;
-  const bool possible =
-      fit.options.loss == Loss::kSquared && judged->no_intervals_because.empty();
+  const bool possible = fit.options.loss == Loss::kSquared && judged->no_intervals_because.empty();
   const bool wanted = fit.options.find_errors && fit.options.intervals != Intervals::kNone;
   if (refined.errors || !wanted || !possible || progress.stop().requested()) return;
   const RefineEnd& end = judged->end;

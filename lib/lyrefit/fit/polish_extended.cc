@@ -38,8 +38,7 @@ bool LeavesNoise(const PreparedFit& fit, const Descents& descents) {
   return FindResidualStatistics(fit.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
-void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress,
-                    Descents* descents) {
+void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress, Descents* descents) {
   for (int step = 0; step < kSteps && !progress.stop().requested(); ++step) {
     const int before = descents->best();
     std::vector<PolishStart> neighbours = Neighbours(fit, descents->ends()[before]);
@@ -164,9 +163,8 @@ ExtendedPolish PolishExtended(const PreparedFit& fit, const std::vector<PolishSt
   }
   ExtendedPolish polish;
   const std::vector<FitPoint> all(ends.begin(), ends.end());
-  static_cast<PolishResult&>(polish) =
-      ReportEnds(fit.problem, starts, std::move(ends), descents.best(),
-                 progress.stop().requested(), begin);
+  static_cast<PolishResult&>(polish) = ReportEnds(
+      fit.problem, starts, std::move(ends), descents.best(), progress.stop().requested(), begin);
   polish.ends = all;
   polish.report.local_optima = descents.Count();
   polish.variants = ReportVariants(fit, descents);

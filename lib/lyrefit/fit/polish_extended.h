@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "lyrefit/fit/descents.h"
-#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/polish.h"
+#include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/search_space.h"
 
 namespace lyrefit {

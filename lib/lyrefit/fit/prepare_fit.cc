@@ -224,7 +224,8 @@ std::vector<Estimate> EstimatesOf(const PreparedFit& fit, const std::vector<doub
                                   const std::vector<double>& refined) {
   const Device& device = fit.device;
   const std::vector<double>& best = refined.empty() ? searched : refined;
-  const std::vector<double> of_search = Reported(device, searched), of_best = Reported(device, best);
+  const std::vector<double> of_search = Reported(device, searched),
+                            of_best = Reported(device, best);
   std::vector<Estimate> estimates;
   for (int i = 0; i < device.size(); ++i) {
     Estimate e;

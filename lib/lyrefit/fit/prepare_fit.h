@@ -18,17 +18,17 @@ namespace lyrefit {
 struct PreparedFit {
   const IvCurve& curve;
   const FitOptions& options;
-  std::vector<std::string> doubts;  // about the readings; see JudgeReadings
-  Device device;
-  std::vector<ParameterBounds> bounds;  // of the device's parameters
-  std::vector<double> fixed;            // values of the fixed parameters, NaN for free ones
+  std::vector<std::string> doubts = {};  // about the readings; see JudgeReadings
+  Device device = {};
+  std::vector<ParameterBounds> bounds = {};  // of the device's parameters
+  std::vector<double> fixed = {};            // values of the fixed parameters, NaN for free ones
   int free_parameters = 0;
-  double steepest_n = kUnknown;      // see FitReport
-  std::vector<Variant> variants;     // only with effects
-  double variant_penalty = 1;        // of the selected variant; see FitReport
-  IvCurve distinct;                  // the curve without duplicate readings
-  RefineProblem problem;             // of the distinct readings; with effects of all
-  RefineProblem coarse;              // Coarsen(problem)
+  double steepest_n = kUnknown;        // see FitReport
+  std::vector<Variant> variants = {};  // only with effects
+  double variant_penalty = 1;          // of the selected variant; see FitReport
+  IvCurve distinct = {};               // the curve without duplicate readings
+  RefineProblem problem = {};          // of the distinct readings; with effects of all
+  RefineProblem coarse = {};           // Coarsen(problem)
 
   bool extended() const { return !variants.empty(); }
   int readings() const { return static_cast<int>(distinct.size()); }

@@ -22,8 +22,7 @@ std::vector<int> DegreesOfWeighed(const RefinedFit& fit, const FoundErrors& foun
   const PreparedFit& prepared = fit.prepared;
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
-    const RefineProblem there =
-        WeighByErrors(prepared.problem, prepared.fitted(), spec, fit.end.p);
+    const RefineProblem there = WeighByErrors(prepared.problem, prepared.fitted(), spec, fit.end.p);
     return StandardErrors({there,
                            fit.end,
                            {},

@@ -12,14 +12,16 @@ namespace lyrefit {
 // Third stage of a fit: the polished end, and the problem whose least-squares solution it is.
 struct RefinedFit {
   PreparedFit prepared;  // in the selected variant
-  RefineProblem problem;  // prepared.problem, with the weights of a robust loss or of an error model
-  RefineEnd end;
-  std::vector<FitPoint> ends;  // other local optima, only with effects
-  RefineReport report;
-  std::vector<VariantReport> variants;
-  std::vector<double> best_candidate;  // the best candidate after its own polish; may be empty
-  std::optional<ErrorReport> errors;   // if an error model weighed the readings
-  std::vector<int> degrees;  // of freedom, of each standard error; empty: readings minus parameters
+  RefineProblem problem =
+      {};  // prepared.problem, with the weights of a robust loss or of an error model
+  RefineEnd end = {};
+  std::vector<FitPoint> ends = {};  // other local optima, only with effects
+  RefineReport report = {};
+  std::vector<VariantReport> variants = {};
+  std::vector<double> best_candidate = {};  // the best candidate after its own polish; may be empty
+  std::optional<ErrorReport> errors = {};   // if an error model weighed the readings
+  std::vector<int> degrees =
+      {};  // of freedom, of each standard error; empty: readings minus parameters
 };
 
 // The best candidate after one bounded solve, and after its full polish.

@@ -33,8 +33,7 @@ std::vector<double> DeviceAt(const SearchSpace& space, const PreparedFit& fit, c
 
 // Starts as points of the search space, sorted by rank within their variant: the best of each
 // variant first, then the second of each. Costs one evaluation of the objective each.
-std::vector<std::vector<double>> Suggestions(const SearchSpace& space,
-                                             const RefineProblem& problem,
+std::vector<std::vector<double>> Suggestions(const SearchSpace& space, const RefineProblem& problem,
                                              const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
@@ -60,16 +59,14 @@ std::vector<std::vector<double>> Suggestions(const SearchSpace& space,
 }
 
 // RMSE of the best of as many random points as the search evaluated.
-RmsePair RandomBaseline(const PreparedFit& fit, const SearchSpace& space,
-                        std::int64_t evaluations, const Observer& observer,
-                        const ProgressReporter& progress) {
+RmsePair RandomBaseline(const PreparedFit& fit, const SearchSpace& space, std::int64_t evaluations,
+                        const Observer& observer, const ProgressReporter& progress) {
   SearchOptions random = fit.options.search;
   random.algorithm = Algorithm::kRandom;
   random.max_evaluations = std::max<std::int64_t>(evaluations, 4);
   random.target = -kInfinity;
   random.patience = 0;
-  const SearchSummary baseline =
-      Search(RmseIn(space, fit.coarse), space.box(), random, observer);
+  const SearchSummary baseline = Search(RmseIn(space, fit.coarse), space.box(), random, observer);
   if (baseline.termination == SearchTermination::kInterrupted) progress.stop().Request();
   return BothRmse(fit.device, DeviceAt(space, fit, baseline.best.x.data()), fit.curve);
 }
@@ -88,7 +85,8 @@ Expected<SearchedFit> SearchFit(const PreparedFit& fit, const SearchSpace& space
     searched.curve_evaluations = static_cast<std::int64_t>(starts.size());
   }
   const double getting_ready = SecondsSince(begin);
-  const ObjectiveFunction objective = [&searched, rmse = RmseIn(space, fit.coarse)](const double* x) {
+  const ObjectiveFunction objective = [&searched,
+                                       rmse = RmseIn(space, fit.coarse)](const double* x) {
     ++searched.curve_evaluations;
     return rmse(x);
   };
@@ -102,8 +100,7 @@ Expected<SearchedFit> SearchFit(const PreparedFit& fit, const SearchSpace& space
   if (summary.termination == SearchTermination::kInterrupted) progress.stop().Request();
   const bool is_random = options.search.algorithm == Algorithm::kRandom;
   if (options.random_baseline && !is_random && !progress.stop().requested()) {
-    searched.random_baseline =
-        RandomBaseline(fit, space, summary.evaluations, observer, progress);
+    searched.random_baseline = RandomBaseline(fit, space, summary.evaluations, observer, progress);
   }
   for (const Candidate& candidate : summary.elites) {
     const std::size_t rank = searched.candidates.size() + 1;

@@ -163,8 +163,8 @@ Expected<void> AddFurther(const TranslateOptions& options, Preparation* made) {
 
 // Adds one fitted model for each cause that explains the readings as well as the first diagnosed
 // cause, in place of that cause.
-void AddAlternatives(const IvCurve& curve, const TranslateOptions& options, const ExtendedInputs& inputs,
-               Preparation* made) {
+void AddAlternatives(const IvCurve& curve, const TranslateOptions& options,
+                     const ExtendedInputs& inputs, Preparation* made) {
   constexpr std::size_t kMostFittedCandidates = 4;
   const Verdict& verdict = made->diagnosis->verdict;
   if (verdict.causes.empty()) return;

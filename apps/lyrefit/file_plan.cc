@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/curve/curve_files.h"
 #include "lyrefit/report/plots.h"
-#include "output.h"
 
 namespace lyrefit {
 namespace {
@@ -90,7 +90,7 @@ Expected<void> CheckCanWrite(const OutputFile& output) {
   if (output.is_picture) {
     if (auto drawable = CheckPlot(output.path); !drawable) return drawable;
   }
-  return CheckWritable(output.path);
+  return output.path == "-" ? Expected<void>() : CheckWritable(output.path);
 }
 
 }  // namespace

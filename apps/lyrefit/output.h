@@ -22,10 +22,6 @@ int Refuse(const Error& error);
 // Prints one line for each remark to standard error.
 void PrintRemarks(const std::vector<std::string>& remarks);
 
-// Whether a file can be created or replaced at `path`; leaves no file behind. "-" and "" are
-// accepted.
-Expected<void> CheckWritable(const std::string& path);
-
 // Writes to a file, or to standard output if `path` is "-"; there invalid UTF-8 becomes U+FFFD.
 Expected<void> WriteOutput(const std::string& path, const std::string& text);
 

@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr AppendLog::Kind kDiary = {"diary", "this diary", "a diary", "dear", "no diary"};
+constexpr LogKind kDiary = {"diary", "this diary", "a diary", "dear", "no diary"};
 
 class AppendLogTest : public testing::Test {
  protected:
@@ -76,6 +76,39 @@ TEST_F(AppendLogTest, NeverTouchesAFileOfAnotherKind) {
   EXPECT_EQ(FileText(path_), "dear\nbad\nhal");
   folder_.Write("diary", "de");  // first line of a log, cut short
   EXPECT_THAT(*TakeUp(), ElementsAre());
+}
+
+TEST_F(AppendLogTest, IsReadWithoutAnyChange) {
+  folder_.Write("diary", "dear\none\ntw");
+  auto reader = LogReader::Open(path_, kDiary);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(**reader->Next(), "dear");
+  EXPECT_FALSE(reader->torn());
+  EXPECT_EQ(**reader->Next(), "one");
+  EXPECT_EQ(reader->line(), 2);
+  EXPECT_FALSE(*reader->Next());
+  EXPECT_TRUE(reader->torn());
+  EXPECT_EQ(FileText(path_), "dear\none\ntw");
+  EXPECT_EQ(MessageOf(LogReader::Open(folder_.Path("no"), kDiary)),
+            "cannot read the diary: No such file or directory");
+  reader = LogReader::Open(folder_.Path(""), kDiary);
+  EXPECT_EQ(reader ? MessageOf(reader->Next()) : MessageOf(reader),
+            "cannot read the diary: Is a directory");
+}
+
+TEST_F(AppendLogTest, HasALastLine) {
+  const auto last = [&](const std::string& text) {
+    folder_.Write("diary", text);
+    return LastLine(path_, kDiary)->value_or("none");
+  };
+  EXPECT_EQ(last(""), "none");
+  EXPECT_EQ(last("dear\none\ntw"), "none");
+  EXPECT_EQ(last("dear\n"), "dear");
+  const std::string longest(4096, 'x');
+  EXPECT_EQ(last(longest + "\n"), longest);
+  EXPECT_EQ(last("dear\n" + longest + "\n"), longest);
+  EXPECT_EQ(last(longest + "x\n"), "none");
+  EXPECT_EQ(last("dear\n" + longest + "x\n"), "none");
 }
 
 TEST_F(AppendLogTest, IsWrittenByOneAtATime) {

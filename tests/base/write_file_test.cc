@@ -14,6 +14,7 @@
 #include "../temp_folder.h"
 #include "error_of.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
 
 namespace lyrefit {
 namespace {
@@ -142,6 +143,43 @@ TEST(WriteTextFileTest, RemovesWhatDeadProcessesLeftOfTheSameFileOnly) {
   ASSERT_TRUE(WriteTextFile(folder.Path("a.txt"), "new"));
   for (const std::string& name : kept) EXPECT_TRUE(fs::exists(folder.Path(name))) << name;
   EXPECT_EQ(FilesIn(folder.Path("")), 6);
+}
+
+TEST(CheckWritableTest, SaysWhetherAFileCanBeWrittenAndLeavesNone) {
+  const TempFolder folder;
+  folder.Write("old.txt", "old");
+  EXPECT_TRUE(CheckWritable(folder.Path("old.txt")));
+  EXPECT_TRUE(CheckWritable(folder.Path("new.txt")));
+  EXPECT_TRUE(CheckWritable("/dev/null"));
+  EXPECT_EQ(MessageOf(CheckWritable(folder.Path(""))), "expected a file to write, found a folder");
+  EXPECT_EQ(MessageOf(CheckWritable(folder.Path("no/new.txt"))),
+            "cannot write the file: No such file or directory");
+  EXPECT_EQ(*ReadTextFile(folder.Path("old.txt"), kMostBytes), "old");
+  EXPECT_EQ(FilesIn(folder.Path("")), 1);
+}
+
+TEST(NewFileTest, HasItsNameAfterCommitOnly) {
+  const TempFolder folder;
+  const std::string path = folder.Write("a.txt", "old"), other = folder.Path("b.txt");
+  {
+    NewFile file(path);
+    ASSERT_TRUE(file.Begin());
+    ASSERT_TRUE(file.Write(std::string(1 << 20, 'x')));
+  }
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "old");
+  EXPECT_EQ(FilesIn(folder.Path("")), 1);
+  const Descriptor scratch(OpenScratch(path));
+  ASSERT_TRUE(scratch.Write("from the scratch file, "));
+  NewFile first(path), second(other);
+  ASSERT_TRUE(first.Begin());
+  ASSERT_TRUE(second.Begin());
+  ASSERT_TRUE(first.Write("one, "));
+  ASSERT_TRUE(first.WriteFrom(scratch));
+  ASSERT_TRUE(first.Write("two"));
+  ASSERT_TRUE(NewFile::Commit({&first, &second}));
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "one, from the scratch file, two");
+  EXPECT_EQ(*ReadFileBytes(other, kMostBytes), "");
+  EXPECT_EQ(FilesIn(folder.Path("")), 2);
 }
 
 TEST(WriteTextFileTest, ReplacesInSharedMemoryToo) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../error_of.h"
+#include "../file_limit.h"
 #include "strings.h"
 
 namespace lyrefit {
@@ -112,6 +113,18 @@ TEST_F(ChangedPart, IsMergedAndGoneOnWithWhereNothingWas) {
   ASSERT_TRUE(merged) << MessageOf(merged);
   ASSERT_TRUE(RunOn(file_, CountTask(), Into(folder_.Path("whole"))));
   EXPECT_EQ(ResultsIn(folder_.Path("out")), ResultsIn(folder_.Path("whole")));
+}
+
+TEST_F(ChangedPart, SaysWhatCannotBeWritten) {
+  lines_.resize(lines_.size() - 5);
+  Write(lines_);
+  const std::string before = FileText(part_);
+  {
+    const FileLimit limit(before.size() + 10);
+    ExpectErrorAt(Resume(), part_, 0, 0, "cannot write the rows: File too large");
+  }
+  EXPECT_EQ(FileText(part_), before);
+  EXPECT_TRUE(Resume());
 }
 
 TEST_F(ChangedPart, WithoutChecksumsSaysWhatToDo) {

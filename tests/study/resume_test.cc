@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../file_limit.h"
 #include "../temp_folder.h"
 #include "json_keys.h"
 #include "lyrefit/study/report/compare_json.h"
@@ -137,6 +138,19 @@ TEST_F(ResumeTest, SaysWhichLineIsDamaged) {
                 text.substr(0, place) + "\"refined_A\":\"\",\"x\":" + text.substr(place + 12));
   EXPECT_THAT(Run().error().ToString(),
               HasSubstr("study.jsonl:2: expected a number as refined_A of this record"));
+}
+
+TEST_F(ResumeTest, SaysWhatCannotBeWritten) {
+  ASSERT_TRUE(Run(2));
+  const FileLimit limit(FileText(options_.journal).size() + 10);
+  const auto study = Run();
+  ASSERT_TRUE(study) << study.error().ToString();
+  EXPECT_TRUE(study->journal_lacks_runs);
+  EXPECT_EQ(study->remarks.back(),
+            options_.journal +
+                ": cannot write the journal: File too large; the runs since then are "
+                "in the report alone");
+  EXPECT_EQ(FileText(options_.journal).back(), '\n');
 }
 
 TEST_F(ResumeTest, KeepsSeveralStudiesInOneFile) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "lyrefit/base/try.h"
 
@@ -17,22 +18,65 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tl::unexpected<Error> Refusal(const AppendLog::Kind& kind, int reason, const std::string& path) {
+tl::unexpected<Error> Cannot(const char* verb, const LogKind& kind, const std::string& path) {
   return Fail(
-      fmt::format("cannot write the {}: {}", kind.name, std::generic_category().message(reason)),
+      fmt::format("cannot {} the {}: {}", verb, kind.name, std::generic_category().message(errno)),
       path);
+}
+
+Expected<std::ifstream> OpenToRead(const std::string& path, const LogKind& kind) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return Cannot("read", kind, path);
+  return in;
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<AppendLog>> AppendLog::Open(const std::string& path, const Kind& kind) {
+Expected<LogReader> LogReader::Open(const std::string& path, const LogKind& kind) {
+  TRY(std::ifstream in, OpenToRead(path, kind));
+  return LogReader(path, kind, std::move(in));
+}
+
+Expected<std::optional<std::string>> LogReader::Next() {
+  std::string line;
+  if (!std::getline(in_, line)) {
+    if (in_.bad()) return Cannot("read", kind_, path_);
+    return std::nullopt;
+  }
+  torn_ = in_.eof();
+  if (++line_ == 1) {
+    const std::string_view begin = kind_.begin;
+    const std::size_t length = torn_ ? std::min(begin.size(), line.size()) : begin.size();
+    if (line.compare(0, length, begin.substr(0, length)) != 0) return Fail(kind_.other, path_, 1);
+  }
+  if (torn_) return std::nullopt;
+  return line;
+}
+
+Expected<std::optional<std::string>> LastLine(const std::string& path, const LogKind& kind) {
+  constexpr std::streamoff kLongest = 4096;
+  TRY(std::ifstream in, OpenToRead(path, kind));
+  in.seekg(0, std::ios::end);
+  const std::streamoff size = std::min<std::streamoff>(in.tellg(), kLongest + 2);
+  if (size < 0) return Cannot("read", kind, path);
+  in.seekg(-size, std::ios::end);
+  std::string text(static_cast<std::size_t>(size), '\0');
+  if (!in.read(text.data(), size)) return Cannot("read", kind, path);
+  if (text.empty() || text.back() != '\n') return std::nullopt;
+  text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  if (text.size() > kLongest) return std::nullopt;
+  return text;
+}
+
+Expected<std::unique_ptr<AppendLog>> AppendLog::Open(const std::string& path, const LogKind& kind) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     return Fail(fmt::format("expected {}, or a file that does not exist yet", kind.one), path);
   }
   const int number = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (number < 0) return Refusal(kind, errno, path);
+  if (number < 0) return Cannot("write", kind, path);
   std::unique_ptr<AppendLog> log(new AppendLog(path, kind, number));
   TRY(log->Lock());
   return log;
@@ -54,25 +98,16 @@ Expected<void> AppendLog::Lock() {
 
 Expected<void> AppendLog::TakeUp(
     const std::function<Expected<void>(const std::string&, int)>& take) {
-  std::ifstream in(path_, std::ios::binary);
-  if (!in) {
-    return Fail(
-        fmt::format("cannot read the {}: {}", kind_.name, std::generic_category().message(errno)),
-        path_);
-  }
-  const std::string begin = kind_.begin;
+  TRY(LogReader in, LogReader::Open(path_, kind_));
   std::int64_t whole = 0;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    torn_ = in.eof();  // the line has no line end
-    if (++number == 1) {
-      const std::size_t length = torn_ ? std::min(begin.size(), line.size()) : begin.size();
-      if (line.compare(0, length, begin, 0, length) != 0) return Fail(kind_.other, path_, 1);
-    }
-    if (torn_) return Cut(whole);
-    TRY(take(line, number));
-    whole += static_cast<std::int64_t>(line.size()) + 1;
+  while (true) {
+    TRY(const auto line, in.Next());
+    if (!line) break;
+    TRY(take(*line, in.line()));
+    whole += static_cast<std::int64_t>(line->size()) + 1;
   }
+  torn_ = in.torn();
+  if (torn_) return Cut(whole);
   end_ = whole;
   return {};
 }
@@ -105,6 +140,6 @@ Expected<void> AppendLog::Remove() {
   return {};
 }
 
-tl::unexpected<Error> AppendLog::CannotWrite() const { return Refusal(kind_, errno, path_); }
+tl::unexpected<Error> AppendLog::CannotWrite() const { return Cannot("write", kind_, path_); }
 
 }  // namespace lyrefit

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,29 +14,55 @@
 
 namespace lyrefit {
 
+// Words that error messages use for a log, and the text that its first line begins with.
+struct LogKind {
+  const char* name;   // "journal", in "cannot write the journal"
+  const char* these;  // "this journal", in "another process is writing this journal"
+  const char* one;    // "a journal", in "expected a journal"
+  const char* begin;  // the first line starts with this text
+  const char* other;  // the error message if the first line starts with another text
+};
+
+// Reads the lines of a log in order.
+class LogReader {
+ public:
+  static Expected<LogReader> Open(const std::string& path, const LogKind& kind);
+
+  const std::string& path() const { return path_; }
+  // The next complete line, without its line end. Empty after the last. Errors: the first line does
+  // not start with `LogKind::begin`; the file cannot be read.
+  Expected<std::optional<std::string>> Next();
+  int line() const { return line_; }   // number of the last line read, from 1; 0 before the first
+  bool torn() const { return torn_; }  // at the end: the last line has no line end
+
+ private:
+  LogReader(std::string path, const LogKind& kind, std::ifstream in)
+      : path_(std::move(path)), kind_(kind), in_(std::move(in)) {}
+
+  std::string path_;
+  LogKind kind_;
+  std::ifstream in_;
+  int line_ = 0;
+  bool torn_ = false;
+};
+
+// The last line of the log at `path`. Empty if it has no line end or more than 4096 bytes.
+Expected<std::optional<std::string>> LastLine(const std::string& path, const LogKind& kind);
+
 // A line-based file that a run extends while it works, so that a stopped or killed run can be
 // resumed from it. Only one process writes the file at a time.
 class AppendLog {
  public:
-  // Words that error messages use for a log, and the text that its first line begins with.
-  struct Kind {
-    const char* name;   // "journal", in "cannot write the journal"
-    const char* these;  // "this journal", in "another process is writing this journal"
-    const char* one;    // "a journal", in "expected a journal"
-    const char* begin;  // the first line starts with this text
-    const char* other;  // the error message if the first line starts with another text
-  };
-
   // Opens `path` or creates it, and locks it. Errors: a file that cannot be written, that is no
   // regular file, or that another process writes.
-  static Expected<std::unique_ptr<AppendLog>> Open(const std::string& path, const Kind& kind);
+  static Expected<std::unique_ptr<AppendLog>> Open(const std::string& path, const LogKind& kind);
 
   const std::string& path() const { return path_; }
   bool empty() const { return end_ == 0; }  // the file has no content
 
   // Passes every complete line, without its line end, and its line number (from 1) to `take`. A
   // last line without a line end was never finished and is cut off. Errors, which cut nothing off:
-  // the first line does not start with `Kind::begin`; any error of `take`.
+  // those of LogReader and of `take`.
   Expected<void> TakeUp(const std::function<Expected<void>(const std::string&, int)>& take);
   bool torn() const { return torn_; }  // TakeUp cut off an unfinished last line
 
@@ -50,14 +78,14 @@ class AppendLog {
   Expected<void> Remove();
 
  private:
-  AppendLog(std::string path, const Kind& kind, int file)
+  AppendLog(std::string path, const LogKind& kind, int file)
       : path_(std::move(path)), kind_(kind), file_(file) {}
   Expected<void> Lock();
   Expected<void> Cut(std::int64_t size);
   tl::unexpected<Error> CannotWrite() const;
 
   const std::string path_;
-  const Kind kind_;
+  const LogKind kind_;
   const Descriptor file_;
   std::int64_t end_ = 0;  // bytes up to the end of the last complete line
   bool torn_ = false;

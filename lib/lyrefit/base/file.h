@@ -23,4 +23,8 @@ Expected<std::string> ReadTextFile(const std::string& path, std::uintmax_t large
 // size limit.
 Expected<void> WriteTextFile(const std::string& path, const std::string& text);
 
+// Whether WriteTextFile can create or replace a file at `path`, or write into the device or pipe
+// there; leaves no file behind. Errors: a folder; no permission.
+Expected<void> CheckWritable(const std::string& path);
+
 }  // namespace lyrefit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -9,11 +10,9 @@
 
 namespace lyrefit {
 
-// A file that is written piece by piece and gets its name when it is complete. Until then, and
-// after an error or a kill, an existing file of that name stays unchanged. The growing file has no
-// name, so a killed process leaves nothing behind. If the file system has no unnamed files, its
-// name is NAME.PID-COUNT.tmp. The next writer of NAME removes such files of dead processes. Devices
-// and pipes cannot be replaced and are written directly.
+// A file that is written piece by piece and gets its name when it is complete, as WriteTextFile
+// does (file.h). Until then, and after an error or a kill, an existing file of that name stays
+// unchanged. Devices and pipes cannot be replaced and are written directly.
 class NewFile {
  public:
   explicit NewFile(std::string path);
@@ -24,15 +23,19 @@ class NewFile {
   // Errors of all functions: the path is a folder, the folder is not writable, the disk is full, or
   // the file size limit is reached. Each message names the path.
   Expected<void> Begin();
-  Expected<void> Add(std::string_view text);
-  // Passes all remaining text to the operating system and, with `on_disk`, waits until it is on the
-  // disk.
-  Expected<void> Complete(bool on_disk = false);
-  // Gives the file its name. Call it after Complete.
-  Expected<void> Name();
+  Expected<void> Write(std::string_view text);
+  // Writes all content of an open file.
+  Expected<void> WriteFrom(const Descriptor& other);
+  // Gives the complete file its name.
+  Expected<void> Commit();
+  // Gives no file its name before all are complete and on the disk.
+  static Expected<void> Commit(std::initializer_list<NewFile*> files);
 
  private:
   tl::unexpected<Error> CannotWrite(int reason) const;
+  Expected<void> Flush();
+  Expected<void> Complete(bool on_disk);
+  Expected<void> Name();
   Expected<void> OpenTemporary();
   Expected<void> CopyToTemporary();
 
@@ -45,8 +48,9 @@ class NewFile {
   std::string waiting_;
 };
 
-// Whether `path` must be written in place: a device, a pipe, or a path such as /dev/stdout that may
-// stand for a file opened by the shell.
-bool IsWrittenInPlace(const std::string& path);
+// Opens a file without a name, which disappears when it is closed; -1 with the reason in errno if
+// that fails. It is in the folder of the file `path`, which has the space for that file, or in the
+// folder for temporary files if `path` is a device or a pipe.
+int OpenScratch(const std::string& path);
 
 }  // namespace lyrefit

@@ -84,14 +84,38 @@ bool GiveName(const Descriptor& nameless, const std::string& name) {
   return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
 }
 
-}  // namespace
+fs::path FolderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
+int OpenScratchIn(const fs::path& folder) {
+  const int nameless = OpenNameless(folder);
+  if (nameless >= 0) return nameless;
+  const std::string name = TemporaryName(folder / "lyrefit");
+  const int number = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (number >= 0) ::unlink(name.c_str());
+  return number;
+}
+
+// Whether `path` must be written in place: a device, a pipe, or a path such as /dev/stdout that may
+// stand for a file opened by the shell.
 bool IsWrittenInPlace(const std::string& path) {
   const bool device = path.rfind("/dev/", 0) == 0 && path.rfind("/dev/shm/", 0) != 0;
   if (device || path.rfind("/proc/", 0) == 0) return true;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+tl::unexpected<Error> CannotWriteFile(const std::string& path, int reason) {
+  return Fail("cannot write the file: " + std::generic_category().message(reason), path);
+}
+
+}  // namespace
+
+int OpenScratch(const std::string& path) {
+  std::error_code error;
+  return OpenScratchIn(IsWrittenInPlace(path) ? fs::temp_directory_path(error) : FolderOf(path));
 }
 
 NewFile::NewFile(std::string path) : path_(std::move(path)), file_(-1) {}
@@ -101,7 +125,7 @@ NewFile::~NewFile() {
 }
 
 tl::unexpected<Error> NewFile::CannotWrite(int reason) const {
-  return Fail("cannot write the file: " + std::generic_category().message(reason), path_);
+  return CannotWriteFile(path_, reason);
 }
 
 Expected<void> NewFile::Begin() {
@@ -117,7 +141,7 @@ Expected<void> NewFile::Begin() {
   // The link's target is replaced, so that a symbolic link stays a link.
   target_ = fs::weakly_canonical(path_, error);
   if (error) target_ = path_;
-  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  const fs::path folder = FolderOf(target_);
   RemoveStale(folder, target_.filename().string());
   file_.Reset(OpenNameless(folder));
   if (!file_.open()) TRY(OpenTemporary());
@@ -138,17 +162,30 @@ Expected<void> NewFile::OpenTemporary() {
   return {};
 }
 
-Expected<void> NewFile::Add(std::string_view text) {
+Expected<void> NewFile::Write(std::string_view text) {
   waiting_ += text;
-  if (waiting_.size() < kWriteAt) return {};
+  return waiting_.size() < kWriteAt ? Expected<void>() : Flush();
+}
+
+Expected<void> NewFile::Flush() {
   if (!file_.Write(waiting_)) return CannotWrite(errno);
   waiting_.clear();
   return {};
 }
 
+Expected<void> NewFile::WriteFrom(const Descriptor& other) {
+  std::string block(kWriteAt, '\0');
+  ::lseek(other.number(), 0, SEEK_SET);
+  for (ssize_t got = 0; (got = ::read(other.number(), block.data(), block.size())) != 0;) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return CannotWrite(errno);
+    TRY(Write(std::string_view(block).substr(0, static_cast<std::size_t>(got))));
+  }
+  return {};
+}
+
 Expected<void> NewFile::Complete(bool on_disk) {
-  if (!file_.Write(waiting_)) return CannotWrite(errno);
-  waiting_.clear();
+  TRY(Flush());
   if (on_disk && fdatasync(file_.number()) != 0 && errno != EINVAL) return CannotWrite(errno);
   const bool nameless = temporary_.empty() && !in_place_;  // closing would delete it
   return nameless || file_.Close() ? Expected<void>() : CannotWrite(errno);
@@ -156,20 +193,11 @@ Expected<void> NewFile::Complete(bool on_disk) {
 
 // Copies an unnamed file that cannot be linked into a named temporary file.
 Expected<void> NewFile::CopyToTemporary() {
-  const int from = ::dup(file_.number());
-  const Descriptor nameless(from);
+  const Descriptor nameless(::dup(file_.number()));
   TRY(OpenTemporary());
   TakePermissions(target_, file_.number());
-  std::string block(kWriteAt, '\0');
-  ::lseek(from, 0, SEEK_SET);
-  for (ssize_t got = 0; (got = ::read(from, block.data(), block.size())) != 0;) {
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return CannotWrite(errno);
-    if (!file_.Write(std::string_view(block).substr(0, static_cast<std::size_t>(got)))) {
-      return CannotWrite(errno);
-    }
-  }
-  return file_.Close() ? Expected<void>() : CannotWrite(errno);
+  TRY(WriteFrom(nameless));
+  return Complete(false);
 }
 
 Expected<void> NewFile::Name() {
@@ -190,12 +218,34 @@ Expected<void> NewFile::Name() {
   return {};
 }
 
+Expected<void> NewFile::Commit() {
+  TRY(Complete(false));
+  return Name();
+}
+
+Expected<void> NewFile::Commit(std::initializer_list<NewFile*> files) {
+  for (NewFile* file : files) TRY(file->Complete(true));
+  for (NewFile* file : files) TRY(file->Name());
+  return {};
+}
+
 Expected<void> WriteTextFile(const std::string& path, const std::string& text) {
   NewFile file(path);
   TRY(file.Begin());
-  TRY(file.Add(text));
-  TRY(file.Complete());
-  return file.Name();
+  TRY(file.Write(text));
+  return file.Commit();
+}
+
+Expected<void> CheckWritable(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return Fail("expected a file to write, found a folder", path);
+  if (fs::exists(status)) {
+    if (::access(path.c_str(), W_OK) != 0) return CannotWriteFile(path, errno);
+    if (!fs::is_regular_file(status)) return {};
+  }
+  const Descriptor probe(OpenScratchIn(FolderOf(path)));
+  return probe.open() ? Expected<void>() : CannotWriteFile(path, errno);
 }
 
 }  // namespace lyrefit

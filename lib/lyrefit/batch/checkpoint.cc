@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/json_text.h"
 
 namespace lyrefit {
 namespace {
@@ -16,10 +14,11 @@ namespace {
 constexpr char kHeadBegin[] = "{\"lyrefit_batch\"";
 constexpr char kEndBegin[] = "{\"end\"";
 constexpr char kNoPart[] = "expected the rows of a batch, found another file";
+constexpr char kUnfinished[] = "the run that wrote these rows has not finished";
 constexpr char kNoSums[] =
     "these rows have no checksums, as an older lyrefit wrote them: finish and merge them with that "
     "one, or begin anew with batch --force";
-constexpr AppendLog::Kind kKind = {"rows", "these rows", "rows of a batch", kHeadBegin, kNoPart};
+constexpr LogKind kKind = {"rows", "these rows", "rows of a batch", kHeadBegin, kNoPart};
 
 // Format number in the head: {"lyrefit_batch":2, ...}. Files of format 1 have no checksums.
 constexpr int kFormat = 2;
@@ -28,15 +27,8 @@ constexpr int kFormat = 2;
 constexpr char kSumBegin[] = ",\"crc\":\"";
 constexpr std::size_t kSumSize = sizeof kSumBegin - 1 + 8 + 2;
 
-std::string Because() { return std::generic_category().message(errno); }
-
 bool Begins(const std::string& line, const std::string& with) {
   return line.compare(0, with.size(), with) == 0;
-}
-
-std::string ValueText(const CheckpointHead& value) {
-  if (value.is_null()) return "nothing";
-  return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 // Name of a member of the head, for messages.
@@ -100,26 +92,20 @@ std::string CheckpointPath(const std::string& folder, const Shard& shard) {
 
 Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now,
                              const std::string& path) {
-  const auto differs = [&path](const std::string& what, const CheckpointHead& old_value,
-                               const CheckpointHead& new_value) {
+  const auto compare = [&path](const CheckpointHead& a, const CheckpointHead& b) -> Expected<void> {
+    const std::optional<std::string> key = FirstDifference(a, b);
+    if (!key) return {};
     return Fail(fmt::format("these rows were begun {} {}, now it is {}: go on as it was begun, or "
                             "say --force to begin anew",
-                            what, ValueText(old_value), ValueText(new_value)),
+                            Spoken(*key), MemberText(a, *key), MemberText(b, *key)),
                 path, 1);
   };
-  const auto compare = [&](const CheckpointHead& a, const CheckpointHead& b) -> Expected<void> {
-    for (const auto& [key, value] : b.items()) {
-      if (key == "options" || key == "columns") continue;
-      if (!a.contains(key) || a[key] != value) {
-        return differs(Spoken(key), a.value(key, CheckpointHead()), value);
-      }
-    }
-    for (const auto& [key, value] : a.items()) {
-      if (!b.contains(key)) return differs(Spoken(key), value, CheckpointHead());
-    }
-    return {};
+  const auto plain = [](CheckpointHead head) {
+    head.erase("options");
+    head.erase("columns");
+    return head;
   };
-  TRY(compare(before, now));
+  TRY(compare(plain(before), plain(now)));
   TRY(compare(before.value("options", CheckpointHead::object()), now.at("options")));
   if (before.value("columns", CheckpointHead()) == now.at("columns")) return {};
   return Fail("these rows were begun with other columns: say --force to begin anew", path, 1);
@@ -190,53 +176,39 @@ Expected<void> CheckpointFile::Finish(const PartEnd& end) {
 Expected<void> CheckpointFile::Remove() { return log_->Remove(); }
 
 Expected<std::optional<PartEnd>> ReadCheckpointEnd(const std::string& path) {
-  constexpr std::streamoff kEnough = 4096;  // the last line of a complete file is shorter
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in) return Fail("cannot read the rows: " + Because(), path);
-  const std::streamoff size = in.tellg();
-  in.seekg(std::max<std::streamoff>(size - kEnough, 0));
-  std::string text(static_cast<std::size_t>(std::min(size, kEnough)), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (text.empty() || text.back() != '\n') return std::nullopt;
-  text.pop_back();
-  text.erase(0, text.rfind('\n') + 1);
-  if (!Begins(text, kEndBegin)) return std::nullopt;
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  TRY(const auto line, LastLine(path, kKind));
+  if (!line || !Begins(*line, kEndBegin)) return std::nullopt;
+  const nlohmann::json json = nlohmann::json::parse(*line, nullptr, false);
   if (!json.is_object() || !json["end"].is_number_integer()) return std::nullopt;
   return PartEnd{json["end"], PlaceOf(json.value("first", nlohmann::json())),
                  PlaceOf(json.value("last", nlohmann::json()))};
 }
 
 Expected<CheckpointReader> CheckpointReader::Open(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail("cannot read the rows: " + Because(), path);
-  CheckpointReader reader(path, std::move(in));
-  std::string line;
-  if (!std::getline(reader.in_, line) || !Begins(line, kHeadBegin)) return Fail(kNoPart, path, 1);
-  TRY(reader.head_, HeadOf(line, &reader.sums_, path));
-  reader.line_ = 1;
+  TRY(LogReader log, LogReader::Open(path, kKind));
+  TRY(const auto line, log.Next());
+  if (!line) return log.torn() ? Fail(kUnfinished, path) : Fail(kNoPart, path, 1);
+  CheckpointReader reader(std::move(log));
+  TRY(reader.head_, HeadOf(*line, &reader.sums_, path));
   return reader;
 }
 
 Expected<std::optional<nlohmann::json>> CheckpointReader::Next() {
   if (over_) return std::nullopt;
-  std::string line;
-  ++line_;
-  if (!std::getline(in_, line) || in_.eof()) {
-    return Fail("the run that wrote these rows has not finished", path_);
-  }
-  const auto checked = sums_.Check(line);
-  if (!checked) return Fail(checked.error().message, path_, line_);
+  TRY(const auto line, log_.Next());
+  if (!line) return Fail(kUnfinished, path());
+  const auto checked = sums_.Check(*line);
+  if (!checked) return Fail(checked.error().message, path(), log_.line());
   nlohmann::json row = nlohmann::json::parse(*checked, nullptr, false);
-  if (!row.is_object()) return Fail("expected a row, found something else", path_, line_);
-  if (!Begins(line, kEndBegin)) {
+  if (!row.is_object()) return Fail("expected a row, found something else", path(), log_.line());
+  if (!Begins(*line, kEndBegin)) {
     ++rows_;
     return row;
   }
   over_ = true;
   if (row["end"] == rows_) return std::nullopt;
   return Fail(fmt::format("expected {} rows before the end, found {}", row["end"].dump(), rows_),
-              path_, line_);
+              path(), log_.line());
 }
 
 }  // namespace lyrefit

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -100,20 +99,17 @@ class CheckpointReader {
   static Expected<CheckpointReader> Open(const std::string& path);
 
   const CheckpointHead& head() const { return head_; }
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return log_.path(); }
   // The next row; empty after the last. Errors: a line that is no row or was changed; a missing
   // end, or one with another number of rows.
   Expected<std::optional<nlohmann::json>> Next();
 
  private:
-  CheckpointReader(std::string path, std::ifstream in)
-      : path_(std::move(path)), in_(std::move(in)) {}
+  explicit CheckpointReader(LogReader log) : log_(std::move(log)) {}
 
-  std::string path_;
-  std::ifstream in_;
+  LogReader log_;
   LineSums sums_;
   CheckpointHead head_;
-  int line_ = 0;
   std::int64_t rows_ = 0;
   bool over_ = false;
 };

@@ -208,7 +208,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   NewFile lines((base / kLines).string());
   NewFile schema((base / kSchema).string());
   for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Begin());
-  TRY(csv.Add(HeadCsv(plan.results)));
+  TRY(csv.Write(HeadCsv(plan.results)));
   summary->columns = plan.results;
   RowCounter counter(plan.results, summary);
   const auto write = [&](Group& group) -> Expected<void> {
@@ -221,18 +221,16 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
       for (ResultCell& cell : NeighbourCells(deviations.empty() ? none : deviations[i], limits)) {
         row.cells.push_back(std::move(cell));
       }
-      TRY(csv.Add(RowCsv(row, plan.texts)));
-      TRY(lines.Add(RowJson(plan.results, row) + "\n"));
+      TRY(csv.Write(RowCsv(row, plan.texts)));
+      TRY(lines.Write(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
       if (row_observer) row_observer(plan.results, row);
     }
     return Pass(group.rows.size(), passed);
   };
   TRY(ForGroups(parts, plan.rows, write));
-  TRY(schema.Add(SchemaJson(last.head(), plan.results)));
-  for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Complete(true));
-  for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Name());
-  return {};
+  TRY(schema.Write(SchemaJson(last.head(), plan.results)));
+  return NewFile::Commit({&csv, &lines, &schema});
 }
 
 }  // namespace

@@ -243,11 +243,10 @@ Expected<PackReport> PackBatchInto(const std::string& file, BatchSource* source,
   TRY(packed.Begin());
   TRY(const PackReport report,
       PackBatch(
-          source, format, threads, [&packed](std::string_view text) { return packed.Add(text); },
+          source, format, threads, [&packed](std::string_view text) { return packed.Write(text); },
           observer));
   if (report.interrupted) return report;
-  TRY(packed.Complete());
-  TRY(packed.Name());
+  TRY(packed.Commit());
   return report;
 }
 

@@ -1,13 +1,9 @@
 #include "lyrefit/batch/plant_page.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string_view>
+#include <string>
 #include <system_error>
 
 #include "lyrefit/base/descriptor.h"
@@ -26,19 +22,6 @@ tl::unexpected<Error> CannotWrite(const std::string& path) {
   return Fail("cannot write the page: " + std::generic_category().message(errno), path);
 }
 
-// A file without a name, which disappears when it is closed. It is in the folder of the page, since
-// that folder has the space for it.
-int OpenNameless(const std::string& page) {
-  std::error_code error;
-  const std::string beside =
-      IsWrittenInPlace(page) ? (std::filesystem::temp_directory_path(error) / "lyrefit").string()
-                             : page;
-  std::string name = beside + ".rows-XXXXXX";
-  const int number = ::mkostemp(name.data(), O_CLOEXEC);
-  if (number >= 0) ::unlink(name.c_str());
-  return number;
-}
-
 constexpr char kRowsHere[] = "<!--rows-->";  // no row can contain this text, since rows are escaped
 
 class StreamedPage : public PlantPage {
@@ -46,7 +29,7 @@ class StreamedPage : public PlantPage {
   StreamedPage(const std::string& path, std::vector<ResultColumn> columns, PlantPageOptions options)
       : path_(path),
         page_(path),
-        rows_(OpenNameless(path)),
+        rows_(OpenScratch(path)),
         options_(std::move(options)),
         counter_(columns),
         table_(std::move(columns), options_.digits) {}
@@ -62,11 +45,10 @@ class StreamedPage : public PlantPage {
     TRY(WriteGroup());
     const std::string shell = Shell();
     const std::size_t rows = shell.find(kRowsHere);
-    TRY(page_.Add(shell.substr(0, rows)));
-    TRY(CopyRows());
-    TRY(page_.Add(shell.substr(rows)));
-    TRY(page_.Complete());
-    return page_.Name();
+    TRY(page_.Write(shell.substr(0, rows)));
+    TRY(page_.WriteFrom(rows_));
+    TRY(page_.Write(shell.substr(rows)));
+    return page_.Commit();
   }
 
  private:
@@ -88,18 +70,6 @@ class StreamedPage : public PlantPage {
     const bool written =
         rows_.Write("<script type=\"text/plain\" class=\"rows\">" + group + "</script>\n");
     return written ? Expected<void>() : CannotWrite(path_);
-  }
-
-  Expected<void> CopyRows() {
-    std::string block(std::size_t{1} << 20, '\0');
-    ::lseek(rows_.number(), 0, SEEK_SET);
-    while (true) {
-      const ssize_t got = ::read(rows_.number(), block.data(), block.size());
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) return CannotWrite(path_);
-      if (got == 0) return {};
-      TRY(page_.Add(std::string_view(block).substr(0, static_cast<std::size_t>(got))));
-    }
   }
 
   const std::string path_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/certify/bounded_squares.h"
+#include "lyrefit/refine/bounded_linear.h"
 #include "lyrefit/refine/least_squares.h"
 
 namespace lyrefit {
@@ -32,7 +32,7 @@ Eigen::VectorXd Leave(const MixtureData& data, double rs, double u) {
   }
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(terms + 1).cwiseMax(lower).cwiseMin(upper);
   const Eigen::VectorXd target = data.WeightedTarget();
-  return Residual(target, a, SolveBounded(a, target, lower, upper, start));
+  return Residual(target, a, SolveBoundedColumns(a, target, lower, upper, start));
 }
 
 Eigen::VectorXd LeaveAt(const MixtureData& data, const std::shared_ptr<const CauseShape>& shape,

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/certify/bounded_squares.h"
 #include "lyrefit/certify/correlation.h"
+#include "lyrefit/refine/bounded_linear.h"
 
 namespace lyrefit {
 namespace {
@@ -232,7 +232,7 @@ void MixtureSolver::SolveLinear() {
   lower.tail(size()).setZero();
   upper.tail(size()).setConstant(kInfinity);
   for (int j = 0; j < size(); ++j) x[terms_ + j] = state_.atoms[j].current_A;
-  x = SolveBounded(a, target, lower, upper, x);
+  x = SolveBoundedColumns(a, target, lower, upper, x);
   state_.linear = x.head(terms_);
   std::vector<Atom> left;
   for (int j = 0; j < size(); ++j) {

@@ -75,6 +75,23 @@ std::string Dump(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::optional<std::string> FirstDifference(const nlohmann::ordered_json& before,
+                                           const nlohmann::ordered_json& now) {
+  for (const auto& [key, value] : now.items()) {
+    if (!before.contains(key) || before[key] != value) return key;
+  }
+  for (const auto& [key, value] : before.items()) {
+    if (!now.contains(key)) return key;
+  }
+  return std::nullopt;
+}
+
+std::string MemberText(const nlohmann::ordered_json& object, const std::string& key) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return "nothing";
+  return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
 Expected<json> ParseJson(const std::string& text, const std::string& file) {
   Inspector inspector;
   if (!json::sax_parse(text, &inspector)) {

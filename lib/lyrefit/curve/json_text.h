@@ -44,6 +44,14 @@ std::string OneLine(const nlohmann::json& value);
 // in a file name, is replaced. Numbers that are not finite become null.
 std::string Dump(const nlohmann::ordered_json& json);
 
+// The first member by which two objects differ, in the order of `now`, then of `before`. nullopt if
+// they are equal.
+std::optional<std::string> FirstDifference(const nlohmann::ordered_json& before,
+                                           const nlohmann::ordered_json& now);
+
+// The value of a member for messages: a text without quotation marks, "nothing" if it is missing.
+std::string MemberText(const nlohmann::ordered_json& object, const std::string& key);
+
 // A JSON number, or a text that holds one, as in ivcurves files. nullopt if not finite.
 std::optional<double> NumberOrText(const nlohmann::json& value);
 

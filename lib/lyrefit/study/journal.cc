@@ -8,15 +8,15 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/json_text.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr char kNoJournal[] = "expected a journal that --resume wrote, found another file";
-constexpr AppendLog::Kind kKind = {"journal", "this journal", "a journal", "{\"journal\"",
-                                   kNoJournal};
+constexpr LogKind kKind = {"journal", "this journal", "a journal", "{\"journal\"", kNoJournal};
 
-std::string Dump(const JournalLine& line) {
+std::string LineText(const JournalLine& line) {
   // Names may hold bytes that are not UTF-8.
   return line.dump(-1, ' ', false, JournalLine::error_handler_t::replace) + "\n";
 }
@@ -33,7 +33,7 @@ Expected<std::unique_ptr<Journal>> Journal::Open(const std::string& path,
       [&](const std::string& line, int number) { return journal->Take(line, number, options); }));
   if (!journal->has_head_) {
     const JournalLine head = {{"journal", section}, {"options", options}};
-    TRY(journal->log_->Append(Dump(head)));
+    TRY(journal->log_->Append(LineText(head)));
   }
   return journal;
 }
@@ -59,30 +59,18 @@ Expected<void> Journal::Take(const std::string& text, int number, const JournalL
 Expected<void> Journal::CheckHead(const JournalLine& found, int number,
                                   const JournalLine& options) const {
   const JournalLine before = found.value("options", JournalLine::object());
-  const auto text = [](const JournalLine& object, const std::string& key) {
-    if (!object.contains(key)) return std::string("nothing");
-    const JournalLine& value = object[key];
-    return value.is_string() ? value.get<std::string>() : value.dump();
-  };
-  const auto differs = [&](const std::string& key) {
-    return Fail(fmt::format("this study was begun with {}: {}; now it is {}. Take the same "
-                            "options, or another file",
-                            key, text(before, key), text(options, key)),
-                path(), number);
-  };
-  for (const auto& [key, value] : options.items()) {
-    if (!before.contains(key) || before[key] != value) return differs(key);
-  }
-  for (const auto& [key, value] : before.items()) {
-    if (!options.contains(key)) return differs(key);
-  }
-  return {};
+  const std::optional<std::string> key = FirstDifference(before, options);
+  if (!key) return {};
+  return Fail(fmt::format("this study was begun with {}: {}; now it is {}. Take the same options, "
+                          "or another file",
+                          *key, MemberText(before, *key), MemberText(options, *key)),
+              path(), number);
 }
 
 void Journal::Append(const JournalLine& record) {
   JournalLine line = {{"of", section_}};
   line.update(record);
-  const std::string text = Dump(line);
+  const std::string text = LineText(line);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!failure_.empty()) return;
   if (const auto written = log_->Append(text); !written) failure_ = written.error().message;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "batch/made_curves.h"
+#include "batch/synthetic_curves.h"
 #include "strings.h"
 
 namespace lyrefit {

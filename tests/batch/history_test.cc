@@ -18,7 +18,7 @@ TEST(History, IsThatOfTheSameString) {
   const TempFolder folder;
   std::string reference;
   for (int i = 0; i < 12; ++i) {
-    MadeString sweep{fmt::format("inv/str1/sweep{}", i)};
+    SyntheticString sweep{fmt::format("inv/str1/sweep{}", i)};
     sweep.isc_A = 8 + 0.1 * i;
     sweep.irradiance_W_m2 = 1000 * sweep.isc_A / 9;
     reference += RowOf(sweep);

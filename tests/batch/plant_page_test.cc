@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
-#include "batch/made_rows.h"
 #include "batch/read_plant_page.h"
+#include "batch/synthetic_rows.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -34,12 +34,12 @@ class PlantPageTest : public testing::Test {
     return FileText(file);
   }
 
-  std::string MadePage(std::int64_t rows, int digits = 0) const {
+  std::string SyntheticPage(std::int64_t rows, int digits = 0) const {
     std::vector<ResultRow> made;
-    for (std::int64_t row = 0; row < rows; ++row) made.push_back(MadePlantResult(1, row));
+    for (std::int64_t row = 0; row < rows; ++row) made.push_back(SyntheticPlantResult(1, row));
     PlantPageOptions options;
     options.digits = digits;
-    return PageOf(MadePlantColumns(), made, options);
+    return PageOf(SyntheticPlantColumns(), made, options);
   }
 
   std::size_t FilesThere() const {
@@ -74,10 +74,10 @@ json JsonOf(const ResultCell& cell) {
 
 TEST_F(PlantPageTest, TheTableUnpacksToExactlyTheRowsOverSeveralGroups) {
   constexpr std::int64_t kRows = 9000;
-  const auto columns = plant_page::Columns(MadePage(kRows));
-  ASSERT_EQ(columns.size(), MadePlantColumns().size());
+  const auto columns = plant_page::Columns(SyntheticPage(kRows));
+  ASSERT_EQ(columns.size(), SyntheticPlantColumns().size());
   for (std::int64_t row = 0; row < kRows; ++row) {
-    const ResultRow made = MadePlantResult(1, row);
+    const ResultRow made = SyntheticPlantResult(1, row);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       ASSERT_EQ(columns[c].at(row), JsonOf(made.cells[c])) << row << " " << c;
     }
@@ -121,7 +121,7 @@ TEST_F(PlantPageTest, DigitsRoundNumbersAndShrinkThePage) {
   const auto columns = plant_page::Columns(
       PageOf({Number("x")}, {{{1.23456789}}, {{9.87654321e-12}}, {{kNan}}}, {"Plant", {}, 3}));
   EXPECT_EQ(columns[0], (plant_page::Cells{1.23, 9.88e-12, nullptr}));
-  EXPECT_LT(MadePage(2000, 6).size(), MadePage(2000).size());
+  EXPECT_LT(SyntheticPage(2000, 6).size(), SyntheticPage(2000).size());
 }
 
 TEST_F(PlantPageTest, HostileNamesAreTextAndNothingElse) {
@@ -154,8 +154,8 @@ TEST_F(PlantPageTest, TextsOfAnyTongueComeBackAndBrokenOnesAreReplaced) {
 }
 
 TEST_F(PlantPageTest, NoRowsOneRowAndColumnsThatNobodyKnows) {
-  EXPECT_EQ(VerdictOf(PageOf(MadePlantColumns(), {})), "No strings.");
-  EXPECT_EQ(VerdictOf(MadePage(1)), "1 of 1 string passes.");
+  EXPECT_EQ(VerdictOf(PageOf(SyntheticPlantColumns(), {})), "No strings.");
+  EXPECT_EQ(VerdictOf(SyntheticPage(1)), "1 of 1 string passes.");
   const std::string html = PageOf({Number("height_m")}, {{{3.0}}, {{4.0}}});
   EXPECT_EQ(VerdictOf(html), "2 of 2 strings have a result.");
   EXPECT_EQ(plant_page::Columns(html)[0], (plant_page::Cells{3.0, 4.0}));
@@ -223,7 +223,7 @@ TEST_F(PlantPageTest, TheWorstComeFirstAndAreTheWorst) {
 }
 
 TEST_F(PlantPageTest, ItReadsWithoutScripts) {
-  const std::string html = MadePage(500);
+  const std::string html = SyntheticPage(500);
   for (const char* text : {"Strings by zone", "Causes of those that need work", "<svg viewBox",
                            "Why there is no result", "site1/inv01"}) {
     EXPECT_LT(html.find(text), html.find("class=\"rows\"")) << text;
@@ -231,7 +231,7 @@ TEST_F(PlantPageTest, ItReadsWithoutScripts) {
 }
 
 TEST_F(PlantPageTest, NothingIsFetched) {
-  const std::string html = MadePage(50);
+  const std::string html = SyntheticPage(50);
   for (const char* text : {" src=", "url(", "@import", "fetch(", "XMLHttpRequest", "href=\"http"}) {
     EXPECT_EQ(html.find(text), std::string::npos) << text;
   }
@@ -257,26 +257,26 @@ TEST_F(PlantPageTest, OnlyTheCompressedTableGrows) {
 }
 
 TEST_F(PlantPageTest, TenThousandStringsTakeLessThanTwoMegabytes) {
-  EXPECT_LT(MadePage(10000).size(), 2'000'000u);
+  EXPECT_LT(SyntheticPage(10000).size(), 2'000'000u);
 }
 
 TEST_F(PlantPageTest, ThePageIsThereWhenItIsFinishedAndNothingElseIsLeft) {
   const std::string file = File("page.html");
   {
-    auto page = PlantPage::Open(file, MadePlantColumns());
+    auto page = PlantPage::Open(file, SyntheticPlantColumns());
     ASSERT_TRUE(page);
-    ASSERT_TRUE((*page)->Add(MadePlantResult(1, 0)));
+    ASSERT_TRUE((*page)->Add(SyntheticPlantResult(1, 0)));
     EXPECT_EQ(FilesThere(), 0u);
   }
   EXPECT_EQ(FilesThere(), 0u);
-  MadePage(3);
+  SyntheticPage(3);
   EXPECT_EQ(FilesThere(), 1u);
 }
 
 TEST_F(PlantPageTest, FoldersThatAreNotThereAndNoColumnsAreErrors) {
-  EXPECT_THAT(PlantPage::Open(File("no/such/page.html"), MadePlantColumns()).error().message,
+  EXPECT_THAT(PlantPage::Open(File("no/such/page.html"), SyntheticPlantColumns()).error().message,
               HasSubstr("cannot write the page"));
-  EXPECT_THAT(PlantPage::Open(folder_.Path(""), MadePlantColumns()).error().message,
+  EXPECT_THAT(PlantPage::Open(folder_.Path(""), SyntheticPlantColumns()).error().message,
               HasSubstr("found a folder"));
   EXPECT_FALSE(PlantPage::Open(File("page.html"), {}));
 }

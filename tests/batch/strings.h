@@ -14,7 +14,7 @@ namespace lyrefit {
 
 // A string of a combiner, as one row of JSON Lines. The curve is an explicit function, not a diode
 // model.
-struct MadeString {
+struct SyntheticString {
   std::string id;
   double isc_A = 9;
   double voc_V = 40;
@@ -22,7 +22,7 @@ struct MadeString {
   int points = 30;
 };
 
-inline std::string RowOf(const MadeString& string) {
+inline std::string RowOf(const SyntheticString& string) {
   std::string voltages, currents;
   for (int i = 0; i < string.points; ++i) {
     const double v = string.voc_V * i / (string.points - 1);
@@ -43,7 +43,7 @@ inline std::string RowOf(const MadeString& string) {
 inline std::string ManyRows(int count) {
   std::string rows;
   for (int i = 0; i < count; ++i) {
-    MadeString string{fmt::format("site/comb{}/str{}", i / 8, i)};
+    SyntheticString string{fmt::format("site/comb{}/str{}", i / 8, i)};
     string.isc_A = 9 + 0.01 * (i % 7);
     string.voc_V = 40 + 0.02 * (i % 5);
     std::string row = RowOf(string);

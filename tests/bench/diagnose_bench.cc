@@ -16,7 +16,7 @@ namespace {
 
 // A synthetic 60-cell module with 0.1 % noise. `step`: relative change of the irradiance in the
 // middle of the sweep.
-IvCurve MadeCurve(double irradiance_W_m2, double temperature_K, int points, double step) {
+IvCurve SyntheticCurve(double irradiance_W_m2, double temperature_K, int points, double step) {
   TranslationSpec spec;
   spec.shunt = ShuntLaw::kConstant;
   spec.cells_in_series = 60;
@@ -55,10 +55,10 @@ void Run(benchmark::State& state, const CurveSet& set, bool held_out) {
 
 void RegisterDiagnoseBenchmarks() {
   CurveSet clean, step, family;
-  clean.curves = {MadeCurve(1000, 298.15, 100, 0)};
-  step.curves = {MadeCurve(1000, 298.15, 100, 0.02)};
+  clean.curves = {SyntheticCurve(1000, 298.15, 100, 0)};
+  step.curves = {SyntheticCurve(1000, 298.15, 100, 0.02)};
   for (int c = 0; c < 15; ++c) {
-    family.curves.push_back(MadeCurve(200 + 200 * (c % 5), 288.15 + 20 * (c / 5), 30, 0));
+    family.curves.push_back(SyntheticCurve(200 + 200 * (c % 5), 288.15 + 20 * (c / 5), 30, 0));
   }
   const auto add = [](const char* name, const CurveSet& set) {
     for (const bool held_out : {false, true}) {

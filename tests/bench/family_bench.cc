@@ -17,7 +17,7 @@ namespace {
 
 // `curves` synthetic curves of 50 points of the constructed S75 module, over the irradiances and
 // temperatures of a day.
-CurveSet MadeFamily(int curves) {
+CurveSet SyntheticFamily(int curves) {
   TranslationSpec spec;
   spec.cells_in_series = 36;
   const Translation translation = *MakeTranslation(spec);
@@ -42,7 +42,7 @@ CurveSet MadeFamily(int curves) {
 }
 
 void JointFit(benchmark::State& state, int curves, FamilyOptions options) {
-  const CurveSet set = MadeFamily(curves);
+  const CurveSet set = SyntheticFamily(curves);
   options.threads = 1;
   for (auto _ : state) {
     const auto report = FitFamily(set, options);
@@ -52,7 +52,7 @@ void JointFit(benchmark::State& state, int curves, FamilyOptions options) {
 }
 
 void IndividualFits(benchmark::State& state, int curves) {
-  const CurveSet set = MadeFamily(curves);
+  const CurveSet set = SyntheticFamily(curves);
   FamilyOptions options;
   options.threads = 1;
   options.intervals = false;

@@ -1,9 +1,9 @@
 """The same measured curves by everything a Python user could fit a single diode with.
 
     PYTHONPATH=build/apps/python /usr/bin/python3 tests/bench/python_bench.py \
-        --made build/tests/lyrefit_made --command build/apps/lyrefit/lyrefit --json bench.json
+        --made build/tests/lyrefit_synthetic --command build/apps/lyrefit/lyrefit --json bench.json
 
-Made curves (noise, a quantiser, 50 readings each), one single diode each, solved-current residual,
+Synthetic curves (noise, a quantiser, 50 readings each), one single diode each, solved-current residual,
 lyrefit's physical box for all. Processor seconds on one pinned core; slow methods see the first
 curves only, and say how many. A hit is an RMSE of that same objective, all recomputed by one
 function, within 1e-9 (relative) of the best of all methods and of deep runs. With pvlib on
@@ -278,7 +278,7 @@ def judge(cases, answers, timed):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--made", required=True, help="the program lyrefit_made")
+    parser.add_argument("--made", required=True, help="the program lyrefit_synthetic")
     parser.add_argument("--command", required=True, help="the program lyrefit")
     parser.add_argument("--curves", type=int, default=10000)
     parser.add_argument("--sample", type=int, default=500, help="curves of the methods one by one")

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../curve/made_curve.h"
+#include "../curve/synthetic_curve.h"
 #include "repeats.h"
 #include "run_app.h"
 
@@ -83,7 +83,7 @@ void ExpectDoubted(const std::string& content, const std::string& flags, const s
 }
 
 TEST(Implausible, NothingMeasured) {
-  const IvCurve module = MadeModule();
+  const IvCurve module = SyntheticModule();
   ExpectRefused(Csv(Changed(module, [](double*, double* i) { *i = 0; })), "",
                 {"curve.csv", "all 100 currents are 0"});
   ExpectRefused(Csv(Changed(module, [](double*, double* i) { *i = 5; })), "",
@@ -94,26 +94,27 @@ TEST(Implausible, NothingMeasured) {
 
 TEST(Implausible, OverflowCodes) {
   for (const double code : {9.9e37, 9.91e37, 1e38, 1e300, 1e308}) {
-    IvCurve curve = MadeModule();
+    IvCurve curve = SyntheticModule();
     curve.current_A[5] = code;
     ExpectRefused(Csv(curve), "--cells 60", {"reading 6", "overflow", "--skip-missing"});
   }
 }
 
 TEST(Implausible, VoltageOfTheWrongSign) {
-  ExpectRefused(Csv(Changed(MadeModule(), [](double* v, double*) { *v = -*v; })), "--cells 60",
+  ExpectRefused(Csv(Changed(SyntheticModule(), [](double* v, double*) { *v = -*v; })), "--cells 60",
                 {"wrong sign"});
 }
 
 TEST(Implausible, ExchangedColumns) {
-  const IvCurve exchanged = Changed(MadeModule(), [](double* v, double* i) { std::swap(*v, *i); });
+  const IvCurve exchanged =
+      Changed(SyntheticModule(), [](double* v, double* i) { std::swap(*v, *i); });
   ExpectRefused(Csv(exchanged), "", {"columns are exchanged"});
   ExpectRefused(Csv(exchanged, ""), "", {"columns are exchanged", "--voltage-column"});
   ExpectRefused(Csv(exchanged, "voltage_V,current_A\n"), "--cells 60", {"columns are exchanged"});
 }
 
 TEST(Implausible, UnitsNobodyNamed) {
-  const IvCurve in_mA = Changed(MadeModule(), [](double*, double* i) { *i *= 1e3; });
+  const IvCurve in_mA = Changed(SyntheticModule(), [](double*, double* i) { *i *= 1e3; });
   ExpectRefused(Csv(in_mA), "--cells 60", {"milliampere?", "--current-unit mA"});
   ExpectRefused(Csv(in_mA, ""), "--cells 60", {"milliampere?"});
   const TempFolder folder;
@@ -123,13 +124,14 @@ TEST(Implausible, UnitsNobodyNamed) {
 }
 
 TEST(Implausible, CellsThatCannotBe) {
-  ExpectRefused(Csv(MadeCell()), "--cells 60", {"each of 60 stated cells", "give --cells 1?"});
-  ExpectRefused(Csv(MadeModule()), "--cells 10", {"each of 10 stated cells", "give --cells 60?"});
+  ExpectRefused(Csv(SyntheticCell()), "--cells 60", {"each of 60 stated cells", "give --cells 1?"});
+  ExpectRefused(Csv(SyntheticModule()), "--cells 10",
+                {"each of 10 stated cells", "give --cells 60?"});
 }
 
 TEST(Implausible, CellsNobodyCounted) {
   const TempFolder folder;
-  const AppResult fit = RunApp("fit " + folder.Write("curve.csv", Csv(MadeModule())));
+  const AppResult fit = RunApp("fit " + folder.Write("curve.csv", Csv(SyntheticModule())));
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_THAT(fit.out, StartsWith("DOUBTFUL: Voc is 38"));
   EXPECT_THAT(fit.out, HasSubstr("some 60 cells in series?"));
@@ -138,17 +140,18 @@ TEST(Implausible, CellsNobodyCounted) {
 
 TEST(Implausible, LimitsOfTheInstrument) {
   SKIP_IF_SANITIZED();
-  const IvCurve forward = Changed(MadeCell(), [](double*, double* i) { *i = std::max(*i, -0.05); });
+  const IvCurve forward =
+      Changed(SyntheticCell(), [](double*, double* i) { *i = std::max(*i, -0.05); });
   ExpectDoubted(Csv(forward), "--cells 1", "exactly the same current -0.05 A");
 }
 
 TEST(Implausible, AsIsTakesThem) {
-  ExpectRefused(Csv(MadeModule()), "--cells 20", {"(--as-is takes the readings as they are)"});
-  IvCurve overflow = MadeModule();
+  ExpectRefused(Csv(SyntheticModule()), "--cells 20", {"(--as-is takes the readings as they are)"});
+  IvCurve overflow = SyntheticModule();
   overflow.current_A[5] = 1e308;
   ExpectRefused(Csv(overflow), "--cells 60 --as-is", {"overflow"});
   const TempFolder folder;
-  const std::string file = folder.Write("curve.csv", Csv(MadeModule()));
+  const std::string file = folder.Write("curve.csv", Csv(SyntheticModule()));
   const AppResult fit = RunApp("fit --cells 20 --as-is " + file);
   EXPECT_THAT(fit.exit_code, AnyOf(0, 2)) << fit.err;
   EXPECT_THAT(fit.out, HasSubstr("DOUBTFUL: Voc is 38"));
@@ -157,7 +160,7 @@ TEST(Implausible, AsIsTakesThem) {
 
 TEST(Implausible, AStepIsTheFirstThingAFitSays) {
   const TempFolder folder;
-  const std::string file = folder.Write("curve.csv", Csv(MadeModule(1, 1, 0.5)));
+  const std::string file = folder.Write("curve.csv", Csv(SyntheticModule(1, 1, 0.5)));
   const AppResult fit = RunApp("fit --intervals none --cells 60 " + file);
   EXPECT_EQ(fit.exit_code, 2);
   EXPECT_THAT(fit.out, StartsWith("NOT USABLE: the curve has a step near 2"));
@@ -174,7 +177,7 @@ TEST(Implausible, AStepIsTheFirstThingAFitSays) {
 }
 
 TEST(Implausible, WhatIsNoCurveIsNotUsable) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   for (std::size_t k = 0; k < curve.size(); ++k) {
     std::swap(curve.current_A[k], curve.current_A[k * 37 % curve.size()]);
   }
@@ -191,7 +194,7 @@ TEST(Implausible, AFamilyLeavesImplausibleCurvesOut) {
   std::string table = "curve,voltage_V,current_A,irradiance_W_m2,temperature_C\n";
   for (int c = 0; c < 4; ++c) {
     const double light = 0.4 + 0.2 * c;
-    const IvCurve curve = MadeModule(light, light, light, 40);
+    const IvCurve curve = SyntheticModule(light, light, light, 40);
     for (std::size_t k = 0; k < curve.size(); ++k) {
       const double current = c == 2 ? 0 : curve.current_A[k];
       table += std::to_string(c) + "," + std::to_string(curve.voltage_V[k]) + "," +

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "family/made_effects.h"
+#include "family/synthetic_effects.h"
 #include "lyrefit/curve/write_curve.h"
 #include "repeats.h"
 #include "run_app.h"
@@ -25,11 +25,11 @@ constexpr char kQuickRun[] = " --iterations 15 --population 12 --quiet ";
 class WithFamily : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-    const std::vector<double> truth = MadeTruth(law);
-    CurveSet set = MadeSet(law, truth, kSixPlaces, 30, 0);
-    AddMadeEffects({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, law, truth,
-                   1e-3, &set);
+    const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+    const std::vector<double> truth = SyntheticTruth(law);
+    CurveSet set = SyntheticSet(law, truth, kSixPlaces, 30, 0);
+    AddSyntheticEffects({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, law,
+                        truth, 1e-3, &set);
     for (const IvCurve& curve : set.curves) {
       folder_.Write("set/" + curve.name + ".csv", CurveToCsv(curve));
       folder_.Write("set/" + curve.name + ".json", CurveSidecarJson(curve));

@@ -9,7 +9,7 @@
 
 #include "error_of.h"
 #include "lyrefit/curve/key_points.h"
-#include "made_curve.h"
+#include "synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -27,15 +27,15 @@ void ScaleVoc(double voc_V, IvCurve* curve) {
 }
 
 TEST(CheckReadingsTest, SoundCurvesHaveNoFindings) {
-  EXPECT_THAT(CheckReadings(MadeModule()), IsEmpty());
-  EXPECT_THAT(CheckReadings(MadeModule(1, 1, 0.5)), IsEmpty());
-  EXPECT_THAT(CheckReadings(MadeCell()), IsEmpty());
-  EXPECT_THAT(CheckReadings(MadeCell(0)), IsEmpty());  // dark
+  EXPECT_THAT(CheckReadings(SyntheticModule()), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticModule(1, 1, 0.5)), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticCell()), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticCell(0)), IsEmpty());  // dark
 }
 
 TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
   for (const double stated : {0.0, 5.0}) {
-    IvCurve curve = MadeModule();
+    IvCurve curve = SyntheticModule();
     curve.conditions.irradiance_W_m2 = stated;
     const auto findings = CheckReadings(curve);
     ASSERT_EQ(findings.size(), 1U);
@@ -44,9 +44,9 @@ TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
     EXPECT_THAT(findings[0].sentence, HasSubstr("W/m2 are stated, but the device delivers"));
     EXPECT_THAT(findings[0].sentence, HasSubstr("--irradiance-Wm2"));
   }
-  IvCurve dim = MadeCell(0.01);  // 1.5 mA at 10 W/m2
+  IvCurve dim = SyntheticCell(0.01);  // 1.5 mA at 10 W/m2
   dim.conditions.irradiance_W_m2 = 10;
-  IvCurve dark = MadeCell(0);
+  IvCurve dark = SyntheticCell(0);
   dark.conditions.irradiance_W_m2 = 0;
   EXPECT_THAT(CheckReadings(dim), IsEmpty());
   EXPECT_THAT(CheckReadings(dark), IsEmpty());
@@ -190,7 +190,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.what);
-    IvCurve curve = MadeModule();
+    IvCurve curve = SyntheticModule();
     c.spoil(&curve);
     const auto findings = CheckReadings(curve);
     ASSERT_FALSE(findings.empty());
@@ -201,7 +201,7 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
 }
 
 TEST(CheckReadingsTest, OverflowsAreNamedByTheirReadings) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   for (const int k : {3, 17}) curve.current_A[k] = 1e38;
   const auto findings = CheckReadings(curve);
   ASSERT_EQ(findings.size(), 1U);
@@ -209,14 +209,14 @@ TEST(CheckReadingsTest, OverflowsAreNamedByTheirReadings) {
 }
 
 TEST(CheckReadingsTest, ACellInDimLightMayHaveLittleVoltage) {
-  IvCurve curve = MadeCell(1e-5);
+  IvCurve curve = SyntheticCell(1e-5);
   for (double& voltage : curve.voltage_V) voltage /= 4;
   curve.conditions.irradiance_W_m2 = 10;
   EXPECT_THAT(CheckReadings(curve), IsEmpty());
 }
 
 TEST(CheckReadingsTest, ManyAmperesAreTakenWhereTheUnitIsNamedOrStringsShareThem) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   for (double& current : curve.current_A) current *= 100;
   ASSERT_EQ(CheckReadings(curve).size(), 1U);
   EXPECT_EQ(CheckReadings(curve)[0].id, "current");
@@ -230,7 +230,7 @@ TEST(CheckReadingsTest, ManyAmperesAreTakenWhereTheUnitIsNamedOrStringsShareThem
 TEST(CheckReadingsTest, CoarseInstrumentsHaveNoLimit) {
   for (const double step : {0.01, 0.02, 0.1, 0.2}) {
     SCOPED_TRACE(step);
-    IvCurve curve = MadeModule();
+    IvCurve curve = SyntheticModule();
     for (double& current : curve.current_A) current = std::round(current / step) * step;
     EXPECT_THAT(CheckReadings(curve), IsEmpty());
     for (double& voltage : curve.voltage_V) voltage = std::round(voltage / 0.8) * 0.8;
@@ -239,7 +239,7 @@ TEST(CheckReadingsTest, CoarseInstrumentsHaveNoLimit) {
 }
 
 TEST(JudgeReadingsTest, RefusesWithTheFileAndTheWayOut) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   curve.source = "roof.csv";
   curve.conditions.cells_in_series = 600;
   const auto judged = JudgeReadings(curve);
@@ -249,7 +249,7 @@ TEST(JudgeReadingsTest, RefusesWithTheFileAndTheWayOut) {
 }
 
 TEST(JudgeReadingsTest, AsIsTurnsARefusalIntoADoubt) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   curve.conditions.cells_in_series = 600;
   EXPECT_FALSE(JudgeReadings(curve));
   curve.as_is = true;
@@ -259,7 +259,7 @@ TEST(JudgeReadingsTest, AsIsTurnsARefusalIntoADoubt) {
 }
 
 TEST(JudgeReadingsTest, OverflowsAndDeadChannelsAreNeverTaken) {
-  IvCurve overflow = MadeModule();
+  IvCurve overflow = SyntheticModule();
   overflow.as_is = true;
   IvCurve dead = overflow;
   overflow.current_A[5] = 1e308;
@@ -272,7 +272,7 @@ TEST(JudgeReadingsTest, OverflowsAndDeadChannelsAreNeverTaken) {
 }
 
 TEST(JudgeReadingsTest, ADoubtAboutManyCurvesIsSaidOnce) {
-  std::vector<IvCurve> curves(4, MadeModule());
+  std::vector<IvCurve> curves(4, SyntheticModule());
   for (std::size_t c = 0; c < curves.size(); ++c) {
     curves[c].name = std::to_string(c);
     curves[c].cells_known = c == 0;

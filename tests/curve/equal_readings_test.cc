@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "made_curve.h"
+#include "synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -31,18 +31,18 @@ void ExpectLimit(const IvCurve& curve, const std::vector<const char*>& says) {
 }
 
 TEST(EqualReadingsTest, ALimitBeyondOpenCircuitIsFound) {
-  ExpectLimit(Clamped(MadeCell(), -0.1, 1), {"exactly the same current -0.1 A", " V up"});
-  ExpectLimit(Clamped(MadeCell(0), -0.1, 1), {"exactly the same current -0.1 A"});
-  ExpectLimit(Clamped(MadeModule(), 4, 100), {"exactly the same current 4 A"});
+  ExpectLimit(Clamped(SyntheticCell(), -0.1, 1), {"exactly the same current -0.1 A", " V up"});
+  ExpectLimit(Clamped(SyntheticCell(0), -0.1, 1), {"exactly the same current -0.1 A"});
+  ExpectLimit(Clamped(SyntheticModule(), 4, 100), {"exactly the same current 4 A"});
 }
 
 TEST(EqualReadingsTest, ALimitBelowShortCircuitIsFoundByItsCorner) {
-  ExpectLimit(Clamped(MadeCell(), -1, 0.12), {"exactly the same current 0.12 A", " V down"});
-  ExpectLimit(Clamped(MadeModule(), -100, 8), {"exactly the same current 8 A"});
+  ExpectLimit(Clamped(SyntheticCell(), -1, 0.12), {"exactly the same current 0.12 A", " V down"});
+  ExpectLimit(Clamped(SyntheticModule(), -100, 8), {"exactly the same current 8 A"});
 }
 
 TEST(EqualReadingsTest, ReadingsInAnyOrderCount) {
-  IvCurve curve = Clamped(MadeCell(), -0.1, 1);
+  IvCurve curve = Clamped(SyntheticCell(), -0.1, 1);
   std::reverse(curve.voltage_V.begin(), curve.voltage_V.end());
   std::reverse(curve.current_A.begin(), curve.current_A.end());
   ExpectLimit(curve, {"-0.1 A"});
@@ -50,11 +50,11 @@ TEST(EqualReadingsTest, ReadingsInAnyOrderCount) {
 }
 
 TEST(EqualReadingsTest, ALimitOfTheVoltageIsFoundWhereCurrentsGoOn) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   for (double& voltage : curve.voltage_V) voltage = std::min(voltage, 36.0);
   ExpectLimit(curve, {"exactly the same voltage 36 V", "high end"});
   // Repeated readings of one operating point are no voltage limit.
-  curve = MadeModule();
+  curve = SyntheticModule();
   for (int k = 0; k < 8; ++k) {
     curve.voltage_V.push_back(curve.voltage_V.back());
     curve.current_A.push_back(curve.current_A.back() + 1e-4 * k);
@@ -67,7 +67,7 @@ TEST(EqualReadingsTest, TheFlatPartOfACoarseReadingIsNone) {
     for (const double step : {0.0005, 0.001, 0.005, 0.01}) {
       SCOPED_TRACE(::testing::Message() << "every " << every << ", step " << step);
       for (const double light : {0.0, 1.0}) {
-        const IvCurve cell = MadeCell(light);
+        const IvCurve cell = SyntheticCell(light);
         IvCurve coarse = cell;
         coarse.voltage_V.clear();
         coarse.current_A.clear();

@@ -5,31 +5,31 @@
 #include <algorithm>
 
 #include "lyrefit/base/random.h"
-#include "made_curve.h"
+#include "synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
 
 TEST(FindStepTest, ABypassedSubstringIsAStepWhereItsFallEnds) {
-  const auto half = FindStep(MadeModule(1, 1, 0.5));
+  const auto half = FindStep(SyntheticModule(1, 1, 0.5));
   ASSERT_TRUE(half);
   EXPECT_NEAR(half->voltage_V, 25, 2);
   EXPECT_GT(half->depth_A, 1);
-  const auto two = FindStep(MadeModule(1, 0.6, 0.6));
+  const auto two = FindStep(SyntheticModule(1, 0.6, 0.6));
   ASSERT_TRUE(two);
   EXPECT_NEAR(two->voltage_V, 12, 2);
 }
 
 TEST(FindStepTest, SmoothCurvesHaveNone) {
-  EXPECT_FALSE(FindStep(MadeModule()));
-  EXPECT_FALSE(FindStep(MadeModule(1, 1, 1, 26)));
-  EXPECT_FALSE(FindStep(MadeModule(1, 1, 1, 8)));
-  EXPECT_FALSE(FindStep(MadeCell()));
-  EXPECT_FALSE(FindStep(MadeCell(0)));
+  EXPECT_FALSE(FindStep(SyntheticModule()));
+  EXPECT_FALSE(FindStep(SyntheticModule(1, 1, 1, 26)));
+  EXPECT_FALSE(FindStep(SyntheticModule(1, 1, 1, 8)));
+  EXPECT_FALSE(FindStep(SyntheticCell()));
+  EXPECT_FALSE(FindStep(SyntheticCell(0)));
 }
 
 TEST(FindStepTest, NoiseAndSingleOutliersAreNone) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   curve.current_A[40] -= 3;
   EXPECT_FALSE(FindStep(curve));
   RandomStream random(3);
@@ -38,7 +38,7 @@ TEST(FindStepTest, NoiseAndSingleOutliersAreNone) {
 }
 
 TEST(FindStepTest, TheOrderOfTheReadingsDoesNotMatter) {
-  IvCurve curve = MadeModule(1, 1, 0.5);
+  IvCurve curve = SyntheticModule(1, 1, 0.5);
   const auto step = FindStep(curve);
   std::reverse(curve.voltage_V.begin(), curve.voltage_V.end());
   std::reverse(curve.current_A.begin(), curve.current_A.end());

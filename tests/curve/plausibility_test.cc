@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "made_curve.h"
+#include "synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -28,10 +28,10 @@ TEST(Plausibility, ModulesAndCellsHaveNoFindings) {
   for (const double isc_A : {0.3, 1.0, 9.0, 20.0}) {
     EXPECT_THAT(CheckPlausibility(ModuleWith(isc_A)), IsEmpty()) << isc_A;
   }
-  EXPECT_THAT(CheckPlausibility(MadeModule()), IsEmpty());
-  EXPECT_THAT(CheckPlausibility(MadeModule(1, 1, 0.3)), IsEmpty());
-  EXPECT_THAT(CheckPlausibility(MadeCell()), IsEmpty());
-  EXPECT_THAT(CheckPlausibility(MadeCell(0)), IsEmpty()) << "dark";
+  EXPECT_THAT(CheckPlausibility(SyntheticModule()), IsEmpty());
+  EXPECT_THAT(CheckPlausibility(SyntheticModule(1, 1, 0.3)), IsEmpty());
+  EXPECT_THAT(CheckPlausibility(SyntheticCell()), IsEmpty());
+  EXPECT_THAT(CheckPlausibility(SyntheticCell(0)), IsEmpty()) << "dark";
 }
 
 TEST(Plausibility, DoubtsACurrentThatNoCellGives) {
@@ -78,7 +78,7 @@ TEST(Plausibility, DoubtsAModuleWithTheCurrentOfASensor) {
 }
 
 TEST(Plausibility, DoubtsACurrentDensityBeyondSunlight) {
-  IvCurve cell = MadeCell();  // 0.15 A at 1000 W/m2
+  IvCurve cell = SyntheticCell();  // 0.15 A at 1000 W/m2
   cell.notes.area_cm2 = 4;
   EXPECT_EQ(Said(cell), "");
   cell.notes.area_cm2 = 0.4;

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/measurement.h"
 
@@ -34,7 +34,7 @@ Diagnosis DiagnosedQuickly(const IvCurve& curve) {
 TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   Recipe recipe = Long();
   recipe.noise_A = 0;
-  const auto made = MakeMeasurement(SetOf({MadeCurve(recipe)}));
+  const auto made = MakeMeasurement(SetOf({SyntheticCurve(recipe)}));
   ASSERT_TRUE(made && IsLong(made->readings));
   const Averaged averaged = Average(*made, StartingLaw(made->readings, Model::kSingleDiode), {});
   const std::vector<Reading>& means = averaged.measurement.readings.points;
@@ -48,18 +48,19 @@ TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
     EXPECT_EQ(means[k].weight, behind);
   }
   EXPECT_EQ(counted, made->readings.points.size());
-  IvCurve exact = MadeCurve(recipe);
+  IvCurve exact = SyntheticCurve(recipe);
   exact.voltage_V.clear();
   for (const Reading& r : means) exact.voltage_V.push_back(r.voltage);
-  const std::vector<double> truth = SolveCurrents(MakeDevice(Model::kSingleDiode, exact.conditions),
-                                                  MadeParameters(recipe).data(), exact.voltage_V);
+  const std::vector<double> truth =
+      SolveCurrents(MakeDevice(Model::kSingleDiode, exact.conditions),
+                    SyntheticParameters(recipe).data(), exact.voltage_V);
   for (std::size_t k = 0; k < truth.size(); ++k) {
     EXPECT_NEAR(means[k].current * made->readings.scale.current_A, truth[k], 1e-6);
   }
 }
 
 TEST(AverageTest, ALongCleanCurveIsCleanAndItsNoiseThatOfItsReadings) {
-  const Diagnosis d = DiagnosedQuickly(MadeCurve(Long()));
+  const Diagnosis d = DiagnosedQuickly(SyntheticCurve(Long()));
   EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_EQ(d.points.size(), 1500U);
   EXPECT_NEAR(d.points[700].sigma_A, 0.004, 0.0004);
@@ -70,13 +71,13 @@ TEST(AverageTest, HeldOutErrorsAreThoseOfReadings) {
   DiagnoseOptions options;
   options.draws = 400;
   options.folds = 3;
-  const auto d = Diagnose(MadeCurve(Long()), options);
+  const auto d = Diagnose(SyntheticCurve(Long()), options);
   ASSERT_TRUE(d.has_value());
   EXPECT_NEAR(d->gain.held_out_before_A, 0.004, 0.0004);
 }
 
 TEST(AverageTest, OneWrongReadingAmongManyIsFound) {
-  IvCurve curve = MadeCurve(Long());
+  IvCurve curve = SyntheticCurve(Long());
   curve.current_A[611] += 0.05;
   const Diagnosis d = DiagnosedQuickly(curve);
   ASSERT_THAT(Ids(d), Contains("outliers"));
@@ -84,7 +85,7 @@ TEST(AverageTest, OneWrongReadingAmongManyIsFound) {
 }
 
 TEST(AverageTest, AStepInALongCurveIsFound) {
-  IvCurve curve = MadeCurve(Long());
+  IvCurve curve = SyntheticCurve(Long());
   for (std::size_t k = 600; k < curve.size(); ++k) curve.current_A[k] += 0.02;
   const Diagnosis d = DiagnosedQuickly(curve);
   ASSERT_THAT(Ids(d), Contains("irr_step"));
@@ -98,7 +99,7 @@ Recipe VeryLong() {
 }
 
 TEST(AverageTest, ACleanCurveOfAHundredThousandReadingsIsClean) {
-  const Diagnosis d = DiagnosedQuickly(MadeCurve(VeryLong()));
+  const Diagnosis d = DiagnosedQuickly(SyntheticCurve(VeryLong()));
   EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
   EXPECT_FALSE(d.verdict.unexplained);
   ASSERT_EQ(d.points.size(), 100000U);
@@ -111,8 +112,8 @@ TEST(AverageTest, ACleanCurveOfAHundredThousandReadingsIsClean) {
 TEST(AverageTest, ManyReadingsLeaveLessOpen) {
   Recipe few = VeryLong();
   few.points = 1000;
-  const Diagnosis many = DiagnosedQuickly(MadeCurve(VeryLong()));
-  const Diagnosis less = DiagnosedQuickly(MadeCurve(few));
+  const Diagnosis many = DiagnosedQuickly(SyntheticCurve(VeryLong()));
+  const Diagnosis less = DiagnosedQuickly(SyntheticCurve(few));
   for (const int k : {0, 2, 3}) {  // Iph, n, Rs
     const double ratio = less.gain.shifts[k].standard_error / many.gain.shifts[k].standard_error;
     EXPECT_NEAR(ratio, 10, 1.5) << many.gain.shifts[k].symbol;
@@ -124,7 +125,7 @@ TEST(AverageTest, ManyReadingsLeaveLessOpen) {
 TEST(AverageTest, AStepAmongAHundredThousandReadingsIsFoundAtItsReading) {
   constexpr int kStep = 40123;
   for (const DiagnoseOptions& options : {LaboratoryOptions(), DiagnoseOptions()}) {
-    IvCurve curve = MadeCurve(VeryLong());
+    IvCurve curve = SyntheticCurve(VeryLong());
     for (std::size_t k = kStep; k < curve.size(); ++k) curve.current_A[k] += 0.16;
     const Diagnosis d = DiagnoseOrFail(curve, Quick(options));
     ASSERT_THAT(Ids(d), testing::ElementsAre("irr_step")) << d.verdict.sentence;
@@ -136,7 +137,7 @@ TEST(AverageTest, AStepAmongAHundredThousandReadingsIsFoundAtItsReading) {
 
 TEST(AverageTest, NoAverageGoesOverAJump) {
   constexpr int kJump = 40123;
-  IvCurve curve = MadeCurve(VeryLong());
+  IvCurve curve = SyntheticCurve(VeryLong());
   for (std::size_t k = kJump; k < curve.size(); ++k) curve.current_A[k] += 0.02;
   const auto made = MakeMeasurement(SetOf({curve}));
   ASSERT_TRUE(made);
@@ -149,7 +150,7 @@ TEST(AverageTest, NoAverageGoesOverAJump) {
 
 // Readings in random order are sorted into one sweep, and the diagnosis warns of it.
 TEST(AverageTest, ReadingsInNoOrderAreOneSweep) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   std::vector<std::pair<double, double>> readings;
   for (std::size_t k = 0; k < curve.size(); ++k) {
     readings.emplace_back(curve.voltage_V[k], curve.current_A[k]);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 
 namespace lyrefit {
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "error_of.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
@@ -56,7 +56,7 @@ void ExpectComplete(const Diagnosis& d) {
 }
 
 TEST(DiagnoseTest, ACleanCurveIsClean) {
-  const Diagnosis d = DiagnoseOrFail(MadeCurve({}));
+  const Diagnosis d = DiagnoseOrFail(SyntheticCurve({}));
   ExpectComplete(d);
   EXPECT_THAT(Ids(d), IsEmpty());
   EXPECT_FALSE(d.verdict.unexplained);
@@ -89,7 +89,7 @@ TEST(DiagnoseTest, ANamedCauseIsDescribed) {
 }
 
 TEST(DiagnoseTest, AStatedSigmaOfTheCurrentsIsBelieved) {
-  IvCurve curve = MadeCurve({});  // noise of 0.004 A
+  IvCurve curve = SyntheticCurve({});  // noise of 0.004 A
   curve.sigma_A.assign(curve.size(), 0.02);
   const Diagnosis d = DiagnoseOrFail(curve);
   for (const DiagnosedPoint& point : d.points) EXPECT_NEAR(point.sigma_A, 0.02, 1e-12);
@@ -106,7 +106,7 @@ TEST(DiagnoseTest, AStatedSigmaOfTheCurrentsIsBelieved) {
 TEST(DiagnoseTest, OfALongCurveAStatedSigmaIsThatOfEveryReading) {
   Recipe recipe;
   recipe.points = 3000;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   for (std::size_t k = 0; k < curve.size(); ++k) curve.sigma_A.push_back(0.004 + 1e-6 * k);
   const Diagnosis d = DiagnoseOrFail(curve);
   for (std::size_t k = 0; k < curve.size(); ++k) {
@@ -135,7 +135,7 @@ TEST(DiagnoseTest, OfSeveralSweepsWholeOnesAreHeldOut) {
     Recipe recipe;
     recipe.cells = 60;
     recipe.seed = 10 + sweep;
-    IvCurve one = MadeCurve(recipe);
+    IvCurve one = SyntheticCurve(recipe);
     // a third of the module delivers 10 % less current
     for (std::size_t k = 0; k < one.size(); ++k) {
       if (one.voltage_V[k] > 0.6 * one.voltage_V.back()) {
@@ -165,21 +165,21 @@ TEST(DiagnoseTest, RefusesBadInput) {
   EXPECT_FALSE(Diagnose(CurveSet()));
   Recipe few;
   few.points = 6;
-  EXPECT_FALSE(Diagnose(MadeCurve(few)));
-  IvCurve broken = MadeCurve({});
+  EXPECT_FALSE(Diagnose(SyntheticCurve(few)));
+  IvCurve broken = SyntheticCurve({});
   broken.voltage_V[3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(Diagnose(broken));
   DiagnoseOptions options;
   options.effects = {"drift", "nonsense"};
-  EXPECT_THAT(MessageOf(Diagnose(MadeCurve({}), options)), HasSubstr("'nonsense'"));
+  EXPECT_THAT(MessageOf(Diagnose(SyntheticCurve({}), options)), HasSubstr("'nonsense'"));
   for (const double level : {0.0, 0.7, -1.0, std::nan("")}) {
     options = {};
     options.level = level;
-    EXPECT_FALSE(Diagnose(MadeCurve({}), options)) << level;
+    EXPECT_FALSE(Diagnose(SyntheticCurve({}), options)) << level;
   }
   options = {};
   options.base = Model::kTripleDiode;
-  EXPECT_FALSE(Diagnose(MadeCurve({}), options));
+  EXPECT_FALSE(Diagnose(SyntheticCurve({}), options));
 }
 
 // Compares every result except times.
@@ -217,7 +217,7 @@ TEST(DiagnoseTest, RepeatsItselfBitForBitOnAnyNumberOfThreads) {
 }
 
 TEST(DiagnoseTest, ADarkCurveThatIsSaidToBeLitIsTakenAsDark) {
-  IvCurve dark = MadeDarkCurve();
+  IvCurve dark = SyntheticDarkCurve();
   dark.conditions.irradiance_W_m2 = 1000;
   const Diagnosis d = DiagnoseOrFail(dark);
   ExpectComplete(d);
@@ -231,7 +231,7 @@ TEST(DiagnoseTest, ACurveUnderLittleLightIsFittedAsOneUnderMuch) {
     Recipe recipe;
     recipe.irradiance_W_m2 = irradiance;
     recipe.noise_A = 2e-6 * irradiance;
-    const Diagnosis d = DiagnoseOrFail(MadeCurve(recipe));
+    const Diagnosis d = DiagnoseOrFail(SyntheticCurve(recipe));
     EXPECT_THAT(Ids(d), IsEmpty()) << irradiance << ": " << d.verdict.sentence;
     EXPECT_LT(d.verdict.lack_of_fit.value, 5e-4) << irradiance;
     EXPECT_THAT(d.warnings, IsEmpty()) << irradiance;
@@ -248,7 +248,7 @@ TEST(DiagnoseTest, ASeriesDownToLittleLightHasNothingToFind) {
     recipe.irradiance_W_m2 = irradiance;
     recipe.noise_A = 2e-4;
     recipe.seed = 3 + static_cast<std::uint64_t>(irradiance);
-    curves.push_back(MadeCurve(recipe));
+    curves.push_back(SyntheticCurve(recipe));
   }
   const Diagnosis d = DiagnoseOrFail(SetOf(curves), Quick());
   EXPECT_THAT(Ids(d), IsEmpty()) << d.verdict.sentence;
@@ -258,14 +258,14 @@ TEST(DiagnoseTest, ASeriesDownToLittleLightHasNothingToFind) {
 }
 
 TEST(DiagnoseTest, ADarkCurveAloneIsEnough) {
-  const Diagnosis d = DiagnoseOrFail(MadeDarkCurve());
+  const Diagnosis d = DiagnoseOrFail(SyntheticDarkCurve());
   ExpectComplete(d);
   EXPECT_THAT(d.evidence.kind, HasSubstr("dark"));
   EXPECT_GT(d.evidence.noise_dark_A, 0);
 }
 
 TEST(DiagnoseTest, LightAndDarkAreOneMeasurement) {
-  const Diagnosis d = DiagnoseOrFail(SetOf({MadeCurve({}), MadeDarkCurve()}));
+  const Diagnosis d = DiagnoseOrFail(SetOf({SyntheticCurve({}), SyntheticDarkCurve()}));
   ExpectComplete(d);
   EXPECT_EQ(d.curves.size(), 2U);
   EXPECT_EQ(d.points.back().curve, 1);
@@ -275,7 +275,7 @@ TEST(DiagnoseTest, LightAndDarkAreOneMeasurement) {
 TEST(DiagnoseTest, ASecondDiodeInTheBaseIsNotACause) {
   DiagnoseOptions options = Quick();
   options.base = Model::kDoubleDiode;
-  const Diagnosis d = DiagnoseOrFail(MadeCurve({}), options);
+  const Diagnosis d = DiagnoseOrFail(SyntheticCurve({}), options);
   ExpectComplete(d);
   EXPECT_EQ(d.base, "dd");
   EXPECT_THAT(d.base_sentence, HasSubstr("two diodes"));
@@ -302,7 +302,7 @@ TEST(DiagnoseTest, EveryChoiceIsEchoed) {
   options.base = Model::kDoubleDiode;
   options.effects = {"nonohmic_shunt", "drift"};
   std::map<std::string, std::string> echoed;
-  for (const OptionEcho& echo : DiagnoseOrFail(MadeCurve({}), options).non_default_options) {
+  for (const OptionEcho& echo : DiagnoseOrFail(SyntheticCurve({}), options).non_default_options) {
     echoed[echo.name] = echo.value;
   }
   EXPECT_EQ(echoed, (std::map<std::string, std::string>{{"base", "dd"},
@@ -318,7 +318,7 @@ TEST(DiagnoseTest, WithoutACauseTheExtendedModelIsItsDiodes) {
   options.extend = true;
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
     options.base = model;
-    const IvCurve curve = MadeCurve({});
+    const IvCurve curve = SyntheticCurve({});
     const Diagnosis d = DiagnoseOrFail(curve, options);
     const FitReport& report = d.extended;
     ASSERT_THAT(Ids(d), IsEmpty());
@@ -355,7 +355,7 @@ TEST(DiagnoseTest, TheModelIsExtendedAsAFit) {
 
 TEST(DiagnoseTest, StopsWhenAskedTo) {
   const Observer observer = [](const Progress&) { return ObserverAction::kStop; };
-  const auto d = Diagnose(MadeCurve({}), {}, observer);
+  const auto d = Diagnose(SyntheticCurve({}), {}, observer);
   ASSERT_TRUE(d.has_value());
   EXPECT_TRUE(d->interrupted);
   EXPECT_EQ(d->gain.folds, 0);

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
@@ -55,7 +55,7 @@ TEST(DevicePowerAndErrorTest, IsTheSpreadOfRepeatedFits) {
       Recipe recipe;
       recipe.seed = seed;
       recipe.points = 120;
-      const SyntheticData made = OnTheData(MadeCurve(recipe));
+      const SyntheticData made = OnTheData(SyntheticCurve(recipe));
       LawFit fit = FitBase(made.weighted, Law());
       if (step) {
         Law law = fit.law;
@@ -87,7 +87,7 @@ Done Do(const char* id, const std::vector<double>& values, double noise_A = 0.00
   recipe.noise_A = 0;
   recipe.points = 120;
   Done done;
-  done.curve = MadeCurve(recipe);
+  done.curve = SyntheticCurve(recipe);
   done.curve.notes.bypass_diodes = 3;
   const SyntheticData made = OnTheData(done.curve);
   LawFit fit = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
@@ -189,7 +189,7 @@ TEST(FieldDiagnosis, SaysThatAGroupMayBeShorted) {
   Recipe recipe;
   recipe.cells = 40;
   recipe.points = 120;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   curve.conditions.cells_in_series = 60;
   curve.notes.bypass_diodes = 3;
   const Diagnosis d = DiagnosedInTheField(curve);

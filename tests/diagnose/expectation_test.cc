@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 
 // A sweep whose parameters follow irradiance and voltage. Errors of n and Rs are correlated, as in
 // fits.
-SweepState MadeState(RandomStream* random) {
+SweepState SyntheticState(RandomStream* random) {
   SweepState state;
   state.isc_A = 8 * (1 + 0.1 * random->Normal());
   state.voc_V = 36 * (1 + 0.01 * random->Normal());
@@ -37,9 +37,9 @@ std::vector<const SweepState*> Pointers(const std::vector<SweepState>& states) {
   return pointers;
 }
 
-std::vector<SweepState> MadeStates(int count, RandomStream* random) {
+std::vector<SweepState> SyntheticStates(int count, RandomStream* random) {
   std::vector<SweepState> states;
-  for (int k = 0; k < count; ++k) states.push_back(MadeState(random));
+  for (int k = 0; k < count; ++k) states.push_back(SyntheticState(random));
   return states;
 }
 
@@ -49,8 +49,8 @@ double FalseAlarms(int references, double level, std::uint64_t seed) {
   RandomStream random(seed);
   int alarms = 0;
   for (int k = 0; k < kSweeps; ++k) {
-    const auto states = MadeStates(references, &random);
-    const SweepState sweep = MadeState(&random);
+    const auto states = SyntheticStates(references, &random);
+    const SweepState sweep = SyntheticState(&random);
     alarms += Differ(Expect(Pointers(states), sweep), sweep).p_value < level ? 1 : 0;
   }
   return static_cast<double>(alarms) / kSweeps;
@@ -67,8 +67,8 @@ TEST(Differ, RaisesFalseAlarmsAtItsLevel) {
 
 TEST(Differ, SeesWhatNoParameterShowsByItself) {
   RandomStream random(3);
-  const auto states = MadeStates(30, &random);
-  SweepState sweep = MadeState(&random);
+  const auto states = SyntheticStates(30, &random);
+  SweepState sweep = SyntheticState(&random);
   const Difference before = Differ(Expect(Pointers(states), sweep), sweep);
   // In reference sweeps n and Rs are negatively correlated; here both rise.
   sweep.ideality += 0.02;
@@ -80,10 +80,10 @@ TEST(Differ, SeesWhatNoParameterShowsByItself) {
 
 TEST(Expect, LeavesOutTheOutlierOnes) {
   RandomStream random(4);
-  auto states = MadeStates(20, &random);
+  auto states = SyntheticStates(20, &random);
   states[7].fill_factor *= 0.97;
   states[12].shape *= -20;
-  const SweepState sweep = MadeState(&random);
+  const SweepState sweep = SyntheticState(&random);
   const Expectation e = Expect(Pointers(states), sweep);
   std::vector<int> outlier = e.outlier;
   std::sort(outlier.begin(), outlier.end());
@@ -94,18 +94,18 @@ TEST(Expect, LeavesOutTheOutlierOnes) {
 
 TEST(Expect, TakesTheNearestWhereThereAreMany) {
   RandomStream random(5);
-  auto states = MadeStates(80, &random);
+  auto states = SyntheticStates(80, &random);
   for (int k = 40; k < 80; ++k) states[k].isc_A *= 0.4;
-  SweepState sweep = MadeState(&random);
+  SweepState sweep = SyntheticState(&random);
   for (const int k : Expect(Pointers(states), sweep).used) EXPECT_LT(k, 40);
 }
 
 TEST(Expect, RegressesOnlyAsFarAsTheReferencesBear) {
   RandomStream random(6);
-  const SweepState sweep = MadeState(&random);
-  const auto four = MadeStates(4, &random);
+  const SweepState sweep = SyntheticState(&random);
+  const auto four = SyntheticStates(4, &random);
   EXPECT_EQ(Expect(Pointers(four), sweep).regressors, 1);
-  const auto eight = MadeStates(8, &random);
+  const auto eight = SyntheticStates(8, &random);
   EXPECT_EQ(Expect(Pointers(eight), sweep).regressors, 2);
 }
 

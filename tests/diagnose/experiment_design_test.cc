@@ -53,7 +53,7 @@ DiagnoseOptions QuickWith(const std::vector<std::string>& effects) {
 // sweep, a nonohmic shunt looks alike.
 IvCurve CurveOfPoorCollection() {
   constexpr double kRs = 0.004, kSaturation = 1.2e-8, kThermal = 1.2 * 0.02569, kLoss = 0.04 * 8;
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double v = curve.voltage_V[k] + kRs * curve.current_A[k];
     const double slope = kSaturation / kThermal * std::exp(v / kThermal);

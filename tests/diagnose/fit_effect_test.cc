@@ -12,7 +12,7 @@ namespace {
 TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   Recipe recipe;
   recipe.cells = 60;
-  const SyntheticData made = OnTheData(MadeCurve(recipe));
+  const SyntheticData made = OnTheData(SyntheticCurve(recipe));
   const LawFit base = FitBase(made.weighted, Law());
   const auto candidates = Showable(made.measurement.readings.traits);
   int fitted = 0;
@@ -37,7 +37,7 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
 }
 
 TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
   const SyntheticData made = OnTheData(curve);
   const LawFit base = FitBase(made.weighted, Law());
@@ -54,7 +54,7 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
 
 // A refit without a tenth of the readings starts at the previous optimum and stays close to it.
 TEST(FitEffectTest, GoesOnFromWhereItEnded) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
   SyntheticData made = OnTheData(curve);
   const LawFit base = FitBase(made.weighted, Law());

@@ -21,7 +21,9 @@ Readings ReadingsOf(const std::vector<IvCurve>& curves) {
   return *MakeReadings(SetOf(curves), &warnings);
 }
 
-Readings ReadingsOf(const Recipe& recipe) { return ReadingsOf(std::vector{MadeCurve(recipe)}); }
+Readings ReadingsOf(const Recipe& recipe) {
+  return ReadingsOf(std::vector{SyntheticCurve(recipe)});
+}
 
 Recipe Module() {
   Recipe recipe;
@@ -46,10 +48,10 @@ TEST(FollowUpMeasurementsTest, FollowTheKindOfData) {
   EXPECT_THAT(Ids(FollowUpMeasurements(ReadingsOf(Module()))),
               ElementsAre("reverse_sweep", "slower_sweep", "second_light", "dark_curve",
                           "cover_part", "isc_voc"));
-  const Readings lit_and_dark = ReadingsOf({MadeCurve({}), MadeDarkCurve()});
+  const Readings lit_and_dark = ReadingsOf({SyntheticCurve({}), SyntheticDarkCurve()});
   EXPECT_THAT(Ids(FollowUpMeasurements(lit_and_dark)),
               ElementsAre("slower_sweep", "second_light", "isc_voc"));
-  EXPECT_TRUE(FollowUpMeasurements(ReadingsOf(std::vector{MadeDarkCurve()})).empty());
+  EXPECT_TRUE(FollowUpMeasurements(ReadingsOf(std::vector{SyntheticDarkCurve()})).empty());
 }
 
 TEST(FollowUpMeasurementsTest, TheReverseSweepGoesOnInTime) {

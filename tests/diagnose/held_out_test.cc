@@ -13,7 +13,7 @@ namespace {
 std::set<int> Distinct(const std::vector<int>& folds) { return {folds.begin(), folds.end()}; }
 
 TEST(MakeFoldsTest, SpreadsShortBlocksOverASweep) {
-  const SyntheticData made = OnTheData(MadeCurve({}));  // 60 readings
+  const SyntheticData made = OnTheData(SyntheticCurve({}));  // 60 readings
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   ASSERT_EQ(folds.size(), 60U);
   EXPECT_EQ(Distinct(folds).size(), 10U);
@@ -32,7 +32,7 @@ TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
     Recipe recipe;
     recipe.irradiance_W_m2 = irradiance;
     recipe.points = 12;
-    curves.push_back(MadeCurve(recipe));
+    curves.push_back(SyntheticCurve(recipe));
   }
   const SyntheticData made = OnTheData(SetOf(curves));
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
@@ -46,7 +46,7 @@ TEST(MakeFoldsTest, LeavesWholeCurvesOfAFamilyOut) {
 TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
   Recipe recipe;
   recipe.and_back = true;
-  IvCurve curve = MadeCurve(recipe);  // up and down: two sweeps
+  IvCurve curve = SyntheticCurve(recipe);  // up and down: two sweeps
   EXPECT_FALSE(LeavesSweepsOut(OnTheData(curve).measurement.readings));
   const IvCurve again = curve;
   curve.voltage_V.insert(curve.voltage_V.end(), again.voltage_V.begin(), again.voltage_V.end());
@@ -62,7 +62,7 @@ TEST(MakeFoldsTest, LeavesWholeSweepsOutWhereThereAreThree) {
 TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
   Recipe recipe;
   recipe.points = 7;
-  const SyntheticData made = OnTheData(MadeCurve(recipe));
+  const SyntheticData made = OnTheData(SyntheticCurve(recipe));
   const std::vector<int> folds = MakeFolds(made.measurement.readings, 10);
   EXPECT_EQ(Distinct(folds).size(), 4U);
   EXPECT_EQ(*std::max_element(folds.begin(), folds.end()), 3);
@@ -70,7 +70,7 @@ TEST(MakeFoldsTest, FewReadingsMakeFewFolds) {
 
 // Held-out gain of a present cause, by the steps of a diagnosis.
 TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.1;
   const SyntheticData made = OnTheData(curve);
   const Measurement& measurement = made.measurement;

@@ -25,7 +25,7 @@ struct Reference {
   LawFit fit;
 };
 Reference FitReferences() {
-  Reference reference{OnTheData(MadeCurve({})), {}};
+  Reference reference{OnTheData(SyntheticCurve({})), {}};
   reference.fit = FitBase(reference.made.weighted,
                           StartingLaw(reference.made.measurement.readings, Model::kSingleDiode));
   return reference;

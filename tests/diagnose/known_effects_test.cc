@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -42,11 +42,11 @@ constexpr double kAmplitude = 0.006;
 IvCurve UnderTheLamp() {
   Recipe recipe;
   recipe.points = 80;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   const double last = static_cast<double>(curve.size() - 1);
   // Beyond the knee the diode takes part of the additional photocurrent.
   const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
-  const std::vector<double> p = MadeParameters(recipe);
+  const std::vector<double> p = SyntheticParameters(recipe);
   const std::vector<double> steady = SolveCurrents(device, p.data(), curve.voltage_V);
   for (std::size_t k = 0; k < curve.size(); ++k) {
     std::vector<double> lit = p;
@@ -156,7 +156,7 @@ TEST(KnownEffectsTest, RefusesWhatCannotBeFitted) {
   EXPECT_FALSE(KnownEffects(options));
   options.own_effects = {};
   options.effects = {"lamp"};
-  EXPECT_FALSE(Diagnose(MadeCurve({}), options));
+  EXPECT_FALSE(Diagnose(SyntheticCurve({}), options));
 }
 
 }  // namespace

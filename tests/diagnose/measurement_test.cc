@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(MakeMeasurementTest, HoldsWhatIsDiagnosed) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (double& i : curve.current_A) i = std::min(i, 7.95);
   curve.notes.current_noise_constant_A = 0.004;
   const auto measurement = MakeMeasurement(SetOf({curve}));
@@ -27,10 +27,10 @@ TEST(MakeMeasurementTest, RefusesWhatCannotBeDiagnosed) {
   EXPECT_FALSE(MakeMeasurement(CurveSet()));
   Recipe few;
   few.points = 6;
-  EXPECT_THAT(MessageOf(MakeMeasurement(SetOf({MadeCurve(few)}))),
+  EXPECT_THAT(MessageOf(MakeMeasurement(SetOf({SyntheticCurve(few)}))),
               HasSubstr("7 readings or more, there are 6"));
   few.points = 7;
-  EXPECT_TRUE(MakeMeasurement(SetOf({MadeCurve(few)})));
+  EXPECT_TRUE(MakeMeasurement(SetOf({SyntheticCurve(few)})));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/measurement.h"
 
@@ -23,9 +23,9 @@ struct Noisy {
 Noisy MakeNoisy(const std::vector<Recipe>& recipes) {
   std::vector<IvCurve> noisy, clean;
   for (Recipe recipe : recipes) {
-    noisy.push_back(MadeCurve(recipe));
+    noisy.push_back(SyntheticCurve(recipe));
     recipe.noise_A = recipe.noise_relative = 0;
-    clean.push_back(MadeCurve(recipe));
+    clean.push_back(SyntheticCurve(recipe));
   }
   Noisy made;
   made.measurement = *MakeMeasurement(SetOf(noisy));

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "error_of.h"
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit {
@@ -58,13 +58,13 @@ TEST(OutlierCurvesTest, WithoutNoise) {
     Recipe recipe;
     recipe.noise_A = 0;
     recipe.cells = cells;
-    const Diagnosis d = DiagnoseOutlier(MadeCurve(recipe));
+    const Diagnosis d = DiagnoseOutlier(SyntheticCurve(recipe));
     EXPECT_THAT(d.warnings, Contains(HasSubstr("almost no noise")));
   }
 }
 
 TEST(OutlierCurvesTest, Unsorted) {
-  const IvCurve curve = MadeCurve({});
+  const IvCurve curve = SyntheticCurve({});
   std::vector<int> order(curve.size());
   std::iota(order.begin(), order.end(), 0);
   RandomStream random(4);
@@ -75,7 +75,7 @@ TEST(OutlierCurvesTest, Unsorted) {
 }
 
 TEST(OutlierCurvesTest, BackwardsIsTheSameVerdict) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
   std::vector<int> order(curve.size());
   std::iota(order.rbegin(), order.rend(), 0);
@@ -88,7 +88,7 @@ TEST(OutlierCurvesTest, BackwardsIsTheSameVerdict) {
 }
 
 TEST(OutlierCurvesTest, EveryReadingTwice) {
-  const IvCurve curve = MadeCurve({});
+  const IvCurve curve = SyntheticCurve({});
   std::vector<int> order;
   for (int k = 0; k < static_cast<int>(curve.size()); ++k) order.insert(order.end(), 2, k);
   DiagnoseOutlier(Reordered(curve, order));
@@ -97,18 +97,18 @@ TEST(OutlierCurvesTest, EveryReadingTwice) {
 TEST(OutlierCurvesTest, SevenReadings) {
   Recipe recipe;
   recipe.points = 7;
-  DiagnoseOutlier(MadeCurve(recipe));
+  DiagnoseOutlier(SyntheticCurve(recipe));
 }
 
 TEST(OutlierCurvesTest, NothingButShortCircuit) {
   Recipe recipe;
   recipe.to_V = 0.1;
-  DiagnoseOutlier(MadeCurve(recipe));
+  DiagnoseOutlier(SyntheticCurve(recipe));
 }
 
 TEST(OutlierCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
   for (const double current : {0.0, 5.0}) {
-    IvCurve curve = MadeCurve({});
+    IvCurve curve = SyntheticCurve({});
     curve.as_is = true;
     for (double& i : curve.current_A) i = current;
     EXPECT_THAT(MessageOf(Diagnose(SetOf({curve}), {})),
@@ -117,14 +117,14 @@ TEST(OutlierCurvesTest, ADeadChannelIsRefusedEvenWhereThePersonInsists) {
 }
 
 TEST(OutlierCurvesTest, NothingButNoise) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   RandomStream random(9);
   for (double& i : curve.current_A) i = random.Normal();
   DiagnoseOutlier(curve);
 }
 
 TEST(OutlierCurvesTest, CurrentsInTheOtherSign) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (double& i : curve.current_A) i = -i;
   DiagnoseOutlier(curve);
 }
@@ -133,7 +133,7 @@ TEST(OutlierCurvesTest, WrongNumberOfCells) {
   Recipe recipe;
   recipe.cells = 60;
   for (const int cells : {1, 20, 200}) {
-    IvCurve curve = MadeCurve(recipe);
+    IvCurve curve = SyntheticCurve(recipe);
     curve.conditions.cells_in_series = cells;
     DiagnoseOutlier(curve);
   }
@@ -141,7 +141,7 @@ TEST(OutlierCurvesTest, WrongNumberOfCells) {
 
 TEST(OutlierCurvesTest, MicroampereAndKiloampere) {
   for (const double factor : {1e-7, 1e3}) {
-    IvCurve curve = MadeCurve({});
+    IvCurve curve = SyntheticCurve({});
     for (double& i : curve.current_A) i *= factor;
     const Diagnosis d = DiagnoseOutlier(curve);
     EXPECT_FALSE(d.verdict.found);
@@ -149,12 +149,12 @@ TEST(OutlierCurvesTest, MicroampereAndKiloampere) {
 }
 
 TEST(OutlierCurvesTest, TheSameCurveManyTimes) {
-  std::vector<IvCurve> curves(4, MadeCurve({}));
+  std::vector<IvCurve> curves(4, SyntheticCurve({}));
   DiagnoseOutlier(SetOf(curves));
 }
 
 TEST(OutlierCurvesTest, ManyDarkCurves) {
-  DiagnoseOutlier(SetOf({MadeDarkCurve(1), MadeDarkCurve(2), MadeDarkCurve(3)}));
+  DiagnoseOutlier(SetOf({SyntheticDarkCurve(1), SyntheticDarkCurve(2), SyntheticDarkCurve(3)}));
 }
 
 }  // namespace

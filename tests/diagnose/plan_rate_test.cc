@@ -72,19 +72,19 @@ struct Outcome {
 };
 
 // The simulated measurement of a pair.
-struct Made {
+struct Synthetic {
   LawFit truth;
   WeightedData weighted;
 };
 
-Made Make(const Pair& pair, RandomStream* random) {
-  std::vector<IvCurve> curves = {MadeCurve(pair.recipe)};
+Synthetic Make(const Pair& pair, RandomStream* random) {
+  std::vector<IvCurve> curves = {SyntheticCurve(pair.recipe)};
   if (pair.dark_too) {
     Recipe dark = pair.recipe;
     dark.irradiance_W_m2 = 0;
-    curves.push_back(MadeCurve(dark));
+    curves.push_back(SyntheticCurve(dark));
   }
-  Made made;
+  Synthetic made;
   Readings readings = MakeMeasurement(SetOf(curves))->readings;
   made.weighted.readings = std::make_shared<const Readings>(readings);
   made.weighted.sigma.assign(readings.points.size(), kNoise);
@@ -106,7 +106,7 @@ Made Make(const Pair& pair, RandomStream* random) {
 
 // Fits the true cause and the one that looks alike. Empty if the data already distinguish them or
 // support neither.
-std::vector<PlanCandidate> FitPair(const Pair& pair, const Made& made) {
+std::vector<PlanCandidate> FitPair(const Pair& pair, const Synthetic& made) {
   constexpr double kApart = 6, kFound = 12;
   const LawFit base =
       FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
@@ -131,7 +131,7 @@ std::vector<int> OpenOnes(const Pair& pair, int tries) {
   std::vector<char> open(tries);
   ParallelFor(tries, 0, [&](int k) {
     RandomStream random(17, k);
-    const Made made = Make(pair, &random);
+    const Synthetic made = Make(pair, &random);
     open[k] = FitPair(pair, made).empty() ? 0 : 1;
   });
   std::vector<int> numbers;
@@ -163,7 +163,7 @@ Pair Settled(Pair pair) {
 // The probabilities predicted by a plan, and the results once the further readings are simulated.
 Outcome Try(const Pair& pair, int number) {
   RandomStream random(17, number);
-  const Made made = Make(pair, &random);
+  const Synthetic made = Make(pair, &random);
   const std::vector<PlanCandidate> candidates = FitPair(pair, made);
   Outcome outcome;
   for (const FollowUp& follow_up : FollowUpMeasurements(*made.weighted.readings)) {

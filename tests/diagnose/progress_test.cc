@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 IvCurve CurveWithAStep(int points) {
   Recipe recipe;
   recipe.points = points;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   for (std::size_t k = curve.size() / 2; k < curve.size(); ++k) curve.current_A[k] += 0.12;
   return curve;
 }

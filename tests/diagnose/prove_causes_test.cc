@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/curve/read_curve.h"
 #include "repeats.h"
 
@@ -22,7 +22,7 @@ DiagnoseOptions WithProofs(DiagnoseOptions options = {}) {
 
 TEST(Proofs, AreThereWhereTheyWereAskedFor) {
   SKIP_IF_SANITIZED();
-  const IvCurve curve = MadeCurve({});
+  const IvCurve curve = SyntheticCurve({});
   EXPECT_FALSE(DiagnoseOrFail(curve).proofs);
   const Diagnosis diagnosis = DiagnoseOrFail(curve, WithProofs());
   ASSERT_TRUE(diagnosis.proofs);
@@ -38,17 +38,17 @@ TEST(Proofs, AreThereWhereTheyWereAskedFor) {
 TEST(Proofs, AreOfTheEffectsThatWereTried) {
   DiagnoseOptions options;
   options.effects = {"collection", "drift"};
-  const Diagnosis one = DiagnoseOrFail(MadeCurve({}), WithProofs(options));
+  const Diagnosis one = DiagnoseOrFail(SyntheticCurve({}), WithProofs(options));
   for (const CauseProof& proof : one.proofs->causes) EXPECT_EQ(proof.effect, "collection");
   options.effects = {"drift"};
-  const Diagnosis none = DiagnoseOrFail(MadeCurve({}), WithProofs(options));
+  const Diagnosis none = DiagnoseOrFail(SyntheticCurve({}), WithProofs(options));
   EXPECT_TRUE(none.proofs->causes.empty());
   EXPECT_THAT(none.proofs->sentence, HasSubstr("none has a bound"));
 }
 
 TEST(Proofs, SayWhyThereAreNone) {
   CurveSet set;
-  set.curves = {MadeCurve({}), MadeCurve({})};
+  set.curves = {SyntheticCurve({}), SyntheticCurve({})};
   set.curves[1].conditions.irradiance_W_m2 = 500;
   const Diagnosis diagnosis = DiagnoseOrFail(set, WithProofs());
   EXPECT_TRUE(diagnosis.proofs->causes.empty());

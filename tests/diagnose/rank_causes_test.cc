@@ -40,7 +40,7 @@ LawFit Before(double n = kOrdinary) {
 }
 
 TEST(HasPossibleSize, RefusesWhatCannotBe) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const Readings& readings = *made.weighted.readings;
   const auto possible = [&](const FittedCandidate& fitted, const LawFit& before = Before()) {
     return HasPossibleSize(readings, before, fitted);
@@ -66,7 +66,7 @@ std::size_t Ranked(const SyntheticData& made,
 }
 
 TEST(RankCauses, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100),
                           FittedCandidateOf("mismatch", kUnequal, 92)}),
             1U);
@@ -76,7 +76,7 @@ TEST(RankCauses, TakesTheDeviceBeforeAMomentThatExplainsAboutAsMuch) {
 }
 
 TEST(RankCauses, TakesWhatLeavesAsLittleAndSupposesLess) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const auto leaving = [](FittedCandidate fitted, double left) {
     fitted.left = left;
     return fitted;
@@ -90,7 +90,7 @@ TEST(RankCauses, TakesWhatLeavesAsLittleAndSupposesLess) {
 }
 
 TEST(RankCauses, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const FittedCandidate mismatch = FittedCandidateOf("mismatch", kUnequal, 92);
   const auto beside = [&](double n) {
     return Ranked(made, {FittedCandidateOf("distributed_rs", {0.05}, 100, n), mismatch});
@@ -100,7 +100,7 @@ TEST(RankCauses, TakesAPossibleIdealityBeforeOneThatOnlyBends) {
 }
 
 TEST(RankCauses, OneDimCellIsAWeakCell) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const std::vector<double> weak = {0.1, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   const auto beside = [&](double cells) {
     return Ranked(made, {FittedCandidateOf("mismatch", {0.1, cells / 60}, 100),
@@ -111,7 +111,7 @@ TEST(RankCauses, OneDimCellIsAWeakCell) {
 }
 
 TEST(RankCauses, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule(/*and_back=*/true)));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule(/*and_back=*/true)));
   EXPECT_EQ(Ranked(made, {FittedCandidateOf("transient", kDip, 100),
                           FittedCandidateOf("capacitance", kLag, 80)}),
             1U);
@@ -123,7 +123,7 @@ TEST(RankCauses, TakesHysteresisBeforeADipOfSweepsUpAndDown) {
 TEST(RankCauses, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
   const std::vector<double> range = {0.02, 0.6}, cloud = {0.02, 0};
   for (const bool both : {false, true}) {
-    const SyntheticData made = OnTheData(MadeCurve(SweptModule(both)));
+    const SyntheticData made = OnTheData(SyntheticCurve(SweptModule(both)));
     const auto ranked_first = [&](double of_range, double of_cloud) {
       const FittedCandidate a = FittedCandidateOf("range_switch", range, of_range);
       const FittedCandidate b = FittedCandidateOf("irr_step", cloud, of_cloud);
@@ -142,7 +142,7 @@ TEST(RankCauses, TakesACloudBeforeARangeUnlessTwoSweepsTell) {
 // voltage, the currents of both would rise and fall.
 TEST(LightMoved, SaysNothingOfTwoSweeps) {
   for (const bool both : {false, true}) {
-    IvCurve curve = MadeCurve(SweptModule(both));
+    IvCurve curve = SyntheticCurve(SweptModule(both));
     for (std::size_t k = 0; k < curve.size(); ++k) {
       curve.current_A[k] *= 1 + 0.004 * static_cast<double>(std::min<std::size_t>(k, 15));
     }
@@ -151,7 +151,7 @@ TEST(LightMoved, SaysNothingOfTwoSweeps) {
 }
 
 TEST(RankCauses, TakesWhatSupposesLess) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const std::vector<double> weak = {0.3, 1, 0, 0.5, 0.1, 15, 3.4, 3.2, 1};
   EXPECT_EQ(Ranked(made, {FittedCandidateOf("weak_cell", weak, 100),
                           FittedCandidateOf("shading", kShade, 99)}),
@@ -162,7 +162,7 @@ TEST(RankCauses, TakesWhatSupposesLess) {
 }
 
 TEST(RankCauses, KeepsTheComplexOneWhereItsCurveIsAnother) {
-  const SyntheticData made = OnTheData(MadeCurve(SweptModule()));
+  const SyntheticData made = OnTheData(SyntheticCurve(SweptModule()));
   const std::vector<double> both = {0.3, 1. / 3, 0.6, 1. / 3, 0, 0, 0, 0, 0.5, 1};
   const std::vector<FittedCandidate> fitted_candidates = {
       FittedCandidateOf("substrings", both, 100), FittedCandidateOf("shading", kShade, 99)};
@@ -172,7 +172,7 @@ TEST(RankCauses, KeepsTheComplexOneWhereItsCurveIsAnother) {
 }
 
 TEST(LightMoved, WhereTheCurrentRisesWithTheVoltage) {
-  IvCurve curve = MadeCurve(SweptModule());
+  IvCurve curve = SyntheticCurve(SweptModule());
   EXPECT_FALSE(LightMoved(*OnTheData(curve).weighted.readings));
   for (std::size_t k = 0; k < curve.size() / 2; ++k) {
     curve.current_A[k] *= 0.9 + 0.1 * static_cast<double>(k) / (0.5 * curve.size());

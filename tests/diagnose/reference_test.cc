@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/sweep_state.h"
@@ -30,7 +30,7 @@ IvCurve Sweep(int number, double bump_A = 0.01) {
   recipe.irradiance_W_m2 = 850 + 20 * ((7 * number) % 13);
   recipe.noise_A = kNoise_A;
   recipe.seed = number;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   const double kelvin = (5 * number) % 11;
   curve.conditions.cell_temperature_K += kelvin;
   for (double& v : curve.voltage_V) v *= 1 - 0.003 * kelvin;

@@ -22,23 +22,24 @@ class NullTest : public ::testing::Test {
   void SetUp() override {
     Recipe recipe;
     recipe.points = 50;
-    made_ = OnTheData(MadeCurve(recipe));
-    clean_ = FitBase(made_.weighted, Law());
+    synthetic_ = OnTheData(SyntheticCurve(recipe));
+    clean_ = FitBase(synthetic_.weighted, Law());
   }
 
   std::vector<Score> Draw(int seed) {
-    Readings readings = made_.measurement.readings;
+    Readings readings = synthetic_.measurement.readings;
     RandomStream random(seed, 5);
     for (std::size_t k = 0; k < readings.points.size(); ++k) {
-      readings.points[k].current = clean_.current[k] + made_.weighted.sigma[k] * random.Normal();
+      readings.points[k].current =
+          clean_.current[k] + synthetic_.weighted.sigma[k] * random.Normal();
     }
-    WeightedData weighted = made_.weighted;
+    WeightedData weighted = synthetic_.weighted;
     weighted.readings = std::make_shared<const Readings>(std::move(readings));
     const LawFit fit = FitLaw(weighted, Law(), clean_.p);
     return ScoreEffects(weighted, fit, Showable(weighted.readings->traits), kDraws, 100 + seed);
   }
 
-  SyntheticData made_;
+  SyntheticData synthetic_;
   LawFit clean_;
 };
 
@@ -109,7 +110,7 @@ std::vector<Score> ScoreCurve(const IvCurve& curve) {
 }
 
 TEST(ScoreTest, SeesAWrongReading) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.current_A[23] += 0.06;
   const std::vector<Score> scores = ScoreCurve(curve);
   EXPECT_EQ(Of(scores, "outliers").outlier, 23);
@@ -117,7 +118,7 @@ TEST(ScoreTest, SeesAWrongReading) {
 }
 
 TEST(ScoreTest, SeesAStepOfTheLight) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 30; k < curve.size(); ++k) curve.current_A[k] += 0.08;
   const std::vector<Score> scores = ScoreCurve(curve);
   EXPECT_LT(Of(scores, "irr_step").corrected_p, 1e-4);
@@ -126,7 +127,7 @@ TEST(ScoreTest, SeesAStepOfTheLight) {
 
 // An effect that the base model absorbs is not testable, and the reason is stated.
 TEST(ScoreTest, SaysWhatCannotBeSeen) {
-  for (const Score& score : ScoreCurve(MadeCurve({}))) {
+  for (const Score& score : ScoreCurve(SyntheticCurve({}))) {
     EXPECT_EQ(score.testable, score.why_not.empty()) << score.effect->id;
     EXPECT_GE(score.kept, 0);
     EXPECT_LE(score.kept, 1 + 1e-9);
@@ -168,7 +169,7 @@ TEST(CalibrationTest, KeepsTheOrderAndStaysAProbability) {
 }
 
 TEST(SignatureOfEffectTest, IsWhatTheProbesDo) {
-  const SyntheticData made = OnTheData(MadeCurve({}));
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
   const Readings& readings = made.measurement.readings;
   const LawFit fit = FitBase(made.weighted, Law());
   const Effect& drift = *FindEffect("drift");
@@ -189,7 +190,7 @@ TEST(SignatureOfEffectTest, IsWhatTheProbesDo) {
 }
 
 TEST(SignatureOfEffectTest, ServesFitsOfTheSameLawWithinTheNoise) {
-  const SyntheticData made = OnTheData(MadeCurve({}));
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
   LawFit fit = FitBase(made.weighted, Law());
   const Effect *drift = FindEffect("drift"), *step = FindEffect("irr_step");
   Signatures signatures;

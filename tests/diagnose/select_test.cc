@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {
@@ -46,7 +46,7 @@ TEST(SelectCausesTest, FindsNothingInNoise) {
   for (int seed = 1; seed <= 10; ++seed) {
     Recipe recipe;
     recipe.seed = seed;
-    const Selected selected = SelectFor(MadeCurve(recipe));
+    const Selected selected = SelectFor(SyntheticCurve(recipe));
     const Selection& selection = selected.selection;
     ASSERT_TRUE(selection.base.usable);
     found += !selection.causes.empty() || !selection.outliers.empty() || selection.unknown;
@@ -83,7 +83,7 @@ TEST(SelectCausesTest, CausesStandInTheOrderOfTheLaw) {
 }
 
 TEST(SelectCausesTest, LeavesAWrongReadingOut) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.current_A[17] -= 0.09;
   const Selection selection = SelectFor(curve).selection;
   EXPECT_THAT(selection.outliers, ElementsAre(17));
@@ -94,7 +94,7 @@ TEST(SelectCausesTest, LeavesAWrongReadingOut) {
 
 // The limit is read off the values; clipped readings are excluded from the fit.
 TEST(SelectCausesTest, TakesClippingFromTheValues) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (double& i : curve.current_A) i = std::min(i, 7.9);
   const Selected selected = SelectFor(curve);
   EXPECT_THAT(selected.Ids(), ElementsAre("clip"));

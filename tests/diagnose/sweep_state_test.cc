@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -21,7 +21,7 @@ Recipe PlainModule() {
 }
 
 TEST(FitSweep, FindsTheDeviceThatMadeTheSweep) {
-  const auto sweep = FitSweep(MadeCurve(PlainModule()));
+  const auto sweep = FitSweep(SyntheticCurve(PlainModule()));
   ASSERT_TRUE(sweep) << sweep.error().message;
   const SweepState& state = sweep->state;
   EXPECT_EQ(state.cells, 60);
@@ -35,7 +35,7 @@ TEST(FitSweep, FindsTheDeviceThatMadeTheSweep) {
 }
 
 TEST(FitSweep, SeesTheShapeOfWhatTheDiodeMisses) {
-  IvCurve curve = MadeCurve(PlainModule());
+  IvCurve curve = SyntheticCurve(PlainModule());
   for (std::size_t k = 0; k < curve.size(); ++k) {
     curve.current_A[k] += 0.05 * std::sin(20 * curve.voltage_V[k] / 37);
   }
@@ -45,19 +45,20 @@ TEST(FitSweep, SeesTheShapeOfWhatTheDiodeMisses) {
 }
 
 TEST(FitSweep, RefusesWhatIsNoSweepOfAModuleInTheLight) {
-  EXPECT_THAT(FitSweep(MadeDarkCurve()).error().message, HasSubstr("dark"));
-  IvCurve dead = MadeCurve(PlainModule());
+  EXPECT_THAT(FitSweep(SyntheticDarkCurve()).error().message, HasSubstr("dark"));
+  IvCurve dead = SyntheticCurve(PlainModule());
   dead.name = "dead";
   for (double& current : dead.current_A) current = 0;
   EXPECT_THAT(FitSweep(dead).error().message, HasSubstr("dead"));
   Recipe reverse = PlainModule();
   reverse.from_V = -0.5;
   reverse.to_V = 0.2;
-  EXPECT_FALSE(FitSweep(MadeCurve(reverse)) && FitSweep(MadeCurve(reverse))->state.voc_V < 1);
+  EXPECT_FALSE(FitSweep(SyntheticCurve(reverse)) &&
+               FitSweep(SyntheticCurve(reverse))->state.voc_V < 1);
 }
 
 TEST(StateWith, FollowsWhatIsDoneToTheReadings) {
-  const auto sweep = FitSweep(MadeCurve(PlainModule()));
+  const auto sweep = FitSweep(SyntheticCurve(PlainModule()));
   ASSERT_TRUE(sweep) << sweep.error().message;
   const Readings& readings = *sweep->weighted.readings;
   std::vector<double> change(readings.points.size(), 0.0);

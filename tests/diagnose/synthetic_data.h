@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/score.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../repeats.h"
-#include "diagnose/made_diagnosis.h"
+#include "diagnose/synthetic_diagnosis.h"
 
 namespace lyrefit {
 namespace {
@@ -21,7 +21,7 @@ IvCurve ModuleCurve(bool and_back = false) {
   recipe.cells = 60;
   recipe.points = 120;
   recipe.and_back = and_back;
-  return MadeCurve(recipe);
+  return SyntheticCurve(recipe);
 }
 
 std::vector<Cause> CausesOf(const IvCurve& curve) { return DiagnoseOrFail(curve).verdict.causes; }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/law/make_readings.h"
 
@@ -38,7 +38,7 @@ double Slope(const IvCurve& curve, std::size_t k) {
 }
 
 TEST(FindGridTest, FindsTheStep) {
-  const std::vector<double> current = MadeCurve({}).current_A;
+  const std::vector<double> current = SyntheticCurve({}).current_A;
   for (const double step : {0.4, 0.05, 0.02}) {
     EXPECT_NEAR(FindGrid(Rounded(current, step)), step, 1e-9) << step;
   }
@@ -46,15 +46,15 @@ TEST(FindGridTest, FindsTheStep) {
 
 // Files may print fewer digits than the rounding step of the instrument has.
 TEST(FindGridTest, FindsTheStepBehindDigits) {
-  const std::vector<double> current = MadeCurve({}).current_A;
+  const std::vector<double> current = SyntheticCurve({}).current_A;
   for (const double step : {1.0 / 7, 10.0 / 256}) {
     EXPECT_NEAR(FindGrid(Rounded(current, step, 1e-4)), step, 2e-6) << step;
   }
 }
 
 TEST(FindGridTest, SeesNoneInFineValues) {
-  EXPECT_EQ(FindGrid(MadeCurve({}).current_A), 0);
-  EXPECT_EQ(FindGrid(Rounded(MadeCurve({}).current_A, 1e-4)), 0);
+  EXPECT_EQ(FindGrid(SyntheticCurve({}).current_A), 0);
+  EXPECT_EQ(FindGrid(Rounded(SyntheticCurve({}).current_A, 1e-4)), 0);
 }
 
 TEST(FindGridTest, SeesNoneInFewOrEqualValues) {
@@ -65,7 +65,7 @@ TEST(FindGridTest, SeesNoneInFewOrEqualValues) {
 }
 
 TEST(LookAtValuesTest, FindsClippedReadings) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   int clipped = 0;
   for (double& i : curve.current_A) {
     clipped += i > 7.95;
@@ -79,14 +79,14 @@ TEST(LookAtValuesTest, FindsClippedReadings) {
 
 // A source meter holds the current at its compliance limit.
 TEST(LookAtValuesTest, FindsALowerLimit) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   const double limit = curve.current_A[curve.size() - 6];
   for (double& i : curve.current_A) i = std::max(i, limit);
   const ValueFindings findings = Look(curve);
   ASSERT_TRUE(findings.limited);
   EXPECT_EQ(findings.at_lower.size(), 6U);
   EXPECT_EQ(findings.clip_level, 0);
-  curve = MadeCurve({});
+  curve = SyntheticCurve({});
   for (std::size_t k = curve.size() - 2; k < curve.size(); ++k) {
     curve.current_A[k] = curve.current_A[curve.size() - 2];
   }
@@ -94,14 +94,14 @@ TEST(LookAtValuesTest, FindsALowerLimit) {
 }
 
 TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (const int k : {0, 1, 2}) curve.current_A[k] = 8.1;
   EXPECT_EQ(Look(curve).clip_level, 0);
   EXPECT_THAT(Look(curve).clipped, IsEmpty());
 }
 
 TEST(LookAtValuesTest, AFlatTopOfACoarseGridIsNoClipping) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.current_A = Rounded(curve.current_A, 0.1);
   const ValueFindings findings = Look(curve);
   EXPECT_GT(findings.grids.lit, 0);
@@ -109,7 +109,7 @@ TEST(LookAtValuesTest, AFlatTopOfACoarseGridIsNoClipping) {
 }
 
 TEST(LookAtValuesTest, CleanCurvesShowNothing) {
-  const ValueFindings findings = Look(MadeCurve({}));
+  const ValueFindings findings = Look(SyntheticCurve({}));
   EXPECT_EQ(findings.grids.lit, 0);
   EXPECT_EQ(findings.grids.dark, 0);
   EXPECT_EQ(findings.clip_level, 0);
@@ -120,7 +120,7 @@ TEST(LookAtValuesTest, CleanCurvesShowNothing) {
 
 // Dark currents are measured in another instrument range.
 TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
-  IvCurve lit = MadeCurve({}), dark = MadeDarkCurve();
+  IvCurve lit = SyntheticCurve({}), dark = SyntheticDarkCurve();
   lit.current_A = Rounded(lit.current_A, 0.1);
   dark.current_A = Rounded(dark.current_A, 0.02);
   std::vector<std::string> warnings;
@@ -134,7 +134,7 @@ TEST(LookAtValuesTest, DarkCurvesHaveTheirOwnGrid) {
 
 // Equal neighbouring values share one rounding error.
 TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.current_A = Rounded(curve.current_A, 0.5);
   const ValueFindings findings = Look(curve);
   ASSERT_GT(findings.grids.lit, 0);
@@ -147,7 +147,7 @@ TEST(LookAtValuesTest, NeighboursShareTheirRounding) {
 
 TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
   for (const double bin : {0.007, 0.017, 0.03}) {  // the readings are 0.0113 V apart
-    const IvCurve exact = MadeCurve({});
+    const IvCurve exact = SyntheticCurve({});
     IvCurve curve = exact;
     curve.voltage_V = Rounded(curve.voltage_V, bin);
     const ValueFindings findings = Look(curve);
@@ -166,14 +166,14 @@ TEST(FindBinsTest, FindsVoltagesThatWereRounded) {
 
 TEST(FindBinsTest, FindsReadingsThatDriftThroughTheirBins) {
   for (const double bin : {0.0101, 0.0127}) {  // every tenth value is skipped or repeated
-    IvCurve curve = MadeCurve({});
+    IvCurve curve = SyntheticCurve({});
     curve.voltage_V = Rounded(curve.voltage_V, bin);
     const ValueFindings findings = Look(curve);
     EXPECT_NEAR(findings.voltage_bin, bin, 1e-9);
     EXPECT_NEAR(findings.bins_shared, 0.0113 / std::fabs(0.0113 - bin), 2) << bin;
   }
   // Programmed voltages with gaps are not rounded voltages.
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.voltage_V[k] = 0.0113 * k;
   for (const int k : {11, 15, 31, 32, 44}) {
     curve.voltage_V.erase(curve.voltage_V.begin() + k);
@@ -185,8 +185,8 @@ TEST(FindBinsTest, FindsReadingsThatDriftThroughTheirBins) {
 // A source steps through programmed voltages, coarsely at first, finely at the knee. This is no
 // rounding.
 TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
-  EXPECT_EQ(Look(MadeCurve({})).voltage_bin, 0);
-  IvCurve curve = MadeCurve({});
+  EXPECT_EQ(Look(SyntheticCurve({})).voltage_bin, 0);
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) {
     curve.voltage_V[k] = k < 20 ? 0.02 * k : 0.4 + 0.005 * (k - 20);
     curve.current_A[k] = 8 - 1e-8 * std::exp(curve.voltage_V[k] / 0.03);
@@ -196,7 +196,7 @@ TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
 }
 
 TEST(LookAtValuesTest, FindsALimitOfTheVoltage) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   const double limit = curve.voltage_V[curve.size() - 7];
   for (double& v : curve.voltage_V) v = std::min(v, limit);
   const ValueFindings findings = Look(curve);
@@ -208,14 +208,14 @@ TEST(LookAtValuesTest, FindsALimitOfTheVoltage) {
 // The load holds the device at one operating point: current and voltage both stand still, and all
 // readings are valid.
 TEST(LookAtValuesTest, SeesNoLimitWhereTheCurrentStandsStillAsWell) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   const std::size_t last = curve.size() - 7;
   for (std::size_t k = last; k < curve.size(); ++k) {
     curve.voltage_V[k] = curve.voltage_V[last];
     curve.current_A[k] = curve.current_A[last] * (1 + 1e-4 * (k % 2));
   }
   EXPECT_THAT(Look(curve).at_voltage_limit, IsEmpty());
-  EXPECT_FALSE(Look(MadeCurve({})).HasLimits());
+  EXPECT_FALSE(Look(SyntheticCurve({})).HasLimits());
 }
 
 // The sweeps of a family end at the same voltage, each with one reading.
@@ -225,7 +225,7 @@ TEST(ValuesTest, TheCommonEndOfSweepsIsNoLimitOfTheVoltage) {
     Recipe recipe;
     recipe.name = std::to_string(irradiance);
     recipe.irradiance_W_m2 = irradiance;
-    curves.push_back(MadeCurve(recipe));
+    curves.push_back(SyntheticCurve(recipe));
   }
   const auto made = MakeMeasurement(SetOf(curves));
   ASSERT_TRUE(made);

@@ -11,7 +11,7 @@ namespace lyrefit {
 namespace {
 
 TEST(WhitenTest, DividesByTheNoiseAndDropsWhatIsLeftOut) {
-  SyntheticData made = OnTheData(MadeCurve({}));
+  SyntheticData made = OnTheData(SyntheticCurve({}));
   made.weighted.used[4] = 0;
   const double sigma = made.weighted.sigma.front();
   const Eigen::VectorXd white =
@@ -26,7 +26,7 @@ TEST(WhitenTest, TakesTheCorrelationOut) {
   Recipe recipe;
   recipe.points = 1000;
   recipe.and_back = true;
-  SyntheticData made = OnTheData(MadeCurve(recipe));
+  SyntheticData made = OnTheData(SyntheticCurve(recipe));
   constexpr double kRho = 0.7;
   made.weighted.correlation = kRho;
   const double sigma = made.weighted.sigma.front();
@@ -43,7 +43,7 @@ TEST(WhitenTest, TakesTheCorrelationOut) {
 }
 
 TEST(WhitenTest, WhitensColumnsAsEachByItself) {
-  SyntheticData made = OnTheData(MadeCurve({}));
+  SyntheticData made = OnTheData(SyntheticCurve({}));
   made.weighted.path = 1e-3;
   const int count = made.weighted.count();
   Eigen::MatrixXd columns(count, 2);
@@ -60,7 +60,7 @@ TEST(FitBaseTest, FindsTheDevice) {
     Recipe recipe;
     recipe.cells = cells;
     recipe.noise_A = 0;
-    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const SyntheticData made = OnTheData(SyntheticCurve(recipe));
     const LawFit fit = FitBase(made.weighted, Law());
     ASSERT_TRUE(fit.usable);
     const double scale = made.measurement.readings.scale.current_A;
@@ -77,7 +77,7 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
   for (int seed = 1; seed <= 20; ++seed) {
     Recipe recipe;
     recipe.seed = seed;
-    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const SyntheticData made = OnTheData(SyntheticCurve(recipe));
     const LawFit fit = FitBase(made.weighted, Law());
     double by_hand = 0;
     for (std::size_t k = 0; k < fit.current.size(); ++k) {
@@ -92,7 +92,7 @@ TEST(FitBaseTest, SumIsThatOfNoise) {
 }
 
 TEST(FitLawTest, HoldsWhatIsSearched) {
-  const SyntheticData made = OnTheData(MadeCurve({}));
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
   Law law;
   law.effects = {FindEffect("irr_step")};
   std::vector<double> start = FitBase(made.weighted, Law()).p;
@@ -103,7 +103,7 @@ TEST(FitLawTest, HoldsWhatIsSearched) {
 }
 
 TEST(FitLawTest, DarkCurvesHaveNoPhotocurrent) {
-  const SyntheticData made = OnTheData(MadeDarkCurve());
+  const SyntheticData made = OnTheData(SyntheticDarkCurve());
   EXPECT_EQ(FreeCount(made.weighted, Law()), 4);
   const LawFit fit = FitBase(made.weighted, Law());
   ASSERT_TRUE(fit.usable);
@@ -111,7 +111,7 @@ TEST(FitLawTest, DarkCurvesHaveNoPhotocurrent) {
 }
 
 TEST(LinearizeTest, IsTheFitsTangent) {
-  const SyntheticData made = OnTheData(MadeCurve({}));
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
   const LawFit fit = FitBase(made.weighted, Law());
   const Linearized linear = Linearize(made.weighted, fit);
   ASSERT_EQ(linear.free.size(), 5U);
@@ -126,7 +126,7 @@ TEST(LinearizeTest, IsTheFitsTangent) {
 }
 
 TEST(LinearizeTest, ParametersPressedAgainstABoundAreNotFree) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] += 0.3 * curve.voltage_V[k];
   const SyntheticData made = OnTheData(curve);  // rises: 1/Rsh would be negative
   const LawFit fit = FitBase(made.weighted, Law());
@@ -144,7 +144,7 @@ TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
     Recipe recipe;
     recipe.seed = seed;
     recipe.points = 120;
-    const SyntheticData made = OnTheData(MadeCurve(recipe));
+    const SyntheticData made = OnTheData(SyntheticCurve(recipe));
     const LawFit fit = FitBase(made.weighted, Law());
     const double scale = made.measurement.readings.scale.current_A;
     const std::vector<double> errors = StandardErrors(Linearize(made.weighted, fit), 5);

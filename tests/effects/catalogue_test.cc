@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "law/made_readings.h"
+#include "law/synthetic_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -22,7 +22,7 @@ class CatalogueTest : public ::testing::TestWithParam<const Effect*> {
     std::vector<Probe> all;
     for (const DataKind kind : kDataKinds) {
       for (const int cells : {1, 60}) {
-        const DataTraits traits = MadeReadings(kind, cells).traits;
+        const DataTraits traits = SyntheticReadings(kind, cells).traits;
         if (effect().probes == nullptr || effect().why_not(traits)) continue;
         for (const Probe& probe : effect().probes(traits)) all.push_back(probe);
       }
@@ -108,7 +108,7 @@ TEST_P(CatalogueTest, EveryStageKnowsEveryNumberType) {
 }
 
 TEST_P(CatalogueTest, ReportedFactorsAreFinite) {
-  ReadingScale scale = MadeReadings(DataKind::kReverse, 60).scale;
+  ReadingScale scale = SyntheticReadings(DataKind::kReverse, 60).scale;
   std::vector<Probe> places = AllProbes();
   places.push_back(NeutralValues(effect()));
   for (const double reach : {0.5, 6.0, 40.0}) {

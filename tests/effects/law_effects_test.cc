@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "law/made_readings.h"
+#include "law/synthetic_readings.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/law.h"
@@ -29,7 +29,7 @@ std::vector<Place> Places() {
     for (const DataKind kind : kDataKinds) {
       for (const int cells : {1, 60}) {
         const bool open = !effect->parameters.empty() &&
-                          !effect->why_not(MadeReadings(kind, cells).traits).has_value();
+                          !effect->why_not(SyntheticReadings(kind, cells).traits).has_value();
         if (open) places.push_back({effect, kind, cells});
       }
     }
@@ -54,7 +54,7 @@ void PrintTo(const Place& place, std::ostream* out) { *out << place.effect->id; 
 class LawEffectsTest : public ::testing::TestWithParam<Place> {
  protected:
   const Effect& effect() const { return *GetParam().effect; }
-  const Readings readings_ = MadeReadings(GetParam().kind, GetParam().cells);
+  const Readings readings_ = SyntheticReadings(GetParam().kind, GetParam().cells);
 
   // About a dozen probes, evenly spread over all.
   std::vector<Probe> SomeProbes() const {

@@ -3,7 +3,7 @@
 
 #include "error_of.h"
 #include "lyrefit/family/fit_family.h"
-#include "made_family.h"
+#include "synthetic_family.h"
 
 namespace lyrefit {
 namespace {
@@ -26,16 +26,16 @@ const FamilyCandidate& Chosen(const FamilyReport& report) {
 }
 
 TEST(FitFamilyAuto, TellsALawThatTheCurvesDoNotFollow) {
-  const Translation pvsyst = MadeLaw(TranslationLaw::kPvsyst);
-  std::vector<double> truth = MadeTruth(pvsyst);
+  const Translation pvsyst = SyntheticLaw(TranslationLaw::kPvsyst);
+  std::vector<double> truth = SyntheticTruth(pvsyst);
   truth[pvsyst.n_slope] = -1.5e-3;
   truth[pvsyst.resistance_shunt] = 60;
   truth[pvsyst.resistance_shunt_dark] = 120;
-  std::vector<MadeAt> places;
+  std::vector<SyntheticAt> places;
   for (const double g : {1000.0, 700.0, 400.0, 150.0}) {
     for (const double t : {15.0, 40.0, 65.0}) places.push_back({g, t});
   }
-  const auto report = FitFamilyAuto(MadeSet(pvsyst, truth, places, 40, 1e-3), QuickAuto());
+  const auto report = FitFamilyAuto(SyntheticSet(pvsyst, truth, places, 40, 1e-3), QuickAuto());
   ASSERT_TRUE(report) << report.error().ToString();
   ASSERT_EQ(report->candidates.size(), 4U);
   EXPECT_EQ(report->translation.spec.law, TranslationLaw::kPvsyst);
@@ -48,9 +48,9 @@ TEST(FitFamilyAuto, TellsALawThatTheCurvesDoNotFollow) {
 }
 
 TEST(FitFamilyAuto, KeepsOneDiodeWhereTheSecondIsOfNoUse) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
   const auto report =
-      FitFamilyAuto(MadeSet(law, MadeTruth(law), kSixPlaces, 40, 3e-3), QuickAuto());
+      FitFamilyAuto(SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 40, 3e-3), QuickAuto());
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_EQ(Chosen(*report).model, Model::kSingleDiode);
   EXPECT_EQ(report->translation.spec.model, Model::kSingleDiode);
@@ -58,18 +58,19 @@ TEST(FitFamilyAuto, KeepsOneDiodeWhereTheSecondIsOfNoUse) {
 }
 
 TEST(FitFamilyAuto, TakesTheSimplestWhereNothingIsHeldOut) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
   FamilyOptions options = QuickAuto();
   options.folds = 0;
-  const auto report = FitFamilyAuto(MadeSet(law, MadeTruth(law), kSixPlaces, 30, 1e-3), options);
+  const auto report =
+      FitFamilyAuto(SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 30, 1e-3), options);
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_EQ(Chosen(*report).law, TranslationLaw::kDeSoto);
   EXPECT_EQ(Chosen(*report).model, Model::kSingleDiode);
 }
 
 TEST(FitFamilyAuto, SaysWhichLawAnOptionDoesNotFit) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 30, 1e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const CurveSet set = SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 30, 1e-3);
   FamilyOptions options = QuickAuto();
   options.fixed["mu_gamma"] = 0;
   const auto report = FitFamilyAuto(set, options);

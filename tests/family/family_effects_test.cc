@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "family/family_fixture.h"
-#include "family/made_effects.h"
+#include "family/synthetic_effects.h"
 #include "lyrefit/family/fit_individually.h"
 #include "repeats.h"
 
@@ -20,7 +20,7 @@ class FamilyEffectsTest : public FamilyFixture {
  protected:
   FamilyEffectsTest() : FamilyFixture(/*points=*/40, /*noise_A=*/0) {}
   void Make(const std::vector<EffectUse>& uses, double noise_A = 1e-3) {
-    AddMadeEffects(uses, law_, truth_, noise_A, &set_);
+    AddSyntheticEffects(uses, law_, truth_, noise_A, &set_);
   }
 };
 
@@ -66,8 +66,8 @@ TEST_F(FamilyEffectsTest, AnIntervalReachesOverEverySettingThatFitsAsWell) {
   spec.shunt = ShuntLaw::kConstant;
   options_.shunt = ShuntLaw::kConstant;
   law_ = *MakeTranslation(spec);
-  truth_ = MadeTruth(law_);
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {600, 25}}, 40, 0);
+  truth_ = SyntheticTruth(law_);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {600, 25}}, 40, 0);
   Make({UseOf("photoshunt", {{"Gph", {0.05, 0.05}}, {"law", {0, 0}}})}, 2e-3);
   Estimate held[2];
   for (const double law : {0.0, 1.0}) {
@@ -116,8 +116,8 @@ TEST_F(FamilyEffectsTest, StandardErrorsAreThoseOfWhatIsReported) {
   constexpr int kSets = 16;
   double mean = 0, squares = 0, stated = 0;
   for (int s = 0; s < kSets; ++s) {
-    AddMadeEffects({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, law_,
-                   truth_, 1e-3, &set_, s);
+    AddSyntheticEffects({UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}})}, law_,
+                        truth_, 1e-3, &set_, s);
     const FamilyReport report = Fit();
     const Estimate& k = Of(report, "nonohmic_shunt.k");
     mean += k.refined / kSets;
@@ -166,7 +166,7 @@ TEST_F(FamilyEffectsTest, ADarkCurveTellsAPhotoshuntFromTheShunt) {
   TranslationSpec spec = law_.spec;
   spec.shunt = ShuntLaw::kConstant;
   law_ = *MakeTranslation(spec);
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {1000, 60}}, 40, 0);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {1000, 60}}, 40, 0);
   set_.curves.push_back(DarkCurve(law_, truth_, 25, 40));
   options_.shunt = ShuntLaw::kConstant;
   EXPECT_EQ(Fit().curves.back().role, CurveRole::kLeftOut);  // no effect needs it

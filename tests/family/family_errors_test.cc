@@ -5,14 +5,14 @@
 
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/report/documents.h"
-#include "made_family.h"
+#include "synthetic_family.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
 
-FamilyReport FitMade(const CurveSet& set, int fit_curves = 0) {
+FamilyReport FitSynthetic(const CurveSet& set, int fit_curves = 0) {
   FamilyOptions options;
   options.individual_fits = false;
   options.folds = 0;
@@ -23,8 +23,8 @@ FamilyReport FitMade(const CurveSet& set, int fit_curves = 0) {
 }
 
 CurveSet WhiteSet(int curves) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  return MadeSet(law, MadeTruth(law), ManyPlaces(curves), 60, 2e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  return SyntheticSet(law, SyntheticTruth(law), ManyPlaces(curves), 60, 2e-3);
 }
 
 // A set in which the irradiance of each curve wanders by 3e-3.
@@ -43,7 +43,7 @@ CurveSet WanderingSet(int curves) {
 }
 
 TEST(FamilyErrors, OfWanderingLightEachHalfOfTheCurvesAsksForAPath) {
-  const FamilyReport report = FitMade(WanderingSet(12));
+  const FamilyReport report = FitSynthetic(WanderingSet(12));
   ASSERT_TRUE(report.errors.has_value());
   EXPECT_EQ(report.errors->kind, FamilyErrorKind::kPath);
   EXPECT_EQ(report.errors->judge, FamilyErrorJudge::kHalves);
@@ -55,7 +55,7 @@ TEST(FamilyErrors, OfWanderingLightEachHalfOfTheCurvesAsksForAPath) {
 }
 
 TEST(FamilyErrors, CurvesThatWereNotFittedAreAskedFirst) {
-  const FamilyReport report = FitMade(WanderingSet(16), 8);
+  const FamilyReport report = FitSynthetic(WanderingSet(16), 8);
   ASSERT_TRUE(report.errors.has_value());
   EXPECT_EQ(report.errors->judge, FamilyErrorJudge::kHeldOut);
   EXPECT_EQ(report.errors->tested_curves, 8);
@@ -63,7 +63,7 @@ TEST(FamilyErrors, CurvesThatWereNotFittedAreAskedFirst) {
 }
 
 TEST(FamilyErrors, IndependentOnesStayIndependent) {
-  const FamilyReport report = FitMade(WhiteSet(12));
+  const FamilyReport report = FitSynthetic(WhiteSet(12));
   ASSERT_TRUE(report.errors.has_value());
   EXPECT_EQ(report.errors->kind, FamilyErrorKind::kIndependent);
   EXPECT_EQ(report.errors->judge, FamilyErrorJudge::kHalves);
@@ -71,7 +71,7 @@ TEST(FamilyErrors, IndependentOnesStayIndependent) {
 }
 
 TEST(FamilyErrors, FewCurvesSpeakForThemselves) {
-  const FamilyReport report = FitMade(WanderingSet(5));
+  const FamilyReport report = FitSynthetic(WanderingSet(5));
   ASSERT_TRUE(report.errors.has_value());
   EXPECT_EQ(report.errors->judge, FamilyErrorJudge::kFitted);
   EXPECT_EQ(report.errors->tested_curves, 0);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "family/made_family.h"
 #include "family/quick.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/family/fit_family.h"
 
 namespace lyrefit {
@@ -15,7 +15,7 @@ namespace lyrefit {
 class FamilyFixture : public ::testing::Test {
  protected:
   FamilyFixture(int points, double noise_A) {
-    set_ = MadeSet(law_, truth_, kSixPlaces, points, noise_A);
+    set_ = SyntheticSet(law_, truth_, kSixPlaces, points, noise_A);
   }
 
   FamilyReport Fit() const {
@@ -28,8 +28,8 @@ class FamilyFixture : public ::testing::Test {
     return report ? "" : report.error().ToString();
   }
 
-  Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> truth_ = MadeTruth(law_);
+  Translation law_ = SyntheticLaw(TranslationLaw::kDeSoto);
+  std::vector<double> truth_ = SyntheticTruth(law_);
   CurveSet set_;
   FamilyOptions options_ = Quick();
 };

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 
 namespace lyrefit {
 namespace {
@@ -20,8 +20,8 @@ class MakeFamilyMembersTest : public testing::Test {
     return made ? "" : made.error().ToString();
   }
 
-  const Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  CurveSet set_ = MadeSet(law_, MadeTruth(law_), kSixPlaces, 12, 1e-3);
+  const Translation law_ = SyntheticLaw(TranslationLaw::kDeSoto);
+  CurveSet set_ = SyntheticSet(law_, SyntheticTruth(law_), kSixPlaces, 12, 1e-3);
   FamilyOptions options_;
 };
 
@@ -47,7 +47,7 @@ TEST_F(MakeFamilyMembersTest, SaysOfEveryCurveThatItCannotUseWhy) {
   options_.leave_out = {"c5"};
   options_.fit_curves = 0;
   RandomStream random(3);
-  set_.curves.push_back(MadeCurve(law_, MadeTruth(law_), {300, 30}, 12, 0, &random));
+  set_.curves.push_back(SyntheticCurve(law_, SyntheticTruth(law_), {300, 30}, 12, 0, &random));
   set_.curves.back().name = "c7";
   const FamilyMembers members = *Make();
   EXPECT_THAT(members.fitted, ElementsAre(5, 6));
@@ -64,7 +64,7 @@ TEST_F(MakeFamilyMembersTest, NeedsTwoLightCurvesWithNamesOfTheirOwn) {
   EXPECT_THAT(Error(), HasSubstr("at least two light curves, found 1"));
   set_.curves.clear();
   EXPECT_THAT(Error(), HasSubstr("at least two light curves, found 0"));
-  set_ = MadeSet(law_, MadeTruth(law_), kSixPlaces, 12, 1e-3);
+  set_ = SyntheticSet(law_, SyntheticTruth(law_), kSixPlaces, 12, 1e-3);
   options_.leave_out = {"c9"};
   EXPECT_THAT(Error(), HasSubstr("leave-out: the set has no curve c9"));
   options_.leave_out = {};

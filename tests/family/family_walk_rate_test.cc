@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "catalogue_walk.h"
-#include "family/made_effects.h"
 #include "family/quick.h"
+#include "family/synthetic_effects.h"
 
 namespace lyrefit {
 namespace {
@@ -35,15 +35,15 @@ Translation ConstantShunt() {
   return *MakeTranslation(spec);
 }
 
-struct Made {
+struct Synthetic {
   Translation law = ConstantShunt();
-  std::vector<double> truth = MadeTruth(law);
+  std::vector<double> truth = SyntheticTruth(law);
   CurveSet set;
 };
 
 // A random module under six operating conditions, or at one temperature and in the dark.
-Made DrawSet(const Place& place, RandomStream* random) {
-  Made made;
+Synthetic DrawSet(const Place& place, RandomStream* random) {
+  Synthetic made;
   const auto vary = [&](int i, double part) {
     made.truth[i] *= 1 + part * (random->Uniform() - 0.5);
   };
@@ -51,15 +51,15 @@ Made DrawSet(const Place& place, RandomStream* random) {
   vary(made.law.n, 0.1);
   vary(made.law.resistance_series, 1);
   vary(made.law.resistance_shunt, 1);
-  const std::vector<MadeAt> one = {{1000, 25}, {600, 25}};
-  made.set = MadeSet(made.law, made.truth, place.dark ? one : kSixPlaces, 40, 0);
+  const std::vector<SyntheticAt> one = {{1000, 25}, {600, 25}};
+  made.set = SyntheticSet(made.law, made.truth, place.dark ? one : kSixPlaces, 40, 0);
   if (place.dark) made.set.curves.push_back(DarkCurve(made.law, made.truth, 25, 40));
   return made;
 }
 
 bool Shows(const Place& place) {
   RandomStream random(1);
-  Made made = DrawSet(place, &random);
+  Synthetic made = DrawSet(place, &random);
   return ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {{place.effect, {}}},
                            /*force=*/false, &made.law)
       .has_value();
@@ -97,13 +97,13 @@ double DrawNoise(const CurveSet& clean, RandomStream* random) {
 
 void Count(const Place& place, RandomStream* random, WalkRow* row) {
   const Effect& effect = *place.effect;
-  Made made = DrawSet(place, random);
+  Synthetic made = DrawSet(place, random);
   Translation extended = made.law;
   ASSERT_TRUE(ExtendTranslation(made.set, made.truth[made.law.bandgap_slope], {{&effect, {}}},
                                 /*force=*/false, &extended));
   const Device& device = *extended.extended;
   const DrawnEffect drawn = DrawEffect(device, effect, random);
-  AddMadeEffects({drawn.truth}, made.law, made.truth, 0, &made.set);
+  AddSyntheticEffects({drawn.truth}, made.law, made.truth, 0, &made.set);
   const double noise = DrawNoise(made.set, random);
   for (IvCurve& curve : made.set.curves) {
     for (double& current : curve.current_A) current += noise * random->Normal();

@@ -7,9 +7,9 @@
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/report/documents.h"
-#include "made_family.h"
 #include "quick.h"
 #include "repeats.h"
+#include "synthetic_family.h"
 
 namespace lyrefit {
 namespace {
@@ -18,8 +18,8 @@ using ::testing::HasSubstr;
 
 // Noise of one size for all curves or, with `relative`, in proportion to the Isc of each curve.
 CurveSet NoisySet(bool relative, std::uint64_t seed) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 40, 0, seed);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  CurveSet set = SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 40, 0, seed);
   RandomStream random(seed);
   for (IvCurve& curve : set.curves) {
     const double isc = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
@@ -98,8 +98,8 @@ TEST(SettleWeights, LeavesStatedErrorsAndExactReadingsAlone) {
   CurveSet set = NoisySet(true, 1);
   for (IvCurve& curve : set.curves) curve.sigma_A.assign(curve.size(), 1e-3);
   EXPECT_FALSE(Fit(set, FamilyWeights::kAuto).weights_gain);
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const CurveSet exact = MadeSet(law, MadeTruth(law), kSixPlaces, 40, 0);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const CurveSet exact = SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 40, 0);
   EXPECT_FALSE(Fit(exact, FamilyWeights::kAuto).weights_gain);
 }
 

@@ -37,9 +37,9 @@ struct Law {
 class EveryFamily : public testing::TestWithParam<Law> {};
 
 TEST_P(EveryFamily, IsRecoveredWithinItsIntervals) {
-  const Translation law = MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
-  const std::vector<double> truth = MadeTruth(law);
-  const CurveSet set = MadeSet(law, truth, kSixPlaces, 40, 2e-4, 5);
+  const Translation law = SyntheticLaw(GetParam().law, GetParam().model, GetParam().recombination);
+  const std::vector<double> truth = SyntheticTruth(law);
+  const CurveSet set = SyntheticSet(law, truth, kSixPlaces, 40, 2e-4, 5);
   FamilyOptions options = Quick();
   options.law = GetParam().law;
   options.model = GetParam().model;
@@ -95,7 +95,8 @@ TEST_F(FitFamilyTest, FindsTheConditionsThatNobodyStated) {
 }
 
 TEST_F(FitFamilyTest, FindsAllIrradiancesRelativeToTheBrightest) {
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {700, 25}, {600, 45}, {400, 20}, {200, 35}}, 30, 1e-3);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {700, 25}, {600, 45}, {400, 20}, {200, 35}}, 30,
+                      1e-3);
   for (IvCurve& curve : set_.curves) curve.irradiance_known = false;
   const FamilyReport report = Fit();
   for (const int c : {1, 2, 3, 4}) {
@@ -123,19 +124,19 @@ TEST_F(FitFamilyTest, FindsTheErrorsThatAllReadingsShare) {
 
 TEST_F(FitFamilyTest, RefusesSensorErrorsThatTheConditionsCannotShow) {
   options_.irradiance_offset = true;
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {900, 45}}, 20, 1e-3);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {900, 45}}, 20, 1e-3);
   EXPECT_THAT(Error(), HasSubstr("irradiance-offset: curves under one irradiance"));
   options_.irradiance_offset = false;
   options_.temperature_offset = true;
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {500, 26}}, 20, 1e-3);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {500, 26}}, 20, 1e-3);
   EXPECT_THAT(Error(), HasSubstr("temperature-offset: curves at one temperature"));
 }
 
 TEST_F(FitFamilyTest, WeighsReadingsByTheirAccuracy) {
-  const std::vector<MadeAt> places = ManyPlaces(12);
+  const std::vector<SyntheticAt> places = ManyPlaces(12);
   int held = 0, asked = 0;
   for (int seed = 1; seed <= 4; ++seed) {
-    set_ = MadeSet(law_, truth_, places, 15, 1e-3, seed);
+    set_ = SyntheticSet(law_, truth_, places, 15, 1e-3, seed);
     RandomStream random(77, seed);
     std::vector<double> error;
     for (IvCurve& curve : set_.curves) {
@@ -160,7 +161,7 @@ TEST_F(FitFamilyTest, WeighsReadingsByTheirAccuracy) {
 }
 
 TEST_F(FitFamilyTest, MarksOnlyWhatTheDataDoNotShow) {
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {500, 25}, {200, 25}}, 30, 1e-3);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {500, 25}, {200, 25}}, 30, 1e-3);
   const FamilyReport held = Fit();
   EXPECT_TRUE(Of(held, "alpha_sc").fixed);
   EXPECT_THAT(held.assumptions, testing::Contains(HasSubstr("alpha_sc is held at")));
@@ -196,8 +197,8 @@ TEST_F(FitFamilyTest, KnowsCoefficientsWhoseParametersTradePlaces) {
 }
 
 TEST_F(FitFamilyTest, SaysThatOneIrradianceShowsNoDarkShunt) {
-  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
-  set_ = MadeSet(law, MadeTruth(law), {{1000, 25}, {1000, 45}, {1000, 65}}, 20, 1e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kPvsyst);
+  set_ = SyntheticSet(law, SyntheticTruth(law), {{1000, 25}, {1000, 45}, {1000, 65}}, 20, 1e-3);
   options_.law = TranslationLaw::kPvsyst;
   const FamilyReport report = Fit();
   for (const Estimate& e : report.estimates) {
@@ -215,7 +216,7 @@ TEST_F(FitFamilyTest, HoldsCoefficientsWhereNobodyStatedATemperature) {
 }
 
 TEST_F(FitFamilyTest, BearsCurvesWithoutNoise) {
-  set_ = MadeSet(law_, truth_, kSixPlaces, 20, 0);
+  set_ = SyntheticSet(law_, truth_, kSixPlaces, 20, 0);
   options_.individual_fits = true;
   const FamilyReport report = Fit();
   EXPECT_NEAR(Of(report, "n").refined, 1.2, 1e-9);
@@ -227,7 +228,7 @@ TEST_F(FitFamilyTest, BearsCurvesWithoutNoise) {
 TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
   options_.intervals = false;
   for (int seed = 1; seed <= 10; ++seed) {
-    set_ = MadeSet(law_, truth_, ManyPlaces(12), 15, 2e-3, seed);
+    set_ = SyntheticSet(law_, truth_, ManyPlaces(12), 15, 2e-3, seed);
     RandomStream random(8, seed);
     for (IvCurve& curve : set_.curves) {
       curve.conditions.irradiance_W_m2 *= 1 + 0.008 * random.Normal();
@@ -237,7 +238,7 @@ TEST_F(FitFamilyTest, TakesOrdinarySensorErrorsForNoOtherDevice) {
 }
 
 TEST_F(FitFamilyTest, GivesEveryCurveARowAndAReason) {
-  set_ = MadeSet(law_, truth_, ManyPlaces(10), 15, 1e-3);
+  set_ = SyntheticSet(law_, truth_, ManyPlaces(10), 15, 1e-3);
   set_.curves[0].conditions.cells_in_series = 72;
   set_.curves[1].conditions.irradiance_W_m2 = 0;
   options_.leave_out = {"c3"};
@@ -300,7 +301,7 @@ TEST_F(FitFamilyTest, RefusesWhatMakesNoSense) {
               HasSubstr("temperature-accuracy"));
   EXPECT_THAT(with([](auto* o) { o->model = Model::kTripleDiode; }), HasSubstr("one or two"));
   EXPECT_THAT(with([](auto* o) { o->recombination = true; }), HasSubstr("pvsyst"));
-  set_ = MadeSet(law_, truth_, {{1000, 25}, {500, 45}}, 3, 0);
+  set_ = SyntheticSet(law_, truth_, {{1000, 25}, {500, 45}}, 3, 0);
   EXPECT_THAT(with([](auto*) {}), HasSubstr("6 points cannot determine 7 shared parameters"));
 }
 
@@ -336,9 +337,9 @@ TEST_F(FitFamilyTest, BearsUnusualIdealitiesAndFewPoints) {
   std::vector<double> outlier = truth_;
   outlier[law_.n] = 3.2;
   outlier[law_.saturation_current] = 2.5e-3;
-  set_ = MadeSet(law_, outlier, kSixPlaces, 30, 1e-3);
+  set_ = SyntheticSet(law_, outlier, kSixPlaces, 30, 1e-3);
   EXPECT_NEAR(Of(Fit(), "n").refined, 3.2, 0.1);
-  set_ = MadeSet(law_, truth_, ManyPlaces(15), 3, 1e-3);
+  set_ = SyntheticSet(law_, truth_, ManyPlaces(15), 3, 1e-3);
   options_.individual_fits = true;
   options_.folds = 3;
   const FamilyReport few = Fit();

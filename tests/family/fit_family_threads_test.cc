@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/family/fit_family.h"
 
 namespace lyrefit {
@@ -69,12 +69,12 @@ FamilyOptions Small() {
 }
 
 CurveSet SetWithAStranger() {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> shared = MadeTruth(law);
-  CurveSet set = MadeSet(law, shared, kSixPlaces, 15, 2e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  std::vector<double> shared = SyntheticTruth(law);
+  CurveSet set = SyntheticSet(law, shared, kSixPlaces, 15, 2e-3);
   shared[law.photocurrent] *= 1.2;
   RandomStream random(4);
-  set.curves.push_back(MadeCurve(law, shared, {500, 25}, 15, 2e-3, &random));
+  set.curves.push_back(SyntheticCurve(law, shared, {500, 25}, 15, 2e-3, &random));
   set.curves.back().name = "stranger";
   set.curves[3].irradiance_known = false;
   return set;
@@ -157,8 +157,8 @@ TEST(FitFamily, RefusesLessThanNoThreads) {
 }
 
 TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const CurveSet set = MadeSet(law, MadeTruth(law), kSixPlaces, 20, 5e-4);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const CurveSet set = SyntheticSet(law, SyntheticTruth(law), kSixPlaces, 20, 5e-4);
   FamilyOptions options = Small();
   options.individual_fits = options.intervals = options.random_baseline = false;
   const FamilyReport report = *FitFamilyAuto(set, options);
@@ -173,9 +173,9 @@ TEST(FitFamilyAuto, ChoosesTheLawThatPredictsBest) {
 }
 
 TEST(FitFamily, FitsFiveHundredCurves) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
-  const CurveSet set = MadeSet(law, truth, ManyPlaces(500), 10, 2e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(law);
+  const CurveSet set = SyntheticSet(law, truth, ManyPlaces(500), 10, 2e-3);
   FamilyOptions options = Small();
   options.individual_fits = false;
   options.irradiance_accuracy = 0.01;

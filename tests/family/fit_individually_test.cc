@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/fit/fit.h"
 
 namespace lyrefit {
@@ -20,8 +20,8 @@ class FitIndividuallyTest : public testing::Test {
     options_.search.iterations = 6;
     options_.intervals = false;
   }
-  const Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  CurveSet set_ = MadeSet(law_, MadeTruth(law_), kSixPlaces, 14, 1e-3);
+  const Translation law_ = SyntheticLaw(TranslationLaw::kDeSoto);
+  CurveSet set_ = SyntheticSet(law_, SyntheticTruth(law_), kSixPlaces, 14, 1e-3);
   FamilyOptions options_;
 };
 

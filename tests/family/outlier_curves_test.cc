@@ -5,8 +5,8 @@
 
 #include <tuple>
 
-#include "family/made_family.h"
 #include "family/quick.h"
+#include "family/synthetic_family.h"
 
 namespace lyrefit {
 namespace {
@@ -24,13 +24,13 @@ class OutlierCurve : public testing::TestWithParam<std::tuple<Stranger, int>> {}
 
 TEST_P(OutlierCurve, IsNamedAndOnlyIt) {
   const auto& [stranger, count] = GetParam();
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> other = MadeTruth(law);
-  CurveSet set = MadeSet(law, other, count == 6 ? kSixPlaces : ManyPlaces(count), 20, 2e-3);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  std::vector<double> other = SyntheticTruth(law);
+  CurveSet set = SyntheticSet(law, other, count == 6 ? kSixPlaces : ManyPlaces(count), 20, 2e-3);
   other[stranger.parameter] *= stranger.factor;
   RandomStream random(9);
   const std::string id = set.curves[2].name;
-  set.curves[2] = MadeCurve(law, other, {800, 40}, 20, 2e-3, &random);
+  set.curves[2] = SyntheticCurve(law, other, {800, 40}, 20, 2e-3, &random);
   set.curves[2].name = id;
   FamilyOptions options = Quick();
   options.intervals = false;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "family/made_translation.h"
+#include "family/synthetic_translation.h"
 #include "lyrefit/law/current.h"
 
 namespace lyrefit {

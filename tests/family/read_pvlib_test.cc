@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../temp_folder.h"
-#include "family/made_translation.h"
+#include "family/synthetic_translation.h"
 #include "lyrefit/family/pvlib_parameters.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/report/json.h"

@@ -32,8 +32,8 @@ class DescentsTest : public ::testing::Test {
     p.insert(p.begin(), fit_.base_size(), 1);
     p = Reported(fit_.device, p);
     for (int i = 0; i < fit_.device.size(); ++i) {
-      const auto known = made_.truth.find(fit_.device.parameters[i].symbol);
-      if (known != made_.truth.end()) p[i] = known->second;
+      const auto known = synthetic_.truth.find(fit_.device.parameters[i].symbol);
+      if (known != synthetic_.truth.end()) p[i] = known->second;
     }
     return {"truth", Inner(fit_.device, p), 0};
   }
@@ -45,16 +45,16 @@ class DescentsTest : public ::testing::Test {
     return start;
   }
 
-  const LandscapeCase made_ = MakeLandscape("strings_4", 1, 3).value().front();
+  const LandscapeCase synthetic_ = MakeLandscape("strings_4", 1, 3).value().front();
   const FitOptions options_ = WithSubstrings();
-  const PreparedFit fit_ = PrepareFit(made_.curve, options_).value();
+  const PreparedFit fit_ = PrepareFit(synthetic_.curve, options_).value();
   const ProgressReporter progress_;
 };
 
 TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
   const PolishStart truth = Truth();
   const RefineEnd end = Refine(InVariant(fit_.problem, fit_.variants[0], truth.p), truth.p);
-  EXPECT_NEAR(std::sqrt(end.mean_square) / made_.noise_A, 1, 0.2);
+  EXPECT_NEAR(std::sqrt(end.mean_square) / synthetic_.noise_A, 1, 0.2);
   Descents descents(fit_.problem, fit_.variants, progress_);
   descents.Descend(ShapeStarts(fit_));
   const DescentEnd& best = descents.ends()[descents.best()];
@@ -67,7 +67,7 @@ TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
 TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
   Descents descents(fit_.problem, fit_.variants, progress_);
   descents.Descend(ShapeStarts(fit_));
-  const double points = static_cast<double>(made_.curve.size());
+  const double points = static_cast<double>(synthetic_.curve.size());
   for (const DescentEnd& end : descents.ends()) {
     const double free = fit_.variants[end.start.variant].free;
     EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points),
@@ -77,9 +77,9 @@ TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
 
 TEST_F(DescentsTest, CountsWhatWasMet) {
   Descents descents(fit_.problem, fit_.variants, progress_);
-  const double d1 = made_.truth.at("substrings.d1");
-  const double d2 = made_.truth.at("substrings.d2");
-  const double d3 = made_.truth.at("substrings.d3");
+  const double d1 = synthetic_.truth.at("substrings.d1");
+  const double d2 = synthetic_.truth.at("substrings.d2");
+  const double d3 = synthetic_.truth.at("substrings.d3");
   // Equal cell groups are interchangeable, so both starts end in one local optimum.
   descents.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
   OptimumCount count = descents.Count();
@@ -99,9 +99,9 @@ TEST_F(DescentsTest, CountsWhatWasMet) {
 
 TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
   Descents descents(fit_.problem, fit_.variants, progress_);
-  const double d1 = made_.truth.at("substrings.d1");
-  const double d2 = made_.truth.at("substrings.d2");
-  const double d3 = made_.truth.at("substrings.d3");
+  const double d1 = synthetic_.truth.at("substrings.d1");
+  const double d2 = synthetic_.truth.at("substrings.d2");
+  const double d3 = synthetic_.truth.at("substrings.d3");
   descents.Descend({Changed(d1, d2, d3)});
   PolishStart beside = Changed(d3, d1, d2);
   beside.beside = true;

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-LandscapeCase Made(const std::string& problem) {
+LandscapeCase Synthetic(const std::string& problem) {
   const auto cases = MakeLandscape(problem, 1, 5);
   EXPECT_TRUE(cases) << cases.error().ToString();
   return cases ? cases->front() : LandscapeCase{};
@@ -41,7 +41,7 @@ void ExpectNear(const FitReport& report, const std::string& symbol, double truth
 }
 
 TEST(PolishExtended, FindsAWeakCellAndItsReverseLaw) {
-  const LandscapeCase made = Made("weak_cell_soft");
+  const LandscapeCase made = Synthetic("weak_cell_soft");
   const auto report = Fit(made.curve, ByName("weak_cell"));
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_NEAR(report->rmse.refined.solved_current_A / made.noise_A, 1, 0.2);
@@ -66,7 +66,7 @@ class StringsByName : public ::testing::TestWithParam<int> {};
 
 TEST_P(StringsByName, ALightForEachSubstring) {
   const std::string substrings = std::to_string(GetParam());
-  const LandscapeCase made = Made("strings_" + substrings);
+  const LandscapeCase made = Synthetic("strings_" + substrings);
   ASSERT_EQ(made.curve.notes.bypass_diodes, GetParam());
   const auto report = Fit(made.curve, ByName("substrings"));
   ASSERT_TRUE(report) << report.error().ToString();
@@ -133,7 +133,7 @@ TEST(PolishExtended, AShadesShareOfCountedSubstringsIsExactAndHasNoInterval) {
 
 TEST(PolishExtended, GivesTheSameBitsOnAnyNumberOfThreads) {
   SKIP_IF_SANITIZED();
-  const LandscapeCase made = Made("strings_3");
+  const LandscapeCase made = Synthetic("strings_3");
   FitOptions options = ByName("substrings");
   options.search.seed = 11;
   options.threads = 1;
@@ -155,7 +155,7 @@ TEST(PolishExtended, GivesTheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(PolishExtended, BeginsWhereItIsToldTo) {
-  const LandscapeCase made = Made("strings_3");
+  const LandscapeCase made = Synthetic("strings_3");
   FitOptions options = ByName("substrings");
   options.intervals = Intervals::kNone;
   const auto origins = [&](StartsFrom from) {

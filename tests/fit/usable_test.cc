@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../curve/made_curve.h"
+#include "../curve/synthetic_curve.h"
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/fit/fit.h"
@@ -30,7 +30,7 @@ TEST(UsableTest, AStepIsNamedFirstAndMakesAFitUseless) {
   for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode}) {
     FitOptions options = Quick();
     options.model = model;
-    const auto report = Fit(MadeModule(1, 1, 0.5), options);
+    const auto report = Fit(SyntheticModule(1, 1, 0.5), options);
     ASSERT_TRUE(report);
     EXPECT_FALSE(report->usable);
     // Two substrings of 12.1 V at that current, minus the voltage of the conducting bypass diode.
@@ -41,7 +41,7 @@ TEST(UsableTest, AStepIsNamedFirstAndMakesAFitUseless) {
 }
 
 TEST(UsableTest, SoundCurvesAreFittedWithoutSuchWarnings) {
-  for (const IvCurve& curve : {MadeModule(), MadeCell(), MadeCell(0)}) {
+  for (const IvCurve& curve : {SyntheticModule(), SyntheticCell(), SyntheticCell(0)}) {
     const auto report = Fit(curve, Quick());
     ASSERT_TRUE(report);
     EXPECT_TRUE(report->usable) << report->not_usable_because;
@@ -51,7 +51,7 @@ TEST(UsableTest, SoundCurvesAreFittedWithoutSuchWarnings) {
 }
 
 TEST(UsableTest, WhatIsNoCurveIsNotUsable) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   RandomStream random(5);
   for (std::size_t k = curve.size() - 1; k > 0; --k) {
     std::swap(
@@ -99,7 +99,7 @@ TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {
     options.intervals = method;
     options.model = Model::kDoubleDiode;
     bool sought = false;
-    const auto report = Fit(MadeModule(1, 1, 0.5), options, [&](const Progress& progress) {
+    const auto report = Fit(SyntheticModule(1, 1, 0.5), options, [&](const Progress& progress) {
       sought = sought || progress.stage == "intervals";
       return ObserverAction::kContinue;
     });
@@ -117,20 +117,20 @@ TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {
   }
   FitOptions options = Quick();
   options.intervals = Intervals::kSymmetric;
-  EXPECT_EQ(Fit(MadeModule(), options)->no_intervals_because, "");
+  EXPECT_EQ(Fit(SyntheticModule(), options)->no_intervals_because, "");
 }
 
 TEST(UsableTest, WhatASearchAloneMissesIsNotTheModelsFault) {
   FitOptions options = Quick();
   options.polish = false;
   options.search.iterations = 2;
-  const auto report = Fit(MadeModule(), options);
+  const auto report = Fit(SyntheticModule(), options);
   ASSERT_TRUE(report);
   EXPECT_THAT(report->not_usable_because, AnyOf("", HasSubstr("straight line")));
 }
 
 TEST(UsableTest, ALimitOfTheInstrumentIsDoubtedBeforeAllElse) {
-  IvCurve curve = MadeCell();
+  IvCurve curve = SyntheticCell();
   for (double& current : curve.current_A) current = std::max(current, -0.05);
   FitOptions options = Quick();
   options.loss = Loss::kHuber;
@@ -142,7 +142,7 @@ TEST(UsableTest, ALimitOfTheInstrumentIsDoubtedBeforeAllElse) {
 }
 
 TEST(UsableTest, ImplausibleReadingsAreRefusedAsTheyAreOnlyIfAsked) {
-  IvCurve curve = MadeModule();
+  IvCurve curve = SyntheticModule();
   curve.conditions.cells_in_series = 600;
   EXPECT_THAT(MessageOf(Fit(curve, Quick())), HasSubstr("give --cells 60?"));
   curve.as_is = true;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "hidden/made_answer.h"
+#include "hidden/synthetic_answer.h"
 
 namespace hidden::field {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hidden/made_answer.h"
+#include "hidden/synthetic_answer.h"
 
 namespace hidden {
 namespace {

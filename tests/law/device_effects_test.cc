@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "law/made_use.h"
+#include "law/synthetic_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/quote.h"

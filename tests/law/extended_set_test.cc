@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "family/made_effects.h"
+#include "family/synthetic_effects.h"
 
 namespace lyrefit {
 namespace {
@@ -26,12 +26,12 @@ class ExtendedSetTest : public ::testing::TestWithParam<Base> {
     spec.shunt = GetParam().shunt;
     spec.cells_in_series = 36;
     law_ = *MakeTranslation(spec);
-    truth_ = MadeTruth(law_);
+    truth_ = SyntheticTruth(law_);
     truth_[law_.bandgap_slope] = GetParam().bandgap_slope;
     truth_.resize(law_.size());
-    set_ = MadeSet(law_, truth_, kSixPlaces, 25, 0);
+    set_ = SyntheticSet(law_, truth_, kSixPlaces, 25, 0);
     set_.curves.push_back(DarkCurve(law_, truth_, 40, 25));
-    set_.curves.push_back(MadeSet(law_, truth_, {{15, 30}}, 25, 0).curves[0]);
+    set_.curves.push_back(SyntheticSet(law_, truth_, {{15, 30}}, 25, 0).curves[0]);
     extended_ = law_;
     const Expected<void> done = ExtendTranslation(set_, GetParam().bandgap_slope,
                                                   {UseOf("nonohmic_shunt")}, true, &extended_);
@@ -90,7 +90,7 @@ TEST_P(ExtendedSetTest, HasTheSlopesOfCentralDifferences) {
 }
 
 TEST_P(ExtendedSetTest, HasTheKeyPointsOfTheTranslatedDevice) {
-  for (const MadeAt& at : {MadeAt{1000, 25}, MadeAt{500, 26}}) {
+  for (const SyntheticAt& at : {SyntheticAt{1000, 25}, SyntheticAt{500, 26}}) {
     const double kelvin = at.temperature_C + kZeroCelsius_K;
     const TranslatedDevice plain = TranslateTo(law_, truth_, at.irradiance_W_m2, kelvin);
     const KeyPoints expected = ModelKeyPoints(plain.device, plain.parameters.data());
@@ -109,9 +109,9 @@ INSTANTIATE_TEST_SUITE_P(Law, ExtendedSetTest,
                                            Base{Model::kDoubleDiode, ShuntLaw::kConstant, -4e-4}));
 
 TEST(ExtendedSet, EffectsComeBackFromTheUnitsOfReports) {
-  Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
-  const CurveSet set = MadeSet(law, truth, kSixPlaces, 25, 0);
+  Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(law);
+  const CurveSet set = SyntheticSet(law, truth, kSixPlaces, 25, 0);
   const EffectUse use = UseOf("nonohmic_shunt", {{"k", {0.15, 0.15}}, {"m", {2.5, 2.5}}});
   ASSERT_TRUE(ExtendTranslation(set, 0, {use}, false, &law));
   std::vector<double> shared(truth.begin(), truth.end() - 2);

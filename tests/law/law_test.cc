@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "law/made_readings.h"
+#include "law/synthetic_readings.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/translation.h"
 
@@ -29,7 +29,7 @@ std::vector<double> DeviceParameters(const Law& law, const Readings& readings,
 TEST(LawTest, BaseIsTheDeviceOfASingleCurve) {
   for (const int cells : {1, 60}) {
     for (const bool second : {false, true}) {
-      const Readings readings = MadeReadings(DataKind::kReverse, cells);
+      const Readings readings = SyntheticReadings(DataKind::kReverse, cells);
       Law law;
       law.model = second ? Model::kDoubleDiode : Model::kSingleDiode;
       const std::vector<double> p = OrdinaryCell(second);
@@ -51,7 +51,7 @@ TEST(LawTest, BaseIsTheDeviceOfASingleCurve) {
 
 TEST(LawTest, BaseOfAFamilyIsTheTranslationOfDeSoto) {
   for (const bool second : {false, true}) {
-    const Readings readings = MadeReadings(DataKind::kFamily, 60);
+    const Readings readings = SyntheticReadings(DataKind::kFamily, 60);
     Law law;
     law.model = second ? Model::kDoubleDiode : Model::kSingleDiode;
     const std::vector<double> p = OrdinaryCell(second);
@@ -116,7 +116,7 @@ struct PlainCell {
 };
 
 TEST(LawTest, UnequalCellsAreTwoCellsInSeries) {
-  const Readings readings = MadeReadings(DataKind::kForward, 60);
+  const Readings readings = SyntheticReadings(DataKind::kForward, 60);
   const PlainCell cell{readings};
   for (const auto& [deficit, share] : {std::pair{0.05, 0.3}, {0.4, 0.1}, {0.02, 1.0 / 60}}) {
     const Settled at = WithEffect(*FindEffect("mismatch"), {deficit, share});
@@ -136,7 +136,7 @@ TEST(LawTest, UnequalCellsAreTwoCellsInSeries) {
 
 // The bypass diode carries the current that the shaded cells cannot.
 TEST(LawTest, ShadedCellsAreBypassed) {
-  Readings readings = MadeReadings(DataKind::kForward, 60);
+  Readings readings = SyntheticReadings(DataKind::kForward, 60);
   readings.traits.substrings = 3;
   const PlainCell cell{readings};
   const double drop = 0.5, share = 1.0 / 3, depth = 0.6;
@@ -166,7 +166,7 @@ TEST(LawTest, ShadedCellsAreBypassed) {
 }
 
 TEST(LawTest, SpreadResistanceIsTwoHalfCells) {
-  const Readings readings = MadeReadings(DataKind::kForward, 1);
+  const Readings readings = SyntheticReadings(DataKind::kForward, 1);
   const PlainCell cell{readings, 0};
   for (const double lateral : {0.02, 0.3, 2.0}) {
     const Settled at = WithEffect(*FindEffect("distributed_rs"), {lateral});
@@ -190,14 +190,14 @@ TEST(LawTest, SpreadResistanceIsTwoHalfCells) {
 }
 
 TEST(LawTest, RefusesImpossibleTemperatures) {
-  const Readings readings = MadeReadings(DataKind::kFamily, 1);
+  const Readings readings = SyntheticReadings(DataKind::kFamily, 1);
   const Settled at = WithEffect(*FindEffect("temp_offset"), {-250});
   EXPECT_TRUE(Currents(at.law, readings, at.p).empty());
 }
 
 // A module measured as one cell has a huge exponent at the pivot voltage.
 TEST(LawTest, DerivativesAreFiniteAtAnyPivot) {
-  Readings readings = MadeReadings(DataKind::kForward, 1);
+  Readings readings = SyntheticReadings(DataKind::kForward, 1);
   for (const double pivot : {0.05, 6.0, 40.0, 400.0}) {
     for (Reading& r : readings.points) r.voltage *= pivot / readings.pivot_voltage;
     readings.pivot_voltage = pivot;
@@ -233,7 +233,7 @@ TEST(LawTest, KnowsWhereEachEffectBegins) {
 // The workspace holds junction voltages of the previous evaluation, which serve as starting values
 // only.
 TEST(LawTest, DoesNotHangOnWhereTheLastEvaluationEnded) {
-  const Readings readings = MadeReadings(DataKind::kUpDown, 60);
+  const Readings readings = SyntheticReadings(DataKind::kUpDown, 60);
   LawWorkspace workspace;
   std::vector<double> current(readings.points.size());
   const std::vector<double> far = {3, 8, 2.5, 1.5, 20};
@@ -247,7 +247,7 @@ TEST(LawTest, DoesNotHangOnWhereTheLastEvaluationEnded) {
 // Shading of whole substrings has two cell groups, partial shading three. The workspace has no
 // valid starting value for the third group, whatever its memory holds.
 TEST(LawTest, AKindOfCellsThatWasNotThereStartsLikeAFreshOne) {
-  const Readings readings = MadeReadings(DataKind::kUpDown, 60);
+  const Readings readings = SyntheticReadings(DataKind::kUpDown, 60);
   Law law;
   law.effects = {FindEffect("shading")};
   std::vector<double> two = OrdinaryCell(), three = OrdinaryCell();

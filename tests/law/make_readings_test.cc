@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "error_of.h"
-#include "made_curve.h"
+#include "synthetic_curve.h"
 
 namespace lyrefit {
 namespace {
@@ -17,13 +17,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-struct Made {
+struct Synthetic {
   Readings readings;
   std::vector<std::string> warnings;
 };
 
-Made Make(const CurveSet& set) {
-  Made made;
+Synthetic Make(const CurveSet& set) {
+  Synthetic made;
   auto readings = MakeReadings(set, &made.warnings);
   EXPECT_TRUE(readings.has_value());
   if (readings) made.readings = *readings;
@@ -34,8 +34,8 @@ TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
   Recipe recipe;
   recipe.cells = 60;
   recipe.noise_A = 0;
-  const IvCurve curve = MadeCurve(recipe);
-  const Made made = Make(SetOf({curve}));
+  const IvCurve curve = SyntheticCurve(recipe);
+  const Synthetic made = Make(SetOf({curve}));
   const Readings& readings = made.readings;
   EXPECT_THAT(made.warnings, IsEmpty());
   EXPECT_EQ(readings.scale.cells, 60);
@@ -60,7 +60,7 @@ TEST(MakeReadingsTest, ScalesCurrentsAndVoltages) {
 }
 
 TEST(MakeReadingsTest, FindsTheTraitsOfASweep) {
-  const Made made = Make(SetOf({MadeCurve({})}));
+  const Synthetic made = Make(SetOf({SyntheticCurve({})}));
   const DataTraits& traits = made.readings.traits;
   EXPECT_TRUE(traits.single && traits.beyond_voc);
   EXPECT_FALSE(traits.reverse || traits.up_down || traits.dark || traits.only_dark ||
@@ -81,10 +81,10 @@ TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {
   Recipe recipe;
   recipe.and_back = true;
   recipe.from_V = -5;
-  IvCurve curve = MadeCurve(recipe);
+  IvCurve curve = SyntheticCurve(recipe);
   curve.notes.bypass_diodes = 3;
   for (std::size_t k = 0; k < curve.size(); ++k) curve.time_s.push_back(10 + 0.01 * k);
-  const Made made = Make(SetOf({curve}));
+  const Synthetic made = Make(SetOf({curve}));
   EXPECT_TRUE(made.readings.traits.up_down && made.readings.traits.reverse);
   EXPECT_EQ(made.readings.traits.substrings, 3);
   EXPECT_EQ(made.readings.points.front().segment, 0);
@@ -96,7 +96,7 @@ TEST(MakeReadingsTest, FindsUpAndDownAndReverse) {
 }
 
 TEST(MakeReadingsTest, FindsLightAndDark) {
-  const Made made = Make(SetOf({MadeCurve({}), MadeDarkCurve()}));
+  const Synthetic made = Make(SetOf({SyntheticCurve({}), SyntheticDarkCurve()}));
   const DataTraits& traits = made.readings.traits;
   EXPECT_THAT(made.warnings, IsEmpty());
   for (const Reading& r : made.readings.points) EXPECT_EQ(r.dark, r.curve == 1);
@@ -116,11 +116,11 @@ TEST(MakeReadingsTest, FindsTheLevelsOfAFamily) {
       Recipe recipe;
       recipe.irradiance_W_m2 = irradiance;
       recipe.points = 12;
-      curves.push_back(MadeCurve(recipe));
+      curves.push_back(SyntheticCurve(recipe));
       curves.back().conditions.cell_temperature_K = celsius + kZeroCelsius_K;
     }
   }
-  const Made made = Make(SetOf(curves));
+  const Synthetic made = Make(SetOf(curves));
   EXPECT_EQ(made.readings.traits.curves, 12);
   EXPECT_EQ(made.readings.traits.irradiance_levels, 3);
   EXPECT_EQ(made.readings.traits.temperature_levels, 2);
@@ -128,16 +128,16 @@ TEST(MakeReadingsTest, FindsTheLevelsOfAFamily) {
 }
 
 TEST(MakeReadingsTest, TheDataDecideWhatIsDark) {
-  IvCurve dark = MadeDarkCurve();
+  IvCurve dark = SyntheticDarkCurve();
   dark.conditions.irradiance_W_m2 = 1000;
-  const Made stated_lit = Make(SetOf({dark}));
+  const Synthetic stated_lit = Make(SetOf({dark}));
   EXPECT_TRUE(stated_lit.readings.points.front().dark);
   EXPECT_THAT(stated_lit.warnings, ElementsAre(HasSubstr("taken as dark")));
   EXPECT_TRUE(stated_lit.readings.traits.only_dark);
   EXPECT_EQ(stated_lit.readings.points.front().irradiance, 0);
-  IvCurve lit = MadeCurve({});
+  IvCurve lit = SyntheticCurve({});
   lit.conditions.irradiance_W_m2 = 0;
-  const Made stated_dark = Make(SetOf({lit}));
+  const Synthetic stated_dark = Make(SetOf({lit}));
   EXPECT_FALSE(stated_dark.readings.points.front().dark);
   EXPECT_THAT(stated_dark.warnings, ElementsAre(HasSubstr("taken as lit")));
   EXPECT_EQ(stated_dark.readings.points.front().irradiance, 1);
@@ -149,7 +149,7 @@ TEST(MakeReadingsTest, ACurveUnderLittleLightIsLitByIt) {
     Recipe recipe;
     recipe.irradiance_W_m2 = irradiance;
     recipe.noise_A = 1e-5;
-    const Made made = Make(SetOf({MadeCurve(recipe)}));
+    const Synthetic made = Make(SetOf({SyntheticCurve(recipe)}));
     EXPECT_THAT(made.warnings, IsEmpty());
     EXPECT_FALSE(made.readings.points.front().dark);
     EXPECT_NEAR(made.readings.points.front().irradiance, irradiance / 1000, 1e-12);
@@ -157,39 +157,39 @@ TEST(MakeReadingsTest, ACurveUnderLittleLightIsLitByIt) {
 }
 
 TEST(MakeReadingsTest, ASensorThatShowsALittleInTheDarkIsNotReproached) {
-  IvCurve dark = MadeDarkCurve();
+  IvCurve dark = SyntheticDarkCurve();
   dark.conditions.irradiance_W_m2 = 3;
-  const Made made = Make(SetOf({dark}));
+  const Synthetic made = Make(SetOf({dark}));
   EXPECT_TRUE(made.readings.points.front().dark);
   EXPECT_THAT(made.warnings, IsEmpty());
 }
 
 TEST(MakeReadingsTest, WarnsOfSweepsThatAreNone) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.sweep.push_back(k < 30 ? 1 : 2);
   EXPECT_THAT(Make(SetOf({curve})).warnings, ElementsAre(HasSubstr("several sweeps are stated")));
 }
 
 TEST(MakeReadingsTest, WarnsOfTimesThatDoNotIncrease) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.time_s.assign(curve.size(), 1.0);
-  const Made made = Make(SetOf({curve}));
+  const Synthetic made = Make(SetOf({curve}));
   EXPECT_THAT(made.warnings, ElementsAre(HasSubstr("the times do not increase")));
   EXPECT_FALSE(made.readings.scale.times);
   EXPECT_DOUBLE_EQ(made.readings.points.back().x, 0.5);
 }
 
 TEST(MakeReadingsTest, FollowsAMonitorOfTheLight) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 0; k < curve.size(); ++k) curve.irradiance_W_m2.push_back(1000 - 2. * k);
-  const Made made = Make(SetOf({curve}));
+  const Synthetic made = Make(SetOf({curve}));
   EXPECT_DOUBLE_EQ(made.readings.points[50].irradiance, 0.9);
   curve.irradiance_W_m2.assign(curve.size(), 1000.0);
   EXPECT_EQ(Make(SetOf({curve})).readings.points[50].irradiance, 1);
 }
 
 TEST(MakeReadingsTest, TakesWhatTheNotesState) {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   curve.notes.bandgap_eV = 1.4;
   curve.notes.isc_tempco_A_per_K = 0.004;
   const Readings readings = Make(SetOf({curve})).readings;
@@ -202,9 +202,10 @@ TEST(MakeReadingsTest, RefusesWhatIsNoMeasurement) {
   EXPECT_FALSE(MakeReadings(CurveSet(), &warnings));
   Recipe module;
   module.cells = 60;
-  EXPECT_THAT(MessageOf(MakeReadings(SetOf({MadeCurve({}), MadeCurve(module)}), &warnings)),
-              HasSubstr("number of cells differs"));
-  IvCurve broken = MadeCurve({});
+  EXPECT_THAT(
+      MessageOf(MakeReadings(SetOf({SyntheticCurve({}), SyntheticCurve(module)}), &warnings)),
+      HasSubstr("number of cells differs"));
+  IvCurve broken = SyntheticCurve({});
   broken.current_A[7] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(MakeReadings(SetOf({broken}), &warnings));
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "law/made_readings.h"
+#include "law/synthetic_readings.h"
 
 namespace lyrefit {
 namespace {
@@ -124,7 +124,7 @@ const std::vector<double> kPlaces[] = {{0.2, 2.5, 0.02}, {0, 1, 0}, {1, 4, 0.1}}
 TEST(PlainStage, IsTheTemplateOfTheSameLaw) {
   const Effect templates = OfTemplates(), plain = OfPlainFunctions();
   for (const DataKind kind : kDataKinds) {
-    const Readings readings = MadeReadings(kind, 60);
+    const Readings readings = SyntheticReadings(kind, 60);
     for (const std::vector<double>& place : kPlaces) {
       const Evaluated expected = Evaluate(templates, readings, place);
       const Evaluated found = Evaluate(plain, readings, place);
@@ -138,7 +138,7 @@ TEST(PlainStage, IsTheTemplateOfTheSameLaw) {
 TEST(PlainStage, IsDifferentiatedWhereItSaysNoDerivatives) {
   const Effect templates = OfTemplates(), differences = OfDifferences();
   for (const DataKind kind : {DataKind::kReverse, DataKind::kFamily}) {
-    const Readings readings = MadeReadings(kind, 60);
+    const Readings readings = SyntheticReadings(kind, 60);
     for (const std::vector<double>& place : kPlaces) {
       const Evaluated expected = Evaluate(templates, readings, place);
       const Evaluated found = Evaluate(differences, readings, place);
@@ -179,7 +179,7 @@ TEST(PlainStage, WithoutAValueEndsTheEvaluation) {
     Junction(in, out);
     for (int i = 0; i < in.count; ++i) out.value[i] = std::numeric_limits<double>::quiet_NaN();
   };
-  EXPECT_FALSE(Evaluate(e, MadeReadings(DataKind::kForward, 1), kPlaces[0]).found);
+  EXPECT_FALSE(Evaluate(e, SyntheticReadings(DataKind::kForward, 1), kPlaces[0]).found);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "made_readings.h"
+#include "synthetic_readings.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -110,7 +110,7 @@ void ExpectNear(const std::vector<double>& a, const std::vector<double>& b, doub
 }
 
 TEST(StringLayoutTest, CellsThatAreAlikeAreTheDevice) {
-  const Readings readings = MadeReadings(DataKind::kForward, 36);
+  const Readings readings = SyntheticReadings(DataKind::kForward, 36);
   const std::vector<double> plain = CurrentsOf(readings, "");
   // Each cell in a string has a leak of 1e-8 of the current scale per volt.
   ExpectNear(CurrentsOf(readings, R"({"strings": [[{"cells": [{"count": 36}]}]]})"), plain, 2e-8);
@@ -122,7 +122,7 @@ TEST(StringLayoutTest, CellsThatAreAlikeAreTheDevice) {
 // While cells are in reverse without conducting, the current of a string is its photocurrent.
 // Strings are computed with all cells each, so that two strings deliver the mean.
 TEST(StringLayoutTest, StringsInParallelAddUp) {
-  const Readings readings = MadeReadings(DataKind::kForward, 36);
+  const Readings readings = SyntheticReadings(DataKind::kForward, 36);
   const std::string cells = R"([{"cells": [{"count": 36, "light": 0.5}]}])";
   const std::vector<double> dim = CurrentsOf(readings, R"({"strings": [)" + cells + "]}");
   const std::vector<double> both =
@@ -137,7 +137,7 @@ TEST(StringLayoutTest, StringsInParallelAddUp) {
 // the current at the remaining voltage.
 TEST(StringLayoutTest, AnIdealBypassDiodeKeepsItsVoltage) {
   constexpr double kVoltage = 0.37;  // near open circuit of the lit substrings
-  Readings readings = MadeReadings(DataKind::kForward, 36);
+  Readings readings = SyntheticReadings(DataKind::kForward, 36);
   for (Reading& r : readings.points) r.voltage = kVoltage;
   const auto bypassed = [&](const char* ideality) {
     return CurrentsOf(readings, fmt::format(R"({{"bypass_diode": {{"voltage_V": 0.4, "ideality":
@@ -156,7 +156,7 @@ TEST(StringLayoutTest, AnIdealBypassDiodeKeepsItsVoltage) {
 // Derivatives from the slopes at the root against differences, for two strings with a weak and
 // leaky cell in soft reverse and bypass diodes.
 TEST(StringLayoutTest, DerivativesAreThoseOfTheCurrents) {
-  const Readings readings = MadeReadings(DataKind::kUpDown, 36);
+  const Readings readings = SyntheticReadings(DataKind::kUpDown, 36);
   Law law;
   law.layout = std::make_shared<const StringLayout>(Layout(kTwoStrings));
   const std::vector<double> p = OrdinaryCell();

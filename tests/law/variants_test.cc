@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/made_use.h"
+#include "law/synthetic_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
 

@@ -1,5 +1,5 @@
-// The page of a plant in a browser, of made rows (tests/batch/made_plant.h):
-//   MADE_PLANT_PAGE=made_plant_page CHROMIUM=chromium OUT=folder node --test plant_test.mjs
+// The page of a plant in a browser, of made rows (tests/batch/synthetic_plant.h):
+//   SYNTHETIC_PLANT_PAGE=synthetic_plant_page CHROMIUM=chromium OUT=folder node --test plant_test.mjs
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, statSync, writeFileSync} from 'node:fs';
@@ -8,7 +8,7 @@ import {after, before, test} from 'node:test';
 
 import {barriers, kLooks, launch, open} from './browser.mjs';
 
-const {MADE_PLANT_PAGE, CHROMIUM, OUT} = process.env;
+const {SYNTHETIC_PLANT_PAGE, CHROMIUM, OUT} = process.env;
 const kMegabyte = 1e6;
 const kSizes = [0, 1, 5, 500, 10000, 100000];
 const file = (rows, end = 'html') => join(OUT, `plant_${rows}.${end}`);
@@ -17,7 +17,7 @@ const rowsOf = (rows) => readFileSync(file(rows, 'jsonl'), 'utf8').split('\n').f
 let browser;
 before(async () => {
   mkdirSync(OUT, {recursive: true});
-  for (const rows of kSizes) execFileSync(MADE_PLANT_PAGE, [rows, file(rows), 0, file(rows, 'jsonl')]);
+  for (const rows of kSizes) execFileSync(SYNTHETIC_PLANT_PAGE, [rows, file(rows), 0, file(rows, 'jsonl')]);
   browser = await launch(CHROMIUM);
 });
 after(() => browser?.close());

@@ -166,7 +166,7 @@ Expected<int> RunSound(const PaperArguments& arguments) {
   options.seed = arguments.options.seed;
   options.effort = arguments.options.sound_effort;
   options.threads = arguments.options.threads;
-  TRY(const SoundStudy made, StudyMade(options, Watch));
+  TRY(const SoundStudy made, StudySynthetic(options, Watch));
   if (made.interrupted) return SayInterrupted(arguments);
   if (!arguments.measured.empty()) {
     TRY(const SoundStudy measured, StudyMeasured(arguments.measured, options, Watch));

@@ -57,7 +57,7 @@ double DrawIdeality(const CertifyOptions& ranges, RandomStream* random) {
   return end < 0.15 ? ranges.n_lower : n;
 }
 
-Bench DrawWeightedData(const MadeProblem& made, int number, RandomStream* random) {
+Bench DrawWeightedData(const SyntheticProblem& made, int number, RandomStream* random) {
   Bench bench;
   const Conditions& conditions = made.curve.conditions;
   bench.device = MakeDevice(made.model, conditions);
@@ -103,7 +103,7 @@ struct Optimum {
 
 // Orthonormal basis of the columns of photocurrent, shunt and diodes, and of the derivatives by n
 // for each n that is not at a bound. `with_rs` adds the derivative by Rs.
-Eigen::MatrixXd TightColumns(const MadeProblem& made, const Bench& bench, const Optimum& at,
+Eigen::MatrixXd TightColumns(const SyntheticProblem& made, const Bench& bench, const Optimum& at,
                              bool with_rs) {
   std::vector<VectorXd> columns = {at.weight, at.weight.cwiseProduct(at.vd)};
   const double scale = at.vd.maxCoeff();
@@ -129,7 +129,7 @@ VectorXd Cleared(const Eigen::MatrixXd& tight, VectorXd z) {
 }
 
 // Diode column at point `step` of `steps` + 1 over the range of n (equal steps of 1/n).
-VectorXd RangeColumn(const MadeProblem& made, const Bench& bench, const Optimum& at, int step,
+VectorXd RangeColumn(const SyntheticProblem& made, const Bench& bench, const Optimum& at, int step,
                      int steps) {
   const double vt = bench.device.module_thermal_voltage_V;
   const double low = 1 / (made.ranges.n_upper * vt), high = 1 / (made.ranges.n_lower * vt);
@@ -139,7 +139,7 @@ VectorXd RangeColumn(const MadeProblem& made, const Bench& bench, const Optimum&
 
 // Whether no diode in the range has a positive product with y beyond rounding, so that none reduces
 // the residual.
-bool NoDiodeHelps(const MadeProblem& made, const Bench& bench, const Optimum& at,
+bool NoDiodeHelps(const SyntheticProblem& made, const Bench& bench, const Optimum& at,
                   const VectorXd& y) {
   constexpr int kSteps = 2000;
   constexpr double kRounding = 2e-15;
@@ -152,7 +152,7 @@ bool NoDiodeHelps(const MadeProblem& made, const Bench& bench, const Optimum& at
 
 // Removes from y its components along diode columns with positive product, the largest first. The
 // result stays orthogonal to `tight`.
-VectorXd TurnedAway(const MadeProblem& made, const Bench& bench, const Optimum& at,
+VectorXd TurnedAway(const SyntheticProblem& made, const Bench& bench, const Optimum& at,
                     const Eigen::MatrixXd& tight, VectorXd y) {
   constexpr int kTurns = 100, kColumns = 200;
   constexpr double kTooFar = 1.5, kWorth = 1e-14;
@@ -172,7 +172,7 @@ VectorXd TurnedAway(const MadeProblem& made, const Bench& bench, const Optimum& 
 }
 
 // Random residuals that satisfy the optimality conditions, scaled to the noise of the problem.
-std::optional<VectorXd> DrawResiduals(const MadeProblem& made, const Bench& bench,
+std::optional<VectorXd> DrawResiduals(const SyntheticProblem& made, const Bench& bench,
                                       const Optimum& at, RandomStream* random) {
   constexpr int kDraws = 20;
   const Eigen::MatrixXd tight = TightColumns(made, bench, at, !at.rs_fixed);
@@ -188,8 +188,8 @@ std::optional<VectorXd> DrawResiduals(const MadeProblem& made, const Bench& benc
 
 // The derivative of the measured-current residual by Rs contains the measured currents. Moves y
 // along the one remaining direction until sum y slope (law + y) = 0.
-VectorXd MadeStationary(const MadeProblem& made, const Bench& bench, const Optimum& at,
-                        const VectorXd& y) {
+VectorXd SyntheticStationary(const SyntheticProblem& made, const Bench& bench, const Optimum& at,
+                             const VectorXd& y) {
   const VectorXd q = Cleared(TightColumns(made, bench, at, false), at.rs_column);
   const VectorXd slope = bench.Slope(at.vd);
   const double a = (q.array().square() * slope.array()).sum();
@@ -204,7 +204,7 @@ void TakePoints(const VectorXd& voltage, const VectorXd& current, IvCurve* curve
   curve->current_A.assign(current.begin(), current.end());
 }
 
-bool PlantMeasured(const Bench& bench, MadeProblem* made, RandomStream* random) {
+bool PlantMeasured(const Bench& bench, SyntheticProblem* made, RandomStream* random) {
   Optimum at;
   at.vd = bench.voltage;
   at.weight = VectorXd::Ones(at.vd.size());
@@ -213,7 +213,7 @@ bool PlantMeasured(const Bench& bench, MadeProblem* made, RandomStream* random) 
   at.rs_column = bench.Slope(at.vd).cwiseProduct(law);
   std::optional<VectorXd> y = DrawResiduals(*made, bench, at, random);
   if (y && !at.rs_fixed) {
-    y = MadeStationary(*made, bench, at, *y);
+    y = SyntheticStationary(*made, bench, at, *y);
     if (!NoDiodeHelps(*made, bench, at, *y)) return false;
   }
   if (!y) return false;
@@ -229,7 +229,7 @@ VectorXd Solved(const Bench& bench) {
   return Eigen::Map<const VectorXd>(current.data(), bench.voltage.size());
 }
 
-bool PlantSolved(const Bench& bench, MadeProblem* made, RandomStream* random) {
+bool PlantSolved(const Bench& bench, SyntheticProblem* made, RandomStream* random) {
   Optimum at;
   const VectorXd solved = Solved(bench);
   at.vd = bench.voltage + bench.p[kRs] * solved;
@@ -243,7 +243,7 @@ bool PlantSolved(const Bench& bench, MadeProblem* made, RandomStream* random) {
 
 // Sets ranges of Iph, Is and Rsh. A planted optimum lies inside them. For random errors the true
 // Rsh lies above its range, and the parameter is set to the upper bound.
-void DrawBox(const Bench& bench, MadeProblem* made) {
+void DrawBox(const Bench& bench, SyntheticProblem* made) {
   CertifyOptions& ranges = made->ranges;
   ranges.iph_upper_A = 1.5 * bench.isc;
   ranges.is_upper_A = 0;
@@ -256,7 +256,7 @@ void DrawBox(const Bench& bench, MadeProblem* made) {
   shunt = std::min(shunt, ranges.rsh_upper_ohm);
 }
 
-bool Plant(const Bench& bench, MadeProblem* made, RandomStream* random) {
+bool Plant(const Bench& bench, SyntheticProblem* made, RandomStream* random) {
   if (made->planted == Planted::kNothing) return false;
   if (made->planted == Planted::kSolved) return PlantSolved(bench, made, random);
   return PlantMeasured(bench, made, random);
@@ -264,11 +264,11 @@ bool Plant(const Bench& bench, MadeProblem* made, RandomStream* random) {
 
 }  // namespace
 
-MadeProblem MakeProblem(std::uint64_t seed, int number) {
+SyntheticProblem MakeProblem(std::uint64_t seed, int number) {
   constexpr Planted kKinds[] = {Planted::kNothing, Planted::kMeasuredAtRs, Planted::kMeasured,
                                 Planted::kSolved, Planted::kSolved};
   RandomStream random(seed, static_cast<std::uint64_t>(number));
-  MadeProblem made;
+  SyntheticProblem made;
   made.curve.name = fmt::format("made {}", number);
   made.curve.conditions.cells_in_series = random.Uniform() < 0.5 ? 1 : 36;
   made.curve.conditions.cell_temperature_K = 283.15 + 60 * random.Uniform();
@@ -298,9 +298,9 @@ MadeProblem MakeProblem(std::uint64_t seed, int number) {
   return made;
 }
 
-MadeProblem MakeWideProblem(std::uint64_t seed, int number) {
+SyntheticProblem MakeWideProblem(std::uint64_t seed, int number) {
   constexpr int kFewestPoints = 8;
-  MadeProblem made = MakeProblem(seed, number);
+  SyntheticProblem made = MakeProblem(seed, number);
   RandomStream random(seed, 1000000 + static_cast<std::uint64_t>(number));
   IvCurve& curve = made.curve;
   const auto largest = [](const std::vector<double>& values) {

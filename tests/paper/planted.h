@@ -31,7 +31,7 @@ struct EnumTable<Planted> {
 };
 
 // A synthetic problem for the test of certificates.
-struct MadeProblem {
+struct SyntheticProblem {
   IvCurve curve;
   CertifyOptions ranges;  // of n; of Rs if fixed; of all other parameters in a third of the
                           // problems
@@ -51,11 +51,11 @@ struct MadeProblem {
 // Two fifths of the problems are planted for the solved current and a fifth for each other type. If
 // no such residuals are found, which is rare, the errors are random. A third of the problems have
 // ranges of Iph, Is and Rsh as well.
-MadeProblem MakeProblem(std::uint64_t seed, int number);
+SyntheticProblem MakeProblem(std::uint64_t seed, int number);
 
 // A problem of MakeProblem with a wide range of Rs. Its upper end is 0.9 to 1.7 times the largest
 // voltage over the largest current; the lower end is 0. Every third curve is cut before open
 // circuit, so that the order of its points gives little information on large Rs.
-MadeProblem MakeWideProblem(std::uint64_t seed, int number);
+SyntheticProblem MakeWideProblem(std::uint64_t seed, int number);
 
 }  // namespace lyrefit

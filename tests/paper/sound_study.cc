@@ -114,9 +114,9 @@ double FittedRmse(const Certificate& certificate, Model model) {
                                                           : report->rmse.refined.solved_current_A;
 }
 
-Expected<HeldCertificate> HoldMade(const MadeProblem& made, Objective objective,
-                                   const SoundOptions& study, int number,
-                                   const Observer& observer) {
+Expected<HeldCertificate> HoldSynthetic(const SyntheticProblem& made, Objective objective,
+                                        const SoundOptions& study, int number,
+                                        const Observer& observer) {
   CertifyOptions options = made.ranges;
   options.objective = objective;
   options.effort = study.effort;
@@ -209,20 +209,20 @@ Expected<HeldCertificate> HoldCertificate(const IvCurve& curve, const CertifyOpt
   return held;
 }
 
-Expected<SoundStudy> StudyMade(const SoundOptions& options, const Observer& observer) {
+Expected<SoundStudy> StudySynthetic(const SoundOptions& options, const Observer& observer) {
   const auto job = [&](int i, const Observer& inside) {
-    const MadeProblem made = MakeProblem(options.seed, i / 2);
+    const SyntheticProblem made = MakeProblem(options.seed, i / 2);
     const Objective objective =
         i % 2 == 0 ? Objective::kMeasuredCurrent : Objective::kSolvedCurrent;
-    return HoldMade(made, objective, options, i / 2, inside);
+    return HoldSynthetic(made, objective, options, i / 2, inside);
   };
   return RunJobs(2 * options.problems, options, "made problems", observer, job);
 }
 
 Expected<SoundStudy> StudyWide(const SoundOptions& options, const Observer& observer) {
   const auto job = [&](int i, const Observer& inside) {
-    return HoldMade(MakeWideProblem(options.seed, i), Objective::kMeasuredCurrent, options, i,
-                    inside);
+    return HoldSynthetic(MakeWideProblem(options.seed, i), Objective::kMeasuredCurrent, options, i,
+                         inside);
   };
   return RunJobs(options.problems, options, "wide ranges of Rs", observer, job);
 }

@@ -67,7 +67,7 @@ Expected<HeldCertificate> HoldCertificate(const IvCurve& curve, const CertifyOpt
                                           std::uint64_t seed, const Observer& observer = {});
 
 // Synthetic problems, both objectives of each.
-Expected<SoundStudy> StudyMade(const SoundOptions& options, const Observer& observer = {});
+Expected<SoundStudy> StudySynthetic(const SoundOptions& options, const Observer& observer = {});
 
 // Synthetic problems with wide ranges of Rs, measured-current.
 Expected<SoundStudy> StudyWide(const SoundOptions& options, const Observer& observer = {});

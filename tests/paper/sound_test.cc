@@ -22,7 +22,7 @@ TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
   SoundOptions options;
   options.problems = Repeats(20);  // `lyrefit_paper --only sound` uses a thousand
   options.effort = 200;
-  const auto study = StudyMade(options);
+  const auto study = StudySynthetic(options);
   ASSERT_TRUE(study) << study.error().ToString();
   ASSERT_EQ(study->held.size(), 2U * options.problems);
   EXPECT_EQ(study->unusable, 0);
@@ -48,7 +48,7 @@ TEST(Soundness, NoBoundOfAMadeProblemLiesAboveWhatIsAttained) {
 TEST(Soundness, PlantedOptimaAreOptima) {
   int seen = 0;
   for (int number = 0; number < 60; ++number) {
-    const MadeProblem made = MakeProblem(3, number);
+    const SyntheticProblem made = MakeProblem(3, number);
     if (made.planted == Planted::kNothing) continue;
     ++seen;
     SCOPED_TRACE(made.curve.name + " " + ToText(made.planted));
@@ -89,7 +89,7 @@ TEST(Soundness, CountsABoundAboveWhatIsAttained) {
   EXPECT_EQ(BoundsHeld(study), 4);
   // A bound above a reached RMSE is detected. Here a narrow range of n excludes the true
   // parameters, so their RMSE lies below a valid bound.
-  const MadeProblem made = MakeProblem(3, 4);
+  const SyntheticProblem made = MakeProblem(3, 4);
   CertifyOptions narrow;
   narrow.n_lower = 1;
   narrow.n_upper = 1.05;

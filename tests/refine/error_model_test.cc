@@ -14,7 +14,7 @@ namespace {
 constexpr int kRows = 60;
 
 // Two chains, white noise that grows along the readings, and a path of varying size.
-ErrorModel MadeErrors() {
+ErrorModel SyntheticErrors() {
   ErrorModel errors;
   for (int k = 0; k < kRows; ++k) {
     errors.white.push_back(0.3 + 0.01 * k);
@@ -46,7 +46,7 @@ RowMatrix Draw(int columns) {
 }
 
 TEST(ErrorModel, WhitensAsTheDenseCovarianceDoes) {
-  const ErrorModel errors = MadeErrors();
+  const ErrorModel errors = SyntheticErrors();
   const Eigen::MatrixXd covariance = Covariance(errors);
   const RowMatrix rows = Draw(3);
   RowMatrix white = rows;
@@ -57,7 +57,7 @@ TEST(ErrorModel, WhitensAsTheDenseCovarianceDoes) {
 }
 
 TEST(ErrorModel, LeavesOutReadingsAsIfTheyHadNotBeenTaken) {
-  const ErrorModel errors = MadeErrors();
+  const ErrorModel errors = SyntheticErrors();
   std::vector<char> used(kRows, 1);
   std::vector<int> kept;
   for (int k = 0; k < kRows; ++k) {
@@ -75,14 +75,14 @@ TEST(ErrorModel, LeavesOutReadingsAsIfTheyHadNotBeenTaken) {
 }
 
 TEST(ErrorModel, TimesTheCovarianceIsTheDenseProduct) {
-  const ErrorModel errors = MadeErrors();
+  const ErrorModel errors = SyntheticErrors();
   const RowMatrix rows = Draw(3);
   const RowMatrix dense = Covariance(errors) * rows;
   EXPECT_LT((CovarianceTimes(errors, rows) - dense).norm(), 1e-12 * dense.norm());
 }
 
 TEST(ErrorModel, WithoutAPathDividesByTheNoise) {
-  ErrorModel errors = MadeErrors();
+  ErrorModel errors = SyntheticErrors();
   errors.path.clear();
   RowMatrix rows = Draw(1);
   const RowMatrix before = rows;
@@ -91,7 +91,7 @@ TEST(ErrorModel, WithoutAPathDividesByTheNoise) {
 }
 
 TEST(ErrorModel, RestrictedLikelihoodIsThatOfTheDenseCovariance) {
-  const ErrorModel errors = MadeErrors();
+  const ErrorModel errors = SyntheticErrors();
   const Eigen::MatrixXd covariance = Covariance(errors), inverse = covariance.inverse();
   const RowMatrix rows = Draw(4);
   const Eigen::MatrixXd slopes = rows.leftCols(3);

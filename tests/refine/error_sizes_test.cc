@@ -13,7 +13,7 @@ namespace {
 constexpr double kIsc = 8, kVoc = 40;
 
 // A curve of `points` readings that is flat, then falls.
-ErrorShape MadeShape(int points) {
+ErrorShape SyntheticShape(int points) {
   ErrorShape shape;
   for (int k = 0; k < points; ++k) {
     const double u = static_cast<double>(k) / (points - 1);
@@ -27,7 +27,7 @@ ErrorShape MadeShape(int points) {
 }
 
 // Five smooth functions as parameter derivatives, which a fit removes from the residual.
-RowMatrix MadeJacobian(int points) {
+RowMatrix SyntheticJacobian(int points) {
   RowMatrix jacobian(points, 5);
   for (int k = 0; k < points; ++k) {
     const double u = static_cast<double>(k) / (points - 1);
@@ -53,8 +53,8 @@ Eigen::VectorXd DrawErrors(const ErrorShape& shape, const ErrorSizes& sizes, int
 }
 
 TEST(ErrorSizes, AreFoundFromErrorsOfThatSize) {
-  const ErrorShape shape = MadeShape(150);
-  const RowMatrix jacobian = MadeJacobian(150);
+  const ErrorShape shape = SyntheticShape(150);
+  const RowMatrix jacobian = SyntheticJacobian(150);
   const ErrorSizes truth = {8e-4, 0.012, 1.5e-3};
   constexpr int kDraws = 40;
   double current = 0, voltage = 0, path = 0, length = 0;  // mean squares; length: mean of ln
@@ -76,8 +76,8 @@ TEST(ErrorSizes, AreFoundFromErrorsOfThatSize) {
 }
 
 TEST(ErrorSizes, ALengthOfAFewReadingsIsFound) {
-  const ErrorShape shape = MadeShape(150);
-  const RowMatrix jacobian = MadeJacobian(150);
+  const ErrorShape shape = SyntheticShape(150);
+  const RowMatrix jacobian = SyntheticJacobian(150);
   const ErrorSizes truth = {1e-4, 1e-3, 1.5e-3, 0.02};
   constexpr int kDraws = 40;
   double path = 0, length = 0;  // mean of ln
@@ -93,8 +93,8 @@ TEST(ErrorSizes, ALengthOfAFewReadingsIsFound) {
 }
 
 TEST(ErrorSizes, WhiteErrorsDoNotAskForMore) {
-  const ErrorShape shape = MadeShape(100);
-  const RowMatrix jacobian = MadeJacobian(100);
+  const ErrorShape shape = SyntheticShape(100);
+  const RowMatrix jacobian = SyntheticJacobian(100);
   int asked = 0;
   for (int seed = 0; seed < 200; ++seed) {
     const Eigen::VectorXd errors = DrawErrors(shape, {8e-3, 0, 0}, seed);
@@ -110,31 +110,31 @@ TEST(ErrorSizes, WhiteErrorsDoNotAskForMore) {
 }
 
 TEST(ErrorSizes, ArePulledDownWhereReadingsAreFarBetterThanUsual) {
-  const ErrorShape shape = MadeShape(150);
+  const ErrorShape shape = SyntheticShape(150);
   const ErrorSizes truth = {2e-6, 1e-5, 5e-6};
   const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
-                                           DrawErrors(shape, truth, 3), MadeJacobian(150));
+                                           DrawErrors(shape, truth, 3), SyntheticJacobian(150));
   EXPECT_LT(found.sizes.path, 2e-5);
   EXPECT_LT(found.sizes.current_A, 1e-5);
 }
 
 TEST(ErrorSizes, WithoutInformationThePriorIsTheAnswer) {
-  ErrorShape shape = MadeShape(60);
+  ErrorShape shape = SyntheticShape(60);
   shape.path.assign(60, 0.0);
   const ErrorPrior prior = UsualErrors(kIsc, kVoc);
   const FoundErrors found =
-      FindErrorSizes(shape, prior, DrawErrors(shape, {1e-3, 0.01, 0}, 1), MadeJacobian(60));
+      FindErrorSizes(shape, prior, DrawErrors(shape, {1e-3, 0.01, 0}, 1), SyntheticJacobian(60));
   EXPECT_NEAR(found.sizes.path / prior.center.path, 1, 0.01);
 }
 
 TEST(ErrorSizes, StatedSizesOfCurrentsAreBelieved) {
-  ErrorShape shape = MadeShape(150);
+  ErrorShape shape = SyntheticShape(150);
   shape.stated.assign(150, 2e-3);
   const ErrorModel errors = MakeErrorModel(shape, {1, 0, 1e-3});
   for (const double white : errors.white) EXPECT_DOUBLE_EQ(white, 2e-3);
   const ErrorSizes truth = {0, 0.012, 1.5e-3};
   const FoundErrors found = FindErrorSizes(shape, UsualErrors(kIsc, kVoc),
-                                           DrawErrors(shape, truth, 5), MadeJacobian(150));
+                                           DrawErrors(shape, truth, 5), SyntheticJacobian(150));
   EXPECT_NEAR(std::log(found.sizes.path / truth.path), 0, 0.4);
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPoints = 30;  // per curve
 
-FamilyErrorShape MadeFamilyShape(int curves) {
+FamilyErrorShape SyntheticFamilyShape(int curves) {
   FamilyErrorShape shape;
   shape.common.resize(curves * kPoints, 2);
   for (int c = 0; c < curves; ++c) {
@@ -60,7 +60,7 @@ Eigen::VectorXd Draw(const Eigen::MatrixXd& covariance, int seed) {
 }
 
 TEST(FamilyErrors, LikelihoodAndProductAreThoseOfTheDenseCovariance) {
-  const FamilyErrorShape shape = MadeFamilyShape(3);
+  const FamilyErrorShape shape = SyntheticFamilyShape(3);
   const Eigen::MatrixXd covariance = Covariance(shape, kSizes);
   const Eigen::VectorXd residual = Draw(covariance, 1);
   const double dense =
@@ -73,7 +73,7 @@ TEST(FamilyErrors, LikelihoodAndProductAreThoseOfTheDenseCovariance) {
 
 TEST(FamilyErrors, SizesAreFoundAndTheKindThatIsThereIsLikeliest) {
   SKIP_IF_SANITIZED();
-  const FamilyErrorShape shape = MadeFamilyShape(60);
+  const FamilyErrorShape shape = SyntheticFamilyShape(60);
   const Eigen::MatrixXd covariance = Covariance(shape, kSizes);
   const Eigen::VectorXd residual = Draw(covariance, 2), other = Draw(covariance, 3);
   double before = -HUGE_VAL;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/refine/linearize.h"
 
 namespace lyrefit {
@@ -37,14 +37,14 @@ struct LawCase {
 
 class EveryLaw : public testing::TestWithParam<LawCase> {
  protected:
-  Translation law_ = MadeLaw(GetParam().law, GetParam().model, GetParam().recombination);
-  std::vector<double> truth_ = MadeTruth(law_);
+  Translation law_ = SyntheticLaw(GetParam().law, GetParam().model, GetParam().recombination);
+  std::vector<double> truth_ = SyntheticTruth(law_);
 };
 
 TEST_P(EveryLaw, LinearizeAgreesWithCentralDifferences) {
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     JointProblem problem =
-        WithLocals(MadeProblem(MadeSet(law_, truth_, kSixPlaces, 9, 2e-3), law_, truth_));
+        WithLocals(SyntheticProblem(SyntheticSet(law_, truth_, kSixPlaces, 9, 2e-3), law_, truth_));
     problem.objective = objective;
     for (int i = 0; i < problem.shared(); ++i) {  // fixed parameters need derivatives as well
       if (problem.lower[i] < problem.upper[i]) continue;
@@ -91,7 +91,8 @@ TEST_P(EveryLaw, LinearizeAgreesWithCentralDifferences) {
 }
 
 TEST_P(EveryLaw, RefineJointlyRecoversAnExactFamilyFromAPoorStart) {
-  const JointProblem problem = MadeProblem(MadeSet(law_, truth_, kSixPlaces, 25, 0), law_, truth_);
+  const JointProblem problem =
+      SyntheticProblem(SyntheticSet(law_, truth_, kSixPlaces, 25, 0), law_, truth_);
   std::vector<double> start = truth_;
   const auto set = [&](int i, double value) {
     if (i >= 0 && problem.lower[i] < problem.upper[i]) start[i] = value;
@@ -126,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(
 class RefineJointlyTest : public testing::Test {
  protected:
   JointProblem Problem(std::uint64_t seed) const {
-    return MadeProblem(MadeSet(law_, truth_, kSixPlaces, 15, 2e-3, seed), law_, truth_);
+    return SyntheticProblem(SyntheticSet(law_, truth_, kSixPlaces, 15, 2e-3, seed), law_, truth_);
   }
-  const Translation law_ = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> truth_ = MadeTruth(law_);
+  const Translation law_ = SyntheticLaw(TranslationLaw::kDeSoto);
+  std::vector<double> truth_ = SyntheticTruth(law_);
 };
 
 TEST_F(RefineJointlyTest, EndsAtTheBestPointSoFarWhenAskedTo) {
@@ -204,7 +205,7 @@ TEST_F(RefineJointlyTest, HoldsAResistanceAtItsBoundAndOnlyWhereItPresses) {
   constexpr int kSeeds = 8;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const JointProblem problem = Problem(seed);
-    std::vector<double> start = MadeTruth(law_);
+    std::vector<double> start = SyntheticTruth(law_);
     start[law_.resistance_shunt] = 3000;
     const JointEnd end = RefineJointly(problem, PointAt(problem, start));
     EXPECT_LT(end.projected_gradient, 1e-6) << seed;
@@ -221,19 +222,19 @@ TEST_F(RefineJointlyTest, HoldsAResistanceAtItsBoundAndOnlyWhereItPresses) {
 }
 
 TEST_F(RefineJointlyTest, FindsThatThereIsNoSecondDiode) {
-  const Translation two = MadeLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
-  std::vector<double> shared = MadeTruth(two);
+  const Translation two = SyntheticLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
+  std::vector<double> shared = SyntheticTruth(two);
   shared[two.saturation_current] = 2e-8;
   shared[two.n] = 1.2;
   shared[two.saturation_current_2] = 1e-6;
   int absent = 0;
   constexpr int kSeeds = 8;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const CurveSet set = MadeSet(law_, truth_, kSixPlaces, 15, 2e-3, seed);
-    const JointProblem problem = MadeProblem(set, two, shared);
+    const CurveSet set = SyntheticSet(law_, truth_, kSixPlaces, 15, 2e-3, seed);
+    const JointProblem problem = SyntheticProblem(set, two, shared);
     const JointEnd end = RefineJointly(problem, PointAt(problem, shared));
     EXPECT_LT(end.projected_gradient, 1e-6) << seed;
-    const JointProblem one = MadeProblem(set, law_, truth_);
+    const JointProblem one = SyntheticProblem(set, law_, truth_);
     const double alone = Total(RefineJointly(one, PointAt(one, truth_)));
     EXPECT_LT(Total(end), alone * (1 + 1e-9)) << seed;
     if (!end.held[two.saturation_current_2]) continue;
@@ -245,15 +246,15 @@ TEST_F(RefineJointlyTest, FindsThatThereIsNoSecondDiode) {
 }
 
 TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
-  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
-  std::vector<double> shared = MadeTruth(law);
+  const Translation law = SyntheticLaw(TranslationLaw::kPvsyst);
+  std::vector<double> shared = SyntheticTruth(law);
   shared[law.resistance_shunt_dark] = shared[law.resistance_shunt];
   int held = 0;
   constexpr int kSeeds = 6;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const JointProblem problem =
-        MadeProblem(MadeSet(law, shared, kSixPlaces, 15, 2e-3, seed), law, shared);
-    const JointEnd end = RefineJointly(problem, PointAt(problem, MadeTruth(law)));
+        SyntheticProblem(SyntheticSet(law, shared, kSixPlaces, 15, 2e-3, seed), law, shared);
+    const JointEnd end = RefineJointly(problem, PointAt(problem, SyntheticTruth(law)));
     EXPECT_LT(end.projected_gradient, 1e-6) << seed;
     const double ratio =
         end.point.shared[law.resistance_shunt_dark] / end.point.shared[law.resistance_shunt];
@@ -266,9 +267,10 @@ TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
 }
 
 TEST_F(RefineJointlyTest, LetsGoWhatBeginsAtABoundAndWantsBack) {
-  const Translation two = MadeLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
-  const std::vector<double> shared = MadeTruth(two);
-  const JointProblem problem = MadeProblem(MadeSet(two, shared, kSixPlaces, 25, 1e-3), two, shared);
+  const Translation two = SyntheticLaw(TranslationLaw::kDeSoto, Model::kDoubleDiode);
+  const std::vector<double> shared = SyntheticTruth(two);
+  const JointProblem problem =
+      SyntheticProblem(SyntheticSet(two, shared, kSixPlaces, 25, 1e-3), two, shared);
   const JointEnd best = RefineJointly(problem, PointAt(problem, shared));
   std::vector<double> start = shared;
   start[two.resistance_series] = 0;

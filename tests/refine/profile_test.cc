@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/refine.h"
@@ -134,9 +134,10 @@ TEST(FindProfileSide, IsNeverNarrowerThanWhatItSaw) {
 }
 
 TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
-  JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(law);
+  JointProblem problem =
+      SyntheticProblem(SyntheticSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
   problem.curves[1].irradiance_sd = HUGE_VAL;
   const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
   const double variance = 9e-6, t = 2;
@@ -163,11 +164,12 @@ TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold)
 }
 
 TEST(FindFamilyProfileSide, StopsAtABoundThatTheDataAllow) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  std::vector<double> truth = MadeTruth(law);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  std::vector<double> truth = SyntheticTruth(law);
   truth[law.resistance_series] = 0;
   truth[law.resistance_shunt] = 1e7;
-  const JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
+  const JointProblem problem =
+      SyntheticProblem(SyntheticSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
   const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
   const ProfileSide low =
       FindProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0});

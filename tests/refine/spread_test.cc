@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "family/made_family.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/linearize.h"
@@ -33,16 +33,16 @@ struct Scatter {
 };
 
 TEST(FindJointSpread, IsTheScatterOfRepeatedMeasurements) {
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(law);
   constexpr int kRepeats = 250;
   std::vector<Scatter> shared(law.size());
   Scatter irradiance, temperature, prior;
   for (int run = 0; run < kRepeats; ++run) {
     RandomStream random(1000, run);
     const double off_K = 0.5 * random.Normal();
-    CurveSet set = MadeSet(law, truth, kSixPlaces, 12, kNoise_A, run);
-    JointProblem problem = MadeProblem(set, law, truth);
+    CurveSet set = SyntheticSet(law, truth, kSixPlaces, 12, kNoise_A, run);
+    JointProblem problem = SyntheticProblem(set, law, truth);
     problem.noise_A = kNoise_A;
     problem.curves[1].irradiance_sd = HUGE_VAL;
     problem.curves[2].temperature_sd_K = HUGE_VAL;
@@ -90,25 +90,25 @@ void ExpectOnlyOpen(const JointProblem& problem, const std::vector<double>& trut
 }
 
 TEST(FindJointSpread, LosesOnlyWhatTheDataDoNotShow) {
-  const Translation desoto = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(desoto);
+  const Translation desoto = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(desoto);
   const CurveSet one_temperature =
-      MadeSet(desoto, truth, {{1000, 25}, {500, 25}, {200, 25}}, 15, kNoise_A);
-  ExpectOnlyOpen(MadeProblem(one_temperature, desoto, truth), truth,
+      SyntheticSet(desoto, truth, {{1000, 25}, {500, 25}, {200, 25}}, 15, kNoise_A);
+  ExpectOnlyOpen(SyntheticProblem(one_temperature, desoto, truth), truth,
                  {desoto.alpha_sc, desoto.bandgap});
-  const Translation pvsyst = MadeLaw(TranslationLaw::kPvsyst);
-  const std::vector<double> other = MadeTruth(pvsyst);
+  const Translation pvsyst = SyntheticLaw(TranslationLaw::kPvsyst);
+  const std::vector<double> other = SyntheticTruth(pvsyst);
   const CurveSet one_sun =
-      MadeSet(pvsyst, other, {{1000, 25}, {1000, 45}, {1000, 65}}, 15, kNoise_A);
-  ExpectOnlyOpen(MadeProblem(one_sun, pvsyst, other), other, {pvsyst.resistance_shunt_dark});
+      SyntheticSet(pvsyst, other, {{1000, 25}, {1000, 45}, {1000, 65}}, 15, kNoise_A);
+  ExpectOnlyOpen(SyntheticProblem(one_sun, pvsyst, other), other, {pvsyst.resistance_shunt_dark});
 }
 
 TEST(FindJointSpread, LosesWhatTradesPlacesWithoutATrace) {
   // At one temperature other than the reference, photocurrent and alpha act as one parameter.
-  const Translation law = MadeLaw(TranslationLaw::kDeSoto);
-  const std::vector<double> truth = MadeTruth(law);
+  const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
+  const std::vector<double> truth = SyntheticTruth(law);
   const JointProblem problem =
-      MadeProblem(MadeSet(law, truth, {{1000, 45}, {500, 45}}, 20, kNoise_A), law, truth);
+      SyntheticProblem(SyntheticSet(law, truth, {{1000, 45}, {500, 45}}, 20, kNoise_A), law, truth);
   const JointEnd end = RefineJointly(problem, PointAt(problem, truth));
   const JointSpread spread = FindJointSpread(problem, end, 1);
   for (const int i : {law.photocurrent, law.alpha_sc, law.saturation_current, law.bandgap}) {
@@ -120,9 +120,10 @@ TEST(FindJointSpread, LosesWhatTradesPlacesWithoutATrace) {
 }
 
 TEST(FindJointSpread, LosesTheScaleOfIrradianceWhereEveryCurveHasItsOwn) {
-  const Translation law = MadeLaw(TranslationLaw::kPvsyst);
-  const std::vector<double> truth = MadeTruth(law);
-  JointProblem problem = MadeProblem(MadeSet(law, truth, kSixPlaces, 20, kNoise_A), law, truth);
+  const Translation law = SyntheticLaw(TranslationLaw::kPvsyst);
+  const std::vector<double> truth = SyntheticTruth(law);
+  JointProblem problem =
+      SyntheticProblem(SyntheticSet(law, truth, kSixPlaces, 20, kNoise_A), law, truth);
   problem.lower[law.resistance_shunt_dark] = problem.upper[law.resistance_shunt_dark] = 900;
   problem.lower[law.resistance_shunt] = problem.upper[law.resistance_shunt] = 900;
   for (JointCurve& curve : problem.curves) curve.irradiance_sd = HUGE_VAL;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../translate/made_string.h"
+#include "../translate/synthetic_string.h"
 #include "lyrefit/translate/translate.h"
 
 namespace lyrefit {
@@ -8,7 +8,7 @@ namespace lyrefit {
 // A simulated module of 60 cells, translated from 800 W/m2, 45 C to standard conditions, without a
 // diagnosis.
 inline TranslationReport SampleTranslation(int draws = 300) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options;
   options.coefficients = module.Coefficients();
   options.procedures = {Procedure::kIec1, Procedure::kIec3, Procedure::kDeSoto};

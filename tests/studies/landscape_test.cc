@@ -21,7 +21,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::vector<LandscapeCase> Made(const std::string& problem, int devices, std::uint64_t seed = 5) {
+std::vector<LandscapeCase> Synthetic(const std::string& problem, int devices,
+                                     std::uint64_t seed = 5) {
   auto cases = MakeLandscape(problem, devices, seed);
   EXPECT_TRUE(cases) << problem << ": " << cases.error().ToString();
   return cases ? *cases : std::vector<LandscapeCase>{};
@@ -110,8 +111,8 @@ TruthFit OfFamily(const LandscapeCase& device) {
 class EveryProblem : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryProblem, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const auto first = Made(GetParam(), 3), second = Made(GetParam(), 3);
-  const auto other = Made(GetParam(), 3, 6);
+  const auto first = Synthetic(GetParam(), 3), second = Synthetic(GetParam(), 3);
+  const auto other = Synthetic(GetParam(), 3, 6);
   ASSERT_EQ(first.size(), 3U);
   for (int d = 0; d < 3; ++d) {
     const auto a = CurvesOf(first[d]), b = CurvesOf(second[d]);
@@ -127,7 +128,7 @@ TEST_P(EveryProblem, IsTheSameForTheSameSeedAndAnotherForAnother) {
 }
 
 TEST_P(EveryProblem, BeginsAlikeWhateverTheCount) {
-  const auto few = Made(GetParam(), 2), many = Made(GetParam(), 5);
+  const auto few = Synthetic(GetParam(), 2), many = Synthetic(GetParam(), 5);
   ASSERT_EQ(many.size(), 5U);
   for (std::size_t d = 0; d < few.size(); ++d) {
     EXPECT_EQ(few[d].truth, many[d].truth);
@@ -140,7 +141,7 @@ TEST_P(EveryProblem, BeginsAlikeWhateverTheCount) {
 // fit.
 TEST_P(EveryProblem, LeavesTheNoiseAtTheTruth) {
   double squares = 0, points = 0;
-  for (const LandscapeCase& device : Made(GetParam(), 20)) {
+  for (const LandscapeCase& device : Synthetic(GetParam(), 20)) {
     const TruthFit fit = device.set ? OfFamily(device) : OfCurve(device);
     ASSERT_GT(fit.points, 0U);
     const double ratio = fit.rmse_A / device.noise_A;
@@ -153,7 +154,7 @@ TEST_P(EveryProblem, LeavesTheNoiseAtTheTruth) {
 }
 
 TEST_P(EveryProblem, HasItsTruthWithinTheBoundsOfItsFit) {
-  for (const LandscapeCase& device : Made(GetParam(), 50)) {
+  for (const LandscapeCase& device : Synthetic(GetParam(), 50)) {
     const TruthFit fit = device.set ? OfFamily(device) : OfCurve(device);
     EXPECT_THAT(fit.outside, ::testing::IsEmpty()) << CurvesOf(device)[0].name;
   }
@@ -161,7 +162,7 @@ TEST_P(EveryProblem, HasItsTruthWithinTheBoundsOfItsFit) {
 
 // A passive device delivers current up to its open-circuit voltage; few readings lie beyond it.
 TEST_P(EveryProblem, DeliversCurrentUpToOpenCircuit) {
-  for (const LandscapeCase& device : Made(GetParam(), 50)) {
+  for (const LandscapeCase& device : Synthetic(GetParam(), 50)) {
     for (const IvCurve& curve : CurvesOf(device)) {
       const double largest = *std::max_element(curve.current_A.begin(), curve.current_A.end());
       const double noise = 5 * device.noise_A;
@@ -202,7 +203,7 @@ TEST(MakeLandscape, RefusesCountsOutOfRange) {
 
 TEST(MakeLandscape, DrawsGroupsOfUnlikeSizeFromWholeSubstrings) {
   std::set<int> substrings, groups;
-  for (const LandscapeCase& device : Made("strings_unlike", 100)) {
+  for (const LandscapeCase& device : Synthetic("strings_unlike", 100)) {
     const int count = *device.curve.notes.bypass_diodes;
     substrings.insert(count);
     std::set<int> sizes;

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(FindBestKnown, FindsNothingWhereNoneIsAskedFor) {
-  const CompareCurve subject = MadeSubjects("strings_2", 1)[0];
+  const CompareCurve subject = SyntheticSubjects("strings_2", 1)[0];
   const CompareOptions options;
   const BestKnown known =
       FindBestKnown(subject, DescribeProblem(subject, Model::kSingleDiode, options), options);
@@ -31,7 +31,7 @@ TEST(FindBestKnown, IsAtMostAsHighAsTheTruth) {
   CompareOptions options;
   options.multistart = 6;
   for (std::size_t d = 0; d < cases->size(); ++d) {
-    const CompareCurve subject = MadeSubjects("strings_2", 2)[d];
+    const CompareCurve subject = SyntheticSubjects("strings_2", 2)[d];
     const ProblemResult problem = DescribeProblem(subject, Model::kSingleDiode, options);
     const BestKnown known = FindBestKnown(subject, problem, options);
     EXPECT_EQ(known.points, 6);
@@ -47,7 +47,7 @@ TEST(FindBestKnown, IsAtMostAsHighAsTheTruth) {
 }
 
 TEST(FindBestKnown, StopsAsTheObserverAsks) {
-  const CompareCurve subject = MadeSubjects("strings_2", 1)[0];
+  const CompareCurve subject = SyntheticSubjects("strings_2", 1)[0];
   CompareOptions options;
   options.multistart = 1000;
   const auto stop = [](const Progress&) { return ObserverAction::kStop; };

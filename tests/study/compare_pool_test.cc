@@ -32,8 +32,8 @@ nlohmann::json Figures(const Comparison& comparison) {
 }
 
 std::vector<CompareCurve> StringsAndFamilies() {
-  std::vector<CompareCurve> subjects = MadeSubjects("strings_2", 2);
-  for (CompareCurve& family : MadeSubjects("family_offsets", 1)) {
+  std::vector<CompareCurve> subjects = SyntheticSubjects("strings_2", 2);
+  for (CompareCurve& family : SyntheticSubjects("family_offsets", 1)) {
     subjects.push_back(std::move(family));
   }
   return subjects;
@@ -72,7 +72,7 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
 
 TEST(ComparePooled, RunsADefaultFitAsItIs) {
   SKIP_IF_SANITIZED();
-  const CompareCurve subject = MadeSubjects("strings_2", 1)[0];
+  const CompareCurve subject = SyntheticSubjects("strings_2", 1)[0];
   const Comparison comparison = Compared({subject}, PooledOptions());
   FitOptions fit;
   fit.with = subject.with;
@@ -116,7 +116,7 @@ TEST(ComparePooled, TakesUpWhatTheKneesCost) {
   CompareOptions options = PooledOptions();
   options.journal = folder.Path("study.jsonl");
   for (int time = 0; time < 2; ++time) {
-    const auto comparison = Compare(MadeSubjects("strings_2", 1),
+    const auto comparison = Compare(SyntheticSubjects("strings_2", 1),
                                     BudgetAlgorithms({Algorithm::kMloKnees}, {40}), options);
     ASSERT_TRUE(comparison) << comparison.error().ToString();
     const RunRecord& run = comparison->problems.at(0).algorithms.at(0).runs.at(0);
@@ -128,24 +128,25 @@ TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
   const TempFolder folder;
   CompareOptions options = PooledOptions();
   options.journal = folder.Path("study.jsonl");
-  Compared(MadeSubjects("strings_2", 1), options);
+  Compared(SyntheticSubjects("strings_2", 1), options);
   const auto refusal = [&](const std::vector<CompareCurve>& subjects) {
     const auto comparison = Compare(subjects, PooledAlgorithms(), options);
     return comparison ? "not refused" : comparison.error().ToString();
   };
-  EXPECT_THAT(refusal(MadeSubjects("strings_2", 2)), HasSubstr("begun with number of curves: 1"));
-  std::vector<CompareCurve> other = MadeSubjects("strings_2", 1);
+  EXPECT_THAT(refusal(SyntheticSubjects("strings_2", 2)),
+              HasSubstr("begun with number of curves: 1"));
+  std::vector<CompareCurve> other = SyntheticSubjects("strings_2", 1);
   other[0].with[0].ranges["w1"] = {0.25, 0.25};
   EXPECT_THAT(refusal(other), HasSubstr("begun with effects of curve 1 strings_2 0"));
-  other = MadeSubjects("strings_2", 1);
+  other = SyntheticSubjects("strings_2", 1);
   other[0].problem = "lights";
   EXPECT_THAT(refusal(other), HasSubstr("begun with problem of curve 1 strings_2 0: strings_2"));
   options.multistart = 3;
-  EXPECT_THAT(refusal(MadeSubjects("strings_2", 1)), HasSubstr("begun with multistart: 2"));
+  EXPECT_THAT(refusal(SyntheticSubjects("strings_2", 1)), HasSubstr("begun with multistart: 2"));
 }
 
 TEST(ComparePooled, NamesWhatCannotBeFitted) {
-  std::vector<CompareCurve> subjects = MadeSubjects("family_offsets", 1);
+  std::vector<CompareCurve> subjects = SyntheticSubjects("family_offsets", 1);
   subjects[0].set->curves.resize(1);
   const auto comparison = Compare(subjects, PooledAlgorithms(), PooledOptions());
   ASSERT_FALSE(comparison);

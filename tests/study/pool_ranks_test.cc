@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "made_pool.h"
+#include "synthetic_pool.h"
 
 namespace lyrefit {
 namespace {
@@ -15,13 +15,13 @@ using ::testing::ElementsAre;
 // de in all three blocks; after the polish they are equal in two blocks.
 Comparison ThreeBlocks() {
   const auto device = [](const char* name, const char* problem, double de_own) {
-    return MadeDevice(
+    return SyntheticDevice(
         name, problem,
         {SyntheticAlgorithm("shape", 0, {{9, 9, 1}}), SyntheticAlgorithm("mlo", 10, {{2, 1, 1}}),
          SyntheticAlgorithm("de", 10, {{3, de_own, 1}}),
          SyntheticAlgorithm("mlo", 100, {{2, 1, 1}})});
   };
-  return MadeComparison(
+  return SyntheticComparison(
       {device("x 0", "x", 1 + 0.9e-6), device("x 1", "x", 1.5), device("y 0", "y", 1)});
 }
 

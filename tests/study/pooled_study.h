@@ -12,7 +12,7 @@
 namespace lyrefit {
 
 // The first devices of a landscape problem.
-inline std::vector<CompareCurve> MadeSubjects(const std::string& problem, int devices) {
+inline std::vector<CompareCurve> SyntheticSubjects(const std::string& problem, int devices) {
   auto cases = MakeLandscape(problem, devices, 0);
   EXPECT_TRUE(cases) << cases.error().ToString();
   std::vector<CompareCurve> subjects;

@@ -5,20 +5,21 @@
 
 #include <cmath>
 
-#include "made_pool.h"
+#include "synthetic_pool.h"
 
 namespace lyrefit {
 namespace {
 
 TEST(SummariseProblems, LeavesPlainProblemsOut) {
-  EXPECT_TRUE(SummariseProblems(MadeComparison({MadeDevice("a", "", {})})).empty());
+  EXPECT_TRUE(SummariseProblems(SyntheticComparison({SyntheticDevice("a", "", {})})).empty());
 }
 
 TEST(SummariseProblems, CountsRunsOfAllDevices) {
-  const Comparison comparison = MadeComparison(
-      {MadeDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 1, 1}, {2, 1.5, 1}}, 10)}),
-       MadeDevice("y 0", "y", {SyntheticAlgorithm("mlo", 10, {{1, 1, 1}})}),
-       MadeDevice("x 1", "x", {SyntheticAlgorithm("mlo", 10, {{5, 1 + 0.9e-6, 1 + 1.1e-6}}, 40)})});
+  const Comparison comparison = SyntheticComparison(
+      {SyntheticDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 1, 1}, {2, 1.5, 1}}, 10)}),
+       SyntheticDevice("y 0", "y", {SyntheticAlgorithm("mlo", 10, {{1, 1, 1}})}),
+       SyntheticDevice("x 1", "x",
+                       {SyntheticAlgorithm("mlo", 10, {{5, 1 + 0.9e-6, 1 + 1.1e-6}}, 40)})});
   const auto pools = SummariseProblems(comparison);
   ASSERT_EQ(pools.size(), 2U);
   EXPECT_EQ(pools[0].name, "x");
@@ -39,9 +40,9 @@ TEST(SummariseProblems, CountsRunsOfAllDevices) {
 
 TEST(SummariseProblems, LooksAtWhatIsNoSearchAsAWhole) {
   const auto pools = SummariseProblems(
-      MadeComparison({MadeDevice("x 0", "x",
-                                 {SyntheticAlgorithm("shape", 0, {{3, 2, 1}}),
-                                  SyntheticAlgorithm("default", 0, {{3, 1, 1}})})}));
+      SyntheticComparison({SyntheticDevice("x 0", "x",
+                                           {SyntheticAlgorithm("shape", 0, {{3, 2, 1}}),
+                                            SyntheticAlgorithm("default", 0, {{3, 1, 1}})})}));
   for (const AlgorithmSummary& compared : pools[0].algorithms) {
     EXPECT_FALSE(compared.At(PolishLevel::kSearch));
     EXPECT_FALSE(compared.At(PolishLevel::kOwn));
@@ -50,8 +51,8 @@ TEST(SummariseProblems, LooksAtWhatIsNoSearchAsAWhole) {
 }
 
 TEST(SummariseProblems, HasNoTimeWhereARunHasNone) {
-  Comparison comparison = MadeComparison(
-      {MadeDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 2, 1}, {3, 2, 1}})})});
+  Comparison comparison = SyntheticComparison(
+      {SyntheticDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 2, 1}, {3, 2, 1}})})});
   comparison.problems[0].algorithms[0].runs[1].own_seconds = kUnknown;
   comparison.problems[0].algorithms[0].runs[0].plain_polished_A = kUnknown;
   const auto pools = SummariseProblems(comparison);
@@ -63,11 +64,12 @@ TEST(SummariseProblems, HasNoTimeWhereARunHasNone) {
 // runs, equal to 1e-7) and at 3. The second has one at 1.5, which counts separately.
 TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   const double near = 1.5 * (1 + 1e-7);
-  Comparison comparison = MadeComparison(
-      {MadeDevice("x 0", "x",
-                  {SyntheticAlgorithm(
-                      "mlo", 10, {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1}, {9, 1, 1}})}),
-       MadeDevice("x 1", "x", {SyntheticAlgorithm("mlo", 10, {{9, 1.5, 1}, {9, 1, 1}})})});
+  Comparison comparison = SyntheticComparison(
+      {SyntheticDevice(
+           "x 0", "x",
+           {SyntheticAlgorithm("mlo", 10,
+                               {{9, 1.5, 1}, {9, 1, 1}, {9, 3, 1}, {9, near, 1}, {9, 1, 1}})}),
+       SyntheticDevice("x 1", "x", {SyntheticAlgorithm("mlo", 10, {{9, 1.5, 1}, {9, 1, 1}})})});
   comparison.problems[0].parameters = comparison.problems[1].parameters = {"Rs", "d1", "d2"};
   for (ProblemResult& device : comparison.problems) {
     device.first_effect = 1;
@@ -93,7 +95,7 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
 }
 
 TEST(LargestDeviation, IsRelativeToTheReferenceAndOfTheEffectsAlone) {
-  ProblemResult device = MadeDevice("x 0", "x", {});
+  ProblemResult device = SyntheticDevice("x 0", "x", {});
   device.parameters = {"Rs", "d1", "d2", "d3"};
   device.reference.parameters = {1, -2, 0, 0};
   EXPECT_EQ(LargestDeviation(device, {4, -2, 0, 0}).value, 3) << "a device without effects";

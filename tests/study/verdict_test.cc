@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "made_pool.h"
+#include "synthetic_pool.h"
 
 namespace lyrefit {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 // starts.
 AlgorithmResult Hits(const std::string& algorithm, std::int64_t budget, int own, int hybrid,
                      double search_ms = 10) {
-  std::vector<MadeRun> runs;
+  std::vector<SyntheticRun> runs;
   for (int r = 0; r < 10; ++r) runs.push_back({9, r < own ? 1.0 : 2, r < hybrid ? 1.0 : 2});
   return SyntheticAlgorithm(algorithm, budget, runs, search_ms);
 }
 
 Comparison OfOne(std::vector<AlgorithmResult> algorithms) {
-  return MadeComparison({MadeDevice("x 0", "x", std::move(algorithms))});
+  return SyntheticComparison({SyntheticDevice("x 0", "x", std::move(algorithms))});
 }
 
 TEST(EnoughHits, AreNinetySixOfAHundred) {

@@ -3,20 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
 
-FurtherCurve Further(const MadeModule& module, double g, double t_C) {
+FurtherCurve Further(const SyntheticModule& module, double g, double t_C) {
   return {module.Readings(g, t_C), g, t_C, module.Diode(g, t_C)};
 }
 
 // Procedure 3 between 1000 and 600 W/m2 at one temperature, half way.
 TEST(BetweenCurves, MeetsTheTruthBetweenTwoLights) {
-  const MadeModule module;
+  const SyntheticModule module;
   PreparedCurve curve = module.Curve(1000, 45, {800, 45});
   curve.further = {Further(module, 600, 45)};
   const TranslationInputs in = module.Inputs(1000, 45);
@@ -30,7 +30,7 @@ TEST(BetweenCurves, MeetsTheTruthBetweenTwoLights) {
 }
 
 TEST(BetweenCurves, ReachesAnyPlaceInATriangle) {
-  const MadeModule module;
+  const SyntheticModule module;
   PreparedCurve curve = module.Curve(1000, 50, {850, 35});
   curve.further = {Further(module, 700, 45), Further(module, 900, 20)};
   const auto key = TranslatedKeyPoints(Procedure::kIec3, curve, module.Inputs(1000, 50));
@@ -41,7 +41,7 @@ TEST(BetweenCurves, ReachesAnyPlaceInATriangle) {
 }
 
 TEST(BetweenCurves, RefusesWhatLiesOffTheLineOrTooFar) {
-  const MadeModule module;
+  const SyntheticModule module;
   const TranslationInputs in = module.Inputs(1000, 45);
   const auto refusal = [&](const TranslationTarget& target, const FurtherCurve& further) {
     PreparedCurve curve = module.Curve(1000, 45, target);

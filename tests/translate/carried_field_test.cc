@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "translate/made_worlds.h"
 #include "translate/measured_sets.h"
+#include "translate/translation_simulators.h"
 
 namespace shown {
 namespace {
@@ -35,7 +35,7 @@ TEST(CarryOne, KeepsWithinTheStatedUncertaintyOnOtherLaws) {
   for (const std::string& world : Worlds()) {
     int within = 0, count = 0;
     for (int i = 0; i < 20; ++i) {
-      const MadeCase made = MakeReferenceSweeps(world, {}, 500 + i);
+      const SyntheticCase made = MakeReferenceSweeps(world, {}, 500 + i);
       lyrefit::TranslateOptions options = ReadyOptions(false);
       options.coefficients = made.coefficients;
       const std::vector<Sweep> ready = MakeReady({made.curve}, options, 1);

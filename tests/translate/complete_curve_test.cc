@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
 
 TEST(Completed, ContinuesReadingsByTheirDiode) {
-  const MadeModule module;
+  const SyntheticModule module;
   const CurvePoints whole = module.Readings(800, 45);
   CurvePoints cut;
   const double voc = module.Truth(800, 45).open_circuit_voltage_V;
@@ -31,7 +31,7 @@ TEST(Completed, ContinuesReadingsByTheirDiode) {
 }
 
 TEST(Completed, LeavesTheReadingsThemselvesAlone) {
-  const MadeModule module;
+  const SyntheticModule module;
   const CurvePoints whole = module.Readings(800, 45);
   const CurvePoints full = Completed(whole, module.Diode(800, 45), -5, -4);
   ASSERT_GT(full.voltage_V.size(), whole.voltage_V.size());

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -71,7 +71,7 @@ TEST(Technology, IsKnownByWhatPeopleWrite) {
 
 // Coefficients that are not stated are derived from the curve and are near the true ones.
 TEST(SettledInputs, AreNearTheTruthOfAModule) {
-  const MadeModule module;
+  const SyntheticModule module;
   const SettledInputs settled =
       SettleInputs(module.Coefficients(), "c-Si", module.Curve(800, 45, {}), module.Bare(800, 45));
   EXPECT_NEAR(settled.values.resistance_series_ohm, 0.25, 1e-9);
@@ -88,7 +88,7 @@ TEST(SettledInputs, AreNearTheTruthOfAModule) {
 }
 
 TEST(SettledInputs, SayWhatWasAssumed) {
-  const MadeModule module;
+  const SyntheticModule module;
   const SettledInputs settled =
       SettleInputs({}, "", module.Curve(800, 45, {}), module.Bare(800, 45));
   ASSERT_TRUE(settled.alpha_scatter && settled.beta_scatter);

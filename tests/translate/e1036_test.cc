@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
 
 TEST(E1036, MeetsTheModelWhereReadingsAreExact) {
-  const MadeModule module;
+  const SyntheticModule module;
   const KeyPoints truth = module.Truth(1000, 25);
   const CurvePoints points = module.Readings(1000, 25, 100);
   const KeyPoints found = E1036KeyPoints(points.voltage_V, points.current_A);
@@ -23,7 +23,7 @@ TEST(E1036, MeetsTheModelWhereReadingsAreExact) {
 
 // E1036 windows average over many readings, which lowers the scatter of Pmax.
 TEST(E1036, ScattersLessThanSingleReadings) {
-  const MadeModule module;
+  const SyntheticModule module;
   const CurvePoints clean = module.Readings(1000, 25, 100);
   const KeyPoints truth = E1036KeyPoints(clean.voltage_V, clean.current_A);
   const KeyPoints read = FindKeyPoints(clean.voltage_V, clean.current_A);

@@ -7,7 +7,7 @@
 
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/fit.h"
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
@@ -23,7 +23,7 @@ FitReport PlainFit(const IvCurve& curve) {
 
 // Without effects the extended model is De Soto's law.
 TEST(ExtendedModel, OfAReferenceModuleIsDeSotosLaw) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = module.Measured(700, 40);
   const ExtendedInputs inputs = {module.Inputs(700, 40), true};
   const auto model = MakeExtendedModel(curve, PlainFit(curve), inputs);
@@ -45,7 +45,7 @@ TEST(ExtendedModel, OfAReferenceModuleIsDeSotosLaw) {
 }
 
 TEST(ExtendedModel, RefusesWhatIsNoModel) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = module.Measured(700, 40);
   const ExtendedInputs inputs = {module.Inputs(700, 40), true};
   FitReport fit = PlainFit(curve);
@@ -61,7 +61,7 @@ TEST(ExtendedModel, RefusesWhatIsNoModel) {
 
 // Effects of the device are kept; effects of the sweep are removed.
 TEST(ExtendedModel, TellsTheDeviceFromTheSweep) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = module.Measured(700, 40);
   FitReport fit = PlainFit(curve);
   fit.causes = {"outliers", "no such thing"};

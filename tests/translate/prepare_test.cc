@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-TranslateOptions NoDiagnosis(const MadeModule& module) {
+TranslateOptions NoDiagnosis(const SyntheticModule& module) {
   TranslateOptions options;
   options.coefficients = module.Coefficients();
   options.procedures = {Procedure::kDeSoto};
@@ -27,7 +27,7 @@ std::string ErrorOfCurve(const IvCurve& curve, const TranslateOptions& options) 
 }
 
 TEST(Prepare, FindsTheDiodeAndAnchorsItsLawToBeta) {
-  const MadeModule module;
+  const SyntheticModule module;
   const auto made = Prepare(module.Measured(800, 45), NoDiagnosis(module), {});
   ASSERT_TRUE(made) << made.error().message;
   ASSERT_TRUE(made->curve.diode && made->curve.bandgap && made->curve.mu_gamma);
@@ -42,7 +42,7 @@ TEST(Prepare, FindsTheDiodeAndAnchorsItsLawToBeta) {
 
 // At 800 W/m2 a sensor on the back of the module reads 2 K less than the cell temperature.
 TEST(Prepare, CorrectsASensorOnTheBackToTheCells) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = NoDiagnosis(module);
   options.further = {module.Measured(600, 40)};
   IvCurve curve = module.Measured(800, 45);
@@ -61,7 +61,7 @@ TEST(Prepare, CorrectsASensorOnTheBackToTheCells) {
 }
 
 TEST(Prepare, RefusesAndDoubtsReadingsAsAFitDoes) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = NoDiagnosis(module);
   options.procedures = {Procedure::kIec1};
   IvCurve curve = module.Measured(800, 45);
@@ -77,7 +77,7 @@ TEST(Prepare, RefusesAndDoubtsReadingsAsAFitDoes) {
 }
 
 TEST(Prepare, LeavesAStatedBandGapAlone) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = NoDiagnosis(module);
   options.coefficients.EgRef_eV = 1.2;
   const auto made = Prepare(module.Measured(800, 45), options, {});
@@ -87,7 +87,7 @@ TEST(Prepare, LeavesAStatedBandGapAlone) {
 }
 
 TEST(Prepare, RefusesReadingsWithoutTheirMaximumPower) {
-  const MadeModule module;
+  const SyntheticModule module;
   const TranslateOptions options = NoDiagnosis(module);
   IvCurve dark = module.Measured(800, 45), half = dark, reversed = dark;
   for (double& current : dark.current_A) current -= 20;
@@ -101,7 +101,7 @@ TEST(Prepare, RefusesReadingsWithoutTheirMaximumPower) {
 }
 
 TEST(Prepare, RefusesCoefficientsAndLeadsOfNoDevice) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = module.Measured(800, 45);
   const auto with = [&](auto change) {
     TranslateOptions options = NoDiagnosis(module);
@@ -116,7 +116,7 @@ TEST(Prepare, RefusesCoefficientsAndLeadsOfNoDevice) {
 }
 
 TEST(Prepare, DoubtsLeadsWithMoreResistanceThanTheCurve) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = NoDiagnosis(module);
   options.lead_resistance_ohm = 0.5;
   const auto made = Prepare(module.Measured(800, 45), options, {});

@@ -6,7 +6,7 @@
 
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
@@ -15,7 +15,7 @@ constexpr Procedure kAll[] = {Procedure::kIec1, Procedure::kIec2, Procedure::kIe
                               Procedure::kDeSoto, Procedure::kPvsyst};
 
 TEST(Procedures, LeaveTheCurveAsItIsWhereTheTargetIsTheSource) {
-  const MadeModule module;
+  const SyntheticModule module;
   const PreparedCurve curve = module.Curve(700, 40, {700, 40});
   const KeyPoints source = FindKeyPoints(curve.points.voltage_V, curve.points.current_A);
   for (const Procedure procedure : kAll) {
@@ -30,7 +30,7 @@ TEST(Procedures, LeaveTheCurveAsItIsWhereTheTargetIsTheSource) {
 
 // De Soto's law is exact for a device that follows it.
 TEST(Procedures, DeSotoIsExactOnItsOwnDevice) {
-  const MadeModule module;
+  const SyntheticModule module;
   for (const double g : {300.0, 700.0, 1100.0}) {
     PreparedCurve curve = module.Curve(g, 50, {1000, 25});
     curve.bandgap.reset();  // the stated band gap applies
@@ -46,7 +46,7 @@ TEST(Procedures, DeSotoIsExactOnItsOwnDevice) {
 // A step of 5 % of light and 4 K has an error below 0.15 % of Pmax; half the step has at most half
 // the error.
 TEST(Procedures, AreCloseToTheTruthForSmallSteps) {
-  const MadeModule module;
+  const SyntheticModule module;
   const auto error = [&](Procedure procedure, double part) {
     const double g = 950 + 50 * part, t = 29 - 4 * part;
     const PreparedCurve curve = module.Curve(950, 29, {g, t});
@@ -103,7 +103,7 @@ TEST(Procedures, OneMovesPointsAsWorkedOutByHand) {
 }
 
 TEST(Procedures, AllowForLeadsBeforeAllElse) {
-  const MadeModule module;
+  const SyntheticModule module;
   PreparedCurve bare = module.Curve(800, 45, {1000, 25});
   PreparedCurve led = bare;
   constexpr double kLeads_ohm = 0.25;
@@ -125,7 +125,7 @@ TEST(Procedures, AllowForLeadsBeforeAllElse) {
 // IEC TS 60904-1-2: 850 W/m2 on the front and 100 on the rear at a bifaciality of 0.7 equal 920
 // W/m2.
 TEST(Procedures, CountTheLightBehind) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslationInputs both = module.Inputs(920, 40);
   both.irradiance_W_m2 = 850;
   both.rear_irradiance_W_m2 = 100;
@@ -142,7 +142,7 @@ TEST(Procedures, CountTheLightBehind) {
 
 // Gains of voltage and current scale the fitted curve and nothing else.
 TEST(Procedures, BendTheFittedDiodeWithTheGains) {
-  const MadeModule module;
+  const SyntheticModule module;
   const PreparedCurve curve = module.Curve(800, 45, {800, 45});
   TranslationInputs in = module.Inputs(800, 45);
   const auto plain = TranslatedKeyPoints(Procedure::kDeSoto, curve, in);
@@ -155,7 +155,7 @@ TEST(Procedures, BendTheFittedDiodeWithTheGains) {
 }
 
 TEST(Procedures, SayWhatIsMissing) {
-  const MadeModule module;
+  const SyntheticModule module;
   PreparedCurve curve = module.Curve(800, 45, {1000, 25});
   const TranslationInputs in = module.Inputs(800, 45);
   EXPECT_FALSE(TranslatedKeyPoints(Procedure::kIec3, curve, in));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
@@ -31,7 +31,7 @@ struct Choice {
       if (result.procedure == procedure) result.why_not = "forbidden";
     }
   }
-  MadeModule module;
+  SyntheticModule module;
   Preparation made;
   std::vector<TranslatedResult> results;
 };

@@ -16,7 +16,7 @@ constexpr Mode kModes[] = {
     {"sets", shown::StudySets, "sweeps of healthy modules carried to each other's conditions"},
     {"halves", shown::StudyHalves, "sizes fitted to half of the sweeps, tried on the other half"},
     {"sizes", shown::StudySizes, "sizes fitted to every set and world by itself"},
-    {"made", shown::StudyMade, "healthy devices by other laws, to standard conditions"},
+    {"made", shown::StudySynthetic, "healthy devices by other laws, to standard conditions"},
     {"sensors", shown::StudySensors, "the same, the cells warmer than the sensor on the back"},
     {"beta", shown::StudyBeta, "the same where nobody states beta"},
     {"faults", shown::StudyFaults, "modules of cells with a fault, to standard conditions"},

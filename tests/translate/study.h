@@ -22,7 +22,7 @@ int StudyHalves(const StudyOptions& options);
 // Procedure uncertainties fitted to each measured set and each simulator separately.
 int StudySizes(const StudyOptions& options);
 // Simulated healthy devices, which follow other laws than the procedures, translated to STC.
-int StudyMade(const StudyOptions& options);
+int StudySynthetic(const StudyOptions& options);
 // Simulated healthy devices whose cells are warmer than the sensor, with and without a correction.
 int StudySensors(const StudyOptions& options);
 // Simulated healthy devices without a stated beta.

@@ -7,8 +7,8 @@
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/translate.h"
 #include "translate/carried.h"
-#include "translate/made_worlds.h"
 #include "translate/study.h"
+#include "translate/translation_simulators.h"
 
 namespace shown {
 namespace {
@@ -27,7 +27,7 @@ struct Answer {
   bool any = false;
 };
 
-Answer Ask(const MadeCase& made) {
+Answer Ask(const SyntheticCase& made) {
   lyrefit::TranslateOptions options = ReadyOptions(true);
   options.coefficients = made.coefficients;
   lyrefit::UncertaintyOptions& sizes = options.uncertainty;

@@ -8,9 +8,9 @@
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/translate.h"
 #include "translate/carried.h"
-#include "translate/made_worlds.h"
 #include "translate/measured_sets.h"
 #include "translate/study.h"
+#include "translate/translation_simulators.h"
 
 namespace shown {
 namespace {
@@ -40,7 +40,7 @@ struct Told {
   double epsilon_percent = lyrefit::UncertaintyOptions().epsilon_percent;
 };
 
-void Misread(std::uint64_t seed, const Warmer& of, MadeCase* made) {
+void Misread(std::uint64_t seed, const Warmer& of, SyntheticCase* made) {
   lyrefit::RandomStream random(seed, 99);
   lyrefit::Conditions& at = made->curve.conditions;
   const double suns = at.irradiance_W_m2 / 1000;
@@ -57,7 +57,7 @@ std::vector<Carried> CarryWorld(const std::string& world, const Light& light, in
   std::vector<std::vector<Carried>> parts(cases);
   lyrefit::ParallelFor(cases, options.threads, [&](int i) {
     const std::uint64_t seed = 1000 * options.seed + i;
-    MadeCase made = MakeReferenceSweeps(world, light, seed);
+    SyntheticCase made = MakeReferenceSweeps(world, light, seed);
     if (misread != nullptr) Misread(seed, *misread, &made);
     lyrefit::TranslateOptions how = ReadyOptions(false);
     how.coefficients = made.coefficients;
@@ -159,7 +159,7 @@ int StudySizes(const StudyOptions& options) {
   return 0;
 }
 
-int StudyMade(const StudyOptions& options) {
+int StudySynthetic(const StudyOptions& options) {
   const int cases = options.cases > 0 ? options.cases : 400;
   for (const std::string& world : Worlds()) {
     for (const Warmer* misread : {static_cast<const Warmer*>(nullptr), &kUsual}) {

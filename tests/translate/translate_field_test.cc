@@ -39,16 +39,16 @@ class SandiaPairs : public ::testing::Test {
       if (set->curves[i].conditions.irradiance_W_m2 < 150) continue;
       auto made = Prepare(set->curves[i], options, {});
       ASSERT_TRUE(made) << made.error().ToString();
-      made_.push_back(std::move(*made));
+      synthetic_.push_back(std::move(*made));
     }
-    ASSERT_GT(made_.size(), 40U);
+    ASSERT_GT(synthetic_.size(), 40U);
   }
 
   // Relative errors of Pmax over all pairs with a step within the limits.
   Errors ErrorsOf(Procedure procedure, double most_light, double most_K, double least_light) const {
     Errors errors;
-    for (const Preparation& from : made_) {
-      for (const Preparation& to : made_) {
+    for (const Preparation& from : synthetic_) {
+      for (const Preparation& to : synthetic_) {
         const TranslationInputs &a = from.inputs.values, &b = to.inputs.values;
         const double light = std::fabs(std::log(b.irradiance_W_m2 / a.irradiance_W_m2));
         const double heat_K = std::fabs(b.temperature_C - a.temperature_C);
@@ -64,7 +64,7 @@ class SandiaPairs : public ::testing::Test {
     return errors;
   }
 
-  std::vector<Preparation> made_;
+  std::vector<Preparation> synthetic_;
 };
 
 // Two sweeps in similar conditions differ by 0.4 %; no procedure adds to that for small steps.

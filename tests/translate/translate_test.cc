@@ -8,14 +8,14 @@
 #include "../repeats.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/fit/simulate.h"
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::HasSubstr;
 
-TranslateOptions Quick(const MadeModule& module) {
+TranslateOptions Quick(const SyntheticModule& module) {
   TranslateOptions options;
   options.coefficients = module.Coefficients();
   options.diagnosis.held_out = false;
@@ -26,11 +26,11 @@ TranslateOptions Quick(const MadeModule& module) {
 
 // Simulates the module with a leak parallel to its junctions or with an effect, under given
 // conditions.
-IvCurve Simulated(const MadeModule& module, double g, double t_C, double leak_ohm,
+IvCurve Simulated(const SyntheticModule& module, double g, double t_C, double leak_ohm,
                   const std::string& cause, double noise_A) {
   const TranslatedDevice at = module.At(g, t_C);
   SimulateOptions options;
-  options.conditions = {t_C + kZeroCelsius_K, g, MadeModule::kCells, 1};
+  options.conditions = {t_C + kZeroCelsius_K, g, SyntheticModule::kCells, 1};
   const std::vector<double>& p = at.parameters;
   options.parameters = {{"Iph", p[kIph]},
                         {"Is1", p[1]},
@@ -63,7 +63,7 @@ double ErrorOf(const TranslationReport& report, Procedure procedure, double trut
 }
 
 TEST(TranslateCurve, BringsAReferenceModuleToStandardConditions) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = Simulated(module, 800, 45, 1e9, "", 0.004);
   const auto report = TranslateCurve(curve, Quick(module));
   ASSERT_TRUE(report) << report.error().message;
@@ -88,7 +88,7 @@ TEST(TranslateCurve, BringsAReferenceModuleToStandardConditions) {
 // A leak of 20 ohm does not depend on the light. The extended model keeps it constant; De Soto's
 // law and procedure 2 let it grow with the light.
 TEST(TranslateCurve, KeepsALowShuntWhereItIs) {
-  const MadeModule module;
+  const SyntheticModule module;
   const double truth = TruePower(Simulated(module, 1000, 25, 20, "", 0));
   const auto report = TranslateCurve(Simulated(module, 500, 35, 20, "", 0.004), Quick(module));
   ASSERT_TRUE(report) << report.error().message;
@@ -99,7 +99,7 @@ TEST(TranslateCurve, KeepsALowShuntWhereItIs) {
 }
 
 TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   if (kSanitized) options.diagnosis.effects = {"shading", "irr_step"};  // all effects take minutes
   const double shaded = TruePower(Simulated(module, 1000, 25, 1e9, "shading", 0));
@@ -126,7 +126,7 @@ TEST(TranslateCurve, KeepsAShadeAndTakesAStepOfTheLightOut) {
 
 // The stated temperature is 2 K too low at 800 W/m2 (2.5 K at 1000 W/m2), as of a back sensor.
 TEST(TranslateCurve, SaysWhatWasReadAndWhatTheCellsHave) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   options.procedures = {Procedure::kDeSoto};
   IvCurve curve = module.Measured(800, 45);
@@ -147,7 +147,7 @@ TEST(TranslateCurve, SaysWhatWasReadAndWhatTheCellsHave) {
 }
 
 TEST(TranslateCurve, JudgesNoMilliampereReadAsAmpere) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   options.coefficients.alpha_A_K = 4.6;
   options.procedures = {Procedure::kDeSoto};
@@ -164,7 +164,7 @@ TEST(TranslateCurve, JudgesNoMilliampereReadAsAmpere) {
 }
 
 TEST(TranslateCurve, HasOneBudgetWhereOneIsWanted) {
-  const MadeModule module;
+  const SyntheticModule module;
   const IvCurve curve = Simulated(module, 800, 45, 1e9, "", 0.004);
   TranslateOptions options = Quick(module);
   options.procedures = {Procedure::kIec2, Procedure::kDeSoto};
@@ -183,7 +183,7 @@ TEST(TranslateCurve, HasOneBudgetWhereOneIsWanted) {
 }
 
 TEST(TranslateCurve, TakesTheSecondCurveWhereThereIsOne) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   options.target = {750, 45};
   options.further = {module.Measured(600, 45)};
@@ -198,7 +198,7 @@ TEST(TranslateCurve, TakesTheSecondCurveWhereThereIsOne) {
 
 // From 80 W/m2 the maximum power point at 1000 W/m2 lies beyond open circuit of the measured curve.
 TEST(TranslateCurve, SaysThatProcedure1NeedsNegativeCurrents) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   options.procedures = {Procedure::kIec1, Procedure::kIec4, Procedure::kDeSoto};
   const auto report = TranslateCurve(module.Measured(80, 25), options);
@@ -210,7 +210,7 @@ TEST(TranslateCurve, SaysThatProcedure1NeedsNegativeCurrents) {
 }
 
 TEST(TranslateCurve, RefusesWhatHasNoPlace) {
-  const MadeModule module;
+  const SyntheticModule module;
   const TranslateOptions options = Quick(module);
   IvCurve curve = module.Measured(800, 45);
   curve.irradiance_known = false;
@@ -225,7 +225,7 @@ TEST(TranslateCurve, RefusesWhatHasNoPlace) {
 }
 
 TEST(TranslateCurve, IsTheSameOnAnyNumberOfThreads) {
-  const MadeModule module;
+  const SyntheticModule module;
   TranslateOptions options = Quick(module);
   const IvCurve curve = Simulated(module, 800, 45, 1e9, "", 0.004);
   options.diagnosis.threads = options.uncertainty.threads = 1;

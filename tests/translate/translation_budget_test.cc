@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "made_string.h"
+#include "synthetic_string.h"
 
 namespace lyrefit {
 namespace {
@@ -30,7 +30,7 @@ UncertaintyOptions Nothing() {
 }
 
 double ExpandedPart(const TranslationTarget& target, const UncertaintyOptions& options) {
-  const MadeModule module;
+  const SyntheticModule module;
   const PreparedCurve curve = module.Curve(800, 45, target);
   const SettledInputs settled =
       SettleInputs(module.Coefficients(), "c-Si", curve, module.Bare(800, 45));
@@ -70,7 +70,7 @@ TEST(TranslationBudget, TakesAStatedSize) {
 }
 
 TEST(TranslationBudget, CountsTheSpreadOfAlternativesOnce) {
-  const MadeModule module;
+  const SyntheticModule module;
   const PreparedCurve curve = module.Curve(500, 45, {});
   const SettledInputs settled =
       SettleInputs(module.Coefficients(), "c-Si", curve, module.Bare(500, 45));

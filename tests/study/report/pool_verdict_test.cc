@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "study/made_pool.h"
+#include "study/synthetic_pool.h"
 
 namespace lyrefit {
 namespace {
@@ -22,12 +22,12 @@ Comparison Fifty(const std::vector<PooledRow>& rows) {
   for (int d = 0; d < 50; ++d) {
     std::vector<AlgorithmResult> algorithms;
     for (const PooledRow& row : rows) {
-      const MadeRun run = {9, d < row.own ? 1.0 : 2, d < row.hybrid ? 1.0 : 2};
+      const SyntheticRun run = {9, d < row.own ? 1.0 : 2, d < row.hybrid ? 1.0 : 2};
       algorithms.push_back(SyntheticAlgorithm(row.algorithm, row.budget, {run}, row.search_ms));
     }
-    devices.push_back(MadeDevice("x " + std::to_string(d), "x", std::move(algorithms)));
+    devices.push_back(SyntheticDevice("x " + std::to_string(d), "x", std::move(algorithms)));
   }
-  return MadeComparison(std::move(devices));
+  return SyntheticComparison(std::move(devices));
 }
 
 std::string Sentence(const std::vector<PooledRow>& rows) {

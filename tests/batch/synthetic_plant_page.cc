@@ -1,5 +1,5 @@
 // Writes the page of a synthetic plant, for the tests in a browser:
-//   made_plant_page ROWS PAGE [DIGITS [ROWS_FILE]]
+//   synthetic_plant_page ROWS PAGE [DIGITS [ROWS_FILE]]
 // ROWS_FILE receives the rows as JSON Lines.
 #include <chrono>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "batch/made_rows.h"
+#include "batch/synthetic_rows.h"
 #include "lyrefit/batch/plant_page.h"
 
 namespace lyrefit {
@@ -31,18 +31,18 @@ std::string JsonLine(const std::vector<ResultColumn>& columns, const ResultRow& 
 
 int MakePage(std::int64_t rows, const std::string& file, int digits, const char* rows_file) {
   PlantPageOptions options;
-  options.plant = "Made-up plant";
+  options.plant = "Synthetic-up plant";
   options.digits = digits;
   options.facts = {{"Instrument", "curve tracer, 100 points"},
                    {"Options", "field test, tolerance 5 %"},
                    {"Seed", "1"}};
-  const auto columns = MadePlantColumns();
+  const auto columns = SyntheticPlantColumns();
   auto page = PlantPage::Open(file, columns, options);
   std::ofstream beside;
   if (rows_file) beside.open(rows_file);
   Expected<void> done;
   for (std::int64_t row = 0; page && done && row < rows; ++row) {
-    const ResultRow made = MadePlantResult(1, row);
+    const ResultRow made = SyntheticPlantResult(1, row);
     done = (*page)->Add(made);
     if (rows_file) beside << JsonLine(columns, made);
   }

@@ -15,9 +15,9 @@
 namespace lyrefit {
 
 // A simulated module of 60 cells that follows De Soto's law exactly, and its true values.
-class MadeModule {
+class SyntheticModule {
  public:
-  MadeModule() {
+  SyntheticModule() {
     TranslationSpec spec;
     spec.cells_in_series = kCells;
     translation_ = *MakeTranslation(spec);

@@ -1,4 +1,4 @@
-#include "batch/made_curves.h"
+#include "batch/synthetic_curves.h"
 
 #include <charconv>
 #include <cmath>

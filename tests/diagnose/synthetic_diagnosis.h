@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "law/made_curve.h"
+#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
 
 namespace lyrefit {
@@ -34,7 +34,7 @@ inline std::vector<std::string> Ids(const Diagnosis& diagnosis) {
 
 // A sweep of a cell of 8 A in which the current steps up by 0.12 A.
 inline IvCurve CurveWithAStep() {
-  IvCurve curve = MadeCurve({});
+  IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.12;
   return curve;
 }

@@ -1,4 +1,4 @@
-#include "batch/made_score.h"
+#include "batch/synthetic_score.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "batch/made_plant.h"
+#include "batch/synthetic_plant.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "batch/made_score.h"
+#include "batch/synthetic_score.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::string ScoreOf(const std::string& results) {
   return text;
 }
 
-TEST(MadeScore, CountsWhatIsFoundAndUnderWhichName) {
+TEST(SyntheticScore, CountsWhatIsFoundAndUnderWhichName) {
   const std::string text = ScoreOf(
       "id,cause,equivalents,group_flag,group_outlier\n"
       "a/1,weak_cell,\"shading, transient\",false,\n"
@@ -36,7 +36,7 @@ TEST(MadeScore, CountsWhatIsFoundAndUnderWhichName) {
   EXPECT_THAT(text, HasSubstr("[another name]"));
 }
 
-TEST(MadeScore, NamesTheSideOnWhichAStringDiffers) {
+TEST(SyntheticScore, NamesTheSideOnWhichAStringDiffers) {
   const std::string text = ScoreOf(
       "id,cause,equivalents,group_flag,group_outlier\na/1,,,false,\n"
       "a/2,,,true,Voc -5.00 % (usual: within 0.5 %)\n");
@@ -44,14 +44,14 @@ TEST(MadeScore, NamesTheSideOnWhichAStringDiffers) {
   EXPECT_THAT(text, HasSubstr("not found"));
 }
 
-TEST(MadeScore, AWrongCauseIsNotMadeRightByTheNeighbours) {
+TEST(SyntheticScore, AWrongCauseIsNotMadeRightByTheNeighbours) {
   const std::string text = ScoreOf(
       "id,cause,group_flag,group_outlier\na/1,,false,\n"
       "a/2,transient,true,Voc -5.00 % (usual: within 0.5 %)\n");
   EXPECT_THAT(text, HasSubstr("1 of 2 hidden faults found, 0 under a right name"));
 }
 
-TEST(MadeScore, CountsFalseAlarms) {
+TEST(SyntheticScore, CountsFalseAlarms) {
   const std::string text =
       ScoreOf("id,cause,zone\na/1,,\na/2,,\na/3,drift,fail\na/4,outliers,pass\na/5,,pass\n");
   EXPECT_THAT(text, HasSubstr("2 false alarms among 3 healthy strings (cause 2, neighbours 0, zone "
@@ -59,7 +59,7 @@ TEST(MadeScore, CountsFalseAlarms) {
   EXPECT_THAT(text, HasSubstr("  a/3: drift; fail"));
 }
 
-TEST(MadeScore, RefusesATableWithoutIds) {
+TEST(SyntheticScore, RefusesATableWithoutIds) {
   const TempFolder folder;
   folder.Write("results.csv", "name\na\n");
   folder.Write("truth.csv", "id\n");

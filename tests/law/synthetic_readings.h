@@ -89,7 +89,7 @@ inline void AppendSweeps(DataKind kind, Readings* readings) {
 }
 
 // Readings whose currents are those of the ordinary cell.
-inline Readings MadeReadings(DataKind kind, int cells) {
+inline Readings SyntheticReadings(DataKind kind, int cells) {
   Readings readings;
   AppendSweeps(kind, &readings);
   const int count = static_cast<int>(readings.points.size());

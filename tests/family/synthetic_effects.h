@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "family/made_family.h"
-#include "law/made_use.h"
+#include "family/synthetic_family.h"
+#include "law/synthetic_use.h"
 #include "lyrefit/law/extended_set.h"
 
 namespace lyrefit {
@@ -27,9 +27,9 @@ inline IvCurve DarkCurve(const Translation& law, const std::vector<double>& shar
 
 // Replaces the currents of a set by those of the device with effects, plus noise of noise_A. Every
 // parameter of the effects must be fixed.
-inline void AddMadeEffects(const std::vector<EffectUse>& uses, Translation law,
-                           std::vector<double> shared, double noise_A, CurveSet* set,
-                           std::uint64_t seed = 3) {
+inline void AddSyntheticEffects(const std::vector<EffectUse>& uses, Translation law,
+                                std::vector<double> shared, double noise_A, CurveSet* set,
+                                std::uint64_t seed = 3) {
   shared.resize(law.size());  // without offsets of the sensors
   const Expected<void> extended =
       ExtendTranslation(*set, shared[law.bandgap_slope], uses, /*force=*/true, &law);

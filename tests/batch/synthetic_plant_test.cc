@@ -1,4 +1,4 @@
-#include "batch/made_plant.h"
+#include "batch/synthetic_plant.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 using lyrefit::FileText;
 using lyrefit::TempFolder;
 
-TEST(MadePlant, IsTheSameOnAnyNumberOfThreads) {
+TEST(SyntheticPlant, IsTheSameOnAnyNumberOfThreads) {
   const TempFolder folder;
   PlantRequest request;
   request.strings = 2;
@@ -29,7 +29,7 @@ TEST(MadePlant, IsTheSameOnAnyNumberOfThreads) {
               testing::HasSubstr("Number of cells,1200"));
 }
 
-TEST(MadePlant, HasTwelveKindsOfFaults) { EXPECT_EQ(PlantFaults().size(), 12u); }
+TEST(SyntheticPlant, HasTwelveKindsOfFaults) { EXPECT_EQ(PlantFaults().size(), 12u); }
 
 }  // namespace
 }  // namespace made

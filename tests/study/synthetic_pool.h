@@ -9,21 +9,22 @@ namespace lyrefit {
 
 // Synthetic results of one run: RMSE after the search, after the polish of its best candidate and
 // after all starts, relative to the reference.
-struct MadeRun {
+struct SyntheticRun {
   double searched;
   double own;
   double hybrid;
 };
 
 inline AlgorithmResult SyntheticAlgorithm(const std::string& algorithm, std::int64_t budget,
-                                          const std::vector<MadeRun>& runs, double search_ms = 10) {
+                                          const std::vector<SyntheticRun>& runs,
+                                          double search_ms = 10) {
   AlgorithmResult compared;
   compared.algorithm = algorithm;
   compared.name = budget > 0 ? algorithm + "@" + std::to_string(budget) : algorithm;
   compared.budget = budget;
   if (algorithm == "shape") compared.kind = AlgorithmKind::kShape;
   if (algorithm == "default") compared.kind = AlgorithmKind::kDefault;
-  for (const MadeRun& made : runs) {
+  for (const SyntheticRun& made : runs) {
     RunRecord run;
     run.run = static_cast<int>(compared.runs.size());
     run.searched_A = 2e-3 * made.searched;  // 2 mA: reference of every synthetic device
@@ -40,8 +41,8 @@ inline AlgorithmResult SyntheticAlgorithm(const std::string& algorithm, std::int
   return compared;
 }
 
-inline ProblemResult MadeDevice(const std::string& name, const std::string& problem,
-                                std::vector<AlgorithmResult> algorithms) {
+inline ProblemResult SyntheticDevice(const std::string& name, const std::string& problem,
+                                     std::vector<AlgorithmResult> algorithms) {
   ProblemResult device;
   device.curve_name = name;
   device.problem = problem;
@@ -52,7 +53,7 @@ inline ProblemResult MadeDevice(const std::string& name, const std::string& prob
   return device;
 }
 
-inline Comparison MadeComparison(std::vector<ProblemResult> devices) {
+inline Comparison SyntheticComparison(std::vector<ProblemResult> devices) {
   Comparison comparison;
   comparison.options.runs = 1;
   comparison.problems = std::move(devices);

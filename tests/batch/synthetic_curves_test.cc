@@ -1,4 +1,4 @@
-#include "batch/made_curves.h"
+#include "batch/synthetic_curves.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,14 +41,14 @@ Load Make(std::int64_t count, Shape shape, const TempFolder& folder) {
   return {Lines(FileText(folder.Path("rows"))), Lines(FileText(folder.Path("truth.csv")))};
 }
 
-TEST(MadeCurves, RowsDoNotDependOnHowManyThereAre) {
+TEST(SyntheticCurves, RowsDoNotDependOnHowManyThereAre) {
   const TempFolder folder;
   const Load few = Make(50, Shape::kJsonLines, folder), many = Make(90, Shape::kJsonLines, folder);
   ASSERT_EQ(few.rows.size(), 50u);
   EXPECT_TRUE(std::equal(few.rows.begin(), few.rows.end(), many.rows.begin()));
 }
 
-TEST(MadeCurves, OneRowInAHundredIsBrokenInOneOfTwelveWays) {
+TEST(SyntheticCurves, OneRowInAHundredIsBrokenInOneOfTwelveWays) {
   const TempFolder folder;
   const Load load = Make(10'000, Shape::kJsonLines, folder);
   std::map<std::string, int> ways;
@@ -72,7 +72,7 @@ TEST(MadeCurves, OneRowInAHundredIsBrokenInOneOfTwelveWays) {
   EXPECT_THAT(broken, AllOf(Ge(65), Le(140)));
 }
 
-TEST(MadeCurves, RowsThatAreNotBrokenFallFromShortCircuitToTheOpenCircuit) {
+TEST(SyntheticCurves, RowsThatAreNotBrokenFallFromShortCircuitToTheOpenCircuit) {
   const TempFolder folder;
   const Load load = Make(40, Shape::kJsonLines, folder);
   const auto row = nlohmann::json::parse(load.rows[0]);
@@ -88,7 +88,7 @@ TEST(MadeCurves, RowsThatAreNotBrokenFallFromShortCircuitToTheOpenCircuit) {
   EXPECT_NEAR(power / suns, row["rated_power_W"].get<double>(), 0.25 * power / suns);
 }
 
-TEST(MadeCurves, CsvHoldsTheSameCurves) {
+TEST(SyntheticCurves, CsvHoldsTheSameCurves) {
   const TempFolder folder;
   const Load json = Make(3, Shape::kJsonLines, folder), csv = Make(3, Shape::kCsv, folder);
   ASSERT_EQ(csv.rows.size(), 4u);
@@ -103,7 +103,7 @@ TEST(MadeCurves, CsvHoldsTheSameCurves) {
   }
 }
 
-TEST(MadeCurves, AFolderThatIsNotThereIsSaid) {
+TEST(SyntheticCurves, AFolderThatIsNotThereIsSaid) {
   CurvesRequest request;
   request.out = "/no/such/folder/rows";
   EXPECT_EQ(WriteCurves(request), "cannot write /no/such/folder/rows");

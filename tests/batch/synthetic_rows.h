@@ -19,7 +19,7 @@ namespace lyrefit {
 // and string, with 24 strings per combiner. One in 40 has a cause, one in 100 has no result. A row
 // depends only on the seed and its number.
 
-inline std::vector<ResultColumn> MadePlantColumns() {
+inline std::vector<ResultColumn> SyntheticPlantColumns() {
   constexpr CellType kText = CellType::kText;
   constexpr CellType kNumber = CellType::kNumber;
   constexpr CellType kWhole = CellType::kWhole;
@@ -55,13 +55,13 @@ inline std::vector<ResultColumn> MadePlantColumns() {
   return columns;
 }
 
-struct MadeCause {
+struct SyntheticCause {
   const char* id;
   const char* title;
   double loss;
 };
 
-inline std::string MadeSparkline(double knee, double step, double slope) {
+inline std::string SyntheticSparkline(double knee, double step, double slope) {
   std::string bytes;
   for (int i = 0; i < 24; ++i) {
     const double v = i / 23.0;
@@ -72,9 +72,9 @@ inline std::string MadeSparkline(double knee, double step, double slope) {
   return Base64(bytes);
 }
 
-class MadePlantRow {
+class SyntheticPlantRow {
  public:
-  MadePlantRow(std::uint64_t seed, std::int64_t row)
+  SyntheticPlantRow(std::uint64_t seed, std::int64_t row)
       : random_(seed, static_cast<std::uint64_t>(row)) {
     const std::int64_t comb = row / 24, inv = comb / 8, site = inv / 50;
     Set("id", fmt::format("site{}/inv{:02}/comb{}/str{:02}", 1 + site, 1 + inv % 50, 1 + comb % 8,
@@ -92,7 +92,7 @@ class MadePlantRow {
   }
 
   ResultRow Row() const {
-    static const std::vector<ResultColumn> kColumns = MadePlantColumns();
+    static const std::vector<ResultColumn> kColumns = SyntheticPlantColumns();
     ResultRow row;
     for (const ResultColumn& column : kColumns) row.cells.push_back(Get(column.name));
     return row;
@@ -115,13 +115,13 @@ class MadePlantRow {
   }
 
   void Measure() {
-    static constexpr MadeCause kCauses[] = {{"mismatch", "Partial shading", 0.22},
-                                            {"bypass_short", "Bypass diode shorted", 0.055},
-                                            {"series", "High series resistance", 0.08},
-                                            {"shunt", "Low shunt resistance", 0.06},
-                                            {"soiling", "Uneven soiling", 0.05}};
+    static constexpr SyntheticCause kCauses[] = {{"mismatch", "Partial shading", 0.22},
+                                                 {"bypass_short", "Bypass diode shorted", 0.055},
+                                                 {"series", "High series resistance", 0.08},
+                                                 {"shunt", "Low shunt resistance", 0.06},
+                                                 {"soiling", "Uneven soiling", 0.05}};
     const bool ill = random_.Uniform() < 0.025;
-    const MadeCause& cause = kCauses[random_.Index(5)];
+    const SyntheticCause& cause = kCauses[random_.Index(5)];
     const double loss = ill ? cause.loss * (0.6 + 0.8 * random_.Uniform()) : 0;
     const double light = 780 + 200 * random_.Uniform();
     const double factor = (1 - loss) * (0.995 + 0.008 * random_.Normal());
@@ -137,8 +137,8 @@ class MadePlantRow {
     Set("Vmp_V", 740 * (1 - loss / 2) * (1 + 0.004 * random_.Normal()));
     Set("Pmax_W", stc * light / 1000 * 0.94);
     Set("FF", 0.775 * (1 - loss / 2) + 0.003 * random_.Normal());
-    Set("sparkline", MadeSparkline(14 + random_.Normal() - (ill && cause.id[0] == 's' ? 6 : 0),
-                                   ill && cause.id[0] == 'm' ? loss : 0, 0.03));
+    Set("sparkline", SyntheticSparkline(14 + random_.Normal() - (ill && cause.id[0] == 's' ? 6 : 0),
+                                        ill && cause.id[0] == 'm' ? loss : 0, 0.03));
     Set("Iph_A", 9.61 * light / 1000 * (1 + 0.003 * random_.Normal()));
     Set("Is1_A", 1e-9 * std::exp(random_.Normal()));
     Set("n1", 1.1 + 0.03 * random_.Normal());
@@ -173,8 +173,8 @@ class MadePlantRow {
   std::vector<std::pair<std::string, ResultCell>> cells_;
 };
 
-inline ResultRow MadePlantResult(std::uint64_t seed, std::int64_t row) {
-  return MadePlantRow(seed, row).Row();
+inline ResultRow SyntheticPlantResult(std::uint64_t seed, std::int64_t row) {
+  return SyntheticPlantRow(seed, row).Row();
 }
 
 }  // namespace lyrefit

@@ -14,16 +14,16 @@
 namespace lyrefit {
 
 // Irradiance and cell temperature of a synthetic curve.
-struct MadeAt {
+struct SyntheticAt {
   double irradiance_W_m2;
   double temperature_C;
 };
 
-inline const std::vector<MadeAt> kSixPlaces = {{1000, 25}, {1000, 60}, {600, 45},
-                                               {400, 20},  {200, 35},  {800, 10}};
+inline const std::vector<SyntheticAt> kSixPlaces = {{1000, 25}, {1000, 60}, {600, 45},
+                                                    {400, 20},  {200, 35},  {800, 10}};
 
-inline Translation MadeLaw(TranslationLaw law, Model model = Model::kSingleDiode,
-                           bool recombination = false) {
+inline Translation SyntheticLaw(TranslationLaw law, Model model = Model::kSingleDiode,
+                                bool recombination = false) {
   TranslationSpec spec;
   spec.law = law;
   spec.model = model;
@@ -34,7 +34,7 @@ inline Translation MadeLaw(TranslationLaw law, Model model = Model::kSingleDiode
 }
 
 // Parameters of a plausible 36-cell module under the law, followed by sensor offsets of 0.
-inline std::vector<double> MadeTruth(const Translation& at) {
+inline std::vector<double> SyntheticTruth(const Translation& at) {
   std::vector<double> shared(at.size() + 2, 0);
   const auto set = [&](int i, double value) {
     if (i >= 0) shared[i] = value;
@@ -60,8 +60,9 @@ inline std::vector<double> MadeTruth(const Translation& at) {
 
 // The curve of the device under these conditions at `points` voltages from 0 to slightly beyond
 // Voc, with noise.
-inline IvCurve MadeCurve(const Translation& law, const std::vector<double>& shared,
-                         const MadeAt& at, int points, double noise_A, RandomStream* random) {
+inline IvCurve SyntheticCurve(const Translation& law, const std::vector<double>& shared,
+                              const SyntheticAt& at, int points, double noise_A,
+                              RandomStream* random) {
   const double kelvin = at.temperature_C + 273.15;
   const TranslatedDevice made = TranslateTo(law, shared, at.irradiance_W_m2, kelvin);
   const double voc = ModelKeyPoints(made.device, made.parameters.data()).open_circuit_voltage_V;
@@ -75,22 +76,22 @@ inline IvCurve MadeCurve(const Translation& law, const std::vector<double>& shar
   return curve;
 }
 
-inline CurveSet MadeSet(const Translation& law, const std::vector<double>& shared,
-                        const std::vector<MadeAt>& places, int points, double noise_A,
-                        std::uint64_t seed = 1) {
+inline CurveSet SyntheticSet(const Translation& law, const std::vector<double>& shared,
+                             const std::vector<SyntheticAt>& places, int points, double noise_A,
+                             std::uint64_t seed = 1) {
   RandomStream random(seed);
   CurveSet set;
   set.name = "made";
-  for (const MadeAt& at : places) {
-    set.curves.push_back(MadeCurve(law, shared, at, points, noise_A, &random));
+  for (const SyntheticAt& at : places) {
+    set.curves.push_back(SyntheticCurve(law, shared, at, points, noise_A, &random));
     set.curves.back().name = "c" + std::to_string(set.curves.size());
   }
   return set;
 }
 
 // `count` conditions spread over 100 to 1000 W/m2 and 10 to 60 C.
-inline std::vector<MadeAt> ManyPlaces(int count) {
-  std::vector<MadeAt> places;
+inline std::vector<SyntheticAt> ManyPlaces(int count) {
+  std::vector<SyntheticAt> places;
   for (int k = 0; k < count; ++k) {
     places.push_back({100.0 + 900.0 * ((7 * k) % count) / count, 10.0 + 50.0 * k / count});
   }
@@ -99,8 +100,8 @@ inline std::vector<MadeAt> ManyPlaces(int count) {
 
 // The joint problem of a set with wide bounds. Parameters that a family fit fixes by default are
 // fixed.
-inline JointProblem MadeProblem(const CurveSet& set, const Translation& law,
-                                const std::vector<double>& truth) {
+inline JointProblem SyntheticProblem(const CurveSet& set, const Translation& law,
+                                     const std::vector<double>& truth) {
   JointProblem problem;
   problem.translation = law;
   for (const IvCurve& curve : set.curves) {

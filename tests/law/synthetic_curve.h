@@ -39,17 +39,17 @@ inline std::vector<double> SweepVoltages(const Recipe& recipe) {
 }
 
 // Iph, Is, n, Rs and Rsh of the string at the recipe's light.
-inline std::vector<double> MadeParameters(const Recipe& recipe) {
+inline std::vector<double> SyntheticParameters(const Recipe& recipe) {
   return {8 * recipe.irradiance_W_m2 / 1000, 1.2e-8, 1.2, 0.004 * recipe.cells, 20. * recipe.cells};
 }
 
-inline IvCurve MadeCurve(const Recipe& recipe) {
+inline IvCurve SyntheticCurve(const Recipe& recipe) {
   IvCurve curve;
   curve.name = recipe.name;
   curve.conditions.cells_in_series = recipe.cells;
   curve.conditions.irradiance_W_m2 = recipe.irradiance_W_m2;
   curve.voltage_V = SweepVoltages(recipe);
-  const std::vector<double> p = MadeParameters(recipe);
+  const std::vector<double> p = SyntheticParameters(recipe);
   const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
   curve.current_A = SolveCurrents(device, p.data(), curve.voltage_V);
   RandomStream random(recipe.seed);
@@ -66,13 +66,13 @@ inline CurveSet SetOf(std::vector<IvCurve> curves) {
   return set;
 }
 
-inline IvCurve MadeDarkCurve(std::uint64_t seed = 2) {
+inline IvCurve SyntheticDarkCurve(std::uint64_t seed = 2) {
   Recipe recipe;
   recipe.name = "dark";
   recipe.irradiance_W_m2 = 0;
   recipe.from_V = -0.5;
   recipe.seed = seed;
-  return MadeCurve(recipe);
+  return SyntheticCurve(recipe);
 }
 
 }  // namespace lyrefit

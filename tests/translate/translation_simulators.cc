@@ -1,4 +1,4 @@
-#include "translate/made_worlds.h"
+#include "translate/translation_simulators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,8 +118,8 @@ const field::Fault* Called(const std::vector<field::Fault>& faults, const std::s
   return nullptr;
 }
 
-MadeCase MakeCells(const std::string& kind, bool alike, double suns, double kelvin,
-                   std::uint64_t seed) {
+SyntheticCase MakeCells(const std::string& kind, bool alike, double suns, double kelvin,
+                        std::uint64_t seed) {
   const field::ModuleType type = DrawType(seed);
   field::Rig rig;
   rig.module = ModuleOf(type, seed, alike, suns, kelvin);
@@ -147,14 +147,14 @@ MadeCase MakeCells(const std::string& kind, bool alike, double suns, double kelv
   }
   TakeShunts(rig.module, &there.module);
   field::Lit lit(rig.module);
-  MadeCase made;
+  SyntheticCase made;
   made.curve = CurveOfReadings(field::Measured(rig, &lit, &random), rig.module, suns, kelvin);
   made.coefficients = DataSheet(type, seed, alike);
   made.stc = KeyOf(there.module, rig.departure);
   return made;
 }
 
-MadeCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
+SyntheticCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
   Random random(SeedOf(seed, 6));
   lyrefit::TranslationSpec spec;
   spec.law = lyrefit::TranslationLaw::kPvsyst;
@@ -177,7 +177,7 @@ MadeCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
     const lyrefit::TranslatedDevice at = lyrefit::TranslateTo(law, p, g, at_K);
     return lyrefit::ModelKeyPoints(at.device, at.parameters.data());
   };
-  MadeCase made;
+  SyntheticCase made;
   made.curve.name = "made";
   made.curve.conditions = {kelvin, 1000 * suns, 60, 1};
   const lyrefit::TranslatedDevice at = lyrefit::TranslateTo(law, p, 1000 * suns, kelvin);
@@ -203,7 +203,8 @@ MadeCase MakePvsyst(double suns, double kelvin, std::uint64_t seed) {
 
 std::vector<std::string> Worlds() { return {"PVsyst", "two diodes", "cells"}; }
 
-MadeCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed) {
+SyntheticCase MakeReferenceSweeps(const std::string& world, const Light& light,
+                                  std::uint64_t seed) {
   Random random(SeedOf(seed, 7));
   const double suns = random.Uniform(light.lowest_W_m2, light.highest_W_m2) / 1000;
   const double kelvin = 273.15 + random.Uniform(5, 30) + 30 * suns * random.Unit();
@@ -219,8 +220,8 @@ std::vector<std::string> FaultKinds() {
   return kinds;
 }
 
-MadeCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,
-                    std::uint64_t seed) {
+SyntheticCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,
+                         std::uint64_t seed) {
   return MakeCells(kind, false, irradiance_W_m2 / 1000, temperature_C + 273.15, seed);
 }
 

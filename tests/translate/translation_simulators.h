@@ -13,7 +13,7 @@
 namespace shown {
 
 // A simulated measured curve, the data-sheet coefficients and the true key points at STC.
-struct MadeCase {
+struct SyntheticCase {
   lyrefit::IvCurve curve;
   lyrefit::StatedCoefficients coefficients;
   lyrefit::KeyPoints stc{};
@@ -26,12 +26,12 @@ struct Light {
   double lowest_W_m2 = 250;
   double highest_W_m2 = 1100;
 };
-MadeCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed);
+SyntheticCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed);
 
 // Kinds of faults: those of hidden/field_*, a shunt on every cell, and a series resistance. The
 // true STC values include device faults but no sweep faults.
 std::vector<std::string> FaultKinds();
-MadeCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,
-                    std::uint64_t seed);
+SyntheticCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,
+                         std::uint64_t seed);
 
 }  // namespace shown

@@ -25,7 +25,8 @@ inline double SubstringVoltage(double current_A, double photocurrent_A, int cell
 
 // A 60-cell module of three substrings, each with its own light (1 means 9 A): `points` equidistant
 // voltages from 0 to 39 V, Gaussian noise of 2 mA.
-inline IvCurve MadeModule(double first = 1, double second = 1, double third = 1, int points = 100) {
+inline IvCurve SyntheticModule(double first = 1, double second = 1, double third = 1,
+                               int points = 100) {
   IvCurve curve;
   curve.name = "made";
   curve.conditions.cells_in_series = 60;
@@ -49,7 +50,7 @@ inline IvCurve MadeModule(double first = 1, double second = 1, double third = 1,
 
 // A single cell from -0.1 to 0.69 V in steps of 10 mV; photocurrent 0.15 A times `light`, noise of
 // 30 uA.
-inline IvCurve MadeCell(double light = 1) {
+inline IvCurve SyntheticCell(double light = 1) {
   IvCurve curve;
   curve.name = "cell";
   RandomStream random(1);

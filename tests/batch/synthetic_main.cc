@@ -4,18 +4,18 @@
 #include <map>
 #include <string>
 
-#include "batch/made_curves.h"
-#include "batch/made_plant.h"
-#include "batch/made_score.h"
+#include "batch/synthetic_curves.h"
+#include "batch/synthetic_plant.h"
+#include "batch/synthetic_score.h"
 
 namespace {
 
 constexpr const char* kUsage =
-    "lyrefit_made curves --out FILE [--truth FILE] [--count N] [--points P] [--broken SHARE]\n"
+    "lyrefit_synthetic curves --out FILE [--truth FILE] [--count N] [--points P] [--broken SHARE]\n"
     "             [--reversed SHARE] [--seed N] [--shape jsonl|csv]\n"
-    "lyrefit_made plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
+    "lyrefit_synthetic plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
     "             [--module FILE] [--strings N] [--seed N] [--threads N]\n"
-    "lyrefit_made score --results FILE --truth FILE\n";
+    "lyrefit_synthetic score --results FILE --truth FILE\n";
 
 using Flags = std::map<std::string, std::function<void(const char*)>>;
 
@@ -35,7 +35,7 @@ int Usage() {
 
 int Told(const std::string& error) {
   if (error.empty()) return 0;
-  std::fprintf(stderr, "lyrefit_made: %s\n", error.c_str());
+  std::fprintf(stderr, "lyrefit_synthetic: %s\n", error.c_str());
   return 1;
 }
 

@@ -36,8 +36,7 @@ TEST(AverageTest, KeepsTheCurveAndLosesNothing) {
   recipe.noise_A = 0;
   const auto made = MakeMeasurement(SetOf({MadeCurve(recipe)}));
   ASSERT_TRUE(made && IsLong(made->readings));
-  const Averaged averaged =
-      Average(*made, StartingLaw(made->readings, Model::kSingleDiode), {});
+  const Averaged averaged = Average(*made, StartingLaw(made->readings, Model::kSingleDiode), {});
   const std::vector<Reading>& means = averaged.measurement.readings.points;
   EXPECT_LT(means.size(), 350U);
   EXPECT_GT(means.size(), 250U);
@@ -141,8 +140,7 @@ TEST(AverageTest, NoAverageGoesOverAJump) {
   for (std::size_t k = kJump; k < curve.size(); ++k) curve.current_A[k] += 0.02;
   const auto made = MakeMeasurement(SetOf({curve}));
   ASSERT_TRUE(made);
-  const Averaged averaged =
-      Average(*made, StartingLaw(made->readings, Model::kSingleDiode), {});
+  const Averaged averaged = Average(*made, StartingLaw(made->readings, Model::kSingleDiode), {});
   const auto next = std::lower_bound(averaged.first.begin(), averaged.first.end(), kJump - 3);
   ASSERT_NE(next, averaged.first.end());
   EXPECT_NEAR(*next, kJump, 3);

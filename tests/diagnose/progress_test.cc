@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-IvCurve CurveWithAStep(int points) {
+IvCurve SteppedCurve(int points) {
   Recipe recipe;
   recipe.points = points;
   IvCurve curve = SyntheticCurve(recipe);
@@ -32,7 +32,7 @@ TEST(DiagnosisProgress, HearsOfEveryStageOfADiagnosis) {
   DiagnoseOptions options;
   options.threads = 1;
   options.folds = 3;
-  ASSERT_TRUE(Diagnose(CurveWithAStep(100), options, observer));
+  ASSERT_TRUE(Diagnose(SteppedCurve(100), options, observer));
   EXPECT_THAT(stages,
               ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
 }
@@ -43,7 +43,7 @@ TEST(DiagnosisProgress, AStopEndsEveryStageAtOnce) {
     const Observer observer = [&](const Progress& progress) {
       return progress.stage == stage ? ObserverAction::kStop : ObserverAction::kContinue;
     };
-    const auto d = Diagnose(CurveWithAStep(800), {}, observer);
+    const auto d = Diagnose(SteppedCurve(800), {}, observer);
     ASSERT_TRUE(d.has_value()) << stage;
     EXPECT_TRUE(d->interrupted) << stage;
     EXPECT_EQ(d->verdict.sentence.rfind("Stopped early", 0), 0U) << stage;

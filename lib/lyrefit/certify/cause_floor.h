@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 

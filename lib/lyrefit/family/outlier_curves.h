@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/refine/joint.h"
 
 namespace lyrefit {
@@ -10,7 +10,7 @@ namespace lyrefit {
 // Finds curves that do not belong to the device of the others (positions among the problem's
 // curves). A robust fit misses such a curve by far more than the other curves, by a visible amount,
 // and by more than ordinary errors of its irradiance and temperature explain. `stop` is polled
-// as in JointOptions; the result is meaningless after it returned false.
+// as in JointOptions; after a stop the result is meaningless.
 std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
                                    const StopToken& stop = {});
 

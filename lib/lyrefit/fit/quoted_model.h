@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "lyrefit/base/observer.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/profile.h"
 

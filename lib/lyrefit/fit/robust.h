@@ -1,7 +1,6 @@
 #pragma once
 
-#include <functional>
-
+#include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_options.h"
 #include "lyrefit/refine/refine.h"
 
@@ -9,7 +8,7 @@ namespace lyrefit {
 
 // Reweights iteratively for the robust loss of `options` until the parameters are stationary (at
 // most 50 rounds). On return `problem` is the weighted problem whose least-squares solution, `end`,
-// is the robust estimate, so later stages only need the weights. Returns early if `stop` is true.
+// is the robust estimate, so later stages only need the weights. Returns early at a stop.
 void Robustify(const FitOptions& options, const StopToken& stop, RefineProblem* problem,
                RefineEnd* end);
 

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/groups.h"
 
 namespace lyrefit {
 namespace {
@@ -111,10 +111,7 @@ class ConcaveFit {
 ConcaveFloor FindConcaveFloor(const std::vector<double>& voltage_V,
                               const std::vector<double>& current_A, double bend_V) {
   const auto points = static_cast<Eigen::Index>(voltage_V.size());
-  std::vector<std::size_t> order(voltage_V.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return voltage_V[a] < voltage_V[b]; });
+  const std::vector<int> order = RisingOrder(voltage_V);
   Eigen::VectorXd x(points), b(points);
   for (Eigen::Index k = 0; k < points; ++k) {
     x[k] = voltage_V[order[static_cast<std::size_t>(k)]];

@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "lyrefit/base/groups.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/breaks.h"
-#include "lyrefit/fit/average_neighbours.h"
 #include "lyrefit/law/make_readings.h"
 
 namespace lyrefit {
@@ -27,29 +27,20 @@ std::vector<char> SetApart(const Measurement& measurement) {
 }
 
 // Groups readings within each monotone stretch. Readings marked in `alone` form their own groups.
-std::vector<int> GroupStretches(const Readings& readings, const std::vector<char>& alone) {
+Grouping GroupStretches(const Readings& readings, const std::vector<char>& alone) {
   const int count = static_cast<int>(readings.points.size());
-  const auto parted = [&](int begin, int k) { return alone[begin] != 0 || alone[k] != 0; };
-  std::vector<int> first;
-  for (int begin = 0, end = 0; begin < count; begin = end) {
-    const int segment = readings.points[begin].segment;
-    while (end < count && readings.points[end].segment == segment) ++end;
-    const int size = std::min((count + kEnough / 2) / kEnough, (end - begin) / kFewestInStretch);
-    AppendGroups(begin, end, size, parted, &first);
+  GroupRule stretch, within;
+  for (const Reading& r : readings.points) stretch.place.push_back(r.segment);
+  within.alone = alone;
+  const Grouping stretches = GroupByRule(count, stretch);
+  Grouping first;
+  for (int s = 0; s < GroupCount(stretches); ++s) {
+    const int begin = stretches[s], end = stretches[s + 1];
+    within.most = std::min((count + kEnough / 2) / kEnough, (end - begin) / kFewestInStretch);
+    AppendGroups(begin, end, within, &first);
   }
   first.push_back(count);
   return first;
-}
-
-// Positions of the averages that contain the given readings.
-std::vector<int> PositionsOf(const std::vector<int>& first, const std::vector<int>& readings) {
-  std::vector<int> positions;
-  positions.reserve(readings.size());
-  for (const int k : readings) {
-    const auto next = std::upper_bound(first.begin(), first.end(), k);
-    positions.push_back(static_cast<int>(next - first.begin()) - 1);
-  }
-  return positions;
 }
 
 // Mean of readings `begin` to `end` - 1. Its current is the mean of `off`, the distance from a
@@ -82,8 +73,7 @@ Reading Mean(const std::vector<Reading>& points, int begin, int end,
 
 // The measurement with one point per group. Its currents are means of `off`, the distance from a
 // model.
-Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
-                   const std::vector<double>& off) {
+Averaged TakeMeans(const Measurement& measurement, Grouping first, const std::vector<double>& off) {
   const ValueFindings& values = measurement.values;
   Averaged averaged;
   averaged.measurement = measurement;
@@ -91,9 +81,9 @@ Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
   means.values.rounding = MeanErrors(first, values.rounding);
   means.values.bin_rounding = MeanErrors(first, values.bin_rounding);
   means.stated_sigma = MeanErrors(first, measurement.stated_sigma);
-  means.values.clipped = PositionsOf(first, values.clipped);
-  means.values.at_lower = PositionsOf(first, values.at_lower);
-  means.values.at_voltage_limit = PositionsOf(first, values.at_voltage_limit);
+  means.values.clipped = GroupsWith(first, values.clipped);
+  means.values.at_lower = GroupsWith(first, values.at_lower);
+  means.values.at_voltage_limit = GroupsWith(first, values.at_voltage_limit);
   std::vector<Reading>& points = means.readings.points;
   points.clear();
   for (std::size_t g = 0; g + 1 < first.size(); ++g) {
@@ -106,8 +96,7 @@ Averaged TakeMeans(const Measurement& measurement, std::vector<int> first,
 
 // Possible irradiance steps lie between two readings, so the candidate times are set between the
 // last reading of one average and the first of the next.
-void SetStepTimesBetween(const Readings& readings, const std::vector<int>& first,
-                         DataTraits* traits) {
+void SetStepTimesBetween(const Readings& readings, const Grouping& first, DataTraits* traits) {
   traits->step_times.clear();
   for (std::size_t g = 2; traits->single && g + 2 < first.size(); ++g) {
     const Reading &before = readings.points[first[g] - 1], &after = readings.points[first[g]];
@@ -184,14 +173,6 @@ Averaged Average(const Measurement& measurement, const Law& base,
   SetStepTimesBetween(readings, averaged.first, &means.traits);
   SetRangeCurrents(&means);
   return averaged;
-}
-
-std::vector<int> AtReadings::Behind(const std::vector<int>& positions) const {
-  std::vector<int> readings;
-  for (const int at : positions) {
-    for (int k = first[at]; k < first[at + 1]; ++k) readings.push_back(k);
-  }
-  return readings;
 }
 
 AtReadings AtItsReadings(const Selection& selection) {

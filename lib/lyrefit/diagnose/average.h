@@ -2,18 +2,19 @@
 
 #include <vector>
 
+#include "lyrefit/base/groups.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
 
-// A long measurement, replaced by averages of neighbouring readings (fit/average_neighbours.h).
+// A long measurement, replaced by averages of neighbouring readings (base/groups.h).
 // Causes are searched and fitted on the averages only. What is averaged is the distance of each
 // reading from a fitted base model, so that the curvature of the curve is kept.
 struct Averaged {
   // Readings and rounding are those of the averages. The weight of an average is the number of its
   // readings; its scatter is their mean square deviation from it.
   Measurement measurement;
-  std::vector<int> first;  // first reading of each average, then the number of readings
+  Grouping first;  // readings of each average
 };
 
 // Whether the measurement has enough readings to be averaged.
@@ -28,10 +29,7 @@ struct AtReadings {
   WeightedData weighted;  // noise deviation of each reading, from the extended model
   Noise noise;            // estimated from the residuals of the extended model
   std::vector<double> base, extended, without;  // currents in scales; `without`: causes removed
-  std::vector<int> first;  // first reading of each position, then the number of readings
-
-  // Readings that belong to positions of the selection.
-  std::vector<int> Behind(const std::vector<int>& positions) const;
+  Grouping first;                               // readings of each position of the selection
 };
 
 // For a selection on all readings.

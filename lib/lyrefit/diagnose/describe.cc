@@ -262,7 +262,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
       }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
-      cause.points = at.Behind(WhereItActs(weighted, selection.extended, static_cast<int>(c)));
+      cause.points =
+          PointsIn(at.first, WhereItActs(weighted, selection.extended, static_cast<int>(c)));
     }
     cause.sentence = CauseSentence(cause, effect);
     if (by_values) {
@@ -273,7 +274,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
   }
   if (!selection.outliers.empty()) {
     Cause cause = MakeCause(*FindEffect("outliers"), "fit", selection.outlier_p);
-    cause.points = at.Behind(selection.outliers);
+    cause.points = PointsIn(at.first, selection.outliers);
     std::sort(cause.points.begin(), cause.points.end());
     cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +
                       std::to_string(at.weighted.readings->points.size()) + " readings, left out";

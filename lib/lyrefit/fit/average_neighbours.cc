@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "lyrefit/law/current.h"
@@ -14,8 +13,6 @@ namespace {
 constexpr double kWidest = 0.01;  // largest width of a group, in units of Voc
 
 using Values = std::vector<double>;
-
-int GroupCount(const std::vector<int>& first) { return static_cast<int>(first.size()) - 1; }
 
 // Width of each group along the path, at most kWidest: the distance of its mean to the nearer
 // neighbouring mean. `position` has the means.
@@ -31,7 +28,7 @@ Values WidthsOf(const Values& position) {
 // Relative loss of path variance by averaging within each group, times the path length l. For m
 // readings at equal distances d, averaging multiplies the variance by the mean of exp(-|x - x'| /
 // l) over all pairs. That is 1 - d (m^2 - 1) / (3 m l) where d m is much less than l.
-Values AveragedAway(const std::vector<int>& first, const Values& position) {
+Values AveragedAway(const Grouping& first, const Values& position) {
   Values parts = WidthsOf(position);
   for (std::size_t g = 0; g < parts.size(); ++g) {
     const double m = first[g + 1] - first[g];
@@ -42,63 +39,14 @@ Values AveragedAway(const std::vector<int>& first, const Values& position) {
 
 }  // namespace
 
-Values Means(const std::vector<int>& first, const Values& values) {
-  Values means;
-  for (int g = 0; g < GroupCount(first) && !values.empty(); ++g) {
-    const auto begin = values.begin() + first[g], end = values.begin() + first[g + 1];
-    means.push_back(std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin));
-  }
-  return means;
-}
-
-Values MeanErrors(const std::vector<int>& first, const Values& errors) {
-  Values squares = errors;
-  for (double& one : squares) one *= one;
-  Values means = Means(first, squares);
-  for (std::size_t g = 0; g < means.size(); ++g) {
-    means[g] = std::sqrt(means[g] / static_cast<double>(first[g + 1] - first[g]));
-  }
-  return means;
-}
-
-void AppendGroups(int begin, int end, int most, const std::function<bool(int, int)>& parted,
-                  std::vector<int>* first) {
-  for (int k = begin, at = begin; k < end; ++k) {
-    const bool begins = k == begin || k - at >= most || parted(at, k);
-    if (!begins) continue;
-    at = k;
-    first->push_back(k);
-  }
-}
-
-std::vector<int> EachAlone(std::size_t readings) {
-  std::vector<int> first(readings + 1);
-  std::iota(first.begin(), first.end(), 0);
-  return first;
-}
-
-std::vector<int> GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V) {
+Grouping GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V) {
   const int readings = static_cast<int>(voltage_V.size());
-  const int most = (readings + kFewPoints - 1) / kFewPoints;
-  if (most <= 1) return EachAlone(voltage_V.size());
-  std::vector<int> first;
-  const auto far = [&](int begin, int k) {
-    return std::fabs(voltage_V[k] - voltage_V[begin]) > kWidest * open_circuit_V;
-  };
-  AppendGroups(0, readings, most, far, &first);
-  first.push_back(readings);
-  return first;
+  return GroupByRule(
+      readings,
+      {(readings + kFewPoints - 1) / kFewPoints, voltage_V, kWidest * open_circuit_V, {}});
 }
 
-RowMatrix AverageRows(const std::vector<int>& first, const RowMatrix& rows) {
-  RowMatrix means(GroupCount(first), rows.cols());
-  for (int g = 0; g < GroupCount(first); ++g) {
-    means.row(g) = rows.middleRows(first[g], first[g + 1] - first[g]).colwise().mean();
-  }
-  return means;
-}
-
-ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape) {
+ErrorShape AverageShape(const Grouping& first, const ErrorShape& shape) {
   ErrorShape means;
   means.current = MeanErrors(first, shape.current);
   means.voltage = MeanErrors(first, shape.voltage);
@@ -112,7 +60,7 @@ ErrorShape AverageShape(const std::vector<int>& first, const ErrorShape& shape) 
   return means;
 }
 
-Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& shape,
+Differences DifferencesWithin(const Grouping& first, const ErrorShape& shape,
                               const Eigen::VectorXd& residual) {
   Differences differences;
   const Values widths = WidthsOf(Means(first, shape.position));
@@ -139,7 +87,7 @@ Differences DifferencesWithin(const std::vector<int>& first, const ErrorShape& s
   return differences;
 }
 
-RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem& problem,
+RefineProblem AverageProblem(const Grouping& first, const RefineProblem& problem,
                              const std::vector<double>& p) {
   const auto model = [&](const Values& voltage_V, const Values& near_A) {
     return SolveCurrents(problem.device, p.data(), MakePointSet(voltage_V, near_A));
@@ -150,12 +98,7 @@ RefineProblem AverageProblem(const std::vector<int>& first, const RefineProblem&
   Values voltage = Means(first, problem.voltage_V), current = Means(first, distance);
   const Values there = model(voltage, Means(first, problem.current_A));
   for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
-  RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective, std::move(voltage),
-                                           std::move(current), {}, problem.lower, problem.upper);
-  coarse.kernel = problem.kernel;
-  coarse.current_scale_A = problem.current_scale_A;
-  coarse.voltage_scale_V = problem.voltage_scale_V;
-  return coarse;
+  return WithPoints(problem, std::move(voltage), std::move(current), {});
 }
 
 }  // namespace lyrefit

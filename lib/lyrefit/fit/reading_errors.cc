@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/fit/average_neighbours.h"
@@ -25,16 +24,13 @@ double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
 // Path length along the sweep up to each reading, in units of Voc. It is computed from means of
 // neighbours, since noise of close voltages would lengthen it at each reading.
 std::vector<double> PositionsOf(const std::vector<double>& voltage_V, double open_circuit_V) {
-  const std::vector<int> first = GroupNeighbours(voltage_V, open_circuit_V);
+  const Grouping first = GroupNeighbours(voltage_V, open_circuit_V);
+  const std::vector<double> means = Means(first, voltage_V);
   std::vector<double> positions;
-  double way = 0, last = 0;
-  for (std::size_t g = 0; g + 1 < first.size(); ++g) {
-    const int count = first[g + 1] - first[g];
-    const auto begin = voltage_V.begin() + first[g];
-    const double mean = std::accumulate(begin, begin + count, 0.0) / count;
-    if (g > 0) way += std::fabs(mean - last) / open_circuit_V;
-    last = mean;
-    positions.insert(positions.end(), count, way);
+  double way = 0;
+  for (std::size_t g = 0; g < means.size(); ++g) {
+    if (g > 0) way += std::fabs(means[g] - means[g - 1]) / open_circuit_V;
+    positions.insert(positions.end(), first[g + 1] - first[g], way);
   }
   return positions;
 }
@@ -89,7 +85,7 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));
   if (spare < kSpare || !(rms > smallest)) return {};
   const double open_circuit_V = OpenCircuit(problem, curve);
-  const std::vector<int> groups = GroupNeighbours(problem.voltage_V, open_circuit_V);
+  const Grouping groups = GroupNeighbours(problem.voltage_V, open_circuit_V);
   const ErrorShape shape = ShapeOfErrors(problem, curve, end.p);
   FoundErrors found = FindErrorSizes(
       AverageShape(groups, shape), UsualErrors(problem.current_scale_A, open_circuit_V),
@@ -106,9 +102,9 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
 RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, const ErrorSpec& spec,
                             const std::vector<double>& p) {
   // Effects act on single readings, which must not be averaged.
-  const std::vector<int> groups = plain.device.effects == nullptr
-                                      ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
-                                      : EachAlone(plain.voltage_V.size());
+  const Grouping groups = plain.device.effects == nullptr
+                              ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
+                              : EachAlone(plain.voltage_V.size());
   RefineProblem weighed = plain;
   if (groups.size() <= plain.voltage_V.size()) weighed = AverageProblem(groups, plain, p);
   weighed.weights.assign(weighed.voltage_V.size(), 1);

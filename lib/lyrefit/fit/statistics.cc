@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/base/groups.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/numbers.h"
 
@@ -41,11 +41,7 @@ InformationCriteria FindInformation(double mean_square, int points, int paramete
 }
 
 std::vector<int> OrderByVoltage(const std::vector<double>& voltage_V) {
-  std::vector<int> order(voltage_V.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return voltage_V[a] < voltage_V[b]; });
-  return order;
+  return RisingOrder(voltage_V);
 }
 
 ResidualStatistics FindResidualStatistics(const std::vector<double>& voltage_V,

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/groups.h"
 
 namespace lyrefit {
 namespace {
@@ -23,22 +23,23 @@ struct Moments {
   double vv = 0, vi = 0, ii = 0;
 };
 
-using Iterator = std::vector<int>::const_iterator;
-
-Moments FindMoments(const RefineProblem& problem, Iterator begin, Iterator end) {
+Moments FindMoments(const RefineProblem& problem, const std::vector<int>& order, int begin,
+                    int end) {
   Moments m;
-  for (Iterator k = begin; k != end; ++k) {
-    m.weight += problem.weights[*k];
-    m.voltage += problem.weights[*k] * problem.voltage_V[*k];
-    m.current += problem.weights[*k] * problem.current_A[*k];
+  for (int at = begin; at < end; ++at) {
+    const int k = order[at];
+    m.weight += problem.weights[k];
+    m.voltage += problem.weights[k] * problem.voltage_V[k];
+    m.current += problem.weights[k] * problem.current_A[k];
   }
   if (!(m.weight > 0)) return m;
   m.voltage /= m.weight;
   m.current /= m.weight;
-  for (Iterator k = begin; k != end; ++k) {
-    const double part = problem.weights[*k] / m.weight;
-    const double v = problem.voltage_V[*k] - m.voltage;
-    const double i = problem.current_A[*k] - m.current;
+  for (int at = begin; at < end; ++at) {
+    const int k = order[at];
+    const double part = problem.weights[k] / m.weight;
+    const double v = problem.voltage_V[k] - m.voltage;
+    const double i = problem.current_A[k] - m.current;
     m.vv += part * v * v;
     m.vi += part * v * i;
     m.ii += part * i * i;
@@ -46,41 +47,26 @@ Moments FindMoments(const RefineProblem& problem, Iterator begin, Iterator end) 
   return m;
 }
 
-std::vector<int> VoltageOrder(const std::vector<double>& voltage_V) {
-  std::vector<int> order(voltage_V.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (std::is_sorted(voltage_V.begin(), voltage_V.end())) return order;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return voltage_V[a] < voltage_V[b]; });
-  return order;
-}
-
-// First points of the groups in `order`, then its end. Noise would lengthen a path from point to
-// point, so the length is that of the path through the means of the bins.
-std::vector<Iterator> CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order,
-                                    int groups) {
-  const auto bin_begin = [&](int bin) {
-    return order.begin() + static_cast<std::ptrdiff_t>(order.size()) * bin / kBins;
-  };
+// Groups of the points in `order`. Noise would lengthen a path from point to point, so the length is
+// that of the path through the means of the bins.
+Grouping CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order, int groups) {
+  const Grouping bins = EqualGroups(static_cast<int>(order.size()), kBins);
   std::vector<double> length(kBins, 0);
-  Moments last = FindMoments(problem, bin_begin(0), bin_begin(1));
+  Moments last = FindMoments(problem, order, bins[0], bins[1]);
   for (int bin = 1; bin < kBins; ++bin) {
-    const Moments here = FindMoments(problem, bin_begin(bin), bin_begin(bin + 1));
+    const Moments here = FindMoments(problem, order, bins[bin], bins[bin + 1]);
     length[bin] = length[bin - 1] +
                   std::fabs(here.voltage - last.voltage) / problem.voltage_scale_V +
                   std::fabs(here.current - last.current) / problem.current_scale_A;
     last = here;
   }
-  std::vector<Iterator> begins = {order.begin()};
-  int group = 0;
-  for (int bin = 1; bin < kBins; ++bin) {
-    const int own = static_cast<int>(groups * length[bin] / (length.back() * (1 + 1e-12)));
-    if (own <= group) continue;
-    group = own;
-    begins.push_back(bin_begin(bin));
+  GroupRule rule;
+  for (const double way : length) {
+    rule.place.push_back(std::floor(groups * way / (length.back() * (1 + 1e-12))));
   }
-  begins.push_back(order.end());
-  return begins;
+  Grouping first;
+  for (const int bin : GroupByRule(kBins, rule)) first.push_back(bins[bin]);
+  return first;
 }
 
 struct Points {
@@ -111,14 +97,15 @@ void AddScattered(const Moments& m, Points* points) {
 // degree kNodes - 1. If the model current is such a polynomial within the group, the sum of squared
 // residuals is kept up to a constant. Returns this constant: the weighted sum of squares of the
 // currents around the polynomial.
-double AddSmooth(const RefineProblem& problem, const Moments& m, Iterator begin, Iterator end,
-                 Points* points) {
-  const int count = static_cast<int>(end - begin);
+double AddSmooth(const RefineProblem& problem, const Moments& m, const std::vector<int>& order,
+                 int begin, int end, Points* points) {
+  const int count = end - begin;
   Eigen::VectorXd root(count), x(count), rest(count);
   for (int k = 0; k < count; ++k) {
-    root[k] = std::sqrt(problem.weights[begin[k]]);
-    x[k] = problem.voltage_V[begin[k]] - m.voltage;
-    rest[k] = root[k] * problem.current_A[begin[k]];
+    const int point = order[begin + k];
+    root[k] = std::sqrt(problem.weights[point]);
+    x[k] = problem.voltage_V[point] - m.voltage;
+    rest[k] = root[k] * problem.current_A[point];
   }
   const double reach = std::max(x.cwiseAbs().maxCoeff(), 1e-300);
   x /= reach;
@@ -179,28 +166,33 @@ bool CanCoarsen(const RefineProblem& problem) {
          problem.errors == nullptr;
 }
 
+RefineProblem WithPoints(const RefineProblem& problem, std::vector<double> voltage_V,
+                         std::vector<double> current_A, std::vector<double> weights) {
+  RefineProblem other =
+      MakeRefineProblem(problem.device, problem.objective, std::move(voltage_V),
+                        std::move(current_A), std::move(weights), problem.lower, problem.upper);
+  other.kernel = problem.kernel;
+  other.current_scale_A = problem.current_scale_A;
+  other.voltage_scale_V = problem.voltage_scale_V;
+  return other;
+}
+
 RefineProblem Coarsen(const RefineProblem& problem) {
   if (!CanCoarsen(problem)) return problem;
   const bool smooth = problem.objective == Objective::kSolvedCurrent;
-  const std::vector<int> order = VoltageOrder(problem.voltage_V);
-  const std::vector<Iterator> begins =
-      CutIntoGroups(problem, order, smooth ? kSmoothGroups : kScatteredGroups);
+  const std::vector<int> order = RisingOrder(problem.voltage_V);
+  const Grouping first = CutIntoGroups(problem, order, smooth ? kSmoothGroups : kScatteredGroups);
   Points points;
   double squares = 0;
-  for (std::size_t g = 0; g + 1 < begins.size(); ++g) {
-    const Moments m = FindMoments(problem, begins[g], begins[g + 1]);
+  for (int g = 0; g < GroupCount(first); ++g) {
+    const Moments m = FindMoments(problem, order, first[g], first[g + 1]);
     if (!(m.weight > 0)) continue;
-    if (smooth) squares += AddSmooth(problem, m, begins[g], begins[g + 1], &points);
+    if (smooth) squares += AddSmooth(problem, m, order, first[g], first[g + 1], &points);
     if (!smooth) AddScattered(m, &points);
   }
   if (smooth) AddConstant(squares, &points);
-  RefineProblem coarse = MakeRefineProblem(problem.device, problem.objective,
-                                           std::move(points.voltage_V), std::move(points.current_A),
-                                           std::move(points.weights), problem.lower, problem.upper);
-  coarse.kernel = problem.kernel;
-  coarse.current_scale_A = problem.current_scale_A;
-  coarse.voltage_scale_V = problem.voltage_scale_V;
-  return coarse;
+  return WithPoints(problem, std::move(points.voltage_V), std::move(points.current_A),
+                    std::move(points.weights));
 }
 
 }  // namespace lyrefit

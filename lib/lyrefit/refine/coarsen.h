@@ -17,6 +17,10 @@ constexpr int kFewPoints = 512;
 // device with effects, or correlated errors.
 RefineProblem Coarsen(const RefineProblem& problem);
 
+// The problem with other points and independent errors. Bounds, scales and kernel stay.
+RefineProblem WithPoints(const RefineProblem& problem, std::vector<double> voltage_V,
+                         std::vector<double> current_A, std::vector<double> weights);
+
 // Whether Coarsen changes the problem.
 bool CanCoarsen(const RefineProblem& problem);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/base/groups.h"
+
 namespace lyrefit {
 
 std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::vector<double>& y,
@@ -21,19 +23,25 @@ std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::ve
   const auto [left, right] = std::minmax_element(places.begin(), places.end(), by_x);
   const double begin = x[*left];
   const double span = x[*right] - begin;
-  // Four points for each bin: the lowest, the highest and two typical ones.
-  std::vector<std::vector<std::size_t>> bins((most - 2) / 4 + 1);
-  const auto last = static_cast<double>(bins.size() - 1);
+  const auto last = static_cast<double>((most - 2) / 4);  // bin
+  std::vector<double> bins;
   for (const std::size_t i : places) {
-    const double at = span > 0 ? (x[i] - begin) / span * last : 0;
-    bins[static_cast<std::size_t>(at)].push_back(i);
+    bins.push_back(span > 0 ? std::floor((x[i] - begin) / span * last) : 0);
   }
+  std::vector<std::size_t> by_bin;
+  GroupRule rule;
+  for (const int k : RisingOrder(bins)) {
+    by_bin.push_back(places[k]);
+    rule.place.push_back(bins[k]);
+  }
+  const Grouping first = GroupByRule(static_cast<int>(by_bin.size()), rule);
   std::vector<std::size_t> kept = {places.front(), places.back()};
   const auto by_y = [&y](std::size_t a, std::size_t b) { return y[a] < y[b]; };
-  for (const std::vector<std::size_t>& bin : bins) {
-    if (bin.empty()) continue;
-    const auto [lowest, highest] = std::minmax_element(bin.begin(), bin.end(), by_y);
-    kept.insert(kept.end(), {*lowest, *highest, bin[bin.size() / 3], bin[2 * bin.size() / 3]});
+  // Four points for each bin: the lowest, the highest and two typical ones.
+  for (int g = 0; g < GroupCount(first); ++g) {
+    const auto from = by_bin.begin() + first[g], to = by_bin.begin() + first[g + 1];
+    const auto [lowest, highest] = std::minmax_element(from, to, by_y);
+    kept.insert(kept.end(), {*lowest, *highest, from[(to - from) / 3], from[2 * (to - from) / 3]});
   }
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());

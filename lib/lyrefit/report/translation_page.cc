@@ -18,22 +18,6 @@ namespace {
 constexpr int kReadingDigits = 6;
 constexpr std::size_t kMostReadings = 500;  // rows of a table for reading
 
-const char* Words(LightSource source) {
-  switch (source) {
-    case LightSource::kReferenceCell:
-      return "by a reference cell";
-    case LightSource::kPyranometer:
-      return "by a pyranometer";
-    case LightSource::kLaboratory:
-      return "of a laboratory's simulator";
-    case LightSource::kCurve:
-      return "from the curve's own Isc, which cannot see what dims all cells alike, such as dirt";
-    case LightSource::kNotStated:
-      break;
-  }
-  return "nobody stated by what";
-}
-
 const char* Words(TemperatureSource source) {
   switch (source) {
     case TemperatureSource::kBackOfModule:
@@ -52,7 +36,8 @@ std::string LightText(const TranslationReport& report) {
   const IvCurve& curve = report.curve;
   const std::string value = Significant(curve.conditions.irradiance_W_m2, 4) + " W/m2";
   if (!curve.irradiance_known) return value + " assumed: nobody stated it";
-  return fmt::format("{} {}; {:.2g} % (k = 2)", value, Words(report.uncertainty.light_source),
+  return fmt::format("{} {}; {:.2g} % (k = 2)", value,
+                     LightClassOf(report.uncertainty.light_source).by,
                      IrradianceSize_percent(report.uncertainty));
 }
 

@@ -36,22 +36,6 @@ void Settle(bool met, double value, double limit, const char* unit, std::string 
   if (!met) item->cure = std::move(cure);
 }
 
-std::string SensorWords(LightSource source) {
-  switch (source) {
-    case LightSource::kReferenceCell:
-      return "reference cell";
-    case LightSource::kPyranometer:
-      return "pyranometer";
-    case LightSource::kLaboratory:
-      return "reference of a laboratory";
-    case LightSource::kCurve:
-      return "the curve's own Isc";
-    case LightSource::kNotStated:
-      break;
-  }
-  return "stated with the curve, sensor not named";
-}
-
 CheckedCondition CheckLight(const IvCurve& curve, const ConditionFacts& facts,
                             const ChecklistOptions& options) {
   CheckedCondition item = Item(
@@ -62,7 +46,7 @@ CheckedCondition CheckLight(const IvCurve& curve, const ConditionFacts& facts,
   }
   const double light = curve.conditions.irradiance_W_m2;
   Settle(light >= options.least_irradiance_W_m2, light, options.least_irradiance_W_m2, "W/m2",
-         fmt::format("{:.0f} W/m2", light), SensorWords(facts.uncertainty.light_source),
+         fmt::format("{:.0f} W/m2", light), LightClassOf(facts.uncertainty.light_source).sensor,
          "measure again in brighter light", &item);
   return item;
 }
@@ -154,7 +138,7 @@ CheckedCondition CheckLightSensor(const ConditionFacts& facts) {
     return item;
   }
   Settle(percent <= limit, percent, limit, "%",
-         fmt::format("{}, {:g} %", SensorWords(by.light_source), percent),
+         fmt::format("{}, {:g} %", LightClassOf(by.light_source).sensor, percent),
          by.irradiance_percent ? "--irradiance-u" : "usual of its class, not of this sensor",
          "use a sensor with a better calibration", &item);
   return item;

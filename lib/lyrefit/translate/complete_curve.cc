@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "lyrefit/base/groups.h"
 #include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
@@ -77,13 +77,8 @@ void BeyondShortCircuit(const SingleDiodeFit& d, double lowest_V, CurvePoints* p
 
 CurvePoints ByVoltage(CurvePoints points) {
   if (std::is_sorted(points.voltage_V.begin(), points.voltage_V.end())) return points;
-  std::vector<std::size_t> order(points.voltage_V.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return points.voltage_V[a] < points.voltage_V[b];
-  });
   CurvePoints sorted;
-  for (const std::size_t i : order) {
+  for (const int i : RisingOrder(points.voltage_V)) {
     sorted.voltage_V.push_back(points.voltage_V[i]);
     sorted.current_A.push_back(points.current_A[i]);
   }

@@ -12,38 +12,21 @@ namespace {
 constexpr double kFactor = 2;  // coverage factor of all sizes in the options
 constexpr double kStandard_W_m2 = 1000;
 
-const char* LightTitle(LightSource source) {
-  switch (source) {
-    case LightSource::kReferenceCell:
-      return "irradiance, by a reference cell";
-    case LightSource::kPyranometer:
-      return "irradiance, by a pyranometer";
-    case LightSource::kLaboratory:
-      return "irradiance, in a laboratory";
-    case LightSource::kCurve:
-      return "irradiance, from the curve's own Isc";
-    case LightSource::kNotStated:
-      break;
-  }
-  return "irradiance, sensor not stated";
-}
-
-std::string LightWhy(const UncertaintyOptions& options) {
-  if (options.irradiance_percent) return "stated";
-  switch (options.light_source) {
-    case LightSource::kReferenceCell:
-      return "reference cell that just meets IEC 61829:2015, 3 %";
-    case LightSource::kPyranometer:
-      return "pyranometer that just meets IEC 61829:2015, 5 %";
-    case LightSource::kLaboratory:
-      return "calibrated reference in a laboratory, 1.2 %";
-    case LightSource::kCurve:
-      return "usual tolerance of the rated Isc, 3 %; without soiling";
-    case LightSource::kNotStated:
-      break;
-  }
-  return "nobody said what it was read from: as of a pyranometer, 5 %";
-}
+constexpr LightClass kLightClasses[] = {
+    {LightSource::kNotStated, "stated with the curve, sensor not named", "nobody stated by what",
+     "irradiance, sensor not stated", 5,
+     "nobody said what it was read from: as of a pyranometer, 5 %"},
+    {LightSource::kReferenceCell, "reference cell", "by a reference cell",
+     "irradiance, by a reference cell", 3, "reference cell that just meets IEC 61829:2015, 3 %"},
+    {LightSource::kPyranometer, "pyranometer", "by a pyranometer", "irradiance, by a pyranometer",
+     5, "pyranometer that just meets IEC 61829:2015, 5 %"},
+    {LightSource::kLaboratory, "reference of a laboratory", "of a laboratory's simulator",
+     "irradiance, in a laboratory", 1.2, "calibrated reference in a laboratory, 1.2 %"},
+    {LightSource::kCurve, "the curve's own Isc",
+     "from the curve's own Isc, which cannot see what dims all cells alike, such as dirt",
+     "irradiance, from the curve's own Isc", 3,
+     "usual tolerance of the rated Isc, 3 %; without soiling"},
+};
 
 // Source of a size: stated, or that of its class.
 std::string Why(bool stated, const std::string& otherwise) {
@@ -92,8 +75,10 @@ class Collector {
 };
 
 void AddConditions(const TranslationInputs& at, const UncertaintyOptions& options, Collector* to) {
-  to->Add("irradiance_W_m2", LightTitle(options.light_source), "light",
-          at.irradiance_W_m2 * IrradianceSize_percent(options) / 100, LightWhy(options));
+  const LightClass& light = LightClassOf(options.light_source);
+  to->Add("irradiance_W_m2", light.title, "light",
+          at.irradiance_W_m2 * IrradianceSize_percent(options) / 100,
+          Why(options.irradiance_percent.has_value(), light.why));
   to->AddPart("rear_irradiance_W_m2", "light", options.rear_percent, "by judgement");
   if (at.rear_irradiance_W_m2 != 0) {
     to->AddPart("bifaciality_isc", "light", options.bifaciality_percent,
@@ -156,20 +141,15 @@ void AddCoefficients(const SettledInputs& settled, const UncertaintyOptions& opt
 
 }  // namespace
 
-double IrradianceSize_percent(const UncertaintyOptions& options) {
-  if (options.irradiance_percent) return *options.irradiance_percent;
-  switch (options.light_source) {
-    case LightSource::kReferenceCell:
-      return 3;
-    case LightSource::kLaboratory:
-      return 1.2;
-    case LightSource::kCurve:
-      return 3;
-    case LightSource::kPyranometer:
-    case LightSource::kNotStated:
-      break;
+const LightClass& LightClassOf(LightSource source) {
+  for (const LightClass& light : kLightClasses) {
+    if (light.source == source) return light;
   }
-  return 5;
+  return kLightClasses[0];
+}
+
+double IrradianceSize_percent(const UncertaintyOptions& options) {
+  return options.irradiance_percent.value_or(LightClassOf(options.light_source).percent);
 }
 
 double TemperatureSize_K(const UncertaintyOptions& options) {

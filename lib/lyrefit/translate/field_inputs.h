@@ -52,6 +52,17 @@ InputFields FieldsOf(const std::vector<UncertainInput>& inputs);
 TranslationInputs WithInputs(const TranslationInputs& at, const std::vector<UncertainInput>& inputs,
                              const InputFields& fields, const std::vector<double>& drawn);
 
+// A source of the irradiance.
+struct LightClass {
+  LightSource source;
+  const char* sensor;  // what it is
+  const char* by;      // the same, after a value
+  const char* title;   // of its line in a budget
+  double percent;      // expanded uncertainty (k = 2)
+  const char* why;     // reason for this size
+};
+const LightClass& LightClassOf(LightSource source);
+
 // Expanded uncertainty (k = 2) of the irradiance in percent and of the measured temperature in K,
 // from the options or by class.
 double IrradianceSize_percent(const UncertaintyOptions& options);

@@ -8,21 +8,9 @@
 namespace lyrefit {
 namespace {
 
-BudgetLine LineOf(const UncertainInput& input) {
-  BudgetLine line;
-  line.name = input.name;
-  line.title = input.title;
-  line.group = input.group;
-  line.unit = input.unit;
-  line.value = input.value;
-  line.standard_uncertainty = input.standard_uncertainty;
-  line.distribution = input.distribution;
-  line.source = input.source;
-  return line;
-}
-
+// The texts that every source has.
 template <class Source>
-BudgetLine LineOnOutputs(const Source& source) {
+BudgetLine LineOf(const Source& source) {
   BudgetLine line;
   line.name = source.name;
   line.title = source.title;
@@ -40,9 +28,14 @@ double HalfDifference(double below, double at, double above) {
 
 BudgetLine InputLine(const UncertainModel& model, const std::vector<UncertainInput>& inputs,
                      std::size_t which, const std::vector<double>& reported) {
-  BudgetLine line = LineOf(inputs[which]);
+  const UncertainInput& input = inputs[which];
+  BudgetLine line = LineOf(input);
+  line.unit = input.unit;
+  line.value = input.value;
+  line.standard_uncertainty = input.standard_uncertainty;
+  line.distribution = input.distribution;
   line.entries.resize(reported.size());
-  const double u = inputs[which].standard_uncertainty;
+  const double u = input.standard_uncertainty;
   if (u == 0) {
     for (BudgetEntry& entry : line.entries) entry.contribution = 0;
     return line;
@@ -61,7 +54,7 @@ BudgetLine InputLine(const UncertainModel& model, const std::vector<UncertainInp
 }
 
 BudgetLine TermLine(const OutputTerm& term, std::size_t outputs) {
-  BudgetLine line = LineOnOutputs(term);
+  BudgetLine line = LineOf(term);
   line.entries.resize(outputs);
   for (std::size_t k = 0; k < outputs; ++k) {
     double variance = 0;
@@ -72,7 +65,7 @@ BudgetLine TermLine(const OutputTerm& term, std::size_t outputs) {
 }
 
 BudgetLine ChoiceLine(const OutputChoice& choice, const std::vector<double>& reported) {
-  BudgetLine line = LineOnOutputs(choice);
+  BudgetLine line = LineOf(choice);
   line.distribution = Distribution::kRectangular;
   line.entries.resize(reported.size());
   const ChoiceRange range = RangeOf(choice, reported);

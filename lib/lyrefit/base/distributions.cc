@@ -27,6 +27,7 @@ double NormalTail(double x) { return cdf(complement(Normal(), x)); }
 double ChiSquaredTail(double x, double degrees) { return cdf(complement(ChiSquared(degrees), x)); }
 
 double FisherTail(double x, double degrees_above, double degrees_below) {
+  if (!(x > 0)) return 1;
   return cdf(complement(Fisher(degrees_above, degrees_below), x));
 }
 

@@ -102,6 +102,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/enum_text.h
   base/error.h
   base/file.h
+  base/former_names.h
   base/numbers.h
   base/observer.h
   base/option.h

@@ -224,7 +224,7 @@ TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
   ASSERT_EQ(j["curves"].size(), 6U);
   for (const json& curve : j["curves"]) {
     EXPECT_NEAR(curve["individual_rmse"]["solved_current_A"].get<double>(), 1e-3, 4e-4);
-    EXPECT_EQ(curve["free_parameters"].size(), 5U);
+    EXPECT_EQ(curve["individual_parameters"].size(), 5U);
   }
   const AppResult text = RunApp("fit " + Set() + " --family free");
   EXPECT_THAT(text.out, HasSubstr("Curves, each fitted on its own"));

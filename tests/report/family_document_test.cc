@@ -106,7 +106,7 @@ TEST(FamilyText, FitsATerminalOf100Columns) {
   ExpectNarrow(FamilyText(sample.report));
   sample.report.translation.spec.model = Model::kDoubleDiode;
   for (FamilyCurve& curve : sample.report.curves) {
-    curve.free_parameters.insert(curve.free_parameters.end(), {1.2e-7, 2});
+    curve.individual_parameters.insert(curve.individual_parameters.end(), {1.2e-7, 2});
   }
   ExpectNarrow(FamilyText(sample.report));
 }

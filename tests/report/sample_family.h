@@ -49,8 +49,8 @@ inline void AddSampleCurve(int index, int curves, SampleFamily* sample) {
   }
   curve.points = points.size();
   curve.parameters = at.parameters;
-  curve.free_parameters = at.parameters;
-  curve.free_parameters[kRs] *= 1.02;
+  curve.individual_parameters = at.parameters;
+  curve.individual_parameters[kRs] *= 1.02;
   curve.short_circuit_current_A = points.current_A[0];
   curve.rmse = {1.5e-3 + 1e-5 * index, 1.4e-3 + 1e-5 * index};
   curve.individual_rmse = {1.3e-3, 1.2e-3};

@@ -79,7 +79,7 @@ void SumUpOneTruth(const std::vector<Pair>& pairs, int index, TruthParameter* re
   const double truth = averaged(pairs[0].row->values[index]);
   double mean = 0, square = 0;
   for (const Pair& pair : pairs) {
-    const double value = averaged(pair.curve->free_parameters[index]);
+    const double value = averaged(pair.curve->individual_parameters[index]);
     mean += value / static_cast<double>(pairs.size());
     square += std::pow(value - truth, 2) / static_cast<double>(pairs.size());
   }
@@ -99,7 +99,7 @@ TruthParameter CompareParameter(const ParameterInfo& info, const std::vector<Pai
     const double truth = pair.row->values[index];
     // The error is absolute if the true value is 0.
     const double error =
-        std::fabs(pair.curve->free_parameters[index] - truth) / (truth == 0 ? 1 : truth);
+        std::fabs(pair.curve->individual_parameters[index] - truth) / (truth == 0 ? 1 : truth);
     if (errors.empty() || error > result.worst) {
       result.worst = error;
       result.worst_id = pair.curve->id;
@@ -173,11 +173,11 @@ TruthComparison CompareWithTruth(const FamilyReport& report, const std::vector<T
   std::vector<Pair> pairs;
   bool other_model = false, other_cells = false;
   for (const FamilyCurve& curve : report.curves) {
-    if (curve.free_parameters.empty()) continue;
+    if (curve.individual_parameters.empty()) continue;
     const TruthRow* row = RowOf(curve, truth);
     if (row == nullptr) {
       ++result.unmatched;
-    } else if (curve.free_parameters.size() != kParameters) {
+    } else if (curve.individual_parameters.size() != kParameters) {
       other_model = true;
     } else {
       other_cells = other_cells || row->cells_in_series != report.cells_in_series;

@@ -51,7 +51,7 @@ TEST(ReadTruth, NamesFileLineAndColumnOfWhatItRefuses) {
 FamilyCurve Fitted(const std::string& id, const std::vector<double>& parameters) {
   FamilyCurve curve;
   curve.id = id;
-  curve.free_parameters = parameters;
+  curve.individual_parameters = parameters;
   return curve;
 }
 
@@ -107,7 +107,7 @@ TEST(CompareWithTruth, CountsTheIntervalsThatHoldTheTruth) {
   FamilyReport report = ThreeFits();
   for (FamilyCurve& curve : report.curves) {
     curve.individual_estimates.resize(5);
-    const double value = curve.free_parameters[0];
+    const double value = curve.individual_parameters[0];
     curve.individual_estimates[0].low_95 = value - 0.1;
     curve.individual_estimates[0].high_95 = value + 0.1;
   }
@@ -120,9 +120,9 @@ TEST(CompareWithTruth, CountsTheIntervalsThatHoldTheTruth) {
 
 TEST(CompareWithTruth, WarnsWhereThereIsNothingToCompare) {
   FamilyReport report = ThreeFits();
-  for (FamilyCurve& curve : report.curves) curve.free_parameters.resize(7, 1);
+  for (FamilyCurve& curve : report.curves) curve.individual_parameters.resize(7, 1);
   EXPECT_THAT(CompareWithTruth(report, {kOne}).warnings.at(0), HasSubstr("of one diode"));
-  for (FamilyCurve& curve : report.curves) curve.free_parameters.clear();
+  for (FamilyCurve& curve : report.curves) curve.individual_parameters.clear();
   EXPECT_THAT(CompareWithTruth(report, {kOne}).warnings.at(0), HasSubstr("no curve"));
   report = ThreeFits();
   report.cells_in_series = 60;

@@ -2,9 +2,11 @@
 
 #include <string_view>
 
+#include "lyrefit/base/public.h"
+
 // Names that options and keys of JSON had in version 0.1. The command and the Python module accept
 // the options, and the results of the Python module find the keys, until version 0.3.
-namespace lyrefit {
+namespace LYREFIT_PUBLIC lyrefit {
 
 struct FormerName {
   std::string_view former;

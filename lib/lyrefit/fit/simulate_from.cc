@@ -239,9 +239,10 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
                 report.path);
   }
   // From the law; else of the curve alone, whose key was "free_parameters" in version 0.1.
-  const std::string stretch = At(curve, "/parameters").is_object()              ? "/parameters/"
-                              : At(curve, "/individual_parameters").is_object() ? "/individual_parameters/"
-                                                                                : "/free_parameters/";
+  const std::string stretch = At(curve, "/parameters").is_object() ? "/parameters/"
+                              : At(curve, "/individual_parameters").is_object()
+                                  ? "/individual_parameters/"
+                                  : "/free_parameters/";
   const auto value = [&](const std::string& name) {
     return ValueAt(curve, stretch + name, name, report.path);
   };

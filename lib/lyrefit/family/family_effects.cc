@@ -10,12 +10,9 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/prepare_fit.h"
-#include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
 
 namespace lyrefit {
 namespace {
@@ -150,29 +147,6 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
   return chosen;
 }
 
-namespace {
-
-// Bounds of shared parameter i in reporting units, with the other parameters as in `own`.
-ParameterBounds ReportedBounds(const FamilyProblem& family, std::vector<double> own, int i) {
-  const auto reported = [&](double value) {
-    own[i] = value;
-    return ReportedShared(family.translation, own)[i];
-  };
-  const ParameterBounds& bounds = family.bounds[i];
-  const double a = reported(bounds.lower), b = reported(bounds.upper);
-  return {std::min(a, b), std::max(a, b), std::min(a, b), std::max(a, b), bounds.scale};
-}
-
-std::vector<FitPoint> MoreOptima(const FamilyProblem& family, const JointProblem& problem,
-                                 const JointEnd& end, const Observer& observer) {
-  const ProgressReporter progress(observer, "other optima", 0);
-  const double degrees = JointDegrees(problem, family.free_parameters, 0);
-  return FindOtherOptima(problem, end, StudentT95(static_cast<int>(degrees)), end.squares / degrees,
-                         progress.stop());
-}
-
-}  // namespace
-
 std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOptions& options,
                                      const std::vector<int>& search_curves,
                                      std::vector<JointPoint> starts, std::ptrdiff_t elites,
@@ -187,34 +161,6 @@ std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOp
   if (!family.translation.extended) return starts;
   return FamilyEffectStarts(family, options, search_curves, candidates, std::move(starts),
                             observer);
-}
-
-QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
-                const JointProblem& problem, const JointEnd& end, const Observer& observer) {
-  QuotedFit quoted{family, problem, end, {}};
-  const Translation& at = family.translation;
-  if (!at.extended) return quoted;
-  quoted.problem.quoted = true;
-  quoted.end.point.shared = ReportedShared(at, end.point.shared);
-  if (options.intervals) quoted.local_optima = MoreOptima(family, problem, end, observer);
-  for (FitPoint& local_optimum : quoted.local_optima)
-    local_optimum.p = ReportedShared(at, local_optimum.p);
-  int first = at.first_effect;
-  for (const EffectUse& use : EffectsOf(at).uses) {
-    const int size = use.effect->size();
-    const std::vector<ParameterRange> ranges =
-        ReportedRanges(*use.effect, EffectsOf(at).readings.scale, problem.lower.data() + first,
-                       problem.upper.data() + first);
-    for (int i = first; i < first + size; ++i) {
-      const ParameterRange& range = ranges[i - first];
-      const bool fixed = !std::isnan(family.fixed[i]);
-      quoted.family.bounds[i] = ReportedBounds(family, end.point.shared, i);
-      quoted.problem.lower[i] = fixed ? quoted.end.point.shared[i] : range.low;
-      quoted.problem.upper[i] = fixed ? quoted.end.point.shared[i] : range.high;
-    }
-    first += size;
-  }
-  return quoted;
 }
 
 }  // namespace lyrefit

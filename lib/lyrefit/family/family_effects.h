@@ -31,15 +31,4 @@ std::vector<JointPoint> ChooseStarts(const FamilyProblem& family, const FamilyOp
                                      std::vector<JointPoint> starts, std::ptrdiff_t elites,
                                      const Observer& observer);
 
-// A joint fit in reporting units, from which the report is filled. With effects it includes other
-// local optima if intervals are requested. Without effects it is a copy of the fit.
-struct QuotedFit {
-  FamilyProblem family;
-  JointProblem problem;
-  JointEnd end;
-  std::vector<FitPoint> local_optima;  // other optima that the data allow
-};
-QuotedFit Quote(const FamilyProblem& family, const FamilyOptions& options,
-                const JointProblem& problem, const JointEnd& end, const Observer& observer);
-
 }  // namespace lyrefit

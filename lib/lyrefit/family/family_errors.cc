@@ -166,7 +166,7 @@ FamilyErrors ChooseErrors(const std::vector<Trial>& trials, double brightest,
 
 // Returns the product with the covariance of all rows of a joint model: that of its readings, and a
 // diagonal for priors.
-CovarianceProduct ProductOf(const JointProblem& problem, const FamilyModel& model, const Rows& rows,
+CovarianceProduct ProductOf(const JointProblem& problem, const FitModel& model, const Rows& rows,
                             const FamilyErrorSizes& sizes) {
   return [&](const RowMatrix& all) {
     RowMatrix product = problem.noise_A * problem.noise_A * all;
@@ -190,7 +190,7 @@ CovarianceProduct ProductOf(const JointProblem& problem, const FamilyModel& mode
   };
 }
 
-std::vector<Interval> IntervalsOf(const QuotedFit& fit, const Spread& spread, double t,
+std::vector<Interval> IntervalsOf(const ReportedFit& fit, const Spread& spread, double t,
                                   const std::vector<Estimate>& estimates) {
   std::vector<Interval> intervals;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
@@ -211,11 +211,12 @@ std::vector<Interval> IntervalsOf(const QuotedFit& fit, const Spread& spread, do
 
 }  // namespace
 
-void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report) {
+void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, FamilyReport* report) {
   constexpr int kFewest = 3;        // fewest curves that show an error common to a curve
   constexpr double kExact = 1e-11;  // relative to the currents: rounding errors only
   const JointProblem& problem = fit.problem;
-  const JointPoint& point = fit.end.point;
+  JointPoint point = fit.end.point;
+  std::copy(report->refined.begin(), report->refined.end(), point.shared.begin());
   const int curves = static_cast<int>(problem.curves.size());
   if (curves < kFewest || !(report->noise_A > kExact * problem.current_scale_A)) return;
   const auto rows_of = [&](const std::vector<int>& some) {
@@ -228,9 +229,8 @@ void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyR
   FamilyErrors errors;
   if (tested >= kFewest) {
     const JointPoint there{point.shared, std::vector<JointLocal>(tested, {0, 0})};
-    JointProblem not_fitted = Only(rest, SomeOf(static_cast<int>(rest.curves.size())));
-    not_fitted.quoted = problem.quoted;
-    const Rows others = RowsOf(std::move(not_fitted), there, fit.end.held);
+    const Rows others =
+        RowsOf(Only(rest, SomeOf(static_cast<int>(rest.curves.size()))), there, fit.end.held);
     errors = ChooseErrors({{rows, others}}, brightest, problem);
     errors.judge = FamilyErrorJudge::kHeldOut;
     errors.tested_curves = tested;
@@ -247,9 +247,8 @@ void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyR
   if (errors.kind == FamilyErrorKind::kIndependent) return;
   Rows all = RowsOf(problem, point, fit.end.held);
   all.shape = WithPower(all, brightest, errors.path_power);
-  const FamilyModel model(problem);
-  const Spread spread = FindSpread(model, model.Pack(point), fit.end.held,
-                                   ProductOf(problem, model, all, errors.sizes));
+  const Spread spread = FindSpread(fit.model, fit.best, fit.best.held,
+                                   ProductOf(problem, fit.model, all, errors.sizes));
   report->under_errors = IntervalsOf(fit, spread, StudentT95(curves - 1), report->estimates);
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/family/family_effects.h"
+#include "lyrefit/family/family_judge.h"
 
 namespace lyrefit {
 
@@ -14,6 +14,8 @@ namespace lyrefit {
 // at least three. Otherwise each half of the curves is tested with the error sizes of the other
 // half; fewer than six curves are tested with their own sizes. A richer kind must be clearly
 // better.
-void FindFamilyIntervals(const QuotedFit& fit, const JointProblem& rest, FamilyReport* report);
+//
+// `report` has the results of JudgeFamily.
+void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, FamilyReport* report);
 
 }  // namespace lyrefit

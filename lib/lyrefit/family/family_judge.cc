@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
@@ -41,21 +42,38 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
 
 // A joint fit that is being reported, in reporting units.
 struct Judged {
-  const QuotedFit& fit;
+  const ReportedFit& fit;
   const FamilyOptions& options;
   double variance = 0;  // of the noise, at weight 1
   double t = 2;         // Student's, for 95 %
   JointSpread spread;
+  std::vector<FitPoint> local_optima;  // other optima that the data allow
 };
 
-Judged SpreadOf(const QuotedFit& fit, const FamilyOptions& options) {
-  Judged judged{fit, options, 0, 2, {}};
+// With effects.
+std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const Observer& observer) {
+  const ProgressReporter progress(observer, "other optima", 0);
+  const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, 0);
+  std::vector<FitPoint> local_optima =
+      FindOtherOptima(fit.problem, fit.end, StudentT95(static_cast<int>(degrees)),
+                      fit.end.squares / degrees, progress.stop());
+  for (FitPoint& other : local_optima) {
+    other.p = ReportedShared(fit.family.translation, std::move(other.p));
+  }
+  return local_optima;
+}
+
+Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer) {
+  Judged judged{fit, options, 0, 2, {}, {}};
+  if (options.intervals && fit.family.translation.extended) {
+    judged.local_optima = FindMoreOptima(fit, observer);
+  }
   const double noise_A = fit.problem.noise_A;
-  const JointSpread known = FindJointSpread(fit.problem, fit.end, noise_A * noise_A);
+  const JointSpread known = FindJointSpread(fit.problem, fit.model, fit.best, noise_A * noise_A);
   const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, known.local_degrees);
   judged.variance = fit.end.squares / degrees;
   judged.t = StudentT95(static_cast<int>(degrees));
-  judged.spread = FindJointSpread(fit.problem, fit.end, judged.variance);
+  judged.spread = FindJointSpread(fit.problem, fit.model, fit.best, judged.variance);
   return judged;
 }
 
@@ -72,7 +90,7 @@ void MarkHeld(const Judged& judged, int i, Estimate* e) {
     if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
   } else if (e->info.kind == ParameterKind::kDarkShunt) {
     // The range of a dark shunt is relative to the shunt at the reference.
-    const double ratio = e->refined / judged.fit.end.point.shared[e->info.with[0]];
+    const double ratio = e->refined / judged.fit.best.p[e->info.with[0]];
     e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
   } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
     const bool perfect = e->refined > kNearPerfectShunt * resistance;
@@ -86,10 +104,11 @@ void MarkHeld(const Judged& judged, int i, Estimate* e) {
 Estimate Describe(const Judged& judged, int i, double searched) {
   Estimate e;
   e.info = judged.fit.family.translation.parameters[i];
-  e.bounds = judged.fit.family.bounds[i];
+  e.bounds = ReportedBounds(SpanOf(judged.fit.family.translation), judged.fit.family.bounds[i],
+                            judged.fit.end.point.shared, i);
   e.fixed = !std::isnan(judged.fit.family.fixed[i]);
   e.searched = searched;
-  e.refined = judged.fit.end.point.shared[i];
+  e.refined = judged.fit.best.p[i];
   if (e.fixed) return e;
   if (judged.fit.end.held[i]) MarkHeld(judged, i, &e);
   e.standard_error = judged.spread.standard_error[i];
@@ -116,7 +135,7 @@ bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {
   if (e.fixed || (KindOf(judged, i) == ParameterKind::kSaturation && judged.fit.end.held[i]) ||
       i == judged.fit.family.translation.n_2)
     return false;
-  if (!judged.fit.local_optima.empty() || BendsWithOthers(judged, i)) return true;
+  if (!judged.local_optima.empty() || BendsWithOthers(judged, i)) return true;
   // An ideality and what goes with it are exact in their own coordinates.
   if (e.at_bound != BoundSide::kNone) return true;
   if (e.interval == IntervalMethod::kNone) return false;
@@ -134,14 +153,16 @@ bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
     if (!NeedsProfile(judged, i, (*estimates)[i])) continue;
     for (const bool upper : {false, true}) {
       queries.push_back({i, upper, judged.t, judged.variance, (*estimates)[i].standard_error, false,
-                         judged.fit.local_optima});
+                         judged.local_optima});
     }
   }
   std::vector<ProfileSide> sides(queries.size());
   const ProgressReporter progress(observer, "intervals", static_cast<std::int64_t>(queries.size()));
   ParallelFor(static_cast<int>(queries.size()), judged.options.threads, [&](int q) {
     if (progress.Stopped()) return;
-    sides[q] = FindProfileSide(judged.fit.problem, judged.fit.end, queries[q], progress.stop());
+    JointOptions options;
+    options.stop = progress.stop();
+    sides[q] = FindProfileSide(judged.fit.model, judged.fit.best, queries[q], HowToRefine(options));
     progress.Step();
   });
   if (progress.Stopped()) return false;
@@ -230,7 +251,7 @@ std::vector<Correlation> StrongCorrelations(const Judged& judged) {
 void DescribeSensors(const Judged& judged, FamilyReport* report) {
   const JointProblem& problem = judged.fit.problem;
   const auto error = [&](int i) {
-    return Symmetric(judged.fit.end.point.shared[i], judged.spread.standard_error[i], judged.t);
+    return Symmetric(judged.fit.best.p[i], judged.spread.standard_error[i], judged.t);
   };
   if (judged.options.irradiance_offset) {
     report->irradiance_offset_W_m2 = error(problem.irradiance_offset());
@@ -267,14 +288,25 @@ double JointDegrees(const JointProblem& problem, int free_parameters, double loc
   return std::max(points - free_parameters - local_degrees, 1.0);
 }
 
-void JudgeFamily(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
+ReportedFit::ReportedFit(const FamilyProblem& of_family, const JointProblem& of_problem,
+                         const JointEnd& of_end)
+    : family(of_family),
+      problem(of_problem),
+      end(of_end),
+      internal(problem),
+      model(internal, SpanOf(family.translation)),
+      best(PackedEnd(problem, end)) {
+  best.p = ReportedShared(family.translation, std::move(best.p));
+}
+
+void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report) {
   const Translation& at = fit.family.translation;
-  const std::vector<double>& shared = fit.end.point.shared;
+  const std::vector<double>& shared = fit.best.p;
   report->refined.assign(shared.begin(), shared.begin() + at.size());
   report->refined = InnerShared(at, std::move(report->refined));
   const std::vector<double> searched = ReportedShared(at, report->searched);
-  const Judged judged = SpreadOf(fit, options);
+  const Judged judged = SpreadOf(fit, options, observer);
   report->noise_A = std::sqrt(judged.variance);
   report->estimates.clear();
   for (int i = 0; i < at.size(); ++i) {

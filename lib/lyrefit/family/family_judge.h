@@ -1,16 +1,31 @@
 #pragma once
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/family/family_effects.h"
+#include "lyrefit/family/family_problem.h"
+#include "lyrefit/refine/family_model.h"
 #include "lyrefit/refine/joint.h"
+#include "lyrefit/refine/reporting_model.h"
 
 namespace lyrefit {
 
+// The end of a joint fit, with its model and its parameters in reporting units.
+struct ReportedFit {
+  // Keeps references to all arguments.
+  ReportedFit(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end);
+
+  const FamilyProblem& family;
+  const JointProblem& problem;
+  const JointEnd& end;  // in internal units
+  const FamilyModel internal;
+  const ReportingModel model;
+  RefineEnd best;  // the end as one of `model`
+};
+
 // Fills estimates, sensor errors, coefficients, correlations, key points at the reference, curve
 // offsets and the noise of `report` from the end of a joint fit. All values are in reporting units
-// (Quote), except `report->refined`, which is in internal units. If the observer stops it, it omits
+// except `report->refined`, which is in internal units. If the observer stops it, it omits
 // the profile intervals and marks the report as interrupted.
-void JudgeFamily(const QuotedFit& fit, const FamilyOptions& options, const Observer& observer,
+void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report);
 
 // Delete-one-curve jackknife: intervals of every shared parameter if whole curves are independent.

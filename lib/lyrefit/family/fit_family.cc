@@ -264,11 +264,11 @@ void Refine(Job* job, FamilyReport* report) {
                                         : "no convergence";
   report->projected_gradient = end.projected_gradient;
   report->rmse.refined = FamilyRmse(problem, end.point);
-  const QuotedFit quoted = Quote(job->family, job->options, problem, end, job->observer);
-  JudgeFamily(quoted, job->options, job->observer, report);
+  const ReportedFit reported(job->family, problem, end);
+  JudgeFamily(reported, job->options, job->observer, report);
   if (job->options.intervals && !report->interrupted) {
     const std::vector<int>& held = job->family.curves.held_out;
-    FindFamilyIntervals(quoted, JointProblemOn(job->family, job->options, held), report);
+    FindFamilyIntervals(reported, JointProblemOn(job->family, job->options, held), report);
   }
   FillCurves(*job, problem, end, report);
   job->stopped = job->stopped || end.stopped || report->interrupted;

@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/fit/quoted_model.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/quote.h"
 #include "lyrefit/refine/coarsen.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/error_model.h"
+#include "lyrefit/refine/other_optima.h"
 #include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/reporting_model.h"
 #include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
@@ -87,14 +89,12 @@ Spread SpreadOfModel(const IntervalInput& input, int degrees, const FitModel& mo
 }
 
 Spread SpreadOfQuoted(const IntervalWork& work, std::vector<bool> held) {
-  if (work.input.problem.device.effects == nullptr) {
-    return SpreadOfModel(work.input, work.degrees, CurveModel(work.input.problem), work.input.end,
-                         held);
-  }
-  const std::vector<bool> flat = FindFlat(work.input.problem, work.quoted);
+  const EffectSpan effects = SpanOf(work.input.problem.device);
+  const CurveModel internal(work.input.problem);
+  const ReportingModel model(internal, effects);
+  const std::vector<bool> flat = FindFlatSettings(model, effects, {work.quoted, {}});
   for (int i = 0; i < work.size; ++i) held[i] = held[i] || flat[i];
-  return SpreadOfModel(work.input, work.degrees, QuotedModel(work.input.problem), {work.quoted, {}},
-                       held);
+  return SpreadOfModel(work.input, work.degrees, model, {work.quoted, {}}, held);
 }
 
 // Ratio of the standard errors under `errors` to those of the fit itself. The parameters at bounds
@@ -166,23 +166,33 @@ void TakeIfBetter(IntervalWork* work, const std::vector<double>& p) {
   if (end.mean_square < lowest) work->better = end.p;
 }
 
+// Cheap solver options for hundreds of refits.
+RefineOptions BrieflySmall(const StopToken& stop) {
+  RefineOptions how;
+  how.small = true;
+  how.let_in = false;
+  how.max_rounds = 10;
+  how.max_iterations = how.first_iterations = 200;
+  how.stop = stop;
+  return how;
+}
+
 void FindMoreOptima(IntervalWork* work) {
-  if (work->input.problem.device.effects == nullptr) return;
+  const EffectSpan effects = SpanOf(work->input.problem.device);
+  if (effects.effects == nullptr) return;
   const double points = static_cast<double>(work->input.problem.voltage_V.size());
   double reach = 0;
   for (int i = 0; i < work->size; ++i) reach = std::max(reach, work->t[i] * work->stretch[i]);
   const double rise =
       reach * reach * VarianceOf(work->degrees, work->input.problem, work->input.end) / points;
-  work->local_optima =
-      FindOtherOptima(work->input.problem, work->input.end, work->input.ends,
-                      work->input.end.mean_square + rise, work->input.progress.stop());
+  OptimumQuery query{work->input.end.mean_square + rise, BrieflySmall(work->input.progress.stop())};
+  query.how.cutoff = query.highest;
+  work->local_optima = FindOtherOptima(CurveModel(work->input.problem), effects, work->input.end,
+                                       work->input.ends, query);
   for (const FitPoint& local_optimum : work->local_optima) TakeIfBetter(work, local_optimum.p);
 }
 
-bool OfEffect(const IntervalInput& input, int i) {
-  const DeviceEffects* device_effects = input.problem.device.effects.get();
-  return device_effects != nullptr && i >= device_effects->law.base_size();
-}
+bool OfEffect(const IntervalInput& input, int i) { return SpanOf(input.problem.device).Has(i); }
 
 bool BendsWithOthers(const IntervalInput& input, int i) {
   if (!OfEffect(input, i)) return false;
@@ -220,11 +230,21 @@ std::vector<ProfileQuery> Queries(const IntervalWork& work, bool saturation_curr
   return queries;
 }
 
-ProfileSide SideOf(IntervalWork* work, const ProfileQuery& query) {
+// `better` of the result is in internal units.
+ProfileSide SideOf(IntervalWork* work, ProfileQuery query) {
   const StopToken& stop = work->input.progress.stop();
-  return OfEffect(work->input, query.parameter)
-             ? FindQuotedSide(work->coarse, work->coarse_end, query, stop)
-             : FindProfileSide(work->coarse, work->coarse_end, query, stop);
+  if (!OfEffect(work->input, query.parameter)) {
+    return FindProfileSide(work->coarse, work->coarse_end, query, stop);
+  }
+  const EffectSpan effects = SpanOf(work->coarse.device);
+  const CurveModel internal(work->coarse);
+  const ReportingModel model(internal, effects);
+  RefineEnd best = work->coarse_end;
+  best.p = Reported(effects, std::move(best.p));
+  for (FitPoint& other : query.local_optima) other.p = Reported(effects, std::move(other.p));
+  ProfileSide side = FindProfileSide(model, best, query, BrieflySmall(stop));
+  side.better = Inner(effects, std::move(side.better));
+  return side;
 }
 
 // Coarsens the data and finds the optimum on them.

@@ -48,19 +48,6 @@ Expected<void> AddEffects(PreparedFit* fit) {
   return {};
 }
 
-// Bounds of parameter i in reporting units, with the other parameters at `p`.
-ParameterBounds ReportedBounds(const Device& device, const ParameterBounds& own,
-                               std::vector<double> p, int i) {
-  if (device.effects == nullptr || i < device.effects->law.base_size()) return own;
-  const auto reported = [&](double value) {
-    p[i] = value;
-    return Reported(device, p)[i];
-  };
-  const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
-  const auto& [lower, upper] = ends;
-  return {lower, upper, lower, upper, own.scale, own.whole};
-}
-
 // Error for options that do not support weighting by an error model.
 Expected<void> CheckErrorSpec(const FitOptions& options) {
   if (options.errors.kind == ErrorKind::kWhite) return {};
@@ -230,7 +217,7 @@ std::vector<Estimate> EstimatesOf(const PreparedFit& fit, const std::vector<doub
   for (int i = 0; i < device.size(); ++i) {
     Estimate e;
     e.info = device.parameters[i];
-    e.bounds = ReportedBounds(device, fit.bounds[i], best, i);
+    e.bounds = ReportedBounds(SpanOf(device), fit.bounds[i], best, i);
     e.fixed = !std::isnan(fit.fixed[i]);
     e.searched = of_search[i];
     if (!refined.empty()) e.refined = of_best[i];

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/law/make_readings.h"
-#include "lyrefit/law/quote.h"
 #include "lyrefit/law/reading_blocks.h"
 
 namespace lyrefit {
@@ -126,27 +125,17 @@ std::vector<double> ExtendedParameters(const Translation& translation, const dou
   return p;
 }
 
-namespace {
-
-// Shared parameters after `change` was applied to those of the extended device.
-template <class F>
-std::vector<double> Changed(const Translation& translation, std::vector<double> shared,
-                            const F& change) {
-  if (!translation.extended || shared.empty()) return shared;
-  const std::vector<double> p =
-      change(*translation.extended, ExtendedParameters(translation, shared.data()));
-  for (std::size_t k = 0; k < p.size(); ++k) shared[translation.shared_of[k]] = p[k];
-  return shared;
+EffectSpan SpanOf(const Translation& translation) {
+  if (!translation.extended) return {};
+  return {translation.extended->effects.get(), translation.first_effect};
 }
 
-}  // namespace
-
 std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared) {
-  return Changed(translation, std::move(shared), Reported);
+  return Reported(SpanOf(translation), std::move(shared));
 }
 
 std::vector<double> InnerShared(const Translation& translation, std::vector<double> shared) {
-  return Changed(translation, std::move(shared), Inner);
+  return Inner(SpanOf(translation), std::move(shared));
 }
 
 }  // namespace lyrefit

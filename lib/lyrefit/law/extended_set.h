@@ -5,6 +5,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/law/device_effects.h"
+#include "lyrefit/law/quote.h"
 #include "lyrefit/law/translation.h"
 
 namespace lyrefit {
@@ -31,6 +32,9 @@ Device UnderConditions(const Device& device, double irradiance, double temperatu
 Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
                                  const std::vector<EffectUse>& uses, bool force,
                                  Translation* translation);
+
+// The effects of a translation, in its shared parameters.
+EffectSpan SpanOf(const Translation& translation);
 
 // ExtendedParameters: parameter vector of `translation.extended` from the shared parameters.
 // ReportedShared and InnerShared: the shared parameters with those of the effects converted from

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/dense.h"
 
@@ -82,30 +83,52 @@ Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, c
   return LeastSquares(slopes, one);
 }
 
-std::vector<double> Reported(const Device& device, std::vector<double> p) {
-  if (device.effects == nullptr) return p;
-  const DeviceEffects& device_effects = *device.effects;
-  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
-    const int first = device_effects.law.Offset(static_cast<int>(e));
-    const std::vector<double> values = ReportedValues(
-        *device_effects.uses[e].effect, p.data() + first, device_effects.readings.scale);
+EffectSpan SpanOf(const Device& device) {
+  if (device.effects == nullptr) return {};
+  return {device.effects.get(), device.effects->law.base_size()};
+}
+
+std::vector<double> Reported(const EffectSpan& span, std::vector<double> p) {
+  if (span.effects == nullptr || p.empty()) return p;
+  int first = span.first;
+  for (const EffectUse& use : span.effects->uses) {
+    const std::vector<double> values =
+        ReportedValues(*use.effect, p.data() + first, span.effects->readings.scale);
     std::copy(values.begin(), values.end(), p.begin() + first);
+    first += use.effect->size();
   }
   return p;
 }
 
-std::vector<double> Inner(const Device& device, std::vector<double> reported) {
-  if (device.effects == nullptr) return reported;
-  const DeviceEffects& device_effects = *device.effects;
-  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
-    const Effect& effect = *device_effects.uses[e].effect;
-    const int first = device_effects.law.Offset(static_cast<int>(e));
-    const std::vector<double> own(reported.begin() + first,
-                                  reported.begin() + first + effect.size());
-    const std::vector<double> values = InnerValues(effect, own, device_effects.readings.scale);
-    std::copy(values.begin(), values.end(), reported.begin() + first);
+std::vector<double> Inner(const EffectSpan& span, std::vector<double> reported) {
+  if (span.effects == nullptr || reported.empty()) return reported;
+  auto first = reported.begin() + span.first;
+  for (const EffectUse& use : span.effects->uses) {
+    const std::vector<double> own(first, first + use.effect->size());
+    const std::vector<double> values = InnerValues(*use.effect, own, span.effects->readings.scale);
+    first = std::copy(values.begin(), values.end(), first);
   }
   return reported;
+}
+
+std::vector<double> Reported(const Device& device, std::vector<double> p) {
+  return Reported(SpanOf(device), std::move(p));
+}
+
+std::vector<double> Inner(const Device& device, std::vector<double> reported) {
+  return Inner(SpanOf(device), std::move(reported));
+}
+
+ParameterBounds ReportedBounds(const EffectSpan& span, const ParameterBounds& own,
+                               std::vector<double> p, int i) {
+  if (!span.Has(i)) return own;
+  const auto reported = [&](double value) {
+    p[i] = value;
+    return Reported(span, p)[i];
+  };
+  const std::pair<double, double> ends = std::minmax({reported(own.lower), reported(own.upper)});
+  const auto& [lower, upper] = ends;
+  return {lower, upper, lower, upper, own.scale, own.whole};
 }
 
 double FactorOf(const Device& device, const std::vector<double>& p, int i) {

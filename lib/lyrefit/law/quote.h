@@ -27,10 +27,26 @@ std::vector<ParameterRange> ReportedRanges(const Effect& effect, const ReadingSc
 // Jacobian of the internal by the reported values, at internal values `p`; size x size.
 Eigen::MatrixXd OwnByReported(const Effect& effect, const ReadingScale& scale, const double* p);
 
-// The parameter vector of a device with the effects' parameters converted to reporting units, and
-// back.
+// The effects of a model and the position of their first parameter; the parameters of all effects are
+// contiguous. Null: no effects, so that both units are equal.
+struct EffectSpan {
+  const DeviceEffects* effects = nullptr;
+  int first = 0;
+
+  bool Has(int i) const { return effects != nullptr && i >= first; }
+};
+EffectSpan SpanOf(const Device& device);
+
+// The parameter vector of a model with the effects' parameters converted to reporting units, and
+// back. Empty vectors stay empty.
+std::vector<double> Reported(const EffectSpan& span, std::vector<double> p);
+std::vector<double> Inner(const EffectSpan& span, std::vector<double> reported);
 std::vector<double> Reported(const Device& device, std::vector<double> p);
 std::vector<double> Inner(const Device& device, std::vector<double> reported);
+
+// Bounds `own` of parameter i in reporting units, with the other parameters at `p` (internal).
+ParameterBounds ReportedBounds(const EffectSpan& span, const ParameterBounds& own,
+                               std::vector<double> p, int i);
 
 // Factor from the internal to the reported value of parameter i, with the others at `p`.
 double FactorOf(const Device& device, const std::vector<double>& p, int i);

@@ -10,7 +10,6 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/model_current.h"
 
 namespace lyrefit {
@@ -39,10 +38,6 @@ ModelShape ShapeOf(const JointProblem& problem) {
   shape.voltage_scale_V = problem.voltage_scale_V;
   shape.thermal_voltage_V = at.device.module_thermal_voltage_V;
   shape.parameters = MakeFitParameters(at.parameters, problem.lower, problem.upper);
-  for (int i = at.first_effect; problem.quoted && i < at.size(); ++i) {
-    FitParameter& p = shape.parameters[i];
-    if (!p.fixed()) p.step = 0.1 * (p.upper - p.lower);
-  }
   shape.parameters[problem.irradiance_offset()].step = 100;
   shape.parameters[problem.temperature_offset()].step = 10;
   const double perfect = shape.resistance_scale() / kPerfectConductance;
@@ -52,34 +47,19 @@ ModelShape ShapeOf(const JointProblem& problem) {
   return shape;
 }
 
-// TranslateCurve for a device with effects, whose equations include the operating conditions.
-bool TakeExtended(const JointProblem& problem, const double* p, std::vector<double>* device,
-                  RowMatrix* chain) {
-  const Translation& at = problem.translation;
-  const Device& extended = *at.extended;
-  *device = ExtendedParameters(at, p);
-  if (problem.quoted) *device = Inner(extended, *device);
-  if (chain == nullptr) return true;
-  chain->setZero(extended.size(), problem.shared());
-  for (int k = 0; k < extended.size(); ++k) (*chain)(k, at.shared_of[k]) = 1;
-  const DeviceEffects& device_effects = *extended.effects;
-  for (std::size_t e = 0; problem.quoted && e < device_effects.uses.size(); ++e) {
-    const int first = device_effects.law.Offset(static_cast<int>(e));
-    const Effect& effect = *device_effects.uses[e].effect;
-    // The effects' parameters are contiguous in the shared ones.
-    chain->block(first, at.shared_of[first], effect.size(), effect.size()) =
-        OwnByReported(effect, device_effects.readings.scale, device->data() + first);
-  }
-  return true;
-}
-
 // A device's parameters under the operating conditions of one curve. `chain`, if not null:
 // derivatives by the shared parameters, then by irradiance and temperature. False if the conditions
 // are not physical or a parameter is not finite.
 bool TranslateCurve(const JointProblem& problem, const double* p, double irradiance,
                     double temperature, std::vector<double>* device, RowMatrix* chain) {
   const Translation& at = problem.translation;
-  if (at.extended) return TakeExtended(problem, p, device, chain);
+  if (at.extended) {  // its equations include the operating conditions
+    *device = ExtendedParameters(at, p);
+    if (chain == nullptr) return true;
+    chain->setZero(at.extended->size(), problem.shared());
+    for (int k = 0; k < at.extended->size(); ++k) (*chain)(k, at.shared_of[k]) = 1;
+    return true;
+  }
   if (!(irradiance > 0) || !(temperature > 100) || !(temperature < 600)) return false;
   const int count = at.device.size(), shared = at.size();
   device->resize(count);

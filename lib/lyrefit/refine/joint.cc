@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/family_model.h"
 #include "lyrefit/refine/other_optima.h"
@@ -14,14 +13,6 @@ namespace lyrefit {
 namespace {
 
 constexpr double kAbsent = -25;  // ln(current of a dropped diode at V0 / I0)
-
-RefineOptions HowToRefine(const JointOptions& options) {
-  RefineOptions how;
-  how.function_tolerance = options.function_tolerance;
-  how.stop = options.stop;
-  how.trust_radius = 1e6;  // starts are worse than a curve's: a longer step leads astray
-  return how;
-}
 
 void AddSquares(const JointProblem& problem, const FamilyModel& model, const FitPoint& at,
                 JointEnd* end) {
@@ -80,8 +71,7 @@ const Device& DeviceOf(const JointProblem& problem, int curve) {
 
 std::vector<double> DeviceAt(const JointProblem& problem, const JointPoint& point, int curve) {
   if (problem.translation.extended) {
-    const std::vector<double> p = ExtendedParameters(problem.translation, point.shared.data());
-    return problem.quoted ? Inner(*problem.translation.extended, p) : p;
+    return ExtendedParameters(problem.translation, point.shared.data());
   }
   const TrueConditions at = ConditionsAt(problem, point, curve);
   std::vector<double> device(problem.translation.device.size());
@@ -109,10 +99,33 @@ JointEnd RefineJointlyPlainly(const JointProblem& problem, const JointPoint& sta
   return EndOf(problem, model, RefineModelPlainly(model, model.Pack(start), HowToRefine(options)));
 }
 
-JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance) {
+RefineEnd PackedEnd(const JointProblem& problem, const JointEnd& end) {
   const FamilyModel model(problem);
+  RefineEnd packed;
+  static_cast<FitPoint&>(packed) = model.Pack(end.point);
+  packed.mean_square = (end.squares + end.prior_squares) / model.shape().points;
+  packed.converged = end.converged;
+  packed.held = end.held;
+  return packed;
+}
+
+RefineOptions HowToRefine(const JointOptions& options) {
+  RefineOptions how;
+  how.function_tolerance = options.function_tolerance;
+  how.stop = options.stop;
+  how.trust_radius = 1e6;  // starts are worse than a curve's: a longer step leads astray
+  return how;
+}
+
+JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance) {
+  const RefineEnd packed = PackedEnd(problem, end);
+  return FindJointSpread(problem, FamilyModel(problem), packed, variance);
+}
+
+JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
+                            const RefineEnd& end, double variance) {
   JointSpread spread;
-  static_cast<Spread&>(spread) = FindSpread(model, model.Pack(end.point), end.held, variance);
+  static_cast<Spread&>(spread) = FindSpread(model, end, end.held, variance);
   const double nan = std::nan("");
   std::size_t next = 0;
   for (const JointCurve& curve : problem.curves) {
@@ -131,34 +144,21 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
                                       double variance, const StopToken& stop) {
   const FamilyModel model(problem);
+  const RefineEnd end = PackedEnd(problem, best);
   JointOptions options;
   options.stop = stop;
   const double highest =
       (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindOtherOptima(model, *problem.translation.extended->effects, model.Pack(best.point), {},
-                         {highest, problem.translation.first_effect, HowToRefine(options)});
+  return FindOtherOptima(model, SpanOf(problem.translation), end, {},
+                         {highest, HowToRefine(options)});
 }
 
 ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
                             const ProfileQuery& query, const StopToken& stop) {
-  const FamilyModel model(problem);
-  RefineEnd from;
-  static_cast<FitPoint&>(from) = model.Pack(best.point);
-  from.mean_square = (best.squares + best.prior_squares) / model.shape().points;
   JointOptions options;
   options.stop = stop;
-  RefineOptions how = HowToRefine(options);
-  ProfileRefits refits;
-  refits.refit = [&](double value, const FitPoint& start, double target, double tolerance) {
-    FamilyModel held = model;
-    held.Fix(query.parameter, value);
-    FitPoint at = start;
-    at.p[query.parameter] = value;
-    how.target = target;
-    how.function_tolerance = tolerance;
-    return RefineModel(held, std::move(at), how);
-  };
-  return FindProfileSide(model, from, query, refits);
+  return FindProfileSide(FamilyModel(problem), PackedEnd(problem, best), query,
+                         HowToRefine(options));
 }
 
 }  // namespace lyrefit

@@ -41,10 +41,6 @@ struct JointProblem {
   std::vector<double> lower;
   std::vector<double> upper;
   double noise_A = 1;  // standard deviation of a point of weight 1, which scales the priors
-  // Whether the effects' parameters are in reporting units. A reported parameter may depend on
-  // others (the strength k of k |V|^m on m), so intervals are computed in reporting units. Fits use
-  // internal units, since such parameters are correlated in reporting units.
-  bool quoted = false;
 
   // Scales of the coordinates.
   double current_scale_A = 1;
@@ -97,6 +93,12 @@ struct JointOptions {
 JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
                        const JointOptions& options = {});
 
+// The end as one of the joint problem's FamilyModel.
+RefineEnd PackedEnd(const JointProblem& problem, const JointEnd& end);
+
+// The options of RefineModel for a joint problem.
+RefineOptions HowToRefine(const JointOptions& options);
+
 // RefineModelPlainly of a joint problem.
 JointEnd RefineJointlyPlainly(const JointProblem& problem, const JointPoint& start,
                               const JointOptions& options = {});
@@ -107,6 +109,9 @@ struct JointSpread : Spread {
   double local_degrees = 0;  // degrees of freedom of the local unknowns beyond their priors
 };
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
+// The same in the units of `model`, which is a FamilyModel or wraps one; `end` is in these units.
+JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
+                            const RefineEnd& end, double variance);
 
 // FindOtherOptima of a joint problem with effects, in internal units, from the end of its fit.
 // Accepts optima within the threshold of t and the variance of a point of weight 1.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace lyrefit {
@@ -10,6 +11,44 @@ namespace {
 constexpr std::size_t kMostSettings = 6;  // of an effect; those of the lowest error are refitted
 constexpr double kSameCurve = 1e-3;       // of the error, below which two optima have one curve
 constexpr double kSameNumber = 1e-3;      // relative, below which the effects have the same numbers
+
+// Settings of one effect and their trial values.
+struct Settings {
+  std::vector<int> parameters;
+  std::set<std::vector<double>> values;  // one value for each parameter
+};
+
+// Settings of every effect that has some.
+std::vector<Settings> FindSettings(const EffectSpan& effects) {
+  const DeviceEffects& device_effects = *effects.effects;
+  int first = effects.first;
+  std::vector<Settings> all;
+  auto bounds = device_effects.bounds.begin();
+  for (const EffectUse& use : device_effects.uses) {
+    const Effect& effect = *use.effect;
+    std::vector<int> searched;
+    for (int k = 0; k < effect.size(); ++k) {
+      if (effect.parameters[k].searched && bounds[k].lower < bounds[k].upper) searched.push_back(k);
+    }
+    if (!searched.empty() && effect.probes != nullptr) {
+      Settings settings;
+      settings.parameters.reserve(searched.size());
+      for (const int k : searched) settings.parameters.push_back(first + k);
+      for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
+        std::vector<double> values;
+        values.reserve(searched.size());
+        for (const int k : searched) {
+          values.push_back(std::min(std::max(probe[k], bounds[k].lower), bounds[k].upper));
+        }
+        settings.values.insert(std::move(values));
+      }
+      all.push_back(std::move(settings));
+    }
+    first += effect.size();
+    bounds += effect.size();
+  }
+  return all;
+}
 
 std::vector<double> Residuals(const FitModel& model, const FitPoint& at) {
   std::vector<double> all;
@@ -48,9 +87,10 @@ bool Same(const Optimum& a, const Optimum& b, const std::vector<int>& numbers) {
 }
 
 // Indices of the effects' parameters that are not settings.
-std::vector<int> Numbers(const DeviceEffects& device_effects, int first) {
+std::vector<int> Numbers(const EffectSpan& effects) {
   std::vector<int> numbers;
-  for (const EffectUse& use : device_effects.uses) {
+  int first = effects.first;
+  for (const EffectUse& use : effects.effects->uses) {
     for (const EffectParameter& info : use.effect->parameters) {
       if (!info.searched) numbers.push_back(first);
       ++first;
@@ -80,44 +120,41 @@ std::vector<FitPoint> WithOthers(const FitModel& model, const Settings& settings
 
 }  // namespace
 
-std::vector<Settings> FindSettings(const DeviceEffects& device_effects, int first) {
-  std::vector<Settings> all;
-  auto bounds = device_effects.bounds.begin();
-  for (const EffectUse& use : device_effects.uses) {
-    const Effect& effect = *use.effect;
-    std::vector<int> searched;
-    for (int k = 0; k < effect.size(); ++k) {
-      if (effect.parameters[k].searched && bounds[k].lower < bounds[k].upper) searched.push_back(k);
+std::vector<bool> FindFlatSettings(const FitModel& model, const EffectSpan& effects,
+                                   const FitPoint& at) {
+  const int count = model.shape().size();
+  std::vector<bool> flat(count, false);
+  if (effects.effects == nullptr) return flat;
+  std::vector<bool> seen(count, false);
+  const double* local = at.local.data();
+  for (std::size_t b = 0; b < model.shape().blocks.size(); ++b) {
+    const FitBlock& block = model.shape().blocks[b];
+    std::vector<double> residuals(block.residuals);
+    std::vector<double> slopes(static_cast<std::size_t>(block.residuals) * count);
+    if (!model.Evaluate(static_cast<int>(b), at.p.data(), local, residuals.data(), slopes.data(),
+                        nullptr)) {
+      return flat;
     }
-    if (!searched.empty() && effect.probes != nullptr) {
-      Settings settings;
-      settings.parameters.reserve(searched.size());
-      for (const int k : searched) settings.parameters.push_back(first + k);
-      for (const Probe& probe : effect.probes(device_effects.readings.traits)) {
-        std::vector<double> values;
-        values.reserve(searched.size());
-        for (const int k : searched) {
-          values.push_back(std::min(std::max(probe[k], bounds[k].lower), bounds[k].upper));
-        }
-        settings.values.insert(std::move(values));
-      }
-      all.push_back(std::move(settings));
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      if (slopes[k] != 0) seen[k % count] = true;
     }
-    first += effect.size();
-    bounds += effect.size();
+    local += block.locals;
   }
-  return all;
+  for (const Settings& settings : FindSettings(effects)) {
+    for (const int k : settings.parameters) flat[k] = !seen[k];
+  }
+  return flat;
 }
 
-std::vector<FitPoint> FindOtherOptima(const FitModel& model, const DeviceEffects& device_effects,
+std::vector<FitPoint> FindOtherOptima(const FitModel& model, const EffectSpan& effects,
                                       const FitPoint& best, std::vector<FitPoint> ends,
                                       const OptimumQuery& query) {
-  for (const Settings& settings : FindSettings(device_effects, query.first)) {
+  for (const Settings& settings : FindSettings(effects)) {
     for (FitPoint& other : WithOthers(model, settings, best)) {
       ends.push_back(RefineModel(model, std::move(other), query.how));
     }
   }
-  const std::vector<int> numbers = Numbers(device_effects, query.first);
+  const std::vector<int> numbers = Numbers(effects);
   std::vector<Optimum> optima = {{best, Residuals(model, best)}};
   for (FitPoint& end : ends) {
     if (!(model.MeanSquare(end) < query.highest)) continue;

@@ -281,11 +281,40 @@ class Side {
   ProfileSide side_;
 };
 
+// A model with one parameter that is fixed at changing values.
+class FixedModel : public FitModel {
+ public:
+  explicit FixedModel(const FitModel& free) : FitModel(free.shape()), free_(free) {}
+
+  bool Evaluate(int block, const double* p, const double* local, double* residuals, double* slopes,
+                double* local_slopes) const override {
+    return free_.Evaluate(block, p, local, residuals, slopes, local_slopes);
+  }
+  double MeanSquare(const FitPoint& point) const override { return free_.MeanSquare(point); }
+
+ private:
+  const FitModel& free_;
+};
+
 }  // namespace
 
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             const ProfileRefits& refits) {
   return Side(model, best, query, refits).Find();
+}
+
+ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
+                            RefineOptions how) {
+  FixedModel fixed(model);
+  const auto refit = [&](double value, FitPoint start, double target, double tolerance) {
+    fixed.Fix(query.parameter, value);
+    start.p[query.parameter] = value;
+    how.target = target;
+    how.function_tolerance = tolerance;
+    if (how.small) how.first_tolerance = tolerance;
+    return RefineModel(fixed, std::move(start), how);
+  };
+  return FindProfileSide(model, best, query, {refit, nullptr});
 }
 
 }  // namespace lyrefit

@@ -50,6 +50,11 @@ struct ProfileRefits {
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             const ProfileRefits& refits);
 
+// FindProfileSide by RefineModel with the query's parameter fixed. `how`: the options of a refit;
+// with `small`, its first solve has the tolerance of the profile too.
+ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
+                            RefineOptions how);
+
 // FindProfileSide for one curve, whose diodes may exchange roles along the profile. `stop` is
 // polled once per iteration of every refit.
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,

@@ -54,6 +54,7 @@ set(LYREFIT_PUBLIC_HEADERS
   family/family_report.h
   fit/fit_report.h
   refine/error_terms.h
+  refine/estimate.h
   search/search_summary.h
   translate/checklist.h
   translate/field_test.h

@@ -89,21 +89,18 @@ TEST(RefineModel, IsProfiledLikeAnyOther) {
   const RefineEnd best = RefineModel(model, {{2, 0.7}, {0, 0.1}});
   const double variance = kDecayNoise * kDecayNoise, t = 2;
   const Spread spread = FindSpread(model, best, best.held, variance);
-  const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
+  const auto refit = [&](double value) {
     Decay held = model;
     held.Fix(1, value);
-    RefineOptions how;
-    how.target = target;
-    how.function_tolerance = tolerance;
-    FitPoint at = start;
+    FitPoint at = best;
     at.p[1] = value;
-    return RefineModel(held, at, how);
+    return RefineModel(held, at);
   };
   for (const bool upper : {false, true}) {
     const ProfileSide side = FindProfileSide(
-        model, best, {1, upper, t, variance, spread.standard_error[1]}, {refit, {}});
+        model, best, {1, upper, t, variance, spread.standard_error[1]}, RefineOptions());
     EXPECT_TRUE(side.settled);
-    const double risen = refit(side.value, best, 0, 1e-15).mean_square - best.mean_square;
+    const double risen = refit(side.value).mean_square - best.mean_square;
     EXPECT_NEAR(std::sqrt(risen * 2 * kDecayPoints / variance), t, 0.01 * t);
     EXPECT_EQ(side.value > best.p[1], upper);
   }

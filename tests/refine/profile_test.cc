@@ -6,6 +6,7 @@
 
 #include "family/synthetic_family.h"
 #include "lyrefit/refine/curve_model.h"
+#include "lyrefit/refine/family_model.h"
 #include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
@@ -133,6 +134,10 @@ TEST(FindProfileSide, IsNeverNarrowerThanWhatItSaw) {
   }
 }
 
+ProfileSide SideOf(const JointProblem& problem, const JointEnd& best, const ProfileQuery& query) {
+  return FindProfileSide(FamilyModel(problem), PackedEnd(problem, best), query, HowToRefine({}));
+}
+
 TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
   const Translation law = SyntheticLaw(TranslationLaw::kDeSoto);
   const std::vector<double> truth = SyntheticTruth(law);
@@ -152,7 +157,7 @@ TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold)
     if (best.held[i]) continue;
     for (const bool upper : {false, true}) {
       const ProfileSide side =
-          FindProfileSide(problem, best, {i, upper, t, variance, spread.standard_error[i]});
+          SideOf(problem, best, {i, upper, t, variance, spread.standard_error[i]});
       EXPECT_EQ(side.value > best.point.shared[i], upper) << law.parameters[i].name;
       EXPECT_FALSE(side.at_bound) << law.parameters[i].name;
       EXPECT_NEAR(rise(i, side.value), t, 0.01 * t) << law.parameters[i].name;
@@ -171,13 +176,11 @@ TEST(FindFamilyProfileSide, StopsAtABoundThatTheDataAllow) {
   const JointProblem problem =
       SyntheticProblem(SyntheticSet(law, truth, kSixPlaces, 12, 3e-3), law, truth);
   const JointEnd best = RefineJointly(problem, PointAt(problem, truth));
-  const ProfileSide low =
-      FindProfileSide(problem, best, {law.resistance_series, false, 2, 9e-6, 0});
+  const ProfileSide low = SideOf(problem, best, {law.resistance_series, false, 2, 9e-6, 0});
   EXPECT_TRUE(low.at_bound);
   EXPECT_EQ(low.value, 0);
-  EXPECT_TRUE(FindProfileSide(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0}).at_bound);
-  const ProfileSide limit =
-      FindProfileSide(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0});
+  EXPECT_TRUE(SideOf(problem, best, {law.resistance_shunt, true, 2, 9e-6, 0}).at_bound);
+  const ProfileSide limit = SideOf(problem, best, {law.resistance_shunt, false, 2, 9e-6, 0});
   EXPECT_FALSE(limit.at_bound);
   EXPECT_GT(limit.value, 300);
 }

@@ -10,6 +10,7 @@
 #include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/quote.h"
+#include "lyrefit/refine/intervals.h"
 
 namespace lyrefit {
 namespace {
@@ -87,11 +88,11 @@ std::vector<Row> BaseRows(const Law& law) {
 
 void AddInterval(const Row& row, double error, double t, Estimate* estimate) {
   if (!(error > 0 && std::isfinite(error))) return;
-  const double half = t * error;
+  const ParameterRange range = SymmetricRange(ParameterKind::kPlain, estimate->refined, error, t,
+                                              {row.positive ? 0 : -kInfinity, kInfinity});
   estimate->standard_error = error;
-  estimate->low_95 = estimate->refined - half;
-  if (row.positive) estimate->low_95 = std::max(0.0, estimate->low_95);
-  estimate->high_95 = estimate->refined + half;
+  estimate->low_95 = range.low;
+  estimate->high_95 = range.high;
   estimate->interval = IntervalMethod::kSymmetric;
 }
 

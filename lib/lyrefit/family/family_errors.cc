@@ -190,21 +190,14 @@ CovarianceProduct ProductOf(const JointProblem& problem, const FitModel& model, 
   };
 }
 
-std::vector<Interval> IntervalsOf(const ReportedFit& fit, const Spread& spread, double t,
-                                  const std::vector<Estimate>& estimates) {
+std::vector<Interval> IntervalsUnder(const Spread& spread, double t,
+                                     const std::vector<Estimate>& estimates) {
   std::vector<Interval> intervals;
+  intervals.reserve(estimates.size());
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const Estimate& e = estimates[i];
-    Interval interval;
-    interval.value = e.refined;
-    interval.standard_error = spread.standard_error[i];
-    if (std::isfinite(interval.standard_error)) {
-      const ParameterKind kind = fit.family.translation.parameters[i].kind;
-      const ParameterRange range = RangeAround(kind, e.refined, t * interval.standard_error);
-      interval.low_95 = std::max(range.low, e.bounds.lower);
-      interval.high_95 = std::min(range.high, e.bounds.upper);
-    }
-    intervals.push_back(interval);
+    intervals.push_back(
+        SymmetricInterval(e.refined, spread.standard_error[i], t, e.info.kind, e.bounds));
   }
   return intervals;
 }
@@ -249,7 +242,7 @@ void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, Famil
   all.shape = WithPower(all, brightest, errors.path_power);
   const Spread spread = FindSpread(fit.model, fit.best, fit.best.held,
                                    ProductOf(problem, fit.model, all, errors.sizes));
-  report->under_errors = IntervalsOf(fit, spread, StudentT95(curves - 1), report->estimates);
+  report->under_errors = IntervalsUnder(spread, StudentT95(curves - 1), report->estimates);
 }
 
 }  // namespace lyrefit

@@ -46,11 +46,8 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
         squares += off * off;
       }
       const double error = std::sqrt(squares * (curves - 1) / curves);
-      interval.standard_error = error / StepOnScale(kind, interval.value, 1);
-      const ParameterRange range = RangeAround(kind, interval.value, t * interval.standard_error);
-      const ParameterBounds& bounds = report->estimates[i].bounds;
-      interval.low_95 = std::max(range.low, bounds.lower);
-      interval.high_95 = std::min(range.high, bounds.upper);
+      interval = SymmetricInterval(whole[i], error / StepOnScale(kind, whole[i], 1), t, kind,
+                                   report->estimates[i].bounds);
     }
     report->jackknife.push_back(interval);
   }

@@ -1,34 +1,25 @@
 #include "lyrefit/family/family_judge.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/base/parallel.h"
 #include "lyrefit/family/coefficients.h"
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/model_points.h"
+#include "lyrefit/refine/intervals.h"
+#include "lyrefit/refine/other_optima.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr double kStrongCorrelation = 0.9;
-constexpr double kLinearReach = 0.3;       // of a symmetric interval, relative to the value
-constexpr double kNearPerfectShunt = 1e6;  // x V0 / I0
-
-Interval Symmetric(double value, double standard_error, double t) {
-  Interval interval;
-  interval.value = value;
-  interval.standard_error = standard_error;
-  interval.low_95 = value - t * standard_error;
-  interval.high_95 = value + t * standard_error;
-  return interval;
-}
+constexpr IntervalRules kRules = {
+    /*thorough=*/false, /*judge_open_ends=*/false, /*judge_absent_diodes=*/false,
+    "only a lower limit is known",
+    "the data do not fix it: nothing shows it, or another parameter takes its place"};
 
 KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
   if (translation.extended) {
@@ -50,16 +41,21 @@ struct Judged {
   std::vector<FitPoint> local_optima;  // other optima that the data allow
 };
 
-// With effects.
+// Other optima of a fit with effects whose sum of squares rises by less than t^2 variances, in
+// reporting units.
 std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const Observer& observer) {
   const ProgressReporter progress(observer, "other optima", 0);
+  JointOptions how;
+  how.stop = progress.stop();
+  const EffectSpan effects = SpanOf(fit.family.translation);
   const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, 0);
-  std::vector<FitPoint> local_optima =
-      FindOtherOptima(fit.problem, fit.end, StudentT95(static_cast<int>(degrees)),
-                      fit.end.squares / degrees, progress.stop());
-  for (FitPoint& other : local_optima) {
-    other.p = ReportedShared(fit.family.translation, std::move(other.p));
-  }
+  const double t = StudentT95(static_cast<int>(degrees));
+  const double rise = t * t * (fit.end.squares / degrees);
+  const double highest =
+      (fit.end.squares + fit.end.prior_squares + rise) / fit.internal.shape().points;
+  std::vector<FitPoint> local_optima = FindOtherOptima(
+      fit.internal, effects, fit.internal.Pack(fit.end.point), {}, {highest, HowToRefine(how)});
+  for (FitPoint& other : local_optima) other.p = Reported(effects, std::move(other.p));
   return local_optima;
 }
 
@@ -77,111 +73,44 @@ Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options, const Obse
   return judged;
 }
 
-ParameterKind KindOf(const Judged& judged, int i) {
-  return judged.fit.family.translation.parameters[i].kind;
-}
-
-void MarkHeld(const Judged& judged, int i, Estimate* e) {
-  const Translation& at = judged.fit.family.translation;
-  const double resistance = judged.fit.problem.voltage_scale_V / judged.fit.problem.current_scale_A;
-  if (i == at.saturation_current_2 || i == at.n_2) {
-    e->identifiable = false;
-    e->reason = i == at.n_2 ? "Is2 is 0" : "the best fit has no such diode";
-    if (i == at.saturation_current_2) e->at_bound = BoundSide::kLower;
-  } else if (e->info.kind == ParameterKind::kDarkShunt) {
-    // The range of a dark shunt is relative to the shunt at the reference.
-    const double ratio = e->refined / judged.fit.best.p[e->info.with[0]];
-    e->at_bound = ratio > 1.5 ? BoundSide::kUpper : BoundSide::kLower;
-  } else if (e->info.kind == ParameterKind::kShunt && std::isinf(e->bounds.upper)) {
-    const bool perfect = e->refined > kNearPerfectShunt * resistance;
-    e->at_bound = perfect ? BoundSide::kUpper : BoundSide::kLower;
-  } else {
-    const bool low = e->refined - e->bounds.lower < e->bounds.upper - e->refined;
-    e->at_bound = low ? BoundSide::kLower : BoundSide::kUpper;
+std::vector<Estimate> EstimatesOf(const Judged& judged, const std::vector<double>& searched) {
+  const FamilyProblem& family = judged.fit.family;
+  const Translation& at = family.translation;
+  std::vector<Estimate> estimates;
+  estimates.reserve(at.size());
+  for (int i = 0; i < at.size(); ++i) {
+    Estimate e;
+    e.info = at.parameters[i];
+    e.bounds = ReportedBounds(SpanOf(at), family.bounds[i], judged.fit.end.point.shared, i);
+    e.fixed = !std::isnan(family.fixed[i]);
+    e.searched = searched.empty() ? kUnknown : searched[i];
+    e.refined = judged.fit.best.p[i];
+    estimates.push_back(std::move(e));
   }
+  return estimates;
 }
 
-Estimate Describe(const Judged& judged, int i, double searched) {
-  Estimate e;
-  e.info = judged.fit.family.translation.parameters[i];
-  e.bounds = ReportedBounds(SpanOf(judged.fit.family.translation), judged.fit.family.bounds[i],
-                            judged.fit.end.point.shared, i);
-  e.fixed = !std::isnan(judged.fit.family.fixed[i]);
-  e.searched = searched;
-  e.refined = judged.fit.best.p[i];
-  if (e.fixed) return e;
-  if (judged.fit.end.held[i]) MarkHeld(judged, i, &e);
-  e.standard_error = judged.spread.standard_error[i];
-  const double reach = judged.t * e.standard_error;
-  if (!std::isfinite(reach) && !judged.fit.end.held[i]) {
-    e.identifiable = false;
-    e.reason = "the data do not fix it: nothing shows it, or another parameter takes its place";
-  }
-  if (!judged.options.intervals || !std::isfinite(reach)) return e;
-  e.interval = IntervalMethod::kSymmetric;
-  const ParameterRange range = RangeAround(e.info.kind, e.refined, reach);
-  e.low_95 = range.low;
-  e.high_95 = range.high;
-  return e;
-}
-
-bool BendsWithOthers(const Judged& judged, int i) {
-  const Translation& at = judged.fit.family.translation;
-  if (!at.extended || i < at.first_effect) return false;
-  return OneOfSeveral(*at.extended->effects, i - at.first_effect);
-}
-
-bool NeedsProfile(const Judged& judged, int i, const Estimate& e) {
-  if (e.fixed || (KindOf(judged, i) == ParameterKind::kSaturation && judged.fit.end.held[i]) ||
-      i == judged.fit.family.translation.n_2)
-    return false;
-  if (!judged.local_optima.empty() || BendsWithOthers(judged, i)) return true;
-  // An ideality and what goes with it are exact in their own coordinates.
-  if (e.at_bound != BoundSide::kNone) return true;
-  if (e.interval == IntervalMethod::kNone) return false;
-  if (e.low_95 < e.bounds.lower || e.high_95 > e.bounds.upper) return true;
-  const bool signed_value = e.bounds.lower < 0;
-  if (signed_value) return false;
-  return judged.t * e.standard_error > kLinearReach * std::fabs(e.refined) || std::isinf(e.high_95);
-}
-
-// Returns false if the observer stopped it.
-bool ProfileWhereNeeded(const Judged& judged, const Observer& observer,
-                        std::vector<Estimate>* estimates) {
-  std::vector<ProfileQuery> queries;
-  for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
-    if (!NeedsProfile(judged, i, (*estimates)[i])) continue;
-    for (const bool upper : {false, true}) {
-      queries.push_back({i, upper, judged.t, judged.variance, (*estimates)[i].standard_error, false,
-                         judged.local_optima});
-    }
-  }
-  std::vector<ProfileSide> sides(queries.size());
-  const ProgressReporter progress(observer, "intervals", static_cast<std::int64_t>(queries.size()));
-  ParallelFor(static_cast<int>(queries.size()), judged.options.threads, [&](int q) {
-    if (progress.Stopped()) return;
-    JointOptions options;
-    options.stop = progress.stop();
-    sides[q] = FindProfileSide(judged.fit.model, judged.fit.best, queries[q], HowToRefine(options));
-    progress.Step();
-  });
-  if (progress.Stopped()) return false;
-  for (std::size_t q = 0; q + 1 < queries.size(); q += 2) {
-    const int i = queries[q].parameter;
-    Estimate& e = (*estimates)[i];
-    e.interval = IntervalMethod::kProfile;
-    e.low_95 = std::max(sides[q].value, e.bounds.lower);
-    e.high_95 =
-        sides[q + 1].at_bound && IsConductance(KindOf(judged, i)) ? kInfinity : sides[q + 1].value;
-    if (IsConductance(KindOf(judged, i)) && std::isinf(e.high_95)) {
-      e.identifiable = false;
-      e.reason = "only a lower limit is known";
-    } else if (sides[q].at_bound && sides[q + 1].at_bound) {
-      e.identifiable = false;
-      e.reason = "the data allow its whole range";
-    }
-  }
-  return true;
+IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& searched,
+                           const ProgressReporter& progress) {
+  JointOptions how;
+  how.stop = progress.stop();
+  IntervalProblem problem;
+  problem.estimates = EstimatesOf(judged, searched);
+  problem.held = judged.fit.best.held;
+  problem.effects = SpanOf(judged.fit.family.translation);
+  problem.last = judged.options.intervals ? IntervalStep::kProfile : IntervalStep::kErrors;
+  problem.rules = kRules;
+  problem.threads = judged.options.threads;
+  problem.spread = judged.spread;
+  problem.t.assign(problem.estimates.size(), judged.t);
+  problem.further = {"dG", "dT"};
+  problem.variance = judged.variance;
+  problem.several_optima = !judged.local_optima.empty();
+  problem.profile = [&](ProfileQuery query) {
+    query.local_optima = judged.local_optima;
+    return FindProfileSide(judged.fit.model, judged.fit.best, query, HowToRefine(how));
+  };
+  return FindIntervals(std::move(problem), progress);
 }
 
 // Value and symmetric interval of a function of the shared parameters, from a gradient by central
@@ -208,10 +137,10 @@ Interval Derived(const Judged& judged, const std::vector<double>& refined,
   for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
     const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
     const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
-    if (std::fabs(parts.sum()) > kOpen * least) return Symmetric(now, kUnknown, judged.t);
+    if (std::fabs(parts.sum()) > kOpen * least) return SymmetricInterval(now, kUnknown, judged.t);
   }
   const double variance = gradient.dot(spread.covariance * gradient);
-  return Symmetric(now, std::sqrt(std::max(variance, 0.0)), judged.t);
+  return SymmetricInterval(now, std::sqrt(std::max(variance, 0.0)), judged.t);
 }
 
 // Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.
@@ -226,32 +155,10 @@ std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<do
           {"gamma_pmp", "%/K", derived(&TemperatureCoefficients::gamma_pmp_percent_K)}};
 }
 
-// Correlations above kStrongCorrelation, the strongest first.
-std::vector<Correlation> StrongCorrelations(const Judged& judged) {
-  const JointProblem& problem = judged.fit.problem;
-  std::vector<Correlation> strong;
-  const auto symbol = [&](int i) -> std::string {
-    if (i == problem.irradiance_offset()) return "dG";
-    if (i == problem.temperature_offset()) return "dT";
-    return judged.fit.family.translation.parameters[i].symbol;
-  };
-  for (int i = 0; i < problem.shared(); ++i) {
-    for (int j = i + 1; j < problem.shared(); ++j) {
-      const double value = judged.spread.correlation(i, j);
-      if (std::fabs(value) <= kStrongCorrelation) continue;
-      strong.push_back({symbol(i), symbol(j), value});
-    }
-  }
-  std::stable_sort(strong.begin(), strong.end(), [](const Correlation& a, const Correlation& b) {
-    return std::fabs(a.value) > std::fabs(b.value);
-  });
-  return strong;
-}
-
 void DescribeSensors(const Judged& judged, FamilyReport* report) {
   const JointProblem& problem = judged.fit.problem;
   const auto error = [&](int i) {
-    return Symmetric(judged.fit.best.p[i], judged.spread.standard_error[i], judged.t);
+    return SymmetricInterval(judged.fit.best.p[i], judged.spread.standard_error[i], judged.t);
   };
   if (judged.options.irradiance_offset) {
     report->irradiance_offset_W_m2 = error(problem.irradiance_offset());
@@ -269,16 +176,22 @@ void DescribeOffsets(const Judged& judged, FamilyReport* report) {
     const JointLocal& error = judged.spread.local_errors[k];
     FamilyCurve& row = report->curves[fitted[k]];
     if (curve.irradiance_sd > 0) {
-      row.irradiance_offset_W_m2 =
-          Symmetric(local[0] * curve.irradiance_W_m2, error[0] * curve.irradiance_W_m2, judged.t);
+      row.irradiance_offset_W_m2 = SymmetricInterval(local[0] * curve.irradiance_W_m2,
+                                                     error[0] * curve.irradiance_W_m2, judged.t);
     }
     if (curve.temperature_sd_K > 0) {
-      row.temperature_offset_K = Symmetric(local[1], error[1], judged.t);
+      row.temperature_offset_K = SymmetricInterval(local[1], error[1], judged.t);
     }
   }
 }
 
 }  // namespace
+
+Interval SymmetricInterval(double value, double standard_error, double t, ParameterKind kind,
+                           const ParameterBounds& bounds) {
+  const ParameterRange range = SymmetricRange(kind, value, standard_error, t, bounds);
+  return {value, standard_error, range.low, range.high};
+}
 
 double JointDegrees(const JointProblem& problem, int free_parameters, double local_degrees) {
   double points = 0;
@@ -308,15 +221,13 @@ void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Obs
   const std::vector<double> searched = ReportedShared(at, report->searched);
   const Judged judged = SpreadOf(fit, options, observer);
   report->noise_A = std::sqrt(judged.variance);
-  report->estimates.clear();
-  for (int i = 0; i < at.size(); ++i) {
-    report->estimates.push_back(Describe(judged, i, searched.empty() ? kUnknown : searched[i]));
-  }
-  if (options.intervals) {
-    if (!ProfileWhereNeeded(judged, observer, &report->estimates)) report->interrupted = true;
-    report->coefficients = Coefficients(judged, report->refined);
-    report->correlations = StrongCorrelations(judged);
-  }
+  ProgressReporter progress;
+  if (options.intervals) progress = ProgressReporter(observer, "intervals", 0);
+  IntervalReport intervals = IntervalsOf(judged, searched, progress);
+  report->estimates = std::move(intervals.estimates);
+  report->correlations = std::move(intervals.correlations);
+  report->interrupted = report->interrupted || progress.Stopped();
+  if (options.intervals) report->coefficients = Coefficients(judged, report->refined);
   DescribeSensors(judged, report);
   report->reference = AtReference(at, report->refined);
   DescribeOffsets(judged, report);

@@ -2,6 +2,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_problem.h"
+#include "lyrefit/family/family_report.h"
 #include "lyrefit/refine/family_model.h"
 #include "lyrefit/refine/joint.h"
 #include "lyrefit/refine/reporting_model.h"
@@ -24,9 +25,15 @@ struct ReportedFit {
 // Fills estimates, sensor errors, coefficients, correlations, key points at the reference, curve
 // offsets and the noise of `report` from the end of a joint fit. All values are in reporting units
 // except `report->refined`, which is in internal units. If the observer stops it, it omits
-// the profile intervals and marks the report as interrupted.
+// the unfinished profile intervals and marks the report as interrupted.
 void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer,
                  FamilyReport* report);
+
+// The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends are
+// NaN without a finite standard error.
+Interval SymmetricInterval(double value, double standard_error, double t,
+                           ParameterKind kind = ParameterKind::kPlain,
+                           const ParameterBounds& bounds = {-kInfinity, kInfinity});
 
 // Delete-one-curve jackknife: intervals of every shared parameter if whole curves are independent.
 // If the observer stops it, it marks the report as interrupted and fills nothing.

@@ -14,53 +14,11 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/law/device.h"
 #include "lyrefit/refine/error_terms.h"
+#include "lyrefit/refine/estimate.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
-
-enum class BoundSide { kNone, kLower, kUpper };  // Active bound of a parameter.
-
-template <>
-struct EnumTable<BoundSide> {
-  static constexpr EnumText<BoundSide> kRows[] = {
-      {BoundSide::kNone, "none"}, {BoundSide::kLower, "lower"}, {BoundSide::kUpper, "upper"}};
-};
-
-// Method of an interval.
-enum class IntervalMethod {
-  kNone,       // fixed parameter, or intervals not requested
-  kSymmetric,  // estimate -+ t x standard error on the parameter's scale, clipped to the bounds
-  kProfile,    // ends where the profiled sum of squares reaches the F threshold, or at a bound
-  kUnsettled,  // profile without the threshold on one side: the true end lies outside
-};
-
-template <>
-struct EnumTable<IntervalMethod> {
-  static constexpr EnumText<IntervalMethod> kRows[] = {
-      {IntervalMethod::kNone, "none"},
-      {IntervalMethod::kSymmetric, "symmetric"},
-      {IntervalMethod::kProfile, "profile"},
-      {IntervalMethod::kUnsettled, "unsettled profile"}};
-};
-
-// One parameter: its values after the search and after the polish, in reporting units. NaN: not
-// available (no polish, or no finite standard error).
-struct Estimate {
-  ParameterInfo info;
-  ParameterBounds bounds;
-  bool fixed = false;
-  bool free() const { return !fixed && bounds.whole == 0; }  // integers are enumerated, not fitted
-  double searched = kUnknown;
-  double refined = kUnknown;
-  double standard_error = kUnknown;
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
-  IntervalMethod interval = IntervalMethod::kNone;  // method of low_95 and high_95
-  BoundSide at_bound = BoundSide::kNone;
-  bool identifiable = true;
-  std::string reason;  // why not identifiable, as a phrase
-};
 
 // Root mean square errors (RMSE) of one parameter vector, in ampere, by both definitions.
 // Measured-current: of the measured current inserted into the right-hand side of the diode
@@ -152,13 +110,6 @@ struct RefineReport {
   double seconds = 0;
   double best_candidate_seconds = kUnknown;  // plain_polish: full polish of the best candidate
   std::optional<OptimumCount> local_optima;  // only with effects
-};
-
-// Two strongly correlated parameters.
-struct Correlation {
-  std::string first;   // symbol
-  std::string second;  // symbol of the other
-  double value = 0;    // correlation coefficient, -1 to 1
 };
 
 // Information criteria of the fit. Lower is better; compare fits of the same readings only.

@@ -4,35 +4,39 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/fit/fit_options.h"
-#include "lyrefit/fit/fit_report.h"
 #include "lyrefit/refine/error_model.h"
+#include "lyrefit/refine/intervals.h"
 #include "lyrefit/refine/refine.h"
 
 namespace lyrefit {
 
-struct IntervalInput {
+// The end of a fit of one curve, and the errors of its residuals.
+struct CurveEnd {
   const RefineProblem& problem;
   const RefineEnd& end;
-  const std::vector<FitPoint>& ends;  // other local optima, only with effects
-  Intervals method = Intervals::kProfile;
-  int free_parameters = 0;
-  int readings = 0;  // distinct readings
-  int threads = 0;
-  const ProgressReporter& progress;
-  bool final = false;  // true: profiles continue past a lower optimum
+  int spare_readings = 1;  // distinct readings minus free parameters, at least 1
   // Errors of the residuals, in A, if they differ from those that the fit assumed. Each profile is
   // then extended by the ratio of the standard errors.
   const ErrorModel* errors = nullptr;
-  std::vector<int> degrees = {};  // of each standard error; empty: readings minus free parameters
 };
 
-// Standard errors of all estimates; NaN where there is none.
-std::vector<double> StandardErrors(const IntervalInput& input);
+// Standard errors of all parameters, in reporting units; NaN where there is none.
+std::vector<double> StandardErrors(const CurveEnd& fit);
 
-// Sets standard errors, intervals, active bounds, identifiability and reasons of `estimates`, and
-// the correlations and the condition number. Profiles use Coarsen(problem). Returns the parameters
-// of a lower optimum if a profile found one, else an empty vector.
-std::vector<double> FindIntervals(const IntervalInput& input, std::vector<Estimate>* estimates,
-                                  std::vector<Correlation>* correlations, double* condition);
+struct CurveIntervalOptions {
+  Intervals method = Intervals::kProfile;
+  std::vector<FitPoint> ends = {};  // other local optima, only with effects; internal units
+  std::vector<int> degrees = {};    // of freedom, of each standard error; empty: the spare readings
+  int threads = 0;
+  bool final = false;  // true: profiles continue past a lower optimum
+};
+
+struct CurveIntervals : IntervalReport {
+  std::vector<double> lower_optimum = {};  // that a profile found, in internal units; empty: none
+};
+
+// FindIntervals for one curve; `estimates` as in IntervalProblem. Profiles use Coarsen(problem).
+CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimates,
+                             const CurveIntervalOptions& options, const ProgressReporter& progress);
 
 }  // namespace lyrefit

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/fit/error_degrees.h"
 #include "lyrefit/fit/order_alike.h"
@@ -51,13 +52,15 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
     OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.held);
-    judged->estimates = EstimatesOf(fit, searched, judged->end.p);
-    judged->correlations.clear();
-    const IntervalInput input{refined.problem,     judged->end,    refined.ends,        method,
-                              fit.free_parameters, fit.readings(), fit.options.threads, progress,
-                              round == kRestarts,  nullptr,        refined.degrees};
-    const std::vector<double> better =
-        FindIntervals(input, &judged->estimates, &judged->correlations, &judged->condition);
+    CurveIntervals found = FindIntervals(
+        {refined.problem, judged->end, fit.spare_readings()},
+        EstimatesOf(fit, searched, judged->end.p),
+        {method, refined.ends, refined.degrees, fit.options.threads, /*final=*/round == kRestarts},
+        progress);
+    judged->estimates = std::move(found.estimates);
+    judged->correlations = std::move(found.correlations);
+    judged->condition = found.condition;
+    const std::vector<double>& better = found.lower_optimum;
     if (better.empty() || round == kRestarts) break;
     RefineOptions how;
     how.stop = progress.stop();
@@ -86,28 +89,19 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
   judged->errors = errors;
   if (!errors.believed) return;
   const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
-  const auto input_under = [&](const ErrorModel& model) {
-    return IntervalInput{fit.problem,
-                         end,
-                         refined.ends,
-                         fit.options.intervals,
-                         fit.free_parameters,
-                         fit.readings(),
-                         fit.options.threads,
-                         progress,
-                         true,
-                         &model};
-  };
   const auto errors_at = [&](const ErrorSizes& sizes) {
-    return StandardErrors(input_under(MakeErrorModel(shape, sizes)));
+    const ErrorModel model = MakeErrorModel(shape, sizes);
+    return StandardErrors({fit.problem, end, fit.spare_readings(), &model});
   };
   const ErrorModel model = MakeErrorModel(shape, found->sizes);
-  IntervalInput input = input_under(model);
-  input.degrees = FindDegrees(*found, errors_at, fit.spare_readings());
-  judged->under_errors = EstimatesOf(fit, searched, end.p);
-  std::vector<Correlation> correlations;
-  double condition = 0;
-  FindIntervals(input, &judged->under_errors, &correlations, &condition);
+  judged->under_errors =
+      FindIntervals({fit.problem, end, fit.spare_readings(), &model},
+                    EstimatesOf(fit, searched, end.p),
+                    {fit.options.intervals, refined.ends,
+                     FindDegrees(*found, errors_at, fit.spare_readings()), fit.options.threads,
+                     /*final=*/true},
+                    progress)
+          .estimates;
 }
 
 }  // namespace

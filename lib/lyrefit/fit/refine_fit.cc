@@ -17,20 +17,12 @@ namespace {
 constexpr int kGridStarts = 4;
 
 // Degrees of freedom of the standard errors of a fit that is weighted by estimated errors.
-std::vector<int> DegreesOfWeighed(const RefinedFit& fit, const FoundErrors& found,
-                                  const ProgressReporter& progress) {
+std::vector<int> DegreesOfWeighed(const RefinedFit& fit, const FoundErrors& found) {
   const PreparedFit& prepared = fit.prepared;
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorSpec spec = {ErrorKind::kField, sizes, "field"};
     const RefineProblem there = WeighByErrors(prepared.problem, prepared.fitted(), spec, fit.end.p);
-    return StandardErrors({there,
-                           fit.end,
-                           {},
-                           Intervals::kSymmetric,
-                           prepared.free_parameters,
-                           prepared.readings(),
-                           prepared.options.threads,
-                           progress});
+    return StandardErrors({there, fit.end, prepared.spare_readings()});
   };
   return FindDegrees(found, errors_at, prepared.spare_readings());
 }
@@ -45,7 +37,7 @@ void WeighReadings(const ProgressReporter& progress, RefinedFit* fit) {
   if (!weighed) return;
   fit->errors = weighed->errors;
   fit->errors->least_squares = least_squares;
-  if (weighed->found) fit->degrees = DegreesOfWeighed(*fit, *weighed->found, progress);
+  if (weighed->found) fit->degrees = DegreesOfWeighed(*fit, *weighed->found);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/family_model.h"
-#include "lyrefit/refine/other_optima.h"
 
 namespace lyrefit {
 namespace {
@@ -139,26 +138,6 @@ JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
     }
   }
   return spread;
-}
-
-std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                      double variance, const StopToken& stop) {
-  const FamilyModel model(problem);
-  const RefineEnd end = PackedEnd(problem, best);
-  JointOptions options;
-  options.stop = stop;
-  const double highest =
-      (best.squares + best.prior_squares + t * t * variance) / model.shape().points;
-  return FindOtherOptima(model, SpanOf(problem.translation), end, {},
-                         {highest, HowToRefine(options)});
-}
-
-ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
-                            const ProfileQuery& query, const StopToken& stop) {
-  JointOptions options;
-  options.stop = stop;
-  return FindProfileSide(FamilyModel(problem), PackedEnd(problem, best), query,
-                         HowToRefine(options));
 }
 
 }  // namespace lyrefit

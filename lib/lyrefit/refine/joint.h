@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/law/translation.h"
-#include "lyrefit/refine/profile.h"
+#include "lyrefit/refine/active_set.h"
 #include "lyrefit/refine/spread.h"
 
 namespace lyrefit {
@@ -109,17 +109,8 @@ struct JointSpread : Spread {
   double local_degrees = 0;  // degrees of freedom of the local unknowns beyond their priors
 };
 JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, double variance);
-// The same in the units of `model`, which is a FamilyModel or wraps one; `end` is in these units.
+// FindJointSpread in the units of `model`, which is a FamilyModel or wraps one, and of `end`.
 JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
                             const RefineEnd& end, double variance);
-
-// FindOtherOptima of a joint problem with effects, in internal units, from the end of its fit.
-// Accepts optima within the threshold of t and the variance of a point of weight 1.
-std::vector<FitPoint> FindOtherOptima(const JointProblem& problem, const JointEnd& best, double t,
-                                      double variance, const StopToken& stop = {});
-
-// FindProfileSide of a shared parameter; `stop` as in JointOptions.
-ProfileSide FindProfileSide(const JointProblem& problem, const JointEnd& best,
-                            const ProfileQuery& query, const StopToken& stop = {});
 
 }  // namespace lyrefit

@@ -14,6 +14,8 @@ ModelShape ReportingShape(ModelShape shape, const EffectSpan& effects) {
   for (const EffectUse& use : effects.effects->uses) {
     const int size = use.effect->size();
     std::vector<double> lower, upper;
+    lower.reserve(size);
+    upper.reserve(size);
     for (int k = first; k < first + size; ++k) {
       lower.push_back(shape.parameters[k].lower);
       upper.push_back(shape.parameters[k].upper);

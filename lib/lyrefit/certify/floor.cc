@@ -9,6 +9,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/fit/fit.h"
+#include "lyrefit/law/current.h"
 #include "lyrefit/law/device.h"
 
 namespace lyrefit {

@@ -11,7 +11,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // A name that changed.
 struct FormerName {
   std::string_view former;  // the name in version 0.1
-  std::string_view name;  // the name now
+  std::string_view name;    // the name now
 };
 
 // Options, as in flags without the leading "--".

@@ -11,8 +11,8 @@ set(ALLOWED_curve base)
 set(ALLOWED_law base curve)
 set(ALLOWED_search base)  # independent of photovoltaics
 set(ALLOWED_refine base curve law)
-set(ALLOWED_certify base curve law refine)
-set(ALLOWED_fit base curve law search refine certify effects)
+set(ALLOWED_certify base curve law refine fit)
+set(ALLOWED_fit base curve law search refine effects)
 set(ALLOWED_family base curve law search refine fit effects)
 set(ALLOWED_effects base curve law)  # independent of fitting
 set(ALLOWED_diagnose base curve law search refine certify fit family effects)
@@ -21,7 +21,7 @@ set(ALLOWED_report base curve law search certify fit family diagnose translate) 
 # A separate library with its own writers in study/report. The core's writers do not depend on it.
 set(ALLOWED_study base curve law search refine certify fit family effects report)
 # A separate library for many curves, their rows and their page.
-set(ALLOWED_batch base curve law fit effects family diagnose translate report)
+set(ALLOWED_batch base curve law certify fit effects family diagnose translate report)
 set(MODULES base curve law search refine certify effects fit family diagnose translate report study batch)
 
 set(PUBLIC)  # the installed headers

@@ -22,7 +22,7 @@ set(LYREFIT_PUBLIC_HEADERS
   family/fit_individually.h
   family/pvlib_parameters.h
   fit/fit.h
-  fit/floor.h
+  certify/floor.h
   fit/fit_files.h
   fit/simulate.h
   law/kernel.h

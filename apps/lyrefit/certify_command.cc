@@ -3,7 +3,7 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/floor.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

@@ -6,7 +6,7 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/fit/fit_files.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
@@ -101,8 +101,7 @@ Expected<FitJob> ReadJob(const FitRequest& fit, const std::string& file) {
 }
 
 Expected<FitReport> Run(const FitRequest& fit, const FitJob& job, const Observer& observer) {
-  return fit.auto_model ? FitAuto(job.curve, job.options, observer)
-                        : Fit(job.curve, job.options, observer);
+  return FitWithFloor(job.curve, job.options, fit.auto_model, observer);
 }
 
 Expected<void> Write(const VerbLine& verb, const FitRequest& fit,

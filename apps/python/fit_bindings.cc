@@ -6,7 +6,7 @@
 #include "effects.h"
 #include "fit.h"
 #include "fit_row.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
@@ -70,9 +70,7 @@ py::object FitOne(py::handle curve, py::handle current, const py::kwargs& given)
   const bool auto_model = asked.auto_model;
   auto report = WorkWith(
       asked.faults, progress,
-      [&](const Observer& observer) {
-        return auto_model ? FitAuto(taken, options, observer) : Fit(taken, options, observer);
-      },
+      [&](const Observer& observer) { return FitWithFloor(taken, options, auto_model, observer); },
       options.threads);
   return py::cast(FitResult(HoldWith(Must(std::move(report)), asked.own)));
 }

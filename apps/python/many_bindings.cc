@@ -9,7 +9,7 @@
 #include "fit.h"
 #include "fit_row.h"
 #include "lyrefit/base/file.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/fit/fit_files.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
@@ -119,7 +119,7 @@ Expected<FitReport> FitOneOf(const CurveToFit& curve, const FitKeywords& asked,
   Expected<FitOptions> options = OptionsFor(asked, curve.file);
   if (!options) return tl::unexpected(options.error());
   options->threads = 1;
-  return asked.auto_model ? FitAuto(*taken, *options, observer) : Fit(*taken, *options, observer);
+  return FitWithFloor(*taken, *options, asked.auto_model, observer);
 }
 
 FitResults FitMany(py::handle curves, py::handle current, const py::kwargs& given) {

@@ -7,8 +7,8 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/fit/fit.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -58,8 +58,7 @@ Expected<ordered_json> RunFit(const PageRequest& request) {
   TRY(IvCurve curve, ReadCurve(request.file, form.file.reading));
   TRY(ApplyConditions(form.file.conditions, &curve));
   const Observer observer = ProgressObserver();
-  TRY(FitReport report,
-      form.automatic ? FitAuto(curve, form.options, observer) : Fit(curve, form.options, observer));
+  TRY(FitReport report, FitWithFloor(curve, form.options, form.automatic, observer));
   ordered_json answer;
   answer["usable"] = report.usable;
   answer["summary"] = BriefReport(report);

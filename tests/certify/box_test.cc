@@ -8,7 +8,7 @@
 #include "error_of.h"
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/floor.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/refine/refine.h"
 #include "lyrefit/refine/separable.h"
 #include "repeats.h"

@@ -37,9 +37,6 @@ struct DayPlan {
   std::string folder;
   int first = 0;       // first sweep used
   bool sensor = true;  // the irradiance was measured with each sweep
-  double steady = 0;   // limit on the deviation of ln Isc from the mean of its neighbours
-  // limit on the deviation of ln(Isc / G) from the mean of its neighbours
-  double sensor_steady = 1;
 };
 
 Day ReadDay(const DayPlan& plan) {

@@ -55,58 +55,57 @@ TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {
   const PolishStart truth = Truth();
   const RefineEnd end = Refine(InVariant(fit_.problem, fit_.variants[0], truth.p), truth.p);
   EXPECT_NEAR(std::sqrt(end.mean_square) / synthetic_.noise_A, 1, 0.2);
-  Descents descents(fit_.problem, fit_.variants, progress_);
-  descents.Descend(ShapeStarts(fit_));
-  const DescentEnd& best = descents.ends()[descents.best()];
+  Descents descents;
+  Descend(fit_, ShapeStarts(fit_), progress_, &descents);
+  const DescentEnd& best = descents.Best();
   EXPECT_TRUE(best.finished);
   EXPECT_EQ(best.start.variant, 0);
   EXPECT_NEAR(best.end.mean_square / end.mean_square, 1, 1e-6);
-  for (const DescentEnd& other : descents.ends()) EXPECT_GE(other.penalised, best.penalised);
+  for (const DescentEnd& other : descents.ends) EXPECT_GE(other.value, best.value);
 }
 
 TEST_F(DescentsTest, WhatAVariantFreesIsPaidFor) {
-  Descents descents(fit_.problem, fit_.variants, progress_);
-  descents.Descend(ShapeStarts(fit_));
+  Descents descents;
+  Descend(fit_, ShapeStarts(fit_), progress_, &descents);
   const double points = static_cast<double>(synthetic_.curve.size());
-  for (const DescentEnd& end : descents.ends()) {
+  for (const DescentEnd& end : descents.ends) {
     const double free = fit_.variants[end.start.variant].free;
-    EXPECT_NEAR(points * std::log(end.penalised / end.end.mean_square), free * std::log(points),
-                1e-6);
+    EXPECT_NEAR(points * std::log(end.value / end.end.mean_square), free * std::log(points), 1e-6);
   }
 }
 
 TEST_F(DescentsTest, CountsWhatWasMet) {
-  Descents descents(fit_.problem, fit_.variants, progress_);
+  Descents descents;
   const double d1 = synthetic_.truth.at("substrings.d1");
   const double d2 = synthetic_.truth.at("substrings.d2");
   const double d3 = synthetic_.truth.at("substrings.d3");
   // Equal cell groups are interchangeable, so both starts end in one local optimum.
-  descents.Descend({Changed(d1, d2, d3), Changed(d3, d1, d2)});
-  OptimumCount count = descents.Count();
+  Descend(fit_, {Changed(d1, d2, d3), Changed(d3, d1, d2)}, progress_, &descents);
+  OptimumCount count = CountOptima(descents);
   EXPECT_EQ(count.ends, 2);
   EXPECT_EQ(count.local_optima, 1);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.once, 0);
   EXPECT_EQ(count.independent.twice, 1);
   EXPECT_FALSE(std::isfinite(count.unseen));  // two ends are too few
-  EXPECT_EQ(descents.visits(), 2);
+  EXPECT_EQ(BestVisits(descents), 2);
   // A start far from the truth is given up, and not counted unless it was finished.
-  descents.Descend({Changed(0.02, 0.02, 0.02)});
-  ASSERT_EQ(descents.ends().size(), 3u);
-  count = descents.Count();
-  EXPECT_EQ(count.ends, descents.ends()[2].finished ? 3 : 2);
+  Descend(fit_, {Changed(0.02, 0.02, 0.02)}, progress_, &descents);
+  ASSERT_EQ(descents.ends.size(), 3u);
+  count = CountOptima(descents);
+  EXPECT_EQ(count.ends, descents.ends[2].finished ? 3 : 2);
 }
 
 TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
-  Descents descents(fit_.problem, fit_.variants, progress_);
+  Descents descents;
   const double d1 = synthetic_.truth.at("substrings.d1");
   const double d2 = synthetic_.truth.at("substrings.d2");
   const double d3 = synthetic_.truth.at("substrings.d3");
-  descents.Descend({Changed(d1, d2, d3)});
+  Descend(fit_, {Changed(d1, d2, d3)}, progress_, &descents);
   PolishStart beside = Changed(d3, d1, d2);
   beside.beside = true;
-  descents.Descend({beside});
-  const OptimumCount count = descents.Count();
+  Descend(fit_, {beside}, progress_, &descents);
+  const OptimumCount count = CountOptima(descents);
   EXPECT_EQ(count.ends, 2);
   EXPECT_EQ(count.best_visits, 2);
   EXPECT_EQ(count.independent.ends, 1);
@@ -115,7 +114,7 @@ TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
   EXPECT_EQ(count.independent.once, 1);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_FALSE(std::isfinite(count.unseen));
-  for (const PolishStart& start : Neighbours(fit_, descents.ends()[descents.best()])) {
+  for (const PolishStart& start : Neighbours(fit_, descents.Best())) {
     EXPECT_TRUE(start.beside) << start.origin;
   }
   for (const PolishStart& start : ShapeStarts(fit_)) EXPECT_FALSE(start.beside) << start.origin;
@@ -123,9 +122,9 @@ TEST_F(DescentsTest, WhatBeganBesideAnEarlierEndIsInNoEstimate) {
 
 TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
   ASSERT_EQ(fit_.variants.size(), 2u);
-  Descents descents(fit_.problem, fit_.variants, progress_);
-  descents.Descend({Truth()});
-  const DescentEnd& end = descents.ends()[0];
+  Descents descents;
+  Descend(fit_, {Truth()}, progress_, &descents);
+  const DescentEnd& end = descents.ends[0];
   int others = 0;
   for (const PolishStart& start : Neighbours(fit_, end)) {
     if (start.variant == end.start.variant) continue;
@@ -154,9 +153,9 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   std::map<double, PolishStart> into;
   for (std::size_t k = 0; k < starts.size() && into.size() < 3; ++k) {
     const PolishStart& start = starts[k];
-    Descents alone(fit_.problem, fit_.variants, progress_);
-    alone.Descend({start});
-    const double end = alone.ends()[0].penalised;
+    Descents alone;
+    Descend(fit_, {start}, progress_, &alone);
+    const double end = alone.ends[0].value;
     const bool known = std::any_of(into.begin(), into.end(), [&](const auto& other) {
       return std::fabs(other.first / end - 1) < 0.01;
     });
@@ -164,15 +163,16 @@ TEST_F(DescentsTest, EstimatesTheUnseenAsChaoDoes) {
   }
   ASSERT_EQ(into.size(), 3u);
   // The worst first, so that no descent is given up for a better known end.
-  Descents descents(fit_.problem, fit_.variants, progress_);
-  for (auto start = into.rbegin(); start != into.rend(); ++start) descents.Descend({start->second});
-  OptimumCount count = descents.Count();
+  Descents descents;
+  for (auto start = into.rbegin(); start != into.rend(); ++start)
+    Descend(fit_, {start->second}, progress_, &descents);
+  OptimumCount count = CountOptima(descents);
   EXPECT_EQ(count.local_optima, 3);
   EXPECT_EQ(count.independent.once, 3);
   EXPECT_EQ(count.independent.twice, 0);
   EXPECT_EQ(count.unseen, 3);  // 3 x 2 / (2 x 1)
-  descents.Descend({into.begin()->second});
-  count = descents.Count();
+  Descend(fit_, {into.begin()->second}, progress_, &descents);
+  count = CountOptima(descents);
   EXPECT_EQ(count.ends, 4);
   EXPECT_EQ(count.local_optima, 3);
   EXPECT_EQ(count.best_visits, 2);

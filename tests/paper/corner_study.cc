@@ -5,9 +5,9 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/fit/floor.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 

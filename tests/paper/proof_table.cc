@@ -6,10 +6,10 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/certify/floor.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/fit/bounds.h"
-#include "lyrefit/fit/floor.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

@@ -30,6 +30,7 @@ USUAL = {"data/json.md": ".*", "lib/lyrefit/base/append_log.cc": "flock", "lib/l
 SUFFIXES = {".cc", ".h", ".inc", ".py", ".js", ".mjs", ".cmake", ".sh", ".md", ".html", ".css"}
 FOLDERS = ("apps", "cmake", "data", "lib", "tests")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+ANY = re.compile("|".join(TERMS), re.IGNORECASE)  # a line without it has no private word
 
 
 def private_words(root):
@@ -40,7 +41,7 @@ def private_words(root):
             continue
         name = path.relative_to(root).as_posix()
         for number, line in enumerate([name, *path.read_text(encoding="utf-8").splitlines()]):
-            for word in WORD.findall(line):
+            for word in WORD.findall(line) if ANY.search(line) else []:
                 for private, term in TERMS.items():
                     usual = name in USUAL and re.fullmatch(USUAL[name], word.lower())
                     if re.fullmatch(private, word.lower()) and not usual:

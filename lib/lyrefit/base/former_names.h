@@ -8,9 +8,10 @@
 // the options, and the results of the Python module find the keys, until version 0.3.
 namespace LYREFIT_PUBLIC lyrefit {
 
+// A name that changed.
 struct FormerName {
-  std::string_view former;
-  std::string_view name;  // the name now
+  std::string_view former;  // the name in version 0.1
+  std::string_view name;    // the name now
 };
 
 // Options, as in flags without the leading "--".

@@ -1,4 +1,4 @@
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/certify/floor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,8 +111,7 @@ BatchTaskType FitTask(const FitOptions& asked, bool auto_model) {
                                                const Observer& observer) {
     FitOptions own = options;
     own.search.seed = seed;
-    Expected<FitReport> report =
-        auto_model ? FitAuto(*curve.curve, own, observer) : Fit(*curve.curve, own, observer);
+    Expected<FitReport> report = FitWithFloor(*curve.curve, own, auto_model, observer);
     if (!report) return TaskResult{RowStatus::kBroken, report.error().message, {}, false};
     // A page must not depend on the time used.
     report->search.seconds = report->refine.seconds = kUnknown;

@@ -61,7 +61,9 @@ struct Proof {
   }
 };
 
-bool Solved(const Proof& proof) { return proof.options.objective == Objective::kSolvedCurrent; }
+bool IsSolvedCurrent(const Proof& proof) {
+  return proof.options.objective == Objective::kSolvedCurrent;
+}
 
 // Bounds models of `diodes` diodes, or of any number of them (0). `primal` is a half sum of squares
 // known to be reached.
@@ -69,7 +71,8 @@ BranchEnd RunBranch(const BranchLimits& limits, int diodes, double primal, Proof
   const std::vector<Window> box = proof->BoxOfModel(diodes);
   const SolvedRelaxation solved(proof->data);
   const MeasuredRelaxation measured(proof->data, limits.rigorous);
-  const Relaxation& relaxation = Solved(*proof) ? static_cast<const Relaxation&>(solved) : measured;
+  const Relaxation& relaxation =
+      IsSolvedCurrent(*proof) ? static_cast<const Relaxation&>(solved) : measured;
   BranchEnd end = diodes == 0 ? BranchOver(relaxation, proof->window, 0, primal, limits)
                               : BranchOver(relaxation, box, primal, limits);
   proof->rs_reached = std::max(proof->rs_reached, end.rs_reached);
@@ -167,7 +170,7 @@ double SafeModelRmse(const Proof& proof, int diode_count, const std::vector<doub
 // solved-current objective they belong to the problem linearised around the solved currents,
 // otherwise to the measured currents.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> FloorDual(const Proof& proof, const Mixture& best) {
-  if (!Solved(proof)) return {best.y, proof.data.JunctionVoltage(best.rs)};
+  if (!IsSolvedCurrent(proof)) return {best.y, proof.data.JunctionVoltage(best.rs)};
   const Eigen::VectorXd solved = SolvedCurrents(proof.data, best);
   const Eigen::VectorXd vd = proof.data.voltage_V + best.rs * solved;
   const MixtureLaw law(proof.data, best);
@@ -184,7 +187,7 @@ void TakeBest(const Proof& proof, BranchEnd* floor) {
     const double tolerance = 0.01 * proof.limits.tolerance;
     const double dual_gain_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
     Mixture here = model;
-    if (Solved(proof)) {
+    if (IsSolvedCurrent(proof)) {
       const SolvedMixture solved =
           SolveSolvedMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance);
       here.y = solved.mixture.y;

@@ -20,7 +20,7 @@ struct SolvedPart {
   double middle = 0;    // Rs of the references
   MixtureData linear = {};
   Eigen::VectorXd reference_A = {}, slope_S = {};  // J', s'
-  Eigen::ArrayXd residual = {};                    // measured - J', weighted
+  Eigen::ArrayXd residual = {};                    // I - J' = -r', weighted
   Mixture left = {}, right = {};
   PartBound bound = {};
   Eigen::ArrayXd deviation_A = {};      // upper bound of |J - J'|

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/refine/multistart.h"
+
 namespace lyrefit {
 namespace {
 
@@ -89,73 +91,56 @@ bool Misses(const WeightedData& weighted, const LawFit& fit, double part) {
   return sum > part * part * std::max(weighted.count(), 1);
 }
 
-// An unfinished fit and its penalised sum of squares.
-struct Way {
-  double paid = 0;
+// `value`: penalised sum of squares.
+struct ShapeEnd : MultistartEnd {
   LawFit fit;
 };
 
-// Continues all fits by `steps` steps. Returns the `most` best usable ones, best first.
-std::vector<Way> GoOn(const WeightedData& weighted, const std::vector<Way>& ways, int steps,
-                      std::size_t most) {
-  std::vector<Way> on;
-  for (const Way& way : ways) {
-    LawFit end = FitLaw(weighted, way.fit.law, way.fit.p, UpTo(steps, 1e-5));
-    if (end.usable) on.push_back({Paid(weighted, end), std::move(end)});
-  }
-  std::stable_sort(on.begin(), on.end(),
-                   [](const Way& a, const Way& b) { return a.paid < b.paid; });
-  if (on.size() > most) on.resize(most);
-  return on;
-}
-
 // Fits from starts suggested by the curve's shape; keeps the best result. All start from typical
-// base parameters: a base fit distorted by the fault leads to a wrong local optimum. All starts
-// take a few steps, the better ones more. The leading ones, each of a different local optimum, are
-// fitted to the end.
+// base parameters: a base fit distorted by the fault leads to a wrong local optimum. The leading
+// ones, each of a different local optimum, are fitted to the end.
 void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect,
                const Law& law, LawFit* best) {
-  constexpr std::size_t kBetter = 16, kAhead = 8;
-  constexpr int kFirst = 5, kMore = 9, kToTheEnd = 30;
-  constexpr double kSameLocalOptimum = 1e-3;  // relative difference of the penalised sums
   const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
   const std::vector<double> reference = TypicalStart(readings, law, shape.At(0.02));
-  std::vector<Way> ways;
+  std::vector<ShapeEnd> starts;
   for (const ShapeStart& own : effect.starts(shape, readings.traits, {})) {
-    LawFit start;
+    LawFit& start = starts.emplace_back().fit;
     start.law = law;
     for (const int k : own.freed) start.law.freed.emplace_back(&effect, k);
     start.p = fit.p;
     std::copy(reference.begin(), reference.end(), start.p.begin());
     start.p.insert(start.p.end(), own.p.begin(), own.p.end());
-    ways.push_back({0, std::move(start)});
   }
   // Weights from small noise make the sum very steep near steps of the current. With a large misfit
   // the first steps therefore use equal weights.
+  enum { kEqualWeights, kOwnWeights };
+  WeightedData alike = weighted;
+  alike.path = alike.correlation = 0;
+  alike.sigma.assign(weighted.sigma.size(), 0.01);
   constexpr double kSteps = 0.02;
-  if (Misses(weighted, fit, kSteps)) {
-    WeightedData alike = weighted;
-    alike.path = alike.correlation = 0;
-    alike.sigma.assign(weighted.sigma.size(), 0.01);
-    ways = GoOn(alike, ways, kFirst, kBetter);
-    ways = GoOn(alike, ways, kMore, kBetter);
-  }
-  ways = GoOn(weighted, ways, kFirst, kBetter);
-  ways = GoOn(weighted, ways, kMore, kBetter);
-  double last = 0;
-  std::size_t ahead = 0;
-  for (const Way& way : ways) {
-    if (ahead == kAhead) return;
-    if (way.paid < (1 + kSameLocalOptimum) * last) continue;
-    last = way.paid;
-    ++ahead;
-    LeastSquaresOptions on = UpTo(kToTheEnd, 1e-5);
-    if (best->usable) on.cutoff = Paid(weighted, *best);
-    LawFit end = FitLaw(weighted, way.fit.law, way.fit.p, on);
-    if (!end.usable || !IsItself(effect, end)) continue;
-    if (!best->usable || Paid(weighted, end) < Paid(weighted, *best)) *best = std::move(end);
-  }
+  MultistartRules rules;
+  if (Misses(weighted, fit, kSteps))
+    rules.stages = {{5, 16, kEqualWeights}, {9, 16, kEqualWeights}};
+  rules.stages.insert(rules.stages.end(), {{5, 16, kOwnWeights}, {9, 16, kOwnWeights}});
+  rules.last = {30, 8, kOwnWeights};
+  rules.apart = 1e-3;
+  const auto refine = [&](const MultistartStage& stage, ShapeEnd* at) {
+    const WeightedData& data = stage.problem == kEqualWeights ? alike : weighted;
+    const bool last = stage.steps == rules.last.steps;
+    LeastSquaresOptions how = UpTo(stage.steps, 1e-5);
+    if (last && best->usable) how.cutoff = Paid(weighted, *best);
+    LawFit end = FitLaw(data, at->fit.law, at->fit.p, how);
+    at->value = HUGE_VAL;
+    if (!end.usable) return;
+    at->value = Paid(data, end);
+    at->fit = std::move(end);
+    if (!last || !IsItself(effect, at->fit)) return;
+    if (!best->usable || at->value < Paid(weighted, *best)) *best = at->fit;
+  };
+  Multistart<ShapeEnd> run;
+  RunMultistart(rules, std::move(starts), refine, NeverSame, &run);
 }
 
 // Coordinate descent over the probe values of one searched parameter, for effects such as jumps:

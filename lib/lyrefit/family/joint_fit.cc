@@ -4,14 +4,17 @@
 #include <cmath>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/family/family_judge.h"
+#include "lyrefit/refine/multistart.h"
 
 namespace lyrefit {
 namespace {
 
-double Total(const JointEnd& end) { return end.squares + end.prior_squares; }
+// `value`: sum of squares of the points and of the priors.
+struct JointDescent : MultistartEnd {
+  JointEnd end;
+};
 
 bool HasPriors(const JointProblem& problem) {
   return std::any_of(problem.curves.begin(), problem.curves.end(), [](const JointCurve& curve) {
@@ -48,26 +51,27 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   JointProblem small = JointProblemOn(family, options, search_curves);
   // Priors count from the start. The first guess of the noise is 0.1 % of the current scale.
   small.noise_A = problem->noise_A = 1e-3 * problem->current_scale_A;
-  std::vector<JointEnd> ends(starts.size());
-  ParallelFor(static_cast<int>(starts.size()), options.threads, [&](int s) {
-    JointPoint start = starts[s];
-    start.local.assign(small.curves.size(), {0, 0});
-    JointOptions quick = thorough;
-    quick.function_tolerance = 1e-10;
-    ends[s] = RefineJointly(HoldingWhole(small, family, start.shared), start, quick);
-  });
-  std::stable_sort(ends.begin(), ends.end(),
-                   [](const JointEnd& a, const JointEnd& b) { return Total(a) < Total(b); });
-  constexpr std::size_t kBest = 2;
-  JointEnd best;
-  for (std::size_t s = 0; s < std::min(ends.size(), kBest); ++s) {
-    const bool repeats = s > 0 && Total(ends[s]) < Total(ends[0]) * (1 + 1e-6);
-    if (repeats) continue;
-    JointPoint start = ends[s].point;
-    start.local.assign(problem->curves.size(), {0, 0});
-    JointEnd end = RefineJointly(HoldingWhole(*problem, family, start.shared), start, thorough);
-    if (s == 0 || Total(end) < Total(best)) best = std::move(end);
-  }
+  enum { kSearchCurves, kAllCurves };
+  const auto refine = [&](const MultistartStage& stage, JointDescent* at) {
+    const bool quick = stage.problem == kSearchCurves;
+    const JointProblem& on = quick ? small : *problem;
+    JointPoint start = at->end.point;
+    start.local.assign(on.curves.size(), {0, 0});
+    JointOptions how = thorough;
+    if (quick) how.function_tolerance = 1e-10;
+    at->end = RefineJointly(HoldingWhole(on, family, start.shared), start, how);
+    at->value = at->end.squares + at->end.prior_squares;
+  };
+  MultistartRules rules;
+  rules.stages = {{0, 2, kSearchCurves}};
+  rules.last.problem = kAllCurves;
+  rules.apart = 1e-6;
+  rules.threads = options.threads;
+  std::vector<JointDescent> from(starts.size());
+  for (std::size_t s = 0; s < starts.size(); ++s) from[s].end.point = starts[s];
+  Multistart<JointDescent> run;
+  RunMultistart(rules, std::move(from), refine, NeverSame, &run);
+  JointEnd best = run.Best().end;
   *problem = HoldingWhole(std::move(*problem), family, best.point.shared);
   SettleNoise(family, thorough, problem, &best);
   best.stopped = progress.Stopped();

@@ -5,11 +5,9 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/fit/floor.h"
 #include "lyrefit/fit/judge_fit.h"
 #include "lyrefit/fit/order_alike.h"
 #include "lyrefit/fit/prepare_fit.h"
-#include "lyrefit/fit/prove_floor.h"
 #include "lyrefit/fit/refine_fit.h"
 #include "lyrefit/fit/search_fit.h"
 #include "lyrefit/fit/statistics.h"
@@ -56,32 +54,6 @@ ModelResults ResultsAt(const PreparedFit& fit, const std::vector<double>& p, dou
                    {rmse_A, at_its_end, fit.options.loss != Loss::kSquared, !fit.doubts.empty()});
   results.usable = results.not_usable_because.empty();
   return results;
-}
-
-// Proves the floor: the lowest RMSE that any number of diodes can reach.
-void AddFloor(const PreparedFit& fit, const Observer& observer, const ProgressReporter& progress,
-              FitReport* report) {
-  const FitOptions& options = fit.options;
-  if (!options.floor || progress.Stopped()) return;
-  if (!report->usable) {
-    report->warnings.emplace_back("No floor was looked for: the fit is not usable.");
-    return;
-  }
-  const double refined_A =
-      BothRmse(report->device, report->refined, fit.curve).Of(options.objective);
-  CertifyOptions ranges = RangesOf(fit.bounds, options.constants, {});
-  ranges.objective = options.objective;
-  bool interrupted = false;
-  Expected<FloorReport> floor = ProveFloor(fit.curve, ranges, refined_A, observer, &interrupted);
-  if (interrupted) progress.stop().Request();
-  if (!floor) {
-    report->warnings.push_back("No floor was found: " + floor.error().message + ".");
-    return;
-  }
-  const bool weighed = report->errors && report->errors->weighed;
-  floor->minimised =
-      fit.curve.sigma_A.empty() && options.loss == Loss::kSquared && !weighed && options.polish;
-  report->floor = *floor;
 }
 
 // The part of the report that is known before the search.
@@ -192,8 +164,6 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   }
   report.interrupted = progress.stop().requested();
   report.warnings = FindWarnings(report);
-  AddFloor(prepared, observer, progress, &report);
-  report.interrupted = progress.stop().requested();
   return report;
 }
 

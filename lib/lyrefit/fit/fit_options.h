@@ -77,7 +77,8 @@ struct FitOptions {
   bool plain_polish = false;  // also run one bounded least-squares solve from the best candidate,
                               // and a full polish of that candidate alone
   StartsFrom starts = StartsFrom::kAll;
-  bool floor = false;  // also prove a lower bound of the RMSE within the bounds (floor.h)
+  // WithFloor() (certify/floor.h) also proves a lower bound of the RMSE within the bounds.
+  bool floor = false;
   // Error model of the readings for polish and intervals. With kWhite the estimates are those of
   // least squares. If the residuals show shared errors, the report has a second set of intervals
   // under the error model. The other kinds need the solved current and squared residuals.

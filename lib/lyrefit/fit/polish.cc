@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/seconds.h"
+#include "lyrefit/refine/multistart.h"
 #include "lyrefit/refine/separable.h"
 
 namespace lyrefit {
@@ -31,53 +32,56 @@ double RmsDistance(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-// Groups of descents that reached the same curve.
-class Groups {
- public:
-  explicit Groups(const RefineProblem& problem) : problem_(problem) {}
-
-  void Add(const std::vector<double>& p) {
-    const int s = static_cast<int>(leader_.size());
-    std::vector<double> curve = ExplicitCurve(problem_, p);
-    const double rmse = std::sqrt(MeanSquare(problem_, p));
-    leader_.push_back(s);
-    for (int other = 0; other < s; ++other) {
-      if (leader_[other] != other) continue;
-      if (RmsDistance(curves_[other], curve) > kSameCurve * std::min(rmse, rmse_[other])) continue;
-      leader_[s] = other;
-      break;
-    }
-    curves_.push_back(std::move(curve));
-    rmse_.push_back(rmse);
-  }
-
-  int Leader(int s) const { return leader_[s]; }
-
-  // Makes start s the leader of its own group. The next member of its old group becomes the leader
-  // of the others and gets the end of s.
-  void LeaveGroup(int s, std::vector<RefineEnd>* ends) {
-    int heir = -1;
-    for (int other = s + 1; other < static_cast<int>(leader_.size()); ++other) {
-      if (leader_[s] != s || leader_[other] != s) continue;
-      if (heir < 0) (*ends)[other] = (*ends)[s];
-      if (heir < 0) heir = other;
-      leader_[other] = heir;
-    }
-    leader_[s] = s;
-  }
-
-  // Number of members of the group with the lowest RMSE.
-  int BestGroupSize() const {
-    const auto best = std::min_element(rmse_.begin(), rmse_.end()) - rmse_.begin();
-    return static_cast<int>(std::count(leader_.begin(), leader_.end(), leader_[best]));
-  }
-
- private:
-  const RefineProblem& problem_;
-  std::vector<int> leader_;
-  std::vector<std::vector<double>> curves_;
-  std::vector<double> rmse_;
+// Separable descent from one start. `value` is its RMSE.
+struct SeparableEnd : MultistartEnd {
+  std::vector<double> p;      // the start, then the end
+  std::vector<double> curve;  // at the end
+  int leader = -1;            // first start whose descent reached the same curve
 };
+
+bool SameCurve(const SeparableEnd& a, const SeparableEnd& b) {
+  return !(RmsDistance(a.curve, b.curve) > kSameCurve * std::min(a.value, b.value));
+}
+
+bool SameLeader(const SeparableEnd& a, const SeparableEnd& b) { return a.leader == b.leader; }
+
+// Descends from the starts in turn until enough have reached the best curve, or to a stop request.
+// Returns the ends of these starts.
+std::vector<SeparableEnd> DescendInTurn(const RefineProblem& problem,
+                                        const std::vector<PolishStart>& starts,
+                                        const ProgressReporter& progress) {
+  Multistart<SeparableEnd> run;
+  const auto refine = [&](const MultistartStage& /*stage*/, SeparableEnd* at) {
+    at->p = SeparableDescent(problem, at->p);
+    at->curve = ExplicitCurve(problem, at->p);
+    at->value = std::sqrt(MeanSquare(problem, at->p));
+    const int s = static_cast<int>(at - run.ends.data());
+    int k = 0;
+    while (k < s && !(run.ends[k].leader == k && SameCurve(*at, run.ends[k]))) ++k;
+    at->leader = k;
+  };
+  MultistartRules rules;
+  rules.visits = DiodeCount(problem.device) == 1 ? 2 : 3;  // one diode has few local optima
+  rules.progress = progress;
+  std::vector<SeparableEnd> from(starts.size());
+  for (std::size_t s = 0; s < starts.size(); ++s) from[s].p = starts[s].p;
+  RunMultistart(rules, std::move(from), refine, SameLeader, &run);
+  while (!run.ends.back().finished) run.ends.pop_back();
+  return std::move(run.ends);
+}
+
+// Makes start s the leader of its own group. The next member of its old group becomes the leader of
+// the others and gets the end of s.
+void LeaveGroup(int s, std::vector<int>* leader, std::vector<RefineEnd>* ends) {
+  int heir = -1;
+  for (int other = s + 1; other < static_cast<int>(leader->size()); ++other) {
+    if ((*leader)[s] != s || (*leader)[other] != s) continue;
+    if (heir < 0) (*ends)[other] = (*ends)[s];
+    if (heir < 0) heir = other;
+    (*leader)[other] = heir;
+  }
+  (*leader)[s] = s;
+}
 
 // The best single-diode curve with the other diodes absent, so that a richer model never ends above
 // a simpler one.
@@ -125,21 +129,18 @@ RefineEnd Restart(const RefineProblem& problem, const RefineOptions& how, Refine
   return end;
 }
 
-// Number of starts at the same best curve that ends the polish. One diode has few local optima.
-int Enough(const RefineProblem& problem) { return DiodeCount(problem.device) == 1 ? 2 : 3; }
-
 // Solves those ends on coarsened data that may be the best, and the first one, again on all points.
 // The others are only evaluated there.
-void FinishOnAll(const RefineProblem& problem, RefineOptions how, const Groups& groups,
+void FinishOnAll(const RefineProblem& problem, RefineOptions how, const std::vector<int>& leader,
                  std::vector<RefineEnd>* ends) {
   how.function_tolerance = kToleranceOnMany;
   double lowest = HUGE_VAL;
   for (std::size_t s = 0; s < ends->size(); ++s) {
-    if (groups.Leader(static_cast<int>(s)) != static_cast<int>(s)) continue;
+    if (leader[s] != static_cast<int>(s)) continue;
     lowest = std::min(lowest, std::sqrt((*ends)[s].mean_square));
   }
   for (std::size_t s = 0; s < ends->size(); ++s) {
-    if (groups.Leader(static_cast<int>(s)) != static_cast<int>(s)) continue;
+    if (leader[s] != static_cast<int>(s)) continue;
     RefineEnd& end = (*ends)[s];
     if (s == 0 || std::sqrt(end.mean_square) <= lowest * (1 + kMayBeBest)) {
       end = Refine(problem, end.p, how);
@@ -207,35 +208,27 @@ PolishResult PolishStarts(const RefineProblem& problem, const RefineProblem& coa
   progress.BeginSilently("polish", static_cast<std::int64_t>(starts.size()));
   RefineOptions how;
   how.stop = progress.stop();
-  std::vector<std::vector<double>> descended;
-  Groups groups(coarse);
-  bool stopped = false;
-  for (const PolishStart& start : starts) {
-    descended.push_back(SeparableDescent(coarse, start.p));
-    groups.Add(descended.back());
-    if (groups.BestGroupSize() >= Enough(coarse)) break;
-    stopped = progress.Step();
-    if (stopped) break;
-  }
+  const std::vector<SeparableEnd> descended = DescendInTurn(coarse, starts, progress);
   const int count = static_cast<int>(descended.size());
+  std::vector<int> leader;
+  leader.reserve(count);
+  for (const SeparableEnd& end : descended) leader.push_back(end.leader);
   std::vector<RefineEnd> ends(count);
   for (int s = 0; s < count; ++s) {
-    if (groups.Leader(s) == s) ends[s] = Restart(coarse, how, Refine(coarse, descended[s], how));
+    if (leader[s] == s) ends[s] = Restart(coarse, how, Refine(coarse, descended[s].p, how));
     // If the descent ended above its start, polish the start itself.
-    if (ends[groups.Leader(s)].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree))
-      continue;
+    if (ends[leader[s]].mean_square <= MeanSquare(coarse, starts[s].p) * (1 + kAgree)) continue;
     RefineEnd own = Restart(coarse, how, Refine(coarse, starts[s].p, how));
-    if (own.mean_square >= ends[groups.Leader(s)].mean_square) continue;
-    groups.LeaveGroup(s, &ends);
+    if (own.mean_square >= ends[leader[s]].mean_square) continue;
+    LeaveGroup(s, &leader, &ends);
     ends[s] = std::move(own);
   }
-  if (coarse.points.size < problem.points.size) FinishOnAll(problem, how, groups, &ends);
+  if (coarse.points.size < problem.points.size) FinishOnAll(problem, how, leader, &ends);
 
   std::vector<RefineEnd> end_of;
   end_of.reserve(count);
-  for (int s = 0; s < count; ++s) end_of.push_back(ends[groups.Leader(s)]);
-  return ReportEnds(problem, starts, std::move(end_of), -1, stopped || progress.stop().requested(),
-                    begin);
+  for (int s = 0; s < count; ++s) end_of.push_back(ends[leader[s]]);
+  return ReportEnds(problem, starts, std::move(end_of), -1, progress.stop().requested(), begin);
 }
 
 }  // namespace lyrefit

@@ -34,22 +34,22 @@ std::vector<bool> Shapeless(const PreparedFit& fit) {
 bool LeavesNoise(const PreparedFit& fit, const Descents& descents) {
   constexpr double kLeast = 1.2;  // 2: independent residuals; 0: all equal
   std::vector<double> residuals(fit.problem.voltage_V.size());
-  Residuals(fit.problem, descents.ends()[descents.best()].end.p.data(), residuals.data(), nullptr);
+  Residuals(fit.problem, descents.Best().end.p.data(), residuals.data(), nullptr);
   return FindResidualStatistics(fit.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
 void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress, Descents* descents) {
   for (int step = 0; step < kSteps && !progress.stop().requested(); ++step) {
-    const int before = descents->best();
-    std::vector<PolishStart> neighbours = Neighbours(fit, descents->ends()[before]);
+    const int before = descents->best;
+    std::vector<PolishStart> neighbours = Neighbours(fit, descents->ends[before]);
     // Variants can differ by less than the noise.
     if (fit.variants.size() > 1 || !LeavesNoise(fit, *descents)) {
-      std::vector<PolishStart> elsewhere = Elsewhere(fit, descents->ends()[before]);
+      std::vector<PolishStart> elsewhere = Elsewhere(fit, descents->ends[before]);
       std::move(elsewhere.begin(), elsewhere.end(), std::back_inserter(neighbours));
     }
     if (neighbours.empty()) return;
-    descents->Descend(std::move(neighbours));
-    if (descents->best() == before) return;
+    Descend(fit, std::move(neighbours), progress, descents);
+    if (descents->best == before) return;
   }
 }
 
@@ -57,13 +57,13 @@ void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress, De
 std::vector<VariantReport> ReportVariants(const PreparedFit& fit, const Descents& descents) {
   std::vector<VariantReport> reports;
   if (fit.variants.size() < 2) return reports;
-  const DescentEnd& best = descents.ends()[descents.best()];
+  const DescentEnd& best = descents.Best();
   const double points = static_cast<double>(fit.problem.voltage_V.size());
   for (std::size_t f = 0; f < fit.variants.size(); ++f) {
     const DescentEnd* lowest = nullptr;
-    for (const DescentEnd& end : descents.ends()) {
+    for (const DescentEnd& end : descents.ends) {
       const bool own = end.start.variant == static_cast<int>(f);
-      if (own && (lowest == nullptr || end.penalised < lowest->penalised)) lowest = &end;
+      if (own && (lowest == nullptr || end.value < lowest->value)) lowest = &end;
     }
     if (lowest == nullptr) continue;
     // Two ends in one local optimum may differ by rounding of repeated evaluations.
@@ -71,7 +71,7 @@ std::vector<VariantReport> ReportVariants(const PreparedFit& fit, const Descents
     if (chosen) lowest = &best;
     reports.push_back({DescribeVariant(*fit.problem.device.effects, fit.variants[f]),
                        fit.variants[f].free, std::sqrt(lowest->end.mean_square),
-                       std::max(0.0, points * std::log(lowest->penalised / best.penalised)),
+                       std::max(0.0, points * std::log(lowest->value / best.value)),
                        lowest->finished, chosen});
   }
   return reports;
@@ -80,12 +80,11 @@ std::vector<VariantReport> ReportVariants(const PreparedFit& fit, const Descents
 // Starts of the best ends among those from the shape of the curve.
 std::vector<PolishStart> BestShapes(const Descents& descents) {
   std::vector<const DescentEnd*> shapes;
-  for (const DescentEnd& end : descents.ends()) {
+  for (const DescentEnd& end : descents.ends) {
     if (end.start.origin.rfind(kShapeOrigin, 0) == 0) shapes.push_back(&end);
   }
-  std::stable_sort(shapes.begin(), shapes.end(), [](const DescentEnd* a, const DescentEnd* b) {
-    return a->penalised < b->penalised;
-  });
+  std::stable_sort(shapes.begin(), shapes.end(),
+                   [](const DescentEnd* a, const DescentEnd* b) { return a->value < b->value; });
   std::vector<PolishStart> starts;
   for (std::size_t k = 0; k < std::min(kShapes, shapes.size()); ++k) {
     starts.push_back(shapes[k]->start);
@@ -98,18 +97,18 @@ std::vector<PolishStart> BestShapes(const Descents& descents) {
 void ProbeBeside(const PreparedFit& fit, const std::vector<bool>& shapeless,
                  const ProgressReporter& progress, Descents* descents) {
   for (const PolishStart& shape : BestShapes(*descents)) {
-    descents->Descend(SpreadSettings(fit, shape));
+    Descend(fit, SpreadSettings(fit, shape), progress, descents);
   }
   for (int round = 0; round < kFurther && !progress.stop().requested(); ++round) {
-    const int before = descents->best();
-    const DescentEnd best = descents->ends()[before];
+    const int before = descents->best;
+    const DescentEnd best = descents->ends[before];
     const int variant = best.start.variant;
     std::vector<PolishStart> probes =
         Named("probe beside", variant,
               ProbesBeside(fit.problem, fit.variants[variant], best.end, shapeless, kProbes));
     for (PolishStart& probe : probes) probe.beside = true;
-    descents->Descend(std::move(probes));
-    if (descents->best() == before) return;
+    Descend(fit, std::move(probes), progress, descents);
+    if (descents->best == before) return;
   }
 }
 
@@ -134,15 +133,16 @@ void TryStarts(const std::vector<PolishStart>& candidates, const SearchSpace& sp
     }
     std::move(more.begin(), more.end(), std::back_inserter(starts));
   }
-  descents->Descend(std::move(starts));
+  Descend(fit, std::move(starts), progress, descents);
   if (from != StartsFrom::kSearch && some && !all) ProbeBeside(fit, shapeless, progress, descents);
   if (from == StartsFrom::kShape) return;
   if (from == StartsFrom::kAll && LeavesNoise(fit, *descents)) return;
-  if (descents->visits() < kAgain) descents->Descend(candidates_between(first, kCandidates));
+  if (BestVisits(*descents) < kAgain)
+    Descend(fit, candidates_between(first, kCandidates), progress, descents);
   RandomStream random(fit.options.search.seed, ~fit.options.search.run);
   for (int round = 0; round < kFurther && !progress.stop().requested(); ++round) {
-    if (descents->visits() >= kAgain && LeavesNoise(fit, *descents)) return;
-    descents->Descend(RandomStarts(fit, space, descents->ends()[descents->best()].end.p, &random));
+    if (BestVisits(*descents) >= kAgain && LeavesNoise(fit, *descents)) return;
+    Descend(fit, RandomStarts(fit, space, descents->Best().end.p, &random), progress, descents);
   }
 }
 
@@ -152,23 +152,23 @@ ExtendedPolish PolishExtended(const PreparedFit& fit, const std::vector<PolishSt
                               const SearchSpace& space, const ProgressReporter& progress) {
   const Instant begin = Now();
   progress.BeginSilently("polish", 0);
-  Descents descents(fit.problem, fit.variants, progress);
+  Descents descents;
   TryStarts(candidates, space, fit, progress, &descents);
   AscentSettings(fit, progress, &descents);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
-  for (const DescentEnd& end : descents.ends()) {
+  for (const DescentEnd& end : descents.ends) {
     starts.push_back(end.start);
     ends.push_back(end.end);
   }
   ExtendedPolish polish;
   const std::vector<FitPoint> all(ends.begin(), ends.end());
   static_cast<PolishResult&>(polish) = ReportEnds(
-      fit.problem, starts, std::move(ends), descents.best(), progress.stop().requested(), begin);
+      fit.problem, starts, std::move(ends), descents.best, progress.stop().requested(), begin);
   polish.ends = all;
-  polish.report.local_optima = descents.Count();
+  polish.report.local_optima = CountOptima(descents);
   polish.variants = ReportVariants(fit, descents);
-  polish.variant = descents.ends()[descents.best()].start.variant;
+  polish.variant = descents.Best().start.variant;
   return polish;
 }
 

@@ -1,8 +1,11 @@
 #include "lyrefit/refine/error_sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "lyrefit/refine/newton_ascent.h"
 
@@ -32,27 +35,107 @@ struct Rows {
   const Differences& differences;
 };
 
-// Restricted log-likelihood from ln det of the covariance and the Gram matrix of the whitened
-// columns, the residual last. The columns must be nearly orthogonal.
-double RestrictedFromProducts(Eigen::MatrixXd products, double log_determinant) {
-  const Eigen::Index last = products.cols() - 1;
-  for (Eigen::Index i = 0; i < last; ++i) {  // Cholesky; the last pivot is the residual sum
-    const double pivot = products(i, i);
-    if (!(pivot > 0)) return -HUGE_VAL;
-    log_determinant += std::log(pivot);
-    for (Eigen::Index j = i + 1; j <= last; ++j) {
-      const double part = products(j, i) / pivot;
-      for (Eigen::Index k = i + 1; k <= j; ++k) products(j, k) -= part * products(k, i);
-    }
-  }
-  return -0.5 * (log_determinant + std::max(products(last, last), 0.0));
+// 1 less the mean of exp(-|x - x'|) over a stretch of three times `third`: the part of the path's
+// variance that averaging removes.
+double AveragedAway(double third) {
+  const double x = 3 * third;
+  if (x < 1e-3) return third;
+  return 1 - 2 * (x + std::expm1(-x)) / (x * x);
 }
 
-double LogLikelihood(const ErrorModel& errors, const RowMatrix& columns) {
-  RowMatrix rows = columns;
-  const double logs = Whiten(errors, {}, rows);
-  const Eigen::MatrixXd white = rows;
-  return RestrictedFromProducts(TransposedTimes(white, white), logs);
+// Sum of the logarithms of many factors, with one logarithm for many of them.
+class LogSum {
+ public:
+  void Add(double factor) {
+    product_ *= factor;
+    if (product_ > 1e-200 && product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double Total() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0;
+  double product_ = 1;
+};
+
+// Restricted log-likelihood from ln det of the covariance and the lower triangle of the Gram matrix
+// of the whitened columns, the residual last. The columns must be nearly orthogonal.
+double RestrictedFromProducts(double* products, int columns, LogSum log_determinant) {
+  const int last = columns - 1;
+  const auto at = [&](int i, int j) -> double& { return products[i * columns + j]; };
+  for (int i = 0; i < last; ++i) {  // Cholesky; the last pivot is the residual sum
+    const double pivot = at(i, i);
+    if (!(pivot > 0)) return -HUGE_VAL;
+    log_determinant.Add(pivot);
+    for (int j = i + 1; j <= last; ++j) {
+      const double part = at(j, i) / pivot;
+      for (int k = i + 1; k <= j; ++k) at(j, k) -= part * at(k, i);
+    }
+  }
+  return -0.5 * (log_determinant.Total() + std::max(at(last, last), 0.0));
+}
+
+// The restricted log-likelihood of MakeErrorModel(shape, sizes), in one pass over the readings: the
+// columns are whitened as by Whiten() and multiplied row by row. kColumns: their number, 0: any.
+template <int kColumns>
+double LikelihoodOf(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& rows) {
+  const int columns = kColumns > 0 ? kColumns : static_cast<int>(rows.cols());
+  constexpr int kBuffer = kColumns > 0 ? kColumns * (2 + kColumns) : 1;
+  std::array<double, kBuffer> few = {};
+  std::vector<double> many(kColumns > 0 ? 0 : columns * (2 + columns), 0.0);
+  double* const state = kColumns > 0 ? few.data() : many.data();  // prediction of the path
+  double* const white = state + columns;
+  double* const products = white + columns;
+  const double per_length = 1 / sizes.length;
+  double variance = 1;  // of the state
+  LogSum logs;
+  for (std::size_t k = 0; k < shape.current.size(); ++k) {
+    const double current =
+        shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
+    const double voltage = sizes.voltage_V * shape.voltage[k];
+    const double path = sizes.path * shape.path[k];
+    double own = current * current + voltage * voltage;
+    if (!shape.averaged_away.empty() && shape.averaged_away[k] > 0) {
+      own -= path * path * AveragedAway(shape.averaged_away[k] * per_length);
+    }
+    const bool follows = k > 0 && shape.chain[k - 1] == shape.chain[k];
+    const double kept =
+        follows ? std::exp((shape.position[k - 1] - shape.position[k]) * per_length) : 0.0;
+    variance = kept * kept * variance + (1 - kept * kept);
+    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
+    const double learnt = path * variance / total;
+    logs.Add(total);
+    const double* const row = rows.data() + k * columns;
+    for (int c = 0; c < columns; ++c) {
+      const double foretold = kept * state[c];
+      const double news = row[c] - path * foretold;
+      state[c] = foretold + learnt * news;
+      white[c] = news * scale;
+    }
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j <= i; ++j) products[i * columns + j] += white[i] * white[j];
+    }
+    variance *= own / total;
+  }
+  return RestrictedFromProducts(products, columns, logs);
+}
+
+double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& columns) {
+  switch (columns.cols()) {
+    case 4:
+      return LikelihoodOf<4>(shape, sizes, columns);
+    case 5:
+      return LikelihoodOf<5>(shape, sizes, columns);
+    case 6:
+      return LikelihoodOf<6>(shape, sizes, columns);
+    case 7:
+      return LikelihoodOf<7>(shape, sizes, columns);
+    case 8:
+      return LikelihoodOf<8>(shape, sizes, columns);
+    default:
+      return LikelihoodOf<0>(shape, sizes, columns);
+  }
 }
 
 double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
@@ -73,8 +156,8 @@ double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path,
                           prior.width.length};
   const ErrorSizes sizes = SizesAt(at);
-  double sum = LogLikelihood(MakeErrorModel(rows.shape, sizes), rows.columns) +
-               LogLikelihood(rows.differences, sizes);
+  double sum =
+      LogLikelihood(rows.shape, sizes, rows.columns) + LogLikelihood(rows.differences, sizes);
   for (int i = 0; i < 4; ++i) {
     const bool longer = i == 3 && at[i] > center[i];
     sum -= 0.5 * std::pow((at[i] - center[i]) / (longer ? kLongerWidth : width[i]), 2);
@@ -127,15 +210,15 @@ Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
 
 // LogLikelihood of independent errors of the best size.
 double WhiteLogLikelihood(const Rows& rows) {
-  ErrorModel white;
-  white.white = rows.shape.stated.empty() ? rows.shape.current : rows.shape.stated;
+  ErrorShape independent = rows.shape;
+  if (!independent.stated.empty()) independent.current = std::move(independent.stated);
+  independent.stated.clear();
   RowMatrix unit = rows.columns;
-  Whiten(white, {}, unit);
+  for (Eigen::Index k = 0; k < unit.rows(); ++k) unit.row(k) /= independent.current[k];
   const Eigen::MatrixXd slopes = unit.leftCols(unit.cols() - 1);
   const double degrees = static_cast<double>(slopes.rows() - slopes.cols());
   const double rest = WithoutColumns(slopes, Eigen::VectorXd(unit.rightCols(1))).norm();
-  for (double& one : white.white) one *= rest / std::sqrt(degrees);
-  return LogLikelihood(white, rows.columns);
+  return LogLikelihood(independent, {rest / std::sqrt(degrees), 0, 0, 1}, rows.columns);
 }
 
 // The longest path, up to the prior's length, of nearly the posterior of the maximum `top`. A fit
@@ -159,14 +242,6 @@ Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs&
     if (value(at) >= highest - kAllowed) longest = at;
   }
   return longest;
-}
-
-// 1 less the mean of exp(-|x - x'|) over a stretch of three times `third`: the part of the path's
-// variance that averaging removes.
-double AveragedAway(double third) {
-  const double x = 3 * third;
-  if (x < 1e-3) return third;
-  return 1 - 2 * (x + std::expm1(-x)) / (x * x);
 }
 
 }  // namespace
@@ -214,7 +289,7 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   FoundErrors found;
   found.sizes = SizesAt(LongestAllowed(value, top, std::log(prior.center.length)));
   found.uncertainty = InverseOf(-CurvatureAt(value, top));
-  const double likely = LogLikelihood(MakeErrorModel(shape, found.sizes), all.columns);
+  const double likely = LogLikelihood(shape, found.sizes, all.columns);
   found.gain = 2 * (likely - WhiteLogLikelihood(all));
   return found;
 }

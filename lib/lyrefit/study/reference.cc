@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/floor.h"
+#include "lyrefit/certify/floor.h"
 
 namespace lyrefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "lyrefit/fit/floor.h"
+#include "lyrefit/certify/floor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(Floor, OfOneDiodeIsWhatTwoDiodesReach) {
   options.objective = Objective::kMeasuredCurrent;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto report = Fit(RtcCell(), options);
+  const auto report = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(report.has_value());
   ASSERT_TRUE(report->floor.has_value());
   EXPECT_NEAR(report->floor->rmse_A, 9.824848761e-4, 1e-12);
@@ -35,14 +35,14 @@ TEST(Floor, IsOfTheObjectiveThatIsFitted) {
   FitOptions options;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto one = Fit(RtcCell(), options);
+  const auto one = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(one.has_value() && one->floor.has_value());
   EXPECT_EQ(one->floor->objective, Objective::kSolvedCurrent);
   EXPECT_LE(one->floor->lower_bound_A, 7.326480809e-4);
   EXPECT_GT(one->floor->lower_bound_A, 7.326480809e-4 * (1 - 2e-6));
   EXPECT_NEAR(one->floor->above, 7.730062690 / 7.326480809 - 1, 2e-6);
   options.model = Model::kDoubleDiode;
-  const auto two = Fit(RtcCell(), options);
+  const auto two = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(two.has_value() && two->floor.has_value());
   EXPECT_EQ(two->floor->above, 0) << "the answer is no worse than any mixture that was met";
   EXPECT_LE(two->floor->gap, 1e-6);
@@ -54,7 +54,7 @@ TEST(Floor, IsNotLookedForBelowAFitThatIsNotUsable) {
   FitOptions options;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto report = Fit(curve, options);
+  const auto report = FitWithFloor(curve, options, false);
   ASSERT_TRUE(report.has_value());
   EXPECT_FALSE(report->usable);
   EXPECT_FALSE(report->floor.has_value());
@@ -68,11 +68,11 @@ TEST(Floor, FollowsTheBoundsOfTheFit) {
   options.floor = true;
   options.bounds.overrides["n"] = {0.5, 4};
   options.objective = Objective::kMeasuredCurrent;
-  const auto measured = Fit(RtcCell(), options);
+  const auto measured = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(measured.has_value() && measured->floor.has_value());
   EXPECT_NEAR(measured->floor->rmse_A, 9.449435199e-4, 1e-12);
   options.objective = Objective::kSolvedCurrent;
-  const auto solved = Fit(RtcCell(), options);
+  const auto solved = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(solved.has_value() && solved->floor.has_value());
   EXPECT_NEAR(solved->floor->rmse_A, 6.520276720e-4, 1e-9);
   EXPECT_LE(solved->floor->gap, 1e-6);
@@ -83,14 +83,14 @@ TEST(Floor, SaysWhereTheFitMinimisesSomethingElse) {
   options.intervals = Intervals::kNone;
   options.floor = true;
   options.loss = Loss::kHuber;
-  const auto robust = Fit(RtcCell(), options);
+  const auto robust = FitWithFloor(RtcCell(), options, false);
   ASSERT_TRUE(robust.has_value() && robust->floor.has_value());
   EXPECT_FALSE(robust->floor->minimised);
   options.loss = Loss::kSquared;
   IvCurve weighed = RtcCell();
   weighed.sigma_A.assign(weighed.size(), 1e-3);
   weighed.sigma_A[3] = 1e-4;
-  const auto by_sigma = Fit(weighed, options);
+  const auto by_sigma = FitWithFloor(weighed, options, false);
   ASSERT_TRUE(by_sigma.has_value() && by_sigma->floor.has_value());
   EXPECT_FALSE(by_sigma->floor->minimised);
   EXPECT_GT(by_sigma->floor->above, 0.05);
@@ -110,18 +110,18 @@ TEST(Floor, OfALongSweepIsLookedForInTheMeasuredCurrentOnly) {
   FitOptions options;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto solved = Fit(sweep, options);
+  const auto solved = FitWithFloor(sweep, options, false);
   ASSERT_TRUE(solved.has_value());
   EXPECT_FALSE(solved->floor.has_value());
   EXPECT_NE(solved->warnings.back().find("2001 readings"), std::string::npos);
   options.objective = Objective::kMeasuredCurrent;
-  const auto measured = Fit(sweep, options);
+  const auto measured = FitWithFloor(sweep, options, false);
   ASSERT_TRUE(measured.has_value());
   EXPECT_TRUE(measured->floor.has_value());
 }
 
 TEST(Floor, IsNotLookedForUnlessAsked) {
-  const auto report = Fit(RtcCell());
+  const auto report = FitWithFloor(RtcCell(), {}, false);
   ASSERT_TRUE(report.has_value());
   EXPECT_FALSE(report->floor.has_value());
 }
@@ -133,7 +133,7 @@ TEST(Floor, OfACurveThatHasNoneIsAWarningNotAnError) {
   FitOptions options;
   options.intervals = Intervals::kNone;
   options.floor = true;
-  const auto report = Fit(dark, options);
+  const auto report = FitWithFloor(dark, options, false);
   ASSERT_TRUE(report.has_value()) << report.error().ToString();
   EXPECT_FALSE(report->floor.has_value());
   EXPECT_NE(report->warnings.back().find("No floor"), std::string::npos);

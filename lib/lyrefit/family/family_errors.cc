@@ -204,14 +204,15 @@ std::vector<Interval> IntervalsUnder(const Spread& spread, double t,
 
 }  // namespace
 
-void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, FamilyReport* report) {
+FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest,
+                                         const JudgedFamily& judged) {
   constexpr int kFewest = 3;        // fewest curves that show an error common to a curve
   constexpr double kExact = 1e-11;  // relative to the currents: rounding errors only
   const JointProblem& problem = fit.problem;
   JointPoint point = fit.end.point;
-  std::copy(report->refined.begin(), report->refined.end(), point.shared.begin());
+  std::copy(judged.refined.begin(), judged.refined.end(), point.shared.begin());
   const int curves = static_cast<int>(problem.curves.size());
-  if (curves < kFewest || !(report->noise_A > kExact * problem.current_scale_A)) return;
+  if (curves < kFewest || !(judged.noise_A > kExact * problem.current_scale_A)) return {};
   const auto rows_of = [&](const std::vector<int>& some) {
     return RowsOf(Only(problem, some), Only(point, some), fit.end.held);
   };
@@ -236,13 +237,12 @@ void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, Famil
     errors = ChooseErrors({{rows, rows}}, brightest, problem);
   }
   errors.sizes = SizesOf(errors.kind, errors.path_power, rows, brightest, problem);
-  report->errors = errors;
-  if (errors.kind == FamilyErrorKind::kIndependent) return;
+  if (errors.kind == FamilyErrorKind::kIndependent) return {errors, {}};
   Rows all = RowsOf(problem, point, fit.end.held);
   all.shape = WithPower(all, brightest, errors.path_power);
   const Spread spread = FindSpread(fit.model, fit.best, fit.best.held,
                                    ProductOf(problem, fit.model, all, errors.sizes));
-  report->under_errors = IntervalsUnder(spread, StudentT95(curves - 1), report->estimates);
+  return {errors, IntervalsUnder(spread, StudentT95(curves - 1), judged.estimates)};
 }
 
 }  // namespace lyrefit

@@ -6,7 +6,7 @@
 
 namespace lyrefit {
 
-// Fills the report's errors and its intervals under correlated errors. The joint fit is a
+// Finds the errors of the readings and the intervals under correlated errors. The joint fit is a
 // least-squares fit, but points of one curve share the path error of the irradiance during the
 // sweep and the errors of the curve's stated irradiance and temperature. The kind of errors, and
 // the power of the irradiance with which the path error grows, are selected by likelihood. The
@@ -16,6 +16,7 @@ namespace lyrefit {
 // better.
 //
 // `report` has the results of JudgeFamily.
-void FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest, FamilyReport* report);
+FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest,
+                                         const JudgedFamily& judged);
 
 }  // namespace lyrefit

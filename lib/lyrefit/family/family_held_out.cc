@@ -119,10 +119,10 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
 }
 
 // Median RMSE of the individual fits of the curves: the floor.
-double IndividualMedian(const FamilyReport& report, const std::vector<int>& curves) {
+double IndividualMedian(const std::vector<FamilyCurve>& rows, const std::vector<int>& curves) {
   std::vector<double> rmse;
   for (const int c : curves) {
-    const double one = report.curves[c].individual_rmse.solved_current_A;
+    const double one = rows[c].individual_rmse.solved_current_A;
     if (std::isfinite(one)) rmse.push_back(one);
   }
   return UpperMedian(std::move(rmse));
@@ -141,34 +141,37 @@ Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& op
   return {};
 }
 
-void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-                const JointProblem& problem, const JointEnd& end, const Observer& observer,
-                FamilyReport* report) {
-  const FamilyMembers& curves = family.curves;
-  const std::vector<int>& tested = curves.held_out.empty() ? curves.fitted : curves.held_out;
-  HeldOut held;
-  if (!curves.held_out.empty()) {
-    held = TestOn(set, family, options, end.point.shared, tested);
-  } else if (options.folds > 0 && curves.fitted.size() >= 4) {
-    std::optional<HeldOut> folds = TestByFolds(set, family, options, problem, end, observer);
-    if (!folds) {
-      report->interrupted = true;
-      return;
-    }
-    held = std::move(*folds);
+std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const RefinedFamily& refined,
+                                      const std::vector<FamilyCurve>& curves,
+                                      const Observer& observer) {
+  const CurveSet& set = prepared.set;
+  const FamilyOptions& options = prepared.options;
+  const FamilyProblem& family = refined.family;
+  const FamilyMembers& members = family.curves;
+  const std::vector<int>& tested = members.held_out.empty() ? members.fitted : members.held_out;
+  const std::vector<double>& shared = refined.end.point.shared;
+  FamilyTests tests;
+  HeldOut held_out;
+  if (!members.held_out.empty()) {
+    held_out = TestOn(set, family, options, shared, tested);
+  } else if (options.folds > 0 && members.fitted.size() >= 4) {
+    std::optional<HeldOut> folds =
+        TestByFolds(set, family, options, refined.problem, refined.end, observer);
+    if (!folds) return {};
+    held_out = std::move(*folds);
   }
-  if (held.curves > 0) {
-    held.median_individual_rmse_A = IndividualMedian(*report, tested);
-    report->held_out = held;
+  if (held_out.curves > 0) {
+    held_out.median_individual_rmse_A = IndividualMedian(curves, tested);
+    tests.held_out = held_out;
   }
   for (const NamedParameters& other : options.against) {
-    report->against.push_back(TestAgainst(set, family, options, other, tested));
+    tests.against.push_back(TestAgainst(set, family, options, other, tested));
   }
-  if (report->against.empty() || report->held_out) return;
-  HeldOut own = TestOn(set, family, options, end.point.shared, tested);
-  own.how = "the curves that were fitted";
-  own.median_individual_rmse_A = IndividualMedian(*report, tested);
-  report->in_sample = own;
+  if (tests.against.empty() || tests.held_out) return tests;
+  tests.in_sample = TestOn(set, family, options, shared, tested);
+  tests.in_sample->how = "the curves that were fitted";
+  tests.in_sample->median_individual_rmse_A = IndividualMedian(curves, tested);
+  return tests;
 }
 
 }  // namespace lyrefit

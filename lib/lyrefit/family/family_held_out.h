@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
-#include "lyrefit/family/family_problem.h"
-#include "lyrefit/refine/joint.h"
+#include "lyrefit/family/refine_family.h"
 
 namespace lyrefit {
 
@@ -11,12 +13,11 @@ namespace lyrefit {
 Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& options);
 
 // Tests the joint fit on whole curves at their stated conditions: on the held-out curves, or by
-// cross-validation over folds. Tests the parameters of `options.against` on the same curves. Fills
-// held_out, against and in_sample. Curves without stated conditions are not tested. The report must
-// already contain the individual fits. If the observer stops it, it marks the report as interrupted
-// and fills nothing.
-void TestFamily(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
-                const JointProblem& problem, const JointEnd& end, const Observer& observer,
-                FamilyReport* report);
+// cross-validation over folds. Tests the parameters of `options.against` on the same curves. Curves
+// without stated conditions are not tested. `curves`: the rows of all curves of the set, with their
+// individual fits. None if the observer stopped it.
+std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const RefinedFamily& refined,
+                                      const std::vector<FamilyCurve>& curves,
+                                      const Observer& observer);
 
 }  // namespace lyrefit

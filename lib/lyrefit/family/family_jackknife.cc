@@ -9,8 +9,12 @@
 
 namespace lyrefit {
 
-void Jackknife(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end,
-               int threads, const Observer& observer, FamilyReport* report) {
+std::optional<std::vector<Interval>> Jackknife(const ReportedFit& fit,
+                                               const std::vector<Estimate>& estimates, int threads,
+                                               const Observer& observer) {
+  const FamilyProblem& family = fit.family;
+  const JointProblem& problem = fit.problem;
+  const JointEnd& end = fit.end;
   const int curves = static_cast<int>(problem.curves.size());
   const int count = family.translation.size();
   std::vector<std::vector<double>> without(curves);
@@ -27,13 +31,11 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
     without[c] = ReportedShared(family.translation, RefineJointly(rest, start, quick).point.shared);
     progress.Step();
   });
-  if (progress.Stopped()) {
-    report->interrupted = true;
-    return;
-  }
+  if (progress.Stopped()) return {};
   const double t = StudentT95(std::max(curves - 1, 1));
   const std::vector<double> whole = ReportedShared(family.translation, end.point.shared);
-  report->jackknife.clear();
+  std::vector<Interval> intervals;
+  intervals.reserve(count);
   for (int i = 0; i < count; ++i) {
     Interval interval;
     interval.value = whole[i];
@@ -47,10 +49,11 @@ void Jackknife(const FamilyProblem& family, const JointProblem& problem, const J
       }
       const double error = std::sqrt(squares * (curves - 1) / curves);
       interval = SymmetricInterval(whole[i], error / StepOnScale(kind, whole[i], 1), t, kind,
-                                   report->estimates[i].bounds);
+                                   estimates[i].bounds);
     }
-    report->jackknife.push_back(interval);
+    intervals.push_back(interval);
   }
+  return intervals;
 }
 
 }  // namespace lyrefit

@@ -31,7 +31,7 @@ KeyPoints AtReference(const Translation& translation, const std::vector<double>&
   return ModelKeyPoints(at.device, at.parameters.data());
 }
 
-// A joint fit that is being reported, in reporting units.
+// A joint fit that is being judged, in reporting units.
 struct Judged {
   const ReportedFit& fit;
   const FamilyOptions& options;
@@ -43,8 +43,8 @@ struct Judged {
 
 // Other optima of a fit with effects whose sum of squares rises by less than t^2 variances, in
 // reporting units.
-std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const Observer& observer) {
-  const ProgressReporter progress(observer, "other optima", 0);
+std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const ProgressReporter& progress) {
+  progress.Begin("other optima", 0);
   JointOptions how;
   how.stop = progress.stop();
   const EffectSpan effects = SpanOf(fit.family.translation);
@@ -59,10 +59,11 @@ std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const Observer& obs
   return local_optima;
 }
 
-Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer) {
+Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
+                const ProgressReporter& progress) {
   Judged judged{fit, options, 0, 2, {}, {}};
   if (options.intervals && fit.family.translation.extended) {
-    judged.local_optima = FindMoreOptima(fit, observer);
+    judged.local_optima = FindMoreOptima(fit, progress);
   }
   const double noise_A = fit.problem.noise_A;
   const JointSpread known = FindJointSpread(fit.problem, fit.model, fit.best, noise_A * noise_A);
@@ -155,34 +156,35 @@ std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<do
           {"gamma_pmp", "%/K", derived(&TemperatureCoefficients::gamma_pmp_percent_K)}};
 }
 
-void DescribeSensors(const Judged& judged, FamilyReport* report) {
+void DescribeSensors(const Judged& judged, JudgedFamily* family) {
   const JointProblem& problem = judged.fit.problem;
   const auto error = [&](int i) {
     return SymmetricInterval(judged.fit.best.p[i], judged.spread.standard_error[i], judged.t);
   };
   if (judged.options.irradiance_offset) {
-    report->irradiance_offset_W_m2 = error(problem.irradiance_offset());
+    family->irradiance_offset_W_m2 = error(problem.irradiance_offset());
   }
   if (judged.options.temperature_offset) {
-    report->temperature_offset_K = error(problem.temperature_offset());
+    family->temperature_offset_K = error(problem.temperature_offset());
   }
 }
 
-void DescribeOffsets(const Judged& judged, FamilyReport* report) {
-  const std::vector<int>& fitted = judged.fit.family.curves.fitted;
-  for (std::size_t k = 0; k < fitted.size(); ++k) {
-    const JointCurve& curve = judged.fit.problem.curves[k];
+std::vector<CurveOffsets> OffsetsOf(const Judged& judged) {
+  const std::vector<JointCurve>& curves = judged.fit.problem.curves;
+  std::vector<CurveOffsets> offsets(curves.size());
+  for (std::size_t k = 0; k < curves.size(); ++k) {
     const JointLocal& local = judged.fit.end.point.local[k];
     const JointLocal& error = judged.spread.local_errors[k];
-    FamilyCurve& row = report->curves[fitted[k]];
-    if (curve.irradiance_sd > 0) {
-      row.irradiance_offset_W_m2 = SymmetricInterval(local[0] * curve.irradiance_W_m2,
-                                                     error[0] * curve.irradiance_W_m2, judged.t);
+    const double irradiance = curves[k].irradiance_W_m2;
+    if (curves[k].irradiance_sd > 0) {
+      offsets[k].irradiance_W_m2 =
+          SymmetricInterval(local[0] * irradiance, error[0] * irradiance, judged.t);
     }
-    if (curve.temperature_sd_K > 0) {
-      row.temperature_offset_K = SymmetricInterval(local[1], error[1], judged.t);
+    if (curves[k].temperature_sd_K > 0) {
+      offsets[k].temperature_K = SymmetricInterval(local[1], error[1], judged.t);
     }
   }
+  return offsets;
 }
 
 }  // namespace
@@ -212,25 +214,24 @@ ReportedFit::ReportedFit(const FamilyProblem& of_family, const JointProblem& of_
   best.p = ReportedShared(family.translation, std::move(best.p));
 }
 
-void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer,
-                 FamilyReport* report) {
+JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
+                      const std::vector<double>& searched, const ProgressReporter& progress) {
   const Translation& at = fit.family.translation;
   const std::vector<double>& shared = fit.best.p;
-  report->refined.assign(shared.begin(), shared.begin() + at.size());
-  report->refined = InnerShared(at, std::move(report->refined));
-  const std::vector<double> searched = ReportedShared(at, report->searched);
-  const Judged judged = SpreadOf(fit, options, observer);
-  report->noise_A = std::sqrt(judged.variance);
-  ProgressReporter progress;
-  if (options.intervals) progress = ProgressReporter(observer, "intervals", 0);
-  IntervalReport intervals = IntervalsOf(judged, searched, progress);
-  report->estimates = std::move(intervals.estimates);
-  report->correlations = std::move(intervals.correlations);
-  report->interrupted = report->interrupted || progress.Stopped();
-  if (options.intervals) report->coefficients = Coefficients(judged, report->refined);
-  DescribeSensors(judged, report);
-  report->reference = AtReference(at, report->refined);
-  DescribeOffsets(judged, report);
+  JudgedEnd family;
+  family.refined.assign(shared.begin(), shared.begin() + at.size());
+  family.refined = InnerShared(at, std::move(family.refined));
+  const Judged judged = SpreadOf(fit, options, progress);
+  family.noise_A = std::sqrt(judged.variance);
+  if (options.intervals) progress.Begin("intervals", 0);
+  IntervalReport intervals = IntervalsOf(judged, ReportedShared(at, searched), progress);
+  family.estimates = std::move(intervals.estimates);
+  family.correlations = std::move(intervals.correlations);
+  if (options.intervals) family.coefficients = Coefficients(judged, family.refined);
+  DescribeSensors(judged, &family);
+  family.reference = AtReference(at, family.refined);
+  family.offsets = OffsetsOf(judged);
+  return family;
 }
 
 }  // namespace lyrefit

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/family_report.h"
@@ -22,12 +25,21 @@ struct ReportedFit {
   RefineEnd best;  // the end as one of `model`
 };
 
-// Fills estimates, sensor errors, coefficients, correlations, key points at the reference, curve
-// offsets and the noise of `report` from the end of a joint fit. All values are in reporting units
-// except `report->refined`, which is in internal units. If the observer stops it, it omits
-// the unfinished profile intervals and marks the report as interrupted.
-void JudgeFamily(const ReportedFit& fit, const FamilyOptions& options, const Observer& observer,
-                 FamilyReport* report);
+// Offsets of the stated conditions of one fitted curve; NaN where they are no unknowns.
+struct CurveOffsets {
+  Interval irradiance_W_m2;
+  Interval temperature_K;
+};
+
+struct JudgedEnd : JudgedFamily {
+  std::vector<CurveOffsets> offsets;  // of the fitted curves
+};
+
+// Last stage of a family fit: parameters, intervals and figures from the end of a joint fit.
+// `searched`: shared parameters of the search, in internal units. A request to stop leaves out the
+// unfinished profile intervals.
+JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
+                      const std::vector<double>& searched, const ProgressReporter& progress);
 
 // The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends are
 // NaN without a finite standard error.
@@ -35,10 +47,11 @@ Interval SymmetricInterval(double value, double standard_error, double t,
                            ParameterKind kind = ParameterKind::kPlain,
                            const ParameterBounds& bounds = {-kInfinity, kInfinity});
 
-// Delete-one-curve jackknife: intervals of every shared parameter if whole curves are independent.
-// If the observer stops it, it marks the report as interrupted and fills nothing.
-void Jackknife(const FamilyProblem& family, const JointProblem& problem, const JointEnd& end,
-               int threads, const Observer& observer, FamilyReport* report);
+// Delete-one-curve jackknife: intervals of every shared parameter if whole curves are independent,
+// within the bounds of `estimates`. None if the observer stopped it.
+std::optional<std::vector<Interval>> Jackknife(const ReportedFit& fit,
+                                               const std::vector<Estimate>& estimates, int threads,
+                                               const Observer& observer);
 
 // Degrees of freedom: points minus free parameters, at least 1.
 double JointDegrees(const JointProblem& problem, int free_parameters, double local_degrees);

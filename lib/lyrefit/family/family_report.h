@@ -158,8 +158,35 @@ struct FamilyErrors {
   double gain = 0;        // twice the gain in ln likelihood over independent errors
 };
 
+// Parameters, intervals and figures of a joint fit at its end.
+struct JudgedFamily {
+  // Shared parameters in the translation's order; those of effects are in internal units.
+  std::vector<double> refined;
+  std::vector<Estimate> estimates;        // in the same order, in reporting units
+  std::vector<Correlation> correlations;  // |value| > 0.9 among shared parameters
+  Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN if not requested
+  Interval temperature_offset_K;
+  std::vector<Coefficient> coefficients;
+  KeyPoints reference;        // of the model at 1000 W/m2 and 25 C
+  double noise_A = kUnknown;  // residual standard deviation (weighted, scaled to ampere)
+};
+
+// Tests of a joint fit on whole curves.
+struct FamilyTests {
+  std::optional<HeldOut> held_out;
+  std::vector<Against> against;  // on the curves of `held_out`, or on the fitted ones without it
+  // Joint fit on the fitted curves, for comparison with `against` if there is no `held_out`.
+  std::optional<HeldOut> in_sample;
+};
+
+// Errors of the readings, and shared intervals under them if they are correlated.
+struct FamilyErrorIntervals {
+  std::optional<FamilyErrors> errors;
+  std::vector<Interval> under_errors;  // empty if the errors are independent
+};
+
 // All results of a joint fit of many curves.
-struct FamilyReport {
+struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
   std::string version;
   std::string name;    // of the set
   std::string source;  // file or folder that the set was read from
@@ -167,27 +194,14 @@ struct FamilyReport {
   Translation translation;
   Objective objective = Objective::kSolvedCurrent;
   int cells_in_series = 1;
-  // Shared parameters in the translation's order. Parameters of effects are in internal units here,
-  // and in reporting units in `estimates`, `jackknife` and all other fields.
+  // As `refined`. All other fields are in reporting units.
   std::vector<double> searched;
-  std::vector<double> refined;
   std::vector<double> refined_best_candidate;  // in reporting units; empty: not requested
-  std::vector<Estimate> estimates;             // shared parameters in the same order
-  Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN if not requested
-  Interval temperature_offset_K;
-  std::vector<Coefficient> coefficients;
-  KeyPoints reference;                  // of the model at 1000 W/m2 and 25 C
-  FamilyRmseTable rmse;                 // of search and joint fit
-  double noise_A = kUnknown;            // residual standard deviation (weighted, scaled to ampere)
-  std::vector<FamilyCurve> curves;      // in the set's order
-  std::vector<std::string> search_ids;  // curves of the search
-  std::optional<HeldOut> held_out;
-  std::vector<Against> against;  // on the curves of `held_out`, or on the fitted ones without it
-  // Joint fit on the fitted curves, for comparison with `against` if there is no `held_out`.
-  std::optional<HeldOut> in_sample;
+  FamilyRmseTable rmse;                        // of search and joint fit
+  std::vector<FamilyCurve> curves;             // in the set's order
+  std::vector<std::string> search_ids;         // curves of the search
   std::optional<WithoutOutliers> without_outliers;
   std::vector<FamilyCandidate> candidates;  // of FitFamilyAuto
-  std::vector<Correlation> correlations;    // |value| > 0.9 among shared parameters
   // The weights of the curves in the residuals.
   FamilyWeights weights = FamilyWeights::kEqual;
   // Twice the gain in ln likelihood of weights relative to Isc over equal weights. None: no
@@ -196,10 +210,6 @@ struct FamilyReport {
   // Shared intervals if whole curves, not points, are independent (delete-one-curve jackknife). In
   // the order of `estimates`; empty if not computed.
   std::vector<Interval> jackknife;
-  // Errors of the readings, and shared intervals under them if they are correlated. `under_errors`
-  // is empty if the errors are independent.
-  std::optional<FamilyErrors> errors;
-  std::vector<Interval> under_errors;
   SearchOptions search_options;
   SearchSummary search;
   std::string termination;               // of the joint fit

@@ -14,7 +14,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/fit/fit_report.h"
 #include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "studies/coverage.h"
 
 // Shared parts of the rate tests of the catalogue for single curves and for sets of curves. They
@@ -61,7 +61,7 @@ inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, Random
   const Probe& other = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
-    if (!info.searched && !info.held) p[k] = Between(random, p[k], other[k]);
+    if (!info.searched && !info.fixed_by_default) p[k] = Between(random, p[k], other[k]);
   }
   const EffectParameter& strength = effect.parameters[0];
   if (strength.neutral == 0) p[0] *= LogUniform(random, 0.5, 2);
@@ -76,7 +76,7 @@ inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, Random
     const EffectParameter& info = effect.parameters[k];
     const std::pair<double, double> value(values[first + k], values[first + k]);
     drawn.truth.ranges[info.symbol] = value;
-    if (info.held)
+    if (info.fixed_by_default)
       drawn.asked.ranges[info.symbol] = k == 0 ? std::pair(info.lower, info.upper) : value;
   }
   return drawn;

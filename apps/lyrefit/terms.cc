@@ -89,7 +89,7 @@ const Chapter kFit = {
      {"95 % interval",
       "holds the truth in 95 of 100 such measurements, if the model is right. "
       "symmetric: estimate +- t times its standard error; profile: as far as the "
-      "best fit with the parameter held there is not significantly worse"},
+      "best fit with the parameter fixed there is not significantly worse"},
      {"not identifiable", "the readings leave the parameter open, however good the fit is"},
      {"at bound",
       "the best value within the bounds is one of their ends: the bounds speak, not "

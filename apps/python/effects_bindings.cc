@@ -71,8 +71,8 @@ std::map<std::string, std::pair<double, double>> RangesOf(py::handle what) {
       const py::sequence ends = py::reinterpret_borrow<py::sequence>(value);
       ranges[name] = {NumberOf("with_", ends[0]), NumberOf("with_", ends[1])};
     } else {
-      const double held = NumberOf("with_", value);
-      ranges[name] = {held, held};
+      const double fixed = NumberOf("with_", value);
+      ranges[name] = {fixed, fixed};
     }
   }
   return ranges;

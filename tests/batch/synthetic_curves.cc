@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "hidden/random.h"
+#include "faults/random.h"
 
 namespace made {
 namespace {
 
-using hidden::Random;
+using faults::Random;
 
 constexpr double kThermalVoltPerK = 8.617333262e-5;
 
@@ -229,7 +229,7 @@ struct Line {
 };
 
 Line LineOf(std::int64_t place, const CurvesRequest& request) {
-  Random random(hidden::SeedOf(request.seed, place));
+  Random random(faults::SeedOf(request.seed, place));
   const bool broken = place > 0 && random.Chance(request.broken);
   const bool reversed = !broken && random.Chance(request.reversed);
   const Break* how = broken ? &kBreaks[random.Index(std::size(kBreaks))] : nullptr;

@@ -9,19 +9,19 @@
 #include <fstream>
 #include <thread>
 
-#include "hidden/field_case.h"
-#include "hidden/random.h"
+#include "faults/field_case.h"
+#include "faults/random.h"
 
 namespace made {
 namespace {
 
-using hidden::Random;
-using hidden::SeedOf;
-using hidden::field::Cell;
-using hidden::field::Group;
-using hidden::field::Module;
-using hidden::field::ModuleType;
-using hidden::field::Sampled;
+using faults::Random;
+using faults::SeedOf;
+using faults::field::Cell;
+using faults::field::Group;
+using faults::field::Module;
+using faults::field::ModuleType;
+using faults::field::Sampled;
 
 constexpr ModuleType kType = {/*seed=*/3, /*cells=*/60, /*groups=*/3, /*current=*/9.6,
                               /*open_circuit_V=*/0.655};
@@ -88,7 +88,7 @@ KeyPoints KeyPointsOf(const Sampled& curve) {
 
 KeyPoints ModuleAt(double suns, double celsius) {
   Random typical(7);
-  return KeyPointsOf(CurveOf(hidden::field::DrawOfType(kType, suns, celsius + kCelsius, &typical)));
+  return KeyPointsOf(CurveOf(faults::field::DrawOfType(kType, suns, celsius + kCelsius, &typical)));
 }
 
 double RatedPower() { return 5 * std::floor(ModuleAt(1, 25).pmax() / 5); }
@@ -100,12 +100,12 @@ StringRig HealthyString(const Weather& weather, Random* random) {
   const double kelvin = weather.kelvin + 0.7 * random->Normal();
   for (int m = 0; m < kModules; ++m) {
     const double power_class = 1 + 0.003 * std::clamp(random->Normal(), -2.5, 2.5);
-    rig.modules.push_back(hidden::field::DrawOfType(kType, weather.suns * clean * power_class,
+    rig.modules.push_back(faults::field::DrawOfType(kType, weather.suns * clean * power_class,
                                                     kelvin + 0.6 * random->Normal(), random));
   }
   rig.lead_ohm = random->Uniform(0.05, 0.35);
-  rig.sky.wander = hidden::field::DrawWander(random->LogUniform(2e-4, 8e-4), random);
-  rig.tracer.drive = hidden::field::Drive::kCapacitor;
+  rig.sky.wander = faults::field::DrawWander(random->LogUniform(2e-4, 8e-4), random);
+  rig.tracer.drive = faults::field::Drive::kCapacitor;
   rig.tracer.points = 40 + random->Index(41);
   rig.tracer.last_current = random->Uniform(0.005, 0.03);
   rig.tracer.first_voltage = random->Uniform(0.002, 0.02);
@@ -117,7 +117,7 @@ StringRig HealthyString(const Weather& weather, Random* random) {
 struct Strung {
   std::string id, date;
   double irradiance_Wm2 = 0, temperature_C = 0;  // as shown by the sensors
-  hidden::field::Readings readings;
+  faults::field::Readings readings;
   double loss_percent = 0;  // loss of maximum power by the fault
 };
 
@@ -128,8 +128,8 @@ Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
   strung.id = IdOf(place);
   strung.date = weather.date;
   StringRig rig = HealthyString(weather, &random);
-  hidden::field::Rig whole;
-  whole.departure = hidden::field::DrawDeparture(&random);
+  faults::field::Rig whole;
+  whole.departure = faults::field::DrawDeparture(&random);
   const double missed = random.LogUniform(3e-4, 1e-3);
   const Sampled reference = CurveOf(WholeString(rig));
   SettleDeparture(reference, missed, &whole.departure);
@@ -137,7 +137,7 @@ Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
   whole.module = WholeString(rig);
   whole.sky = rig.sky;
   whole.tracer = rig.tracer;
-  hidden::field::Lit lit(whole.module);
+  faults::field::Lit lit(whole.module);
   strung.loss_percent = 100 * (1 - KeyPointsOf(lit.Whole()).pmax() / KeyPointsOf(reference).pmax());
   strung.readings = Measured(whole, &lit, &random);
   // The sensor is set up anew at each combiner.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hidden/field_tracer.h"
+#include "faults/field_tracer.h"
 
 namespace made {
 
@@ -16,10 +16,10 @@ inline constexpr int kStringsOfCombiner = 25;
 
 // A string and the conditions of its measurement.
 struct StringRig {
-  std::vector<hidden::field::Module> modules;
+  std::vector<faults::field::Module> modules;
   double lead_ohm = 0;  // of connectors and cables
-  hidden::field::Sky sky;
-  hidden::field::Tracer tracer;
+  faults::field::Sky sky;
+  faults::field::Tracer tracer;
 };
 
 struct PlantFault {
@@ -29,7 +29,7 @@ struct PlantFault {
   // and other strings.
   const char* shows_in;
   const char* words;
-  void (*apply)(hidden::Random* random, StringRig* rig);
+  void (*apply)(faults::Random* random, StringRig* rig);
 };
 const std::vector<PlantFault>& PlantFaults();
 

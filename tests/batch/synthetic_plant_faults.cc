@@ -3,12 +3,12 @@
 namespace made {
 namespace {
 
-using hidden::Random;
-using hidden::field::Bypass;
-using hidden::field::Cell;
-using hidden::field::Cloud;
-using hidden::field::Group;
-using hidden::field::Module;
+using faults::Random;
+using faults::field::Bypass;
+using faults::field::Cell;
+using faults::field::Cloud;
+using faults::field::Group;
+using faults::field::Module;
 
 Module* AnyModule(Random* random, StringRig* rig) {
   return &rig->modules[random->Index(static_cast<int>(rig->modules.size()))];

@@ -245,7 +245,7 @@ TEST_F(FamilyEffectsTest, SaysWhatDoesNotGoWithThem) {
        [](FamilyOptions* o, CurveSet*) { o->law = TranslationLaw::kPvsyst; }},
       {"is fitted to the solved current",
        [](FamilyOptions* o, CurveSet*) { o->objective = Objective::kMeasuredCurrent; }},
-      {"dEgdT is held beside effects", [](FamilyOptions* o, CurveSet*) { o->freed = {"dEgdT"}; }},
+      {"dEgdT is fixed beside effects", [](FamilyOptions* o, CurveSet*) { o->freed = {"dEgdT"}; }},
       {"expected the effect sensor_offset",
        [](FamilyOptions* o, CurveSet*) { o->irradiance_offset = true; }},
       {"expected the effect temp_offset",

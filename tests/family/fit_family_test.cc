@@ -164,7 +164,7 @@ TEST_F(FitFamilyTest, MarksOnlyWhatTheDataDoNotShow) {
   set_ = SyntheticSet(law_, truth_, {{1000, 25}, {500, 25}, {200, 25}}, 30, 1e-3);
   const FamilyReport held = Fit();
   EXPECT_TRUE(Of(held, "alpha_sc").fixed);
-  EXPECT_THAT(held.assumptions, testing::Contains(HasSubstr("alpha_sc is held at")));
+  EXPECT_THAT(held.assumptions, testing::Contains(HasSubstr("alpha_sc is fixed at")));
   options_.freed = {"alpha_sc"};
   for (const bool intervals : {true, false}) {
     options_.intervals = intervals;

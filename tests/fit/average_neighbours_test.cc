@@ -91,7 +91,7 @@ TEST(AverageNeighbours, OfALongSweepEverySizeIsFound) {
 TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold) {
   SKIP_IF_SANITIZED();
   constexpr int kCurves = Repeats(40);
-  int held = 0;
+  int covered = 0;
   double plain = 0, weighed = 0;
   for (int seed = 0; seed < kCurves; ++seed) {
     const IvCurve curve = WanderingCurve(seed, 6000);
@@ -109,11 +109,11 @@ TEST(AverageNeighbours, WeighingDenseReadingsIsBetterThanNotAndItsIntervalsHold)
     weighed += std::pow(field->refined[2] - kSingleTruth[2], 2);
     for (int i = 0; i < 5; ++i) {
       const Estimate& e = field->estimates[i];
-      held += e.low_95 <= kSingleTruth[i] && kSingleTruth[i] <= e.high_95 ? 1 : 0;
+      covered += e.low_95 <= kSingleTruth[i] && kSingleTruth[i] <= e.high_95 ? 1 : 0;
     }
   }
   EXPECT_LT(weighed, 0.6 * plain);
-  EXPECT_GT(held, 0.9 * 5 * kCurves);
+  EXPECT_GT(covered, 0.9 * 5 * kCurves);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "lyrefit/fit/descent_starts.h"
 #include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/fit/variant_problem.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "studies/landscape.h"
 
 namespace lyrefit {
@@ -35,7 +35,7 @@ class DescentsTest : public ::testing::Test {
       const auto known = synthetic_.truth.find(fit_.device.parameters[i].symbol);
       if (known != synthetic_.truth.end()) p[i] = known->second;
     }
-    return {"truth", Inner(fit_.device, p), 0};
+    return {"truth", Internal(fit_.device, p), 0};
   }
   // The true parameters with other shading depths.
   PolishStart Changed(double d1, double d2, double d3) const {

@@ -231,7 +231,7 @@ TEST(FitWith, SaysWhatDoesNotGoWithEffects) {
   fit.with = {{FindEffect("nonohmic_shunt"), {{"k", {0.01, 0.02}}}}};
   EXPECT_THAT(error(fit), HasSubstr("expected k=0.01:0.02,m=VALUE, or k left out"));
   fit.with = {{FindEffect("nonohmic_shunt"), {{"k", {0.01, 0.02}}, {"m", {2, 3}}}}};
-  EXPECT_THAT(error(fit), HasSubstr("only where m, which k is measured by, is held"));
+  EXPECT_THAT(error(fit), HasSubstr("only where m, which k is measured by, is fixed"));
 }
 
 }  // namespace

@@ -17,11 +17,12 @@ const ParameterBounds kAny = {0, 1, 0, 1, SearchScale::kLinear};
 TEST(OrderAlike, SortsByIdealityAndPutsVanishedOnesLast) {
   //                       Iph Is1 n1   Rs Rsh Is2 n2   Is3 n3
   std::vector<double> p = {1, 0, 1.1, 2, 3, 7, 1.9, 8, 1.5};
-  std::vector<bool> held = {false, true, true, false, false, false, false, false, false};
+  std::vector<bool> active = {false, true, true, false, false, false, false, false, false};
   const Device device = MakeDevice(Model::kTripleDiode, {});
-  OrderAlike(device, std::vector<ParameterBounds>(9, kAny), &p, &held);
+  OrderAlike(device, std::vector<ParameterBounds>(9, kAny), &p, &active);
   EXPECT_EQ(p, (std::vector<double>{1, 8, 1.5, 2, 3, 7, 1.9, 0, 1.1}));
-  EXPECT_EQ(held, (std::vector<bool>{false, false, false, false, false, false, false, true, true}));
+  EXPECT_EQ(active,
+            (std::vector<bool>{false, false, false, false, false, false, false, true, true}));
 }
 
 TEST(OrderAlike, LeavesDiodesWithBoundsOfTheirOwnAlone) {
@@ -67,13 +68,13 @@ TEST(OrderAlike, SortsGroupsOfCells) {
   const double third = 1.0 / 3;
   //                       Iph Is1  n1    Rs   Rsh  d1 w1 d2   w2     d3   w3     d4 w4 Vb  c
   std::vector<double> p = {8, 2e-9, 1.15, 0.2, 300, 0, 0, 0.7, third, 0.2, third, 0, 0, 0.5, 1};
-  std::vector<bool> held(p.size(), false);
-  held[7] = true;
+  std::vector<bool> active(p.size(), false);
+  active[7] = true;
   std::vector<ParameterBounds> bounds(p.size(), kAny);
-  OrderAlike(device, bounds, &p, &held);
+  OrderAlike(device, bounds, &p, &active);
   EXPECT_EQ(p, (std::vector<double>{8, 2e-9, 1.15, 0.2, 300, 0.2, third, 0.7, third, 0, 0, 0, 0,
                                     0.5, 1}));
-  EXPECT_EQ(std::find(held.begin(), held.end(), true) - held.begin(), 7);
+  EXPECT_EQ(std::find(active.begin(), active.end(), true) - active.begin(), 7);
   bounds[5].upper = 0.5;
   std::swap(p[5], p[7]);
   const std::vector<double> before = p;

@@ -8,7 +8,7 @@
 #include "law/synthetic_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/law/kernel.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {
@@ -51,7 +51,7 @@ TEST_P(DeviceEffectsTest, LeadsToReportedUnitsAndBack) {
   for (const Probe& probe : probes) {
     std::vector<double> p = kModule;
     p.insert(p.end(), probe.begin(), probe.end());
-    const std::vector<double> back = Inner(*device, Reported(*device, p));
+    const std::vector<double> back = Internal(*device, Reported(*device, p));
     for (std::size_t i = 0; i < p.size(); ++i) {
       EXPECT_NEAR(back[i], p[i], 1e-10 * (1 + std::fabs(p[i]))) << device->parameters[i].symbol;
     }
@@ -183,9 +183,9 @@ TEST(Extend, KeepsToWholeNumbers) {
   const ParameterBounds one = share_of(0.3, 0.4);  // one value only, so nothing to try
   EXPECT_EQ(one.lower, one.upper);
   EXPECT_DOUBLE_EQ(one.lower, 1.0 / 3);
-  const ParameterBounds held = share_of(0.4, 0.4);
-  EXPECT_EQ(held.lower, 0.4);
-  EXPECT_EQ(held.upper, 0.4);
+  const ParameterBounds fixed = share_of(0.4, 0.4);
+  EXPECT_EQ(fixed.lower, 0.4);
+  EXPECT_EQ(fixed.upper, 0.4);
   EXPECT_THAT(error_of(UseOf("shading", {{"w", {0.4, 0.5}}})),
               HasSubstr("shading: w = 0.4:0.5 holds no whole number of 3 substrings: expected a "
                         "range around 0.666667"));

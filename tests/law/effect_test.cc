@@ -15,7 +15,7 @@ TEST(EffectParameterTest, SaysByNameWhatEachOfItsNumbersIs) {
                                     .CurrentPower(1)
                                     .CellsPower(-1)
                                     .RatePower(-2)
-                                    .Held()
+                                    .FixedByDefault()
                                     .Scatter(0.01)
                                     .BelowUpper()
                                     .AboveLower()
@@ -33,7 +33,7 @@ TEST(EffectParameterTest, SaysByNameWhatEachOfItsNumbersIs) {
   EXPECT_EQ(p.current, 1);
   EXPECT_EQ(p.cells, -1);
   EXPECT_EQ(p.rate, -2);
-  EXPECT_TRUE(p.held);
+  EXPECT_TRUE(p.fixed_by_default);
   EXPECT_EQ(p.scatter, 0.01);
   EXPECT_TRUE(p.below_upper);
   EXPECT_TRUE(p.above_lower);
@@ -46,7 +46,7 @@ TEST(EffectParameterTest, IsFreeAndThereUnlessSaid) {
   EXPECT_STREQ(p.unit, "");
   EXPECT_EQ(p.neutral, 0);
   EXPECT_EQ(p.factor, 1);
-  EXPECT_FALSE(p.searched || p.held || p.below_upper || p.above_lower);
+  EXPECT_FALSE(p.searched || p.fixed_by_default || p.below_upper || p.above_lower);
   EXPECT_NE(p.absent_at, p.absent_at);
   EXPECT_EQ(p.whole, Whole::kNo);
 }

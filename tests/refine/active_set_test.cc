@@ -38,8 +38,8 @@ TEST(RefineModel, HoldsAtABoundExactlyAndFitsTheRest) {
   const Decay model(1, 0.9);
   const RefineEnd end = RefineModel(model, {{0.5, 3}, {0, 0}});
   EXPECT_EQ(end.p[1], 0.9);
-  EXPECT_TRUE(end.held[1]);
-  EXPECT_FALSE(end.held[0]);
+  EXPECT_TRUE(end.active[1]);
+  EXPECT_FALSE(end.active[0]);
   EXPECT_LT(end.projected_gradient, 1e-8);
   FitPoint point = end;
   EXPECT_NEAR(GradientAt(model, point, &point.p[0]), 0, 1e-9);
@@ -69,7 +69,7 @@ TEST(RefineModel, HasTheSpreadOfRepeatedMeasurements) {
   for (int run = 0; run < kRepeats; ++run) {
     const Decay model(run);
     const RefineEnd end = RefineModel(model, {{2, 0.7}, {0, 0.1}});
-    const Spread spread = FindSpread(model, end, end.held, kDecayNoise * kDecayNoise);
+    const Spread spread = FindSpread(model, end, end.active, kDecayNoise * kDecayNoise);
     const double value[] = {end.p[0], end.p[1], end.local[0]};
     const double error[] = {spread.standard_error[0], spread.standard_error[1],
                             spread.local_error[0]};
@@ -88,7 +88,7 @@ TEST(RefineModel, IsProfiledLikeAnyOther) {
   const Decay model(3);
   const RefineEnd best = RefineModel(model, {{2, 0.7}, {0, 0.1}});
   const double variance = kDecayNoise * kDecayNoise, t = 2;
-  const Spread spread = FindSpread(model, best, best.held, variance);
+  const Spread spread = FindSpread(model, best, best.active, variance);
   const auto refit = [&](double value) {
     Decay held = model;
     held.Fix(1, value);

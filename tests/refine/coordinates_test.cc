@@ -45,8 +45,8 @@ TEST(Coordinates, HaveTheSlopesOfCentralDifferences) {
   const ModelShape shape = EveryKind();
   std::vector<bool> without_dark = kNone, without_n = kNone;
   without_dark[kDark] = without_n[kN] = true;
-  for (const std::vector<bool>& held : {kNone, without_dark, without_n}) {
-    const Coordinates coordinates(shape, kAt, held);
+  for (const std::vector<bool>& active : {kNone, without_dark, without_n}) {
+    const Coordinates coordinates(shape, kAt, active);
     const std::vector<Coordinates::Slope> slopes = coordinates.Slopes(kAt.data());
     for (int k = 0; k < coordinates.size(); ++k) {
       std::vector<double> up = coordinates.Start(), down = up, high(8), low(8);
@@ -70,9 +70,9 @@ TEST(Coordinates, HaveTheSlopesOfCentralDifferences) {
 TEST(Coordinates, BoundASaturationCurrentOnlyWhereItsIdealityIsHeld) {
   const ModelShape shape = EveryKind();
   EXPECT_TRUE(std::isinf(Coordinates(shape, kAt, kNone).lower(kSaturation)));
-  std::vector<bool> held = kNone;
-  held[kN] = true;
-  const Coordinates coordinates(shape, kAt, held);
+  std::vector<bool> active = kNone;
+  active[kN] = true;
+  const Coordinates coordinates(shape, kAt, active);
   std::vector<double> theta = coordinates.Start(), p(8);
   for (const bool lower : {true, false}) {
     theta[kSaturation] = lower ? coordinates.lower(kSaturation) : coordinates.upper(kSaturation);
@@ -99,9 +99,9 @@ TEST(Coordinates, KeepADarkShuntBetweenTheShuntAndWhatTheExponentAllows) {
   EXPECT_NEAR(coordinates.lower(kDark), std::exp(-5.5), 1e-15);
   EXPECT_EQ(coordinates.AtBound(kDark, /*lower=*/false, kAt), 300);
   // A fixed dark shunt keeps its ratio to the shunt.
-  std::vector<bool> held = kNone;
-  held[kDark] = true;
-  const Coordinates rest(shape, kAt, held);
+  std::vector<bool> active = kNone;
+  active[kDark] = true;
+  const Coordinates rest(shape, kAt, active);
   std::vector<double> theta = rest.Start(), p(8);
   theta[kShunt] *= 2;
   rest.ToParameters(theta.data(), p.data());

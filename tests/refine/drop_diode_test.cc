@@ -17,25 +17,25 @@ RefineProblem Problem(Model truth, int points = 40) {
 TEST(RemoveFaded, TakesOutADiodeThatShowsNowhereWithItsIdeality) {
   const RefineProblem problem = Problem(Model::kDoubleDiode);
   const CurveModel model(problem);
-  std::vector<bool> held(7, false);
+  std::vector<bool> active(7, false);
   std::vector<double> p = kDoubleTruth;
-  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &active));
   EXPECT_EQ(p, kDoubleTruth);
   p[5] = 1e-15;
-  EXPECT_TRUE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_TRUE(RemoveFaded(model.shape(), &p, &active));
   EXPECT_EQ(p[5], 0);
-  EXPECT_EQ(held, (std::vector<bool>{false, false, false, false, false, true, true}));
-  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held)) << "once";
+  EXPECT_EQ(active, (std::vector<bool>{false, false, false, false, false, true, true}));
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &active)) << "once";
 }
 
 TEST(RemoveFaded, LeavesADiodeWhoseBoundIsAbove0) {
   RefineProblem problem = Problem(Model::kDoubleDiode);
   problem.lower[5] = 1e-20;
   const CurveModel model(problem);
-  std::vector<bool> held(7, false);
+  std::vector<bool> active(7, false);
   std::vector<double> p = kDoubleTruth;
   p[5] = 1e-15;
-  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &held));
+  EXPECT_FALSE(RemoveFaded(model.shape(), &p, &active));
   EXPECT_EQ(p[5], 1e-15);
 }
 

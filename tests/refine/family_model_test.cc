@@ -13,9 +13,9 @@ namespace {
 double Total(const JointEnd& end) { return end.squares + end.prior_squares; }
 
 double CostAt(const JointProblem& problem, const JointPoint& point) {
-  const std::vector<bool> held(problem.shared(), true);
+  const std::vector<bool> active(problem.shared(), true);
   const FamilyModel model(problem);
-  return Linearize(model, model.Pack(point), held).residual.squaredNorm();
+  return Linearize(model, model.Pack(point), active).residual.squaredNorm();
 }
 
 // A problem with all four combinations of local unknowns of a curve: irradiance free, temperature
@@ -163,7 +163,7 @@ TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
   EXPECT_NEAR(CostAt(problem, end.point), Total(end), 1e-12 * Total(end));
   EXPECT_GT(end.prior_squares, 0);
   const FamilyModel model(problem);
-  const Linearization now = Linearize(model, model.Pack(end.point), end.held);
+  const Linearization now = Linearize(model, model.Pack(end.point), end.active);
   for (std::size_t c = 0; c < now.local.size(); ++c) {
     const auto residual = now.residual.segment(now.first_row[c], now.local[c].rows());
     for (int k = 0; k < now.local[c].cols(); ++k) {
@@ -173,7 +173,7 @@ TEST_F(RefineJointlyTest, EndsWhereNoUnknownCanBeMovedDownhill) {
     }
   }
   for (int i = 0; i < problem.shared(); ++i) {
-    if (end.held[i]) continue;
+    if (end.active[i]) continue;
     for (const double step : {1e-3, -1e-3}) {
       JointPoint moved = end.point;
       moved.shared[i] *= 1 + step;
@@ -209,11 +209,11 @@ TEST_F(RefineJointlyTest, HoldsAResistanceAtItsBoundAndOnlyWhereItPresses) {
     start[law_.resistance_shunt] = 3000;
     const JointEnd end = RefineJointly(problem, PointAt(problem, start));
     EXPECT_LT(end.projected_gradient, 1e-6) << seed;
-    EXPECT_EQ(end.held[law_.resistance_series], end.point.shared[law_.resistance_series] == 0);
-    EXPECT_EQ(end.held[law_.resistance_shunt], end.point.shared[law_.resistance_shunt] > 1e15)
+    EXPECT_EQ(end.active[law_.resistance_series], end.point.shared[law_.resistance_series] == 0);
+    EXPECT_EQ(end.active[law_.resistance_shunt], end.point.shared[law_.resistance_shunt] > 1e15)
         << end.point.shared[law_.resistance_shunt];
-    at_zero += end.held[law_.resistance_series];
-    perfect += end.held[law_.resistance_shunt];
+    at_zero += end.active[law_.resistance_series];
+    perfect += end.active[law_.resistance_shunt];
   }
   EXPECT_GT(at_zero, 0);
   EXPECT_LT(at_zero, kSeeds);
@@ -237,7 +237,7 @@ TEST_F(RefineJointlyTest, FindsThatThereIsNoSecondDiode) {
     const JointProblem one = SyntheticProblem(set, law_, truth_);
     const double alone = Total(RefineJointly(one, PointAt(one, truth_)));
     EXPECT_LT(Total(end), alone * (1 + 1e-9)) << seed;
-    if (!end.held[two.saturation_current_2]) continue;
+    if (!end.active[two.saturation_current_2]) continue;
     ++absent;
     EXPECT_NEAR(Total(end) / alone, 1, 1e-6);
   }
@@ -249,7 +249,7 @@ TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
   const Translation law = SyntheticLaw(TranslationLaw::kPvsyst);
   std::vector<double> shared = SyntheticTruth(law);
   shared[law.resistance_shunt_dark] = shared[law.resistance_shunt];
-  int held = 0;
+  int at_bound = 0;
   constexpr int kSeeds = 6;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const JointProblem problem =
@@ -259,11 +259,11 @@ TEST_F(RefineJointlyTest, HoldsTheDarkShuntAtTheEndOfItsRange) {
     const double ratio =
         end.point.shared[law.resistance_shunt_dark] / end.point.shared[law.resistance_shunt];
     EXPECT_GE(ratio, 1 - 1e-12);
-    EXPECT_EQ(end.held[law.resistance_shunt_dark], ratio < 1 + 1e-9) << seed << " " << ratio;
-    held += end.held[law.resistance_shunt_dark];
+    EXPECT_EQ(end.active[law.resistance_shunt_dark], ratio < 1 + 1e-9) << seed << " " << ratio;
+    at_bound += end.active[law.resistance_shunt_dark];
   }
-  EXPECT_GT(held, 0);
-  EXPECT_LT(held, kSeeds);
+  EXPECT_GT(at_bound, 0);
+  EXPECT_LT(at_bound, kSeeds);
 }
 
 TEST_F(RefineJointlyTest, LetsGoWhatBeginsAtABoundAndWantsBack) {

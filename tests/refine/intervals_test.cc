@@ -25,7 +25,7 @@ class FindIntervalsTest : public ::testing::Test {
       e.refined = 4;
       problem_.estimates.push_back(e);
     }
-    problem_.held.assign(3, false);
+    problem_.active.assign(3, false);
     problem_.t.assign(3, 2);
     problem_.rules.undetermined = "undetermined";
     problem_.rules.no_shunt = "no shunt";
@@ -47,7 +47,7 @@ class FindIntervalsTest : public ::testing::Test {
 
   void Hold(int i, double value) {
     problem_.estimates[i].refined = value;
-    problem_.held[i] = true;
+    problem_.active[i] = true;
     problem_.spread.standard_error[i] = kUnknown;
   }
 

@@ -85,7 +85,7 @@ TEST(LeastSquaresTest, WhatNothingHangsOnStays) {
 
 TEST(LeastSquaresTest, HeldParametersStay) {
   LeastSquaresProblem problem = Rosenbrock();
-  problem.held = {1, 0};
+  problem.fixed = {1, 0};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {0.3, 7});
   EXPECT_EQ(end.p[0], 0.3);
   EXPECT_NEAR(end.p[1], 0.09, 1e-6);
@@ -94,7 +94,7 @@ TEST(LeastSquaresTest, HeldParametersStay) {
 
 TEST(LeastSquaresTest, WithAllHeldOnlyMeasures) {
   LeastSquaresProblem problem = Rosenbrock();
-  problem.held = {1, 1};
+  problem.fixed = {1, 1};
   const LeastSquaresEnd end = SolveLeastSquares(problem, {0, 1});
   EXPECT_TRUE(end.usable);
   EXPECT_TRUE(end.converged);

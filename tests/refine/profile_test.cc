@@ -154,7 +154,7 @@ TEST(FindFamilyProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold)
     return std::sqrt((end.squares - best.squares) / variance);
   };
   for (int i = 0; i < law.size(); ++i) {
-    if (best.held[i]) continue;
+    if (best.active[i]) continue;
     for (const bool upper : {false, true}) {
       const ProfileSide side =
           SideOf(problem, best, {i, upper, t, variance, spread.standard_error[i]});

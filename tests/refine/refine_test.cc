@@ -46,7 +46,7 @@ TEST(Refine, StopsExactlyAtAnActiveBound) {
   problem.lower[2] = 1.3;  // above the truth
   const RefineEnd end = Refine(problem, {3.7, 1e-7, 1.6, 0.2, 200});
   EXPECT_EQ(end.p[2], 1.3);
-  EXPECT_TRUE(end.held[2]);
+  EXPECT_TRUE(end.active[2]);
   EXPECT_LE(end.projected_gradient, 1e-7);
   RefineProblem fixed = problem;
   fixed.upper[2] = 1.3;
@@ -105,7 +105,7 @@ TEST(SeparableStarts, AreSortedDistinctAndInsideTheBounds) {
   }
 }
 
-// A cell whose current was held at a limit beyond open circuit, which no diode model fits.
+// A cell whose current was fixed at a limit beyond open circuit, which no diode model fits.
 RefineProblem ClippedProblem() {
   Conditions conditions;
   const std::vector<double> truth = {0.038, 4e-10, 1.2, 0.3, 2900};

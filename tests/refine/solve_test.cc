@@ -19,9 +19,9 @@ SolveOptions Thorough() {
   return options;
 }
 
-SolveEnd SolveFrom(const Decay& model, std::vector<double> p, const std::vector<bool>& held,
+SolveEnd SolveFrom(const Decay& model, std::vector<double> p, const std::vector<bool>& active,
                    const SolveOptions& options) {
-  const Coordinates coordinates(model.shape(), std::move(p), held);
+  const Coordinates coordinates(model.shape(), std::move(p), active);
   return SolveModel(model, coordinates, {0, 0}, options);
 }
 

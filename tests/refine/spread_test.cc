@@ -51,7 +51,7 @@ TEST(FindJointSpread, IsTheScatterOfRepeatedMeasurements) {
     const JointEnd end = RefineJointly(problem, PointAt(problem, truth));
     const JointSpread spread = FindJointSpread(problem, end, kNoise_A * kNoise_A);
     for (int i = 0; i < law.size(); ++i) {
-      if (!end.held[i]) shared[i].Add(end.point.shared[i] - truth[i], spread.standard_error[i]);
+      if (!end.active[i]) shared[i].Add(end.point.shared[i] - truth[i], spread.standard_error[i]);
     }
     irradiance.Add(end.point.local[1][0], spread.local_errors[1][0]);
     temperature.Add(end.point.local[2][1], spread.local_errors[2][1]);
@@ -76,11 +76,11 @@ void ExpectOnlyOpen(const JointProblem& problem, const std::vector<double>& trut
   const JointEnd end = RefineJointly(problem, PointAt(problem, truth));
   const JointSpread spread = FindJointSpread(problem, end, 1);
   JointEnd without = end;
-  for (const int i : open) without.held[i] = true;
+  for (const int i : open) without.active[i] = true;
   const JointSpread expected = FindJointSpread(problem, without, 1);
   for (int i = 0; i < problem.translation.size(); ++i) {
     const std::string& name = problem.translation.parameters[i].name;
-    if (without.held[i]) {
+    if (without.active[i]) {
       EXPECT_TRUE(std::isnan(spread.standard_error[i])) << name;
     } else {
       EXPECT_GT(spread.standard_error[i], 0) << name;
@@ -165,15 +165,15 @@ TEST(FindSpread, UnderOtherErrorsIsTheSandwich) {
                                               kSingleTruth, 1e-3, Objective::kSolvedCurrent);
   const RefineEnd end = Refine(problem, kSingleTruth);
   const CurveModel model(problem);
-  const Spread plain = FindSpread(model, end, end.held, 4e-6);
-  const Spread same = FindSpread(model, end, end.held,
+  const Spread plain = FindSpread(model, end, end.active, 4e-6);
+  const Spread same = FindSpread(model, end, end.active,
                                  [](const RowMatrix& rows) { return RowMatrix(4e-6 * rows); });
   // A single error of the shape `ramp` shifts the parameters by its projection; the standard errors
   // are these shifts.
-  const Linearization now = Linearize(model, end, end.held);
+  const Linearization now = Linearize(model, end, end.active);
   const Eigen::MatrixXd inverse = (now.jacobian.transpose() * now.jacobian).inverse();
   Eigen::VectorXd ramp = Eigen::VectorXd::LinSpaced(now.residual.size(), 0, 1e-3);
-  const Spread one = FindSpread(model, end, end.held, [&](const RowMatrix& rows) {
+  const Spread one = FindSpread(model, end, end.active, [&](const RowMatrix& rows) {
     return RowMatrix(ramp * (ramp.transpose() * rows) + 1e-20 * rows);
   });
   const Eigen::VectorXd moved = now.natural_slope * (inverse * (now.jacobian.transpose() * ramp));

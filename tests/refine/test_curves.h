@@ -39,7 +39,7 @@ inline double VarianceOf(const RefineProblem& problem, const RefineEnd& end, int
 }
 
 inline Spread SpreadOf(const RefineProblem& problem, const RefineEnd& end, int degrees) {
-  return FindSpread(CurveModel(problem), end, end.held, VarianceOf(problem, end, degrees));
+  return FindSpread(CurveModel(problem), end, end.active, VarianceOf(problem, end, degrees));
 }
 
 inline const std::vector<double> kSingleTruth = {3.8, 2e-8, 1.2, 0.25, 300};

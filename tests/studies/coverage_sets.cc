@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/law/held_values.h"
+#include "lyrefit/law/default_values.h"
 #include "lyrefit/law/kernel.h"
 #include "lyrefit/law/model_points.h"
 #include "studies/draw.h"
@@ -41,19 +41,19 @@ std::vector<double> DrawModule(const Translation& t, bool known_bandgap, RandomS
   p[t.photocurrent] = isc * (1 + rs / rsh);  // the diode current at 0 V is negligible
   const bool pvsyst = t.spec.law == TranslationLaw::kPvsyst;
   const double bandgap_eV = Between(1.10, 1.14, random);
-  p[t.bandgap] = pvsyst || known_bandgap ? kHeldBandgap_eV : bandgap_eV;
-  if (t.bandgap_slope >= 0) p[t.bandgap_slope] = kHeldBandgapSlope_per_K;
+  p[t.bandgap] = pvsyst || known_bandgap ? kDefaultBandgap_eV : bandgap_eV;
+  if (t.bandgap_slope >= 0) p[t.bandgap_slope] = kDefaultBandgapSlope_per_K;
   if (t.n_slope >= 0) p[t.n_slope] = Between(-1e-3, 1e-3, random);
   if (t.resistance_shunt_dark >= 0) p[t.resistance_shunt_dark] = Between(2, 8, random) * rsh;
-  if (t.shunt_exponent >= 0) p[t.shunt_exponent] = kHeldShuntExponent;
+  if (t.shunt_exponent >= 0) p[t.shunt_exponent] = kDefaultShuntExponent;
   const double diodes_A = p[t.photocurrent] - voc / rsh;
   const double second = t.n_2 >= 0 ? Between(0.02, 0.5, random) : 0;
   const double thermal_V = t.device.module_thermal_voltage_V;
   p[t.saturation_current] = SaturationCurrent((1 - second) * diodes_A, voc, n * thermal_V);
   if (t.n_2 >= 0) {
-    p[t.n_2] = kHeldIdeality2;
+    p[t.n_2] = kDefaultIdeality2;
     p[t.saturation_current_2] =
-        SaturationCurrent(second * diodes_A, voc, kHeldIdeality2 * thermal_V);
+        SaturationCurrent(second * diodes_A, voc, kDefaultIdeality2 * thermal_V);
   }
   return p;
 }
@@ -69,10 +69,10 @@ Expected<std::vector<double>> StatedModule(const Translation& t, const CoverageO
   const auto hold = [&](int at, double value) {
     if (at >= 0 && std::isnan(p[at])) p[at] = value;
   };
-  if (t.spec.law == TranslationLaw::kPvsyst) hold(t.bandgap, kHeldBandgap_eV);
-  hold(t.bandgap_slope, kHeldBandgapSlope_per_K);
-  hold(t.shunt_exponent, kHeldShuntExponent);
-  hold(t.n_2, kHeldIdeality2);
+  if (t.spec.law == TranslationLaw::kPvsyst) hold(t.bandgap, kDefaultBandgap_eV);
+  hold(t.bandgap_slope, kDefaultBandgapSlope_per_K);
+  hold(t.shunt_exponent, kDefaultShuntExponent);
+  hold(t.n_2, kDefaultIdeality2);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!std::isnan(p[i])) continue;
     return Fail(fmt::format("the module: no value for {}", t.parameters[i].symbol));

@@ -1,4 +1,4 @@
-#include "lyrefit/law/held_values.h"
+#include "lyrefit/law/default_values.h"
 #include "studies/coverage_sets.h"
 #include "studies/draw.h"
 #include "studies/landscape_draw.h"
@@ -30,7 +30,7 @@ Expected<LandscapeCase> DrawFamily(bool effects, RandomStream* random) {
   if (effects) {
     result.family.temperature_offset = result.family.irradiance_offset = false;
     // The fit with offsets fixes the band gap too: its effect resembles an offset.
-    result.family.fixed["EgRef"] = kHeldBandgap_eV;
+    result.family.fixed["EgRef"] = kDefaultBandgap_eV;
     result.family.with = {Freed("temp_offset", {}), Freed("sensor_offset", {})};
     result.truth["temp_offset.c"] = kelvin;
     result.truth["sensor_offset.c"] = irradiance;

@@ -13,7 +13,7 @@
 #include "lyrefit/family/family_search.h"
 #include "lyrefit/fit/prepare_fit.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {
@@ -68,7 +68,7 @@ TruthFit OfCurve(const LandscapeCase& device) {
     std::copy(effects.begin(), effects.end(), usual.end() - effects.size());
   }
   std::vector<double> p = TruthIn(fitted.parameters, Reported(fitted, usual), device.truth);
-  p = Inner(fitted, p);
+  p = Internal(fitted, p);
   TruthFit result{std::sqrt(MeanSquare(prepared->problem, p)), device.curve.size(), {}};
   for (int i = 0; i < fitted.size(); ++i) {
     // The fit itself selects the reverse law of a weak cell, and with it the fixed parameters.
@@ -93,7 +93,7 @@ TruthFit OfFamily(const LandscapeCase& device) {
   }
   const std::vector<double> none(infos.size(), 0);
   std::vector<double> shared = TruthIn(infos, none, device.truth);
-  shared = InnerShared(t, shared);
+  shared = InternalShared(t, shared);
   const JointProblem problem = JointProblemOn(*family, device.family, family->curves.fitted);
   const JointPoint point{shared, std::vector<JointLocal>(problem.curves.size(), {0, 0})};
   TruthFit result;

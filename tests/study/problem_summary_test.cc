@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "synthetic_pool.h"
+#include "synthetic_summary.h"
 
 namespace lyrefit {
 namespace {
@@ -20,12 +20,12 @@ TEST(SummariseProblems, CountsRunsOfAllDevices) {
        SyntheticDevice("y 0", "y", {SyntheticAlgorithm("mlo", 10, {{1, 1, 1}})}),
        SyntheticDevice("x 1", "x",
                        {SyntheticAlgorithm("mlo", 10, {{5, 1 + 0.9e-6, 1 + 1.1e-6}}, 40)})});
-  const auto pools = SummariseProblems(comparison);
-  ASSERT_EQ(pools.size(), 2U);
-  EXPECT_EQ(pools[0].name, "x");
-  EXPECT_EQ(pools[0].devices.size(), 2U);
-  ASSERT_EQ(pools[0].algorithms.size(), 1U);
-  const AlgorithmSummary& mlo = pools[0].algorithms[0];
+  const auto summaries = SummariseProblems(comparison);
+  ASSERT_EQ(summaries.size(), 2U);
+  EXPECT_EQ(summaries[0].name, "x");
+  EXPECT_EQ(summaries[0].devices.size(), 2U);
+  ASSERT_EQ(summaries[0].algorithms.size(), 1U);
+  const AlgorithmSummary& mlo = summaries[0].algorithms[0];
   const LevelSummary& searched = *mlo.At(PolishLevel::kSearch);
   EXPECT_EQ(searched.runs, 3);
   EXPECT_EQ(searched.hits, 0);
@@ -39,11 +39,11 @@ TEST(SummariseProblems, CountsRunsOfAllDevices) {
 }
 
 TEST(SummariseProblems, LooksAtWhatIsNoSearchAsAWhole) {
-  const auto pools = SummariseProblems(
+  const auto summaries = SummariseProblems(
       SyntheticComparison({SyntheticDevice("x 0", "x",
                                            {SyntheticAlgorithm("shape", 0, {{3, 2, 1}}),
                                             SyntheticAlgorithm("default", 0, {{3, 1, 1}})})}));
-  for (const AlgorithmSummary& compared : pools[0].algorithms) {
+  for (const AlgorithmSummary& compared : summaries[0].algorithms) {
     EXPECT_FALSE(compared.At(PolishLevel::kSearch));
     EXPECT_FALSE(compared.At(PolishLevel::kOwn));
     EXPECT_EQ(compared.At(PolishLevel::kHybrid)->hits, 1);
@@ -55,9 +55,10 @@ TEST(SummariseProblems, HasNoTimeWhereARunHasNone) {
       {SyntheticDevice("x 0", "x", {SyntheticAlgorithm("mlo", 10, {{3, 2, 1}, {3, 2, 1}})})});
   comparison.problems[0].algorithms[0].runs[1].own_seconds = kUnknown;
   comparison.problems[0].algorithms[0].runs[0].plain_polished_A = kUnknown;
-  const auto pools = SummariseProblems(comparison);
-  EXPECT_TRUE(std::isnan(pools[0].algorithms[0].At(PolishLevel::kOwn)->seconds));
-  EXPECT_FALSE(pools[0].algorithms[0].At(PolishLevel::kPlain)) << "not every run was taken there";
+  const auto summaries = SummariseProblems(comparison);
+  EXPECT_TRUE(std::isnan(summaries[0].algorithms[0].At(PolishLevel::kOwn)->seconds));
+  EXPECT_FALSE(summaries[0].algorithms[0].At(PolishLevel::kPlain))
+      << "not every run was taken there";
 }
 
 // Five runs on one device and two on another. The first device has wrong local optima at 1.5 (two
@@ -77,8 +78,8 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
     for (RunRecord& run : device.algorithms[0].runs) run.own_parameters = {7, 0.5, 0.6};
   }
   comparison.problems[0].algorithms[0].runs[2].own_parameters = {7, 1.5, 0.8};
-  const auto pools = SummariseProblems(comparison);
-  const Failures& failures = pools[0].algorithms[0].At(PolishLevel::kOwn)->failures;
+  const auto summaries = SummariseProblems(comparison);
+  const Failures& failures = summaries[0].algorithms[0].At(PolishLevel::kOwn)->failures;
   EXPECT_EQ(failures.runs, 4);
   EXPECT_EQ(failures.local_optima, 3);
   EXPECT_EQ(failures.commonest, 2);
@@ -89,9 +90,9 @@ TEST(Failures, AreGroupedByWhereTheyEndedOnTheirDevice) {
   EXPECT_NEAR(failures.median_deviation, 0.25, 1e-12) << "of d2: 0.25 three times, of d1: 2";
   EXPECT_NEAR(failures.worst_deviation, 2, 1e-12);
   EXPECT_EQ(failures.worst_parameter, "d1");
-  EXPECT_EQ(pools[0].algorithms[0].At(PolishLevel::kHybrid)->failures.runs, 0);
+  EXPECT_EQ(summaries[0].algorithms[0].At(PolishLevel::kHybrid)->failures.runs, 0);
   EXPECT_TRUE(
-      std::isnan(pools[0].algorithms[0].At(PolishLevel::kSearch)->failures.worst_deviation));
+      std::isnan(summaries[0].algorithms[0].At(PolishLevel::kSearch)->failures.worst_deviation));
 }
 
 TEST(LargestDeviation, IsRelativeToTheReferenceAndOfTheEffectsAlone) {

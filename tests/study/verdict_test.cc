@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "synthetic_pool.h"
+#include "synthetic_summary.h"
 
 namespace lyrefit {
 namespace {
@@ -34,8 +34,8 @@ TEST(EnoughHits, AreNinetySixOfAHundred) {
 TEST(JudgeProblem, TakesTheFastestWayThatIsEnough) {
   const Comparison comparison = OfOne({Hits("mlo", 10, 3, 10), Hits("mlo", 100, 10, 10, 100),
                                        Hits("de", 10, 9, 9), Hits("de", 100, 10, 10, 20)});
-  const auto pools = SummariseProblems(comparison);
-  const SearchVerdict verdict = JudgeProblem(pools[0]);
+  const auto summaries = SummariseProblems(comparison);
+  const SearchVerdict verdict = JudgeProblem(summaries[0]);
   ASSERT_TRUE(verdict.search);
   EXPECT_EQ(verdict.search->compared->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
   EXPECT_EQ(verdict.search->level, PolishLevel::kOwn);
@@ -48,14 +48,14 @@ TEST(JudgeProblem, TakesTheFastestWayThatIsEnough) {
 TEST(JudgeProblem, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100), Hits("mlo", 1000, 10, 0, 1000)});
-  const auto pools = SummariseProblems(comparison);
-  EXPECT_EQ(JudgeProblem(pools[0]).search->compared->name, "mlo@1000");
+  const auto summaries = SummariseProblems(comparison);
+  EXPECT_EQ(JudgeProblem(summaries[0]).search->compared->name, "mlo@1000");
 }
 
 TEST(JudgeProblem, LeavesAllStartsOutWhereTheShapeIsEnough) {
   const Comparison with = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 3, 10)});
-  const auto pools = SummariseProblems(with);
-  const SearchVerdict verdict = JudgeProblem(pools[0]);
+  const auto summaries = SummariseProblems(with);
+  const SearchVerdict verdict = JudgeProblem(summaries[0]);
   EXPECT_TRUE(verdict.shape_is_enough);
   EXPECT_TRUE(verdict.shape_wins);
   EXPECT_FALSE(verdict.search) << "it gets there by the shape's starts alone";
@@ -68,15 +68,15 @@ TEST(JudgeProblem, LeavesAllStartsOutWhereTheShapeIsEnough) {
 
 TEST(JudgeProblem, LetsAFasterSearchWinAgainstTheShape) {
   const Comparison comparison = OfOne({Hits("shape", 0, 0, 10, 0), Hits("mlo", 10, 10, 10)});
-  const auto pools = SummariseProblems(comparison);
-  EXPECT_FALSE(JudgeProblem(pools[0]).shape_wins) << "15 ms against 30 ms";
+  const auto summaries = SummariseProblems(comparison);
+  EXPECT_FALSE(JudgeProblem(summaries[0]).shape_wins) << "15 ms against 30 ms";
 }
 
 TEST(JudgeProblem, SetsRandomPointsBesideTheWinner) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 10), Hits("random", 10, 5, 10), Hits("random", 100, 7, 7)});
-  const auto pools = SummariseProblems(comparison);
-  const SearchVerdict verdict = JudgeProblem(pools[0]);
+  const auto summaries = SummariseProblems(comparison);
+  const SearchVerdict verdict = JudgeProblem(summaries[0]);
   EXPECT_EQ(verdict.search->compared->name, "mlo@10");
   ASSERT_TRUE(verdict.random);
   EXPECT_EQ(verdict.random->compared->name, "random@10") << "most hits, though not enough on";
@@ -89,8 +89,8 @@ TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
       OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:cmaes", 10, 2, 10, 1),
              Hits("pagmo:cmaes", 100, 10, 10, 115), Hits("pagmo:de", 100, 10, 10, 55),
              Hits("de", 10, 10, 10, 1)});
-  const auto pools = SummariseProblems(comparison);
-  const auto ratio = CompareWithPeers(pools[0]);
+  const auto summaries = SummariseProblems(comparison);
+  const auto ratio = CompareWithPeers(summaries[0]);
   ASSERT_TRUE(ratio);
   EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@100") << "60 ms; 6 ms 15 times are 90 ms";
   EXPECT_EQ(ratio->repeats, 1);
@@ -100,8 +100,8 @@ TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
 TEST(CompareWithPeers, RepeatsWhatHitsLessOften) {
   const Comparison comparison = OfOne(
       {Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 8, 10), Hits("pagmo:de", 100, 7, 10)});
-  const auto pools = SummariseProblems(comparison);
-  const auto ratio = CompareWithPeers(pools[0]);
+  const auto summaries = SummariseProblems(comparison);
+  const auto ratio = CompareWithPeers(summaries[0]);
   EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@10");
   EXPECT_EQ(ratio->repeats, 2) << "0.2^2 = 0.04";
   EXPECT_DOUBLE_EQ(ratio->times, 1) << "15 ms twice by 30 ms";

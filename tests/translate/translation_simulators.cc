@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hidden/field_case.h"
+#include "faults/field_case.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/law/current.h"
 #include "lyrefit/law/model_points.h"
@@ -13,9 +13,9 @@
 namespace shown {
 namespace {
 
-namespace field = hidden::field;
-using hidden::Random;
-using hidden::SeedOf;
+namespace field = faults::field;
+using faults::Random;
+using faults::SeedOf;
 
 constexpr double kStandard_K = 298.15;
 constexpr double kAlpha = 5e-4;  // temperature coefficient of Isc of the field cells, 1/K

@@ -1,5 +1,5 @@
 // Simulated devices with known curves at standard conditions. Their laws differ from those of the
-// procedures, or they are modules built cell by cell (hidden/field_*), with or without a fault.
+// procedures, or they are modules built cell by cell (faults/field_*), with or without a fault.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Light {
 };
 SyntheticCase MakeReferenceSweeps(const std::string& world, const Light& light, std::uint64_t seed);
 
-// Kinds of faults: those of hidden/field_*, a shunt on every cell, and a series resistance. The
+// Kinds of faults: those of faults/field_*, a shunt on every cell, and a series resistance. The
 // true STC values include device faults but no sweep faults.
 std::vector<std::string> FaultKinds();
 SyntheticCase MakeFaulty(const std::string& kind, double irradiance_W_m2, double temperature_C,

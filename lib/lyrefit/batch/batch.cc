@@ -11,10 +11,10 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/batch/checkpoint.h"
-#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/pipeline.h"
 #include "lyrefit/batch/result_columns.h"
 #include "lyrefit/batch/row_text.h"
+#include "lyrefit/batch/write_results.h"
 #include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {

@@ -30,7 +30,7 @@ std::vector<ResultColumn> FitColumns(const std::vector<ParameterInfo>& parameter
     columns.push_back({name, info.unit, CellType::kNumber, info.doc});
     columns.push_back({name + "_se", info.unit, CellType::kNumber,
                        "standard error of " + info.symbol +
-                           " under what `errors` says; none where it is held or at a bound"});
+                           " under what `errors` says; none where it is fixed or at a bound"});
   }
   columns.push_back(
       {"errors", "", CellType::kText,

@@ -13,8 +13,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch.h"
 #include "lyrefit/batch/checkpoint.h"
-#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/string_pages.h"
+#include "lyrefit/batch/write_results.h"
 
 namespace lyrefit {
 namespace {

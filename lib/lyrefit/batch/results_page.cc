@@ -4,9 +4,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/finish.h"
 #include "lyrefit/batch/plant_page.h"
 #include "lyrefit/batch/row_text.h"
+#include "lyrefit/batch/write_results.h"
 
 namespace lyrefit {
 namespace {

@@ -66,8 +66,8 @@ CausePoint Descend(const MixtureData& data, const std::shared_ptr<const CauseSha
   problem.residuals = static_cast<int>(data.voltage_V.size());
   problem.lower = {region.rs_lower, std::log(region.u.lower), theta.lower};
   problem.upper = {region.rs_upper, std::log(region.u.upper), theta.upper};
-  problem.held = {region.rs_lower == region.rs_upper, region.u.lower == region.u.upper,
-                  theta.lower == theta.upper};
+  problem.fixed = {region.rs_lower == region.rs_upper, region.u.lower == region.u.upper,
+                   theta.lower == theta.upper};
   const double sizes[] = {std::max(region.rs_upper - region.rs_lower, 1e-300), 1, 1};
   problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
     const Eigen::VectorXd at = LeaveAt(data, shape, p);
@@ -77,7 +77,7 @@ CausePoint Descend(const MixtureData& data, const std::shared_ptr<const CauseSha
       double moved[] = {p[0], p[1], p[2]};
       const double step = kDifference * sizes[j] * (p[j] > problem.lower[j] ? -1 : 1);
       moved[j] += step;
-      const Eigen::VectorXd next = problem.held[j] != 0 ? at : LeaveAt(data, shape, moved);
+      const Eigen::VectorXd next = problem.fixed[j] != 0 ? at : LeaveAt(data, shape, moved);
       for (Eigen::Index k = 0; k < at.size(); ++k) {
         jacobian[3 * k + j] = (next[k] - at[k]) / step;
       }

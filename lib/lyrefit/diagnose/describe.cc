@@ -75,7 +75,7 @@ std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fi
   allowed.path *= kUnlike;
   LawFit freed = fit;
   for (int k = 0; k < effect.size(); ++k) {
-    if (effect.parameters[k].held) freed.law.freed.emplace_back(&effect, k);
+    if (effect.parameters[k].fixed_by_default) freed.law.freed.emplace_back(&effect, k);
   }
   return StandardErrors(Linearize(allowed, freed), fit.law.size());
 }

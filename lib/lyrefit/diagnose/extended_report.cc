@@ -9,7 +9,7 @@
 #include "lyrefit/fit/statistics.h"
 #include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/refine/intervals.h"
 
 namespace lyrefit {
@@ -241,8 +241,8 @@ void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& 
   if (!device) return;
   if (!one) AddHeld(selection, report);
   report->device = std::move(*device);
-  report->refined = Inner(report->device, report->refined);
-  report->searched = Inner(report->device, report->searched);
+  report->refined = Internal(report->device, report->refined);
+  report->searched = Internal(report->device, report->searched);
   report->refined_best_candidate = report->refined;
 }
 

@@ -24,17 +24,17 @@ struct Fold {
 // Used readings of a fold.
 std::vector<int> HeldReadings(const std::vector<int>& folds, int fold,
                               const std::vector<char>& counted) {
-  std::vector<int> held;
+  std::vector<int> held_out;
   for (std::size_t k = 0; k < folds.size(); ++k) {
-    if (folds[k] == fold && counted[k] != 0) held.push_back(static_cast<int>(k));
+    if (folds[k] == fold && counted[k] != 0) held_out.push_back(static_cast<int>(k));
   }
-  return held;
+  return held_out;
 }
 
-Squares SquaresAt(const Readings& readings, const std::vector<int>& held,
+Squares SquaresAt(const Readings& readings, const std::vector<int>& held_out,
                   const std::vector<double>& current) {
   Squares squares;
-  for (const int k : held) {
+  for (const int k : held_out) {
     const Reading& reading = readings.points[k];
     const double r = current[k] - reading.current;
     squares.sum += reading.weight * (r * r + reading.scatter);
@@ -93,9 +93,9 @@ SelectOptions Repeated(const SelectOptions& options, const Selection& selection)
   return inner;
 }
 
-// Squares at the `held` readings of a fold. The base model, each trial and the whole selection are
+// Squares at the `held_out` readings of a fold. The base model, each trial and the whole selection are
 // fitted without these readings. Empty if a fit fails.
-Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
+Fold MissOf(const std::vector<int>& held_out, const std::vector<char>& used,
             const Measurement& measurement, const SelectOptions& options,
             const Selection& selection) {
   const Readings& readings = measurement.readings;
@@ -103,8 +103,8 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
       SelectCauses(measurement, used, selection.weighted.correlation, Repeated(options, selection));
   Fold fold;
   if (!again.base.usable || !again.extended.usable || options.progress.Stopped()) return fold;
-  fold.before = SquaresAt(readings, held, again.base.current);
-  fold.after = SquaresAt(readings, held, again.extended.current);
+  fold.before = SquaresAt(readings, held_out, again.base.current);
+  fold.after = SquaresAt(readings, held_out, again.extended.current);
   WeightedData weighted = selection.base_weighted;
   for (std::size_t k = 0; k < used.size(); ++k)
     weighted.used[k] = weighted.used[k] != 0 ? used[k] : 0;
@@ -112,7 +112,7 @@ Fold MissOf(const std::vector<int>& held, const std::vector<char>& used,
     Squares squares;
     if (fitted.fit.usable) {
       const LawFit fit = FitLaw(weighted, fitted.fit.law, fitted.fit.p, kNearby);
-      if (fit.usable) squares = SquaresAt(readings, held, fit.current);
+      if (fit.usable) squares = SquaresAt(readings, held_out, fit.current);
     }
     fold.trials.push_back(squares);
   }
@@ -180,11 +180,11 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
   std::vector<Fold> results(used_folds);
   options.progress.Begin("held out", used_folds);
   ParallelFor(used_folds, threads, [&](int f) {
-    const std::vector<int> held = HeldReadings(of, f, selection.weighted.used);
-    if (held.empty() || options.progress.Stopped()) return;
+    const std::vector<int> held_out = HeldReadings(of, f, selection.weighted.used);
+    if (held_out.empty() || options.progress.Stopped()) return;
     std::vector<char> used(of.size(), 1);
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
-    results[f] = MissOf(held, used, measurement, options, selection);
+    results[f] = MissOf(held_out, used, measurement, options, selection);
   });
   if (options.progress.Stopped()) return;
   Summarise(results, readings, selection.trials, gain, trials);

@@ -207,11 +207,11 @@ FurtherEnd FitJoint(const Joint& joint, const Law& law,
   for (int k = 0; k < law.size(); ++k) {
     problem.lower.push_back(law.Lower(k));
     problem.upper.push_back(law.Upper(k));
-    problem.held.push_back(Held(old, law, k) ? 1 : 0);
+    problem.fixed.push_back(IsFixed(old, law, k) ? 1 : 0);
   }
   problem.lower.resize(law.size() + unknown, -kFarthest);
   problem.upper.resize(law.size() + unknown, kFarthest);
-  problem.held.resize(law.size() + unknown, 0);
+  problem.fixed.resize(law.size() + unknown, 0);
   LawWorkspace workspace;
   problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
     return EvaluateJoint(joint, old, law, p, &workspace, residuals, jacobian);

@@ -24,9 +24,9 @@ Box SearchBox(const Selection& selection) {
     box.upper.push_back(law.Upper(k));
   }
   for (int k = law.base_size(); k < law.size(); ++k) {
-    const bool held = law.Searched(k);
-    box.lower.push_back(held ? p[k] : law.Lower(k));
-    box.upper.push_back(held ? p[k] + 1e-12 : law.Upper(k));
+    const bool fixed = law.Searched(k);
+    box.lower.push_back(fixed ? p[k] : law.Lower(k));
+    box.upper.push_back(fixed ? p[k] + 1e-12 : law.Upper(k));
   }
   return box;
 }

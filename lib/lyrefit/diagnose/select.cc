@@ -154,7 +154,7 @@ void FreeShape(const Effect& effect, SelectionState* now) {
   const LawFit& fit = now->fit;
   Law law = fit.law;
   for (int k = 0; k < effect.size(); ++k) {
-    if (effect.parameters[k].held) law.freed.emplace_back(&effect, k);
+    if (effect.parameters[k].fixed_by_default) law.freed.emplace_back(&effect, k);
   }
   if (law.freed.size() == fit.law.freed.size()) return;
   LawFit freed = FitLaw(now->weighted, law, fit.p);

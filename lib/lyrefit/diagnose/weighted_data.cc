@@ -7,7 +7,7 @@
 #include "lyrefit/refine/error_sizes.h"
 
 namespace lyrefit {
-bool Held(const Readings& readings, const Law& law, int parameter) {
+bool IsFixed(const Readings& readings, const Law& law, int parameter) {
   if (parameter == kBasePhotocurrent && readings.traits.only_dark) return true;
   return law.Searched(parameter);
 }
@@ -54,13 +54,13 @@ void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
 
 // Evaluates whitened residuals and derivatives. The solver accepts failed residuals of a step, but
 // not missing derivatives, so these become 0 if they cannot be evaluated.
-bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::vector<char>& held,
+bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::vector<char>& fixed,
                       const double* p, LawWorkspace* workspace, std::vector<double>* current,
                       double* residuals, double* jacobian) {
   const Readings& readings = *weighted.readings;
   const int count = static_cast<int>(readings.points.size());
   if (jacobian == nullptr && weighted.progress.Stopped()) return false;
-  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &held)) {
+  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &fixed)) {
     if (jacobian == nullptr) return false;
     if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
     std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * law.size(), 0.0);
@@ -84,12 +84,12 @@ LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law,
   for (int k = 0; k < law.size(); ++k) {
     problem.lower.push_back(law.Lower(k));
     problem.upper.push_back(law.Upper(k));
-    problem.held.push_back(Held(*weighted.readings, law, k) ? 1 : 0);
+    problem.fixed.push_back(IsFixed(*weighted.readings, law, k) ? 1 : 0);
   }
   current->resize(count);
-  problem.evaluate = [&weighted, law, held = problem.held, workspace, current](
+  problem.evaluate = [&weighted, law, fixed = problem.fixed, workspace, current](
                          const double* p, double* residuals, double* jacobian) {
-    return EvaluateWhitened(weighted, law, held, p, workspace, current, residuals, jacobian);
+    return EvaluateWhitened(weighted, law, fixed, p, workspace, current, residuals, jacobian);
   };
   return problem;
 }
@@ -171,7 +171,7 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   }
   const Eigen::VectorXd gradient = TransposedTimes(jacobian, linear.residual);
   for (int k = 0; k < size; ++k) {
-    if (problem.held[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
+    if (problem.fixed[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
     const double slack = 1e-9 * (problem.upper[k] - problem.lower[k]);
     const bool pressed = (fit.p[k] <= problem.lower[k] + slack && gradient[k] >= 0) ||
                          (fit.p[k] >= problem.upper[k] - slack && gradient[k] <= 0);
@@ -230,7 +230,7 @@ double StandardError(const Linearized& linear, const std::vector<double>& deriva
 
 int FreeCount(const WeightedData& weighted, const Law& law) {
   int count = 0;
-  for (int k = 0; k < law.size(); ++k) count += Held(*weighted.readings, law, k) ? 0 : 1;
+  for (int k = 0; k < law.size(); ++k) count += IsFixed(*weighted.readings, law, k) ? 0 : 1;
   return count;
 }
 

@@ -31,7 +31,7 @@ struct WeightedData {
 };
 
 // Whether fits keep a parameter fixed.
-bool Held(const Readings& readings, const Law& law, int parameter);
+bool IsFixed(const Readings& readings, const Law& law, int parameter);
 
 // Error model of the readings.
 ErrorModel ErrorsOf(const WeightedData& weighted);
@@ -49,7 +49,7 @@ struct LawFit {
   std::vector<double> current;  // of every reading, also of those left out, in scales
 };
 
-// Least squares in all parameters of `law` that Held() leaves free, from `start`.
+// Least squares in all parameters of `law` that IsFixed() leaves free, from `start`.
 LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 

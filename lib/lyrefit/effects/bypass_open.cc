@@ -35,8 +35,11 @@ Effect BypassOpen() {
           .Unit("V")
           .Between(0.5, 60)
           .From(3.2)
-          .Held(),
-      Parameter("m", "reverse_exponent", "of the soft reverse law").Between(1, 8).From(3.4).Held(),
+          .FixedByDefault(),
+      Parameter("m", "reverse_exponent", "of the soft reverse law")
+          .Between(1, 8)
+          .From(3.4)
+          .FixedByDefault(),
   };
   e.cell = [](const auto* p, auto* cell) {
     cell->groups = 2;

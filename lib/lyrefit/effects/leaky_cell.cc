@@ -25,14 +25,14 @@ Effect LeakyCell() {
       Parameter("cells", "leaky_cells", "how many they are, all in one substring")
           .Between(1, 24)
           .From(1)
-          .Held()
+          .FixedByDefault()
           .Only(Whole::kCount)
           .BelowUpper(),
       Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
           .Unit("V")
           .Between(0.1, 1.2)
           .From(0.5)
-          .Held(),
+          .FixedByDefault(),
       kChains,
   };
   e.cell = [](const auto* p, auto* cell) {

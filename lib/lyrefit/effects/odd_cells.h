@@ -8,7 +8,7 @@ constexpr EffectParameter kChains =
     Parameter("chains", "chains_side_by_side", "that share a bypass diode: two in half-cut modules")
         .Between(1, 2)
         .From(1)
-        .Held()
+        .FixedByDefault()
         .AbsentAt(1)
         .Only(Whole::kCount);
 

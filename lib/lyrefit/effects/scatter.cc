@@ -78,22 +78,25 @@ std::vector<EffectParameter> ScatterParameters() {
           .Unit("V")
           .Between(0.5, 30)
           .From(3.2)
-          .Held(),
-      Parameter("m", "reverse_exponent", "of the soft reverse law").Between(1, 8).From(3.4).Held(),
+          .FixedByDefault(),
+      Parameter("m", "reverse_exponent", "of the soft reverse law")
+          .Between(1, 8)
+          .From(3.4)
+          .FixedByDefault(),
       Parameter("q", "lopsidedness", "0: normal; 1: few cells far below the others")
           .Between(0, 1)
-          .Held()
+          .FixedByDefault()
           .AbsentAt(0),
       Parameter("t", "dimmest_beyond", "widths that the dimmest cell lies below its usual place")
           .Between(-2.5, 2.5)
-          .Held()
+          .FixedByDefault()
           .AbsentAt(0)
           .BelowUpper(),  // farther below it is a weak cell
       Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
           .Unit("V")
           .Between(0.1, 1.2)
           .From(0.5)
-          .Held(),
+          .FixedByDefault(),
   };
 }
 

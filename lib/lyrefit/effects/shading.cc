@@ -51,7 +51,7 @@ std::vector<EffectParameter> ShadingParameters() {
                 "part of the cells of a shaded substring that the shade covers")
           .Between(0.03, 1)
           .From(1)
-          .Held()
+          .FixedByDefault()
           .AbsentAt(1),
   };
 }

@@ -115,11 +115,11 @@ std::vector<EffectParameter> SubstringParameters() {
     parameters.push_back(Parameter(deficit, deficit_name, "part of the light that the group misses")
                              .Between(0, 0.999)
                              .Scatter(kSubstringScatter)
-                             .Held());
+                             .FixedByDefault());
     parameters.push_back(Parameter(share, share_name, "part of the cells in it; 0: no such group")
                              .Between(0, 0.99)
                              .AbsentAt(0)
-                             .Held()
+                             .FixedByDefault()
                              .Only(Whole::kSubstrings));
   }
   parameters.push_back(Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
@@ -131,7 +131,7 @@ std::vector<EffectParameter> SubstringParameters() {
                                  "others have the brightest's. Of up to three groups")
                            .Between(0.03, 1)
                            .From(1)
-                           .Held()
+                           .FixedByDefault()
                            .AbsentAt(1));
   return parameters;
 }

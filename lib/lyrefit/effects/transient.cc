@@ -31,11 +31,13 @@ Effect Transient() {
           .From(0.05)
           .BelowUpper(),
       // The shape of a cloud is arbitrary: skew and flatness are fitted only after a dip is found.
-      Parameter("k", "skew", "how much slower it goes than it comes").Between(-0.7, 0.7).Held(),
+      Parameter("k", "skew", "how much slower it goes than it comes")
+          .Between(-0.7, 0.7)
+          .FixedByDefault(),
       Parameter("q", "flatness", "2: a bell, more: flat with steep sides")
           .Between(1, 6)
           .From(2)
-          .Held(),
+          .FixedByDefault(),
   };
   e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
     const auto from = reading.x - p[1];

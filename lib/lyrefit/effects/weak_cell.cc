@@ -20,35 +20,38 @@ std::vector<EffectParameter> WeakCellParameters() {
       Parameter("cells", "weak_cells", "how many they are, all in one substring")
           .Between(1, 24)
           .From(1)
-          .Held()
+          .FixedByDefault()
           .Only(Whole::kCount),
       Parameter("g", "leak", "conductance of each beside that of the others")
           .Unit("S")
           .Between(0, 5)
           .CurrentPower(1)
-          .Held(),
+          .FixedByDefault(),
       Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
           .Unit("V")
           .Between(0.1, 1.2)
           .From(0.5)
-          .Held(),
-      Parameter("a", "breakdown_factor", "of reverse breakdown").Between(0, 10).From(0.1).Held(),
+          .FixedByDefault(),
+      Parameter("a", "breakdown_factor", "of reverse breakdown")
+          .Between(0, 10)
+          .From(0.1)
+          .FixedByDefault(),
       // At its upper bound (no breakdown), or with an exponent near 1, the law describes a leak.
       Parameter("Vbr", "breakdown_voltage", "of a cell, its size")
           .Unit("V")
           .Between(3, 60)
           .From(15)
-          .Held()
+          .FixedByDefault()
           .BelowUpper(),
       Parameter("m", "breakdown_exponent", "of reverse breakdown")
           .Between(1.5, 8)
           .From(3.4)
-          .Held()
+          .FixedByDefault()
           .AboveLower(),
       Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph; 0: Bishop's law")
           .Unit("V")
           .Between(0, 30)
-          .Held()
+          .FixedByDefault()
           .AbsentAt(0),
       kChains,
   };

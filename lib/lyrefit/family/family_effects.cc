@@ -32,7 +32,7 @@ Expected<void> CheckTogether(const FamilyOptions& options, const FamilyProblem& 
   }
   TRY(CheckObjectiveOfEffects(options.objective));
   if (std::isnan(family.fixed[family.translation.bandgap_slope])) {
-    return Fail("free: dEgdT is held beside effects");
+    return Fail("free: dEgdT is fixed beside effects");
   }
   if (options.irradiance_offset || options.temperature_offset) {
     return Fail(fmt::format(
@@ -105,9 +105,9 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
   const int first = family.translation.first_effect;
   const JointProblem problem = JointProblemOn(family, options, search_curves);
   const std::vector<JointLocal> none(problem.curves.size(), {0, 0});
-  JointProblem held = problem;
-  std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.lower.begin() + first);
-  std::copy(device_effects.usual.begin(), device_effects.usual.end(), held.upper.begin() + first);
+  JointProblem fixed = problem;
+  std::copy(device_effects.usual.begin(), device_effects.usual.end(), fixed.lower.begin() + first);
+  std::copy(device_effects.usual.begin(), device_effects.usual.end(), fixed.upper.begin() + first);
   const ProgressReporter progress(observer, "without effects",
                                   static_cast<std::int64_t>(starts.size()));
   std::vector<JointEnd> ends(starts.size());
@@ -118,7 +118,7 @@ std::vector<JointPoint> FamilyEffectStarts(const FamilyProblem& family,
     quick.stop = progress.stop();
     std::vector<double>& shared = starts[s].shared;
     std::copy(device_effects.usual.begin(), device_effects.usual.end(), shared.begin() + first);
-    ends[s] = RefineJointly(held, {shared, none}, quick);
+    ends[s] = RefineJointly(fixed, {shared, none}, quick);
     progress.Step();
   });
   std::vector<JointPoint> chosen(

@@ -74,7 +74,7 @@ FamilyErrorShape WithPower(const Rows& rows, double brightest, double power) {
 
 // Rows of the given curves. An error of a curve that the fit has as an unknown is not an error of
 // its rows. Priors are rows of the problem but not of readings, and are dropped.
-Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<bool>& held) {
+Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<bool>& active) {
   Rows rows;
   std::vector<bool> has_light, has_temperature;
   for (JointCurve& curve : problem.curves) {
@@ -84,7 +84,7 @@ Rows RowsOf(JointProblem problem, const JointPoint& point, const std::vector<boo
     curve.irradiance_sd = curve.temperature_sd_K = none ? 0 : kInfinity;
   }
   const FamilyModel model(problem);
-  const Linearization now = Linearize(model, model.Pack(point), held);
+  const Linearization now = Linearize(model, model.Pack(point), active);
   rows.residual = now.residual;
   rows.shape.common = RowMatrix::Zero(now.residual.size(), 2);
   for (std::size_t c = 0; c < problem.curves.size(); ++c) {
@@ -214,7 +214,7 @@ FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProb
   const int curves = static_cast<int>(problem.curves.size());
   if (curves < kFewest || !(judged.noise_A > kExact * problem.current_scale_A)) return {};
   const auto rows_of = [&](const std::vector<int>& some) {
-    return RowsOf(Only(problem, some), Only(point, some), fit.end.held);
+    return RowsOf(Only(problem, some), Only(point, some), fit.end.active);
   };
   const std::vector<int> some = SomeOf(curves);
   const Rows rows = rows_of(some);
@@ -224,7 +224,7 @@ FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProb
   if (tested >= kFewest) {
     const JointPoint there{point.shared, std::vector<JointLocal>(tested, {0, 0})};
     const Rows others =
-        RowsOf(Only(rest, SomeOf(static_cast<int>(rest.curves.size()))), there, fit.end.held);
+        RowsOf(Only(rest, SomeOf(static_cast<int>(rest.curves.size()))), there, fit.end.active);
     errors = ChooseErrors({{rows, others}}, brightest, problem);
     errors.judge = FamilyErrorJudge::kHeldOut;
     errors.tested_curves = tested;
@@ -238,9 +238,9 @@ FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProb
   }
   errors.sizes = SizesOf(errors.kind, errors.path_power, rows, brightest, problem);
   if (errors.kind == FamilyErrorKind::kIndependent) return {errors, {}};
-  Rows all = RowsOf(problem, point, fit.end.held);
+  Rows all = RowsOf(problem, point, fit.end.active);
   all.shape = WithPower(all, brightest, errors.path_power);
-  const Spread spread = FindSpread(fit.model, fit.best, fit.best.held,
+  const Spread spread = FindSpread(fit.model, fit.best, fit.best.active,
                                    ProductOf(problem, fit.model, all, errors.sizes));
   return {errors, IntervalsUnder(spread, StudentT95(curves - 1), judged.estimates)};
 }

@@ -97,7 +97,7 @@ IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& sear
   how.stop = progress.stop();
   IntervalProblem problem;
   problem.estimates = EstimatesOf(judged, searched);
-  problem.held = judged.fit.best.held;
+  problem.active = judged.fit.best.active;
   problem.effects = SpanOf(judged.fit.family.translation);
   problem.last = judged.options.intervals ? IntervalStep::kProfile : IntervalStep::kErrors;
   problem.rules = kRules;
@@ -123,7 +123,7 @@ Interval Derived(const Judged& judged, const std::vector<double>& refined,
   constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
   for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
-    if (judged.fit.end.held[i]) continue;
+    if (judged.fit.end.active[i]) continue;
     // The step is a thousandth of the standard error, or of the undetermined direction.
     const bool open = std::isnan(spread.standard_error[i]);
     const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
@@ -220,7 +220,7 @@ JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
   const std::vector<double>& shared = fit.best.p;
   JudgedEnd family;
   family.refined.assign(shared.begin(), shared.begin() + at.size());
-  family.refined = InnerShared(at, std::move(family.refined));
+  family.refined = InternalShared(at, std::move(family.refined));
   const Judged judged = SpreadOf(fit, options, progress);
   family.noise_A = std::sqrt(judged.variance);
   if (options.intervals) progress.Begin("intervals", 0);

@@ -10,7 +10,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_effects.h"
-#include "lyrefit/law/held_values.h"
+#include "lyrefit/law/default_values.h"
 
 namespace lyrefit {
 namespace {
@@ -86,40 +86,39 @@ void SetRanges(FamilyProblem* family) {
   range(at.saturation_current_2, 0, kInfinity, 1e-3 * saturation(2), 3 * saturation(2),
         SearchScale::kLog);
   range(at.n_2, 1, 4, 1.5, 3);
-  const double built_in = kHeldBuiltIn_V * at.spec.cells_in_series;
+  const double built_in = kDefaultBuiltIn_V * at.spec.cells_in_series;
   range(at.recombination, 0, built_in, 0, 0.05 * built_in);
   range(at.built_in_voltage, voltage * 1.05, 3 * built_in, built_in, 1.2 * built_in);
   range(at.size(), 0, 0, 0, 0);
   range(at.size() + 1, 0, 0, 0, 0);
 }
 
-void HoldAt(int i, double value, FamilyProblem* family) {
+void FixAt(int i, double value, FamilyProblem* family) {
   if (i >= 0) family->fixed[i] = value;
 }
 
 // Fixes the parameters that are fitted only on request.
-void HoldTheUsual(FamilyProblem* family) {
+void FixDefaults(FamilyProblem* family) {
   const Translation& at = family->translation;
-  const double built_in = kHeldBuiltIn_V * at.spec.cells_in_series;
+  const double built_in = kDefaultBuiltIn_V * at.spec.cells_in_series;
   family->fixed.assign(at.size() + 2, kUnknown);
-  HoldAt(at.bandgap_slope, kHeldBandgapSlope_per_K, family);
-  HoldAt(at.shunt_exponent, kHeldShuntExponent, family);
-  HoldAt(at.n_2, kHeldIdeality2, family);
-  HoldAt(at.built_in_voltage, std::max(built_in, OpenCircuitVoltage(family->curves) * 1.05),
-         family);
-  HoldAt(at.size(), 0, family);
-  HoldAt(at.size() + 1, 0, family);
+  FixAt(at.bandgap_slope, kDefaultBandgapSlope_per_K, family);
+  FixAt(at.shunt_exponent, kDefaultShuntExponent, family);
+  FixAt(at.n_2, kDefaultIdeality2, family);
+  FixAt(at.built_in_voltage, std::max(built_in, OpenCircuitVoltage(family->curves) * 1.05), family);
+  FixAt(at.size(), 0, family);
+  FixAt(at.size() + 1, 0, family);
 }
 
 double StatedBandgap(const CurveSet& set) {
   for (const IvCurve& curve : set.curves) {
     if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
   }
-  return kHeldBandgap_eV;
+  return kDefaultBandgap_eV;
 }
 
 double StatedTempco_A(const CurveSet& set, double reference_current_A) {
-  double tempco_A = kHeldTempco_per_K * reference_current_A;
+  double tempco_A = kDefaultTempco_per_K * reference_current_A;
   for (const IvCurve& curve : set.curves) {
     const DeviceNotes& notes = curve.notes;
     if (notes.isc_tempco_A_per_K) tempco_A = *notes.isc_tempco_A_per_K;
@@ -128,25 +127,25 @@ double StatedTempco_A(const CurveSet& set, double reference_current_A) {
   return tempco_A;
 }
 
-Reasons HoldWhatCannotBeSeen(const CurveSet& set, const FamilyOptions& options,
-                             const Spread& temperature, FamilyProblem* family) {
+Reasons FixUnidentifiable(const CurveSet& set, const FamilyOptions& options,
+                          const Spread& temperature, FamilyProblem* family) {
   Reasons reasons;
-  const auto hold = [&](int i, double value, const std::string& why) {
-    HoldAt(i, value, family);
+  const auto fix = [&](int i, double value, const std::string& why) {
+    FixAt(i, value, family);
     if (i >= 0) reasons[i] = why;
   };
   const Translation& at = family->translation;
   const bool pvsyst = at.spec.law == TranslationLaw::kPvsyst;
-  if (pvsyst) HoldAt(at.bandgap, StatedBandgap(set), family);
+  if (pvsyst) FixAt(at.bandgap, StatedBandgap(set), family);
   if (!(temperature.high - temperature.low >= kSameTemperature_K)) {
     const std::string why =
         fmt::format("the temperatures differ by less than {:g} K", kSameTemperature_K);
-    hold(at.alpha_sc, StatedTempco_A(set, family->curves.reference_current_A), why);
-    if (!pvsyst) hold(at.bandgap, StatedBandgap(set), why);
-    hold(at.n_slope, 0, why);
+    fix(at.alpha_sc, StatedTempco_A(set, family->curves.reference_current_A), why);
+    if (!pvsyst) fix(at.bandgap, StatedBandgap(set), why);
+    fix(at.n_slope, 0, why);
   } else if (options.temperature_offset && !pvsyst) {
-    hold(at.bandgap, StatedBandgap(set),
-         "a common error of the temperature sensor looks like another band gap");
+    fix(at.bandgap, StatedBandgap(set),
+        "a common error of the temperature sensor looks like another band gap");
   }
   return reasons;
 }
@@ -243,13 +242,14 @@ Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spr
 Expected<void> Bind(const CurveSet& set, const FamilyOptions& options, FamilyProblem* family) {
   const Spreads spreads = SpreadsOf(family->curves);
   SetRanges(family);
-  HoldTheUsual(family);
-  Reasons reasons = HoldWhatCannotBeSeen(set, options, spreads.temperature, family);
+  FixDefaults(family);
+  Reasons reasons = FixUnidentifiable(set, options, spreads.temperature, family);
   TRY(ApplyWishes(options, family, &reasons));
   TRY(FreeSensorErrors(options, spreads, family));
   for (const auto& [i, why] : reasons) {
-    family->notes.push_back(fmt::format(
-        "{} is held at {:.6g}: {}", family->translation.parameters[i].name, family->fixed[i], why));
+    family->notes.push_back(fmt::format("{} is fixed at {:.6g}: {}",
+                                        family->translation.parameters[i].name, family->fixed[i],
+                                        why));
   }
   for (const double value : family->fixed) family->free_parameters += std::isnan(value);
   return {};

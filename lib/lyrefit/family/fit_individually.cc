@@ -12,7 +12,7 @@
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/family/individual_fits.h"
 #include "lyrefit/fit/fit.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {

@@ -31,8 +31,8 @@ double NoiseOf(const FamilyProblem& family, const JointProblem& problem, const J
 }
 
 // The problem with its integer-valued parameters fixed at the values of `shared`.
-JointProblem HoldingWhole(JointProblem problem, const FamilyProblem& family,
-                          const std::vector<double>& shared) {
+JointProblem WithIntegersFixed(JointProblem problem, const FamilyProblem& family,
+                               const std::vector<double>& shared) {
   for (std::size_t i = 0; i < family.bounds.size(); ++i) {
     if (family.bounds[i].whole == 0) continue;
     problem.lower[i] = problem.upper[i] = WithinBounds(family.bounds[i], shared[i]);
@@ -59,7 +59,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
     start.local.assign(on.curves.size(), {0, 0});
     JointOptions how = thorough;
     if (quick) how.function_tolerance = 1e-10;
-    at->end = RefineJointly(HoldingWhole(on, family, start.shared), start, how);
+    at->end = RefineJointly(WithIntegersFixed(on, family, start.shared), start, how);
     at->value = at->end.squares + at->end.prior_squares;
   };
   MultistartRules rules;
@@ -72,7 +72,7 @@ JointEnd FitJointly(const FamilyProblem& family, const FamilyOptions& options,
   Multistart<JointDescent> run;
   RunMultistart(rules, std::move(from), refine, NeverSame, &run);
   JointEnd best = run.Best().end;
-  *problem = HoldingWhole(std::move(*problem), family, best.point.shared);
+  *problem = WithIntegersFixed(std::move(*problem), family, best.point.shared);
   SettleNoise(family, thorough, problem, &best);
   best.stopped = progress.Stopped();
   return best;

@@ -103,7 +103,7 @@ Expected<CecModule> CecRow(const Translation& translation, const std::vector<dou
   if (std::fabs(gap / kPvlibBandgap_eV - 1) > 1e-9 ||
       std::fabs(slope / kPvlibBandgapSlope_1_K - 1) > 1e-9) {
     return Fail(fmt::format(
-        "a CEC row implies EgRef = {} eV and dEgdT = {} 1/K, found {} and {}: fit with both held "
+        "a CEC row implies EgRef = {} eV and dEgdT = {} 1/K, found {} and {}: fit with both fixed "
         "there",
         kPvlibBandgap_eV, kPvlibBandgapSlope_1_K, gap, slope));
   }

@@ -47,7 +47,7 @@ DescentEnd StartOf(const PreparedFit& fit, PolishStart start) {
   here.p = start.p;
   LawWorkspace evaluation_limit(GiveUp::kSlow);
   here.mean_square = MeanSquare(fit.problem, start.p, &evaluation_limit);
-  here.held.assign(start.p.size(), false);
+  here.active.assign(start.p.size(), false);
   DescentEnd at;
   at.group = start.variant;
   at.start = std::move(start);

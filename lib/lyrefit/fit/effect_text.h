@@ -38,7 +38,7 @@ constexpr auto EffectsOption() {
 inline constexpr char kEffectsUnit[] = "EFFECT[:P=VALUE|LOW:HIGH,...]";
 inline constexpr char kEffectsDoc[] =
     "an effect beside the diodes, as diagnose --explain names it: alone, with what the shape of "
-    "the curve suggests free; or with parameters held (d=0.3) or within a range (d=0:0.5); once "
+    "the curve suggests free; or with parameters fixed (d=0.3) or within a range (d=0:0.5); once "
     "for each";
 
 }  // namespace lyrefit

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/fit/statistics.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/refine/coarsen.h"
 #include "lyrefit/refine/curve_model.h"
 #include "lyrefit/refine/other_optima.h"
@@ -26,17 +26,17 @@ double VarianceOf(int spare_readings, const RefineProblem& problem, const Refine
   return end.mean_square * static_cast<double>(problem.voltage_V.size()) / spare_readings;
 }
 
-Spread SpreadOf(const CurveEnd& fit, std::vector<bool> held) {
+Spread SpreadOf(const CurveEnd& fit, std::vector<bool> active) {
   const EffectSpan effects = SpanOf(fit.problem.device);
   const CurveModel internal(fit.problem);
   const ReportingModel model(internal, effects);
   const FitPoint at = {Reported(effects, fit.end.p), {}};
   const std::vector<bool> flat = FindFlatSettings(model, effects, at);
-  for (std::size_t i = 0; i < held.size(); ++i) held[i] = held[i] || flat[i];
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = active[i] || flat[i];
   if (fit.errors == nullptr) {
-    return FindSpread(model, at, held, VarianceOf(fit.spare_readings, fit.problem, fit.end));
+    return FindSpread(model, at, active, VarianceOf(fit.spare_readings, fit.problem, fit.end));
   }
-  return FindSpread(model, at, held,
+  return FindSpread(model, at, active,
                     [&](const RowMatrix& rows) { return CovarianceTimes(*fit.errors, rows); });
 }
 
@@ -122,7 +122,7 @@ class CurveProfiles {
     }
     query.local_optima = reported_optima_;
     ProfileSide side = FindProfileSide(model_, reported_, query, Briefly(stop_));
-    side.better = Inner(effects_, std::move(side.better));
+    side.better = Internal(effects_, std::move(side.better));
     return side;
   }
 
@@ -181,7 +181,7 @@ double LargestReach(const IntervalProblem& problem) {
 }  // namespace
 
 std::vector<double> StandardErrors(const CurveEnd& fit) {
-  return SpreadOf(fit, fit.end.held).standard_error;
+  return SpreadOf(fit, fit.end.active).standard_error;
 }
 
 CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimates,
@@ -190,17 +190,17 @@ CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimate
   IntervalProblem problem;
   problem.estimates = std::move(estimates);
   // A setting may end at a bound without being held there.
-  problem.held.reserve(problem.estimates.size());
+  problem.active.reserve(problem.estimates.size());
   for (const Estimate& e : problem.estimates) {
-    problem.held.push_back(fit.end.held[problem.held.size()] || e.refined <= e.bounds.lower ||
-                           e.refined >= e.bounds.upper);
+    problem.active.push_back(fit.end.active[problem.active.size()] || e.refined <= e.bounds.lower ||
+                             e.refined >= e.bounds.upper);
   }
   problem.effects = SpanOf(fit.problem.device);
   problem.last = LastStep(options.method, fit);
   problem.rules = kRules;
   problem.threads = options.threads;
   if (problem.last == IntervalStep::kBounds) return {FindIntervals(std::move(problem), progress)};
-  problem.spread = SpreadOf(fit, fit.end.held);
+  problem.spread = SpreadOf(fit, fit.end.active);
   problem.t.reserve(problem.estimates.size());
   for (std::size_t i = 0; i < problem.estimates.size(); ++i) {
     problem.t.push_back(

@@ -51,7 +51,7 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
       judged->no_intervals_because.empty() ? MethodOf(refined) : Intervals::kNone;
   constexpr int kRestarts = 3;
   for (int round = 0; round <= kRestarts; ++round) {
-    OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.held);
+    OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.active);
     CurveIntervals found = FindIntervals(
         {refined.problem, judged->end, fit.spare_readings()},
         EstimatesOf(fit, searched, judged->end.p),

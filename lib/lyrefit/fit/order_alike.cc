@@ -23,7 +23,7 @@ using AlikeSet = std::vector<int>;
 struct Ordering {
   const std::vector<ParameterBounds>& bounds;
   std::vector<double>* p;
-  std::vector<bool>* held;
+  std::vector<bool>* active;
 
   // Sorts the sets. `wrong`: whether two neighbours are in the wrong order.
   void Sort(const std::vector<AlikeSet>& sets,
@@ -44,10 +44,10 @@ struct Ordering {
   void Swap(const AlikeSet& a, const AlikeSet& b) const {
     for (std::size_t k = 0; k < a.size(); ++k) {
       std::swap((*p)[a[k]], (*p)[b[k]]);
-      if (held == nullptr) continue;
-      const bool first = (*held)[a[k]];
-      (*held)[a[k]] = (*held)[b[k]];
-      (*held)[b[k]] = first;
+      if (active == nullptr) continue;
+      const bool first = (*active)[a[k]];
+      (*active)[a[k]] = (*active)[b[k]];
+      (*active)[b[k]] = first;
     }
   }
 };
@@ -60,8 +60,8 @@ bool IsAbsent(const Effect& effect, const AlikeSet& set, const double* p, int fi
 }  // namespace
 
 void OrderAlike(const Device& device, const std::vector<ParameterBounds>& bounds,
-                std::vector<double>* p, std::vector<bool>* held) {
-  const Ordering ordering{bounds, p, held};
+                std::vector<double>* p, std::vector<bool>* active) {
+  const Ordering ordering{bounds, p, active};
   if (!ConditionsChange(device)) {
     std::vector<AlikeSet> diodes;
     diodes.reserve(DiodeCount(device));

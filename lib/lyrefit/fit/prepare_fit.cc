@@ -13,7 +13,7 @@
 #include "lyrefit/fit/reading_errors.h"
 #include "lyrefit/fit/variant_problem.h"
 #include "lyrefit/law/current.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/law/term.h"
 #include "lyrefit/refine/coarsen.h"
 

@@ -40,11 +40,11 @@ RefineProblem BaseAlone(const RefineProblem& problem) {
 class Unexplained {
  public:
   // Residuals of `problem` at `without`, minus their projection on the parameters of `fitted` at
-  // `end` that are not held.
+  // `end` that are free to move.
   Unexplained(const RefineProblem& problem, const RefineProblem& fitted, const FitPoint& end,
-              const std::vector<bool>& held, const std::vector<double>& without)
+              const std::vector<bool>& active, const std::vector<double>& without)
       : problem_(problem),
-        explained_(RankedBasis(Linearize(CurveModel(fitted), end, held).jacobian)) {
+        explained_(RankedBasis(Linearize(CurveModel(fitted), end, active).jacobian)) {
     residual_ = Of(without);
   }
 
@@ -190,7 +190,7 @@ std::vector<std::vector<double>> ProbeStarts(const RefineProblem& problem, const
   const RefineEnd base = RefineFrom(alone, SeparableStarts(alone, 0, 1).at(0).p);
   std::vector<double> usual = base.p;
   usual.insert(usual.end(), variant.usual.begin(), variant.usual.end());
-  const Unexplained unexplained(problem, alone, base, base.held, usual);
+  const Unexplained unexplained(problem, alone, base, base.active, usual);
   std::vector<Trial> trials = TryAllProbes(problem, variant, &unexplained, usual);
   KeepBest(count, &trials);
   const bool unlike = std::any_of(device_effects.uses.begin(), device_effects.uses.end(),
@@ -210,15 +210,15 @@ std::vector<std::vector<double>> ProbesBeside(const RefineProblem& problem, cons
   const DeviceEffects& device_effects = *problem.device.effects;
   const RefineProblem own = InVariant(problem, variant, fitted.p);
   std::vector<double> without = fitted.p;
-  std::vector<bool> held = fitted.held;
+  std::vector<bool> active = fitted.active;
   for (std::size_t use = 0; use < others.size(); ++use) {
     const Effect& effect = *device_effects.uses[use].effect;
     const int first = device_effects.law.Offset(static_cast<int>(use));
     if (!others[use]) continue;
-    for (int k = 0; k < effect.size(); ++k) held[first + k] = true;
+    for (int k = 0; k < effect.size(); ++k) active[first + k] = true;
     without[first] = effect.parameters.front().neutral;
   }
-  const Unexplained unexplained(problem, own, fitted, held, without);
+  const Unexplained unexplained(problem, own, fitted, active, without);
   std::vector<Trial> trials;
   for (std::size_t use = 0; use < others.size(); ++use) {
     if (others[use]) TryProbes(problem, variant, &unexplained, without, use, &trials);

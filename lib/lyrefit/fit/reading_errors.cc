@@ -79,7 +79,7 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
                                       const RefineEnd& end) {
   const RefineProblem plain = Plain(problem);
-  const Linearization now = Linearize(CurveModel(plain), end, end.held);
+  const Linearization now = Linearize(CurveModel(plain), end, end.active);
   const auto spare = now.jacobian.rows() - now.jacobian.cols();
   const double smallest = kExactReadings * problem.current_scale_A;
   const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));

@@ -87,7 +87,7 @@ RefinedFit RefineFit(const PreparedFit& fit, const std::vector<PolishStart>& can
   }
   refined.problem = prepared.problem;
   WeighReadings(progress, &refined);
-  OrderAlike(prepared.device, prepared.bounds, &refined.end.p, &refined.end.held);
+  OrderAlike(prepared.device, prepared.bounds, &refined.end.p, &refined.end.active);
   for (FitPoint& other : refined.ends) {
     OrderAlike(prepared.device, prepared.bounds, &other.p, nullptr);
   }

@@ -170,11 +170,11 @@ std::vector<std::vector<double>> EffectStarts(const DeviceEffects& device_effect
 namespace {
 
 bool InAmpere(const Law& law, const Readings& readings, const std::vector<ReadingBlock>& blocks,
-              const double* p, double* current_A, double* jacobian, const std::vector<char>* held,
+              const double* p, double* current_A, double* jacobian, const std::vector<char>* fixed,
               LawWorkspace* kept) {
   LawWorkspace fresh(blocks);
   if (kept == nullptr) kept = &fresh;
-  if (!EvaluateLaw(law, readings, p, kept, current_A, jacobian, held)) return false;
+  if (!EvaluateLaw(law, readings, p, kept, current_A, jacobian, fixed)) return false;
   const std::size_t count = readings.points.size();
   for (std::size_t k = 0; k < count; ++k) current_A[k] *= readings.scale.current_A;
   for (std::size_t k = 0; jacobian != nullptr && k < count * law.size(); ++k) {
@@ -207,10 +207,10 @@ Readings AtVoltages(const Readings& readings, const std::vector<double>& voltage
 }  // namespace
 
 bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
-                      const std::vector<char>* held, LawWorkspace* kept) {
+                      const std::vector<char>* fixed, LawWorkspace* kept) {
   const DeviceEffects& device_effects = *device.effects;
   return InAmpere(device_effects.law, device_effects.readings, device_effects.blocks, p, current_A,
-                  jacobian, held, kept);
+                  jacobian, fixed, kept);
 }
 
 std::vector<double> ExtendedCurrents(const Device& device, const double* p,

@@ -75,10 +75,10 @@ std::string DescribeUse(const EffectUse& use);
 void AddInfos(const std::vector<EffectUse>& uses, std::vector<ParameterInfo>* infos);
 
 // Currents at the measured readings, in ampere, and optionally the row-major Jacobian by all
-// parameters. Columns of parameters with `held` 1 are 0. Returns false if the law cannot be
+// parameters. Columns of parameters with `fixed` 1 are 0. Returns false if the law cannot be
 // evaluated. A workspace `kept` between calls for this device makes them faster (law.h).
 bool ExtendedCurrents(const Device& device, const double* p, double* current_A, double* jacobian,
-                      const std::vector<char>* held = nullptr, LawWorkspace* kept = nullptr);
+                      const std::vector<char>* fixed = nullptr, LawWorkspace* kept = nullptr);
 
 // Currents at other voltages, in ampere, as one sweep at the mean rate and irradiance of the
 // measurement. NaN if the law cannot be evaluated.

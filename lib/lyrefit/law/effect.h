@@ -227,7 +227,7 @@ struct EffectParameter {
   // Additional factor of the reported value, as a function of all parameters of the effect.
   double (*convert)(const double* p, const ReadingScale& scale) = nullptr;
   // By default a fit keeps it fixed at its neutral value. A request by name frees it.
-  bool held = false;
+  bool fixed_by_default = false;
   // Standard deviation among sound modules or substrings, from production. The curve of one module
   // cannot reduce it. 0: none.
   double scatter = 0;
@@ -260,8 +260,8 @@ struct EffectParameter {
   constexpr EffectParameter& Convert(double (*f)(const double*, const ReadingScale&)) {
     return convert = f, *this;
   }
-  // Sets `held`.
-  constexpr EffectParameter& Held() { return held = true, *this; }
+  // Sets `fixed_by_default`.
+  constexpr EffectParameter& FixedByDefault() { return fixed_by_default = true, *this; }
   // Sets `scatter`.
   constexpr EffectParameter& Scatter(double deviation) { return scatter = deviation, *this; }
   // Set `below_upper` or `above_lower`: a fit at that bound is rejected.

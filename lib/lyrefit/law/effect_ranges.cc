@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {
@@ -50,7 +50,7 @@ std::vector<double> UsualValues(const EffectUse& use, const ReadingScale& scale)
   for (int k = 0; k < use.effect->size(); ++k) {
     if (const auto range = RangeOf(use, k)) reported[k] = 0.5 * (range->first + range->second);
   }
-  return InnerValues(*use.effect, reported, scale);
+  return InternalValues(*use.effect, reported, scale);
 }
 
 // Restricts the bounds of a whole-number parameter to whole numbers and sets their distance. A
@@ -87,8 +87,8 @@ Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vecto
   const EffectParameter& info = effect.parameters[k];
   double lower = info.lower, upper = info.upper;
   if (const auto range = RangeOf(use, k)) {
-    const double a = InnerValue(effect, k, range->first, usual, scale);
-    const double b = InnerValue(effect, k, range->second, usual, scale);
+    const double a = InternalValue(effect, k, range->first, usual, scale);
+    const double b = InternalValue(effect, k, range->second, usual, scale);
     const double slack = 1e-9 * (upper - lower);
     if (!(std::min(a, b) >= lower - slack && std::max(a, b) <= upper + slack)) {
       const double factor = info.ReportedFactor(usual.data(), scale);
@@ -100,7 +100,7 @@ Expected<ParameterBounds> BoundsOf(const EffectUse& use, int k, const std::vecto
     }
     lower = std::max(lower, std::min(a, b));
     upper = std::min(upper, std::max(a, b));
-  } else if (info.held) {
+  } else if (info.fixed_by_default) {
     lower = upper = usual[k];
   }
   ParameterBounds bounds{lower, upper, lower, upper, SearchScale::kLinear};
@@ -160,7 +160,7 @@ Expected<void> CheckFitRanges(const DeviceEffects& device_effects) {
         const char* other = effect.parameters[j].symbol;
         return tl::unexpected(Unfit(
             effect, fmt::format("a fit can keep to {} = {} only where {}, which {} is measured by, "
-                                "is held: expected {}={},{}=VALUE, or {} left out",
+                                "is fixed: expected {}={},{}=VALUE, or {} left out",
                                 symbol, RangeText(*range), other, symbol, symbol, RangeText(*range),
                                 other, symbol)));
       }

@@ -134,8 +134,8 @@ std::vector<double> ReportedShared(const Translation& translation, std::vector<d
   return Reported(SpanOf(translation), std::move(shared));
 }
 
-std::vector<double> InnerShared(const Translation& translation, std::vector<double> shared) {
-  return Inner(SpanOf(translation), std::move(shared));
+std::vector<double> InternalShared(const Translation& translation, std::vector<double> shared) {
+  return Internal(SpanOf(translation), std::move(shared));
 }
 
 }  // namespace lyrefit

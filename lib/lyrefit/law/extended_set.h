@@ -5,7 +5,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/law/translation.h"
 
 namespace lyrefit {
@@ -37,10 +37,10 @@ Expected<void> ExtendTranslation(const CurveSet& set, double bandgap_slope,
 EffectSpan SpanOf(const Translation& translation);
 
 // ExtendedParameters: parameter vector of `translation.extended` from the shared parameters.
-// ReportedShared and InnerShared: the shared parameters with those of the effects converted from
+// ReportedShared and InternalShared: the shared parameters with those of the effects converted from
 // internal to reporting units, and back.
 std::vector<double> ExtendedParameters(const Translation& translation, const double* shared);
 std::vector<double> ReportedShared(const Translation& translation, std::vector<double> shared);
-std::vector<double> InnerShared(const Translation& translation, std::vector<double> shared);
+std::vector<double> InternalShared(const Translation& translation, std::vector<double> shared);
 
 }  // namespace lyrefit

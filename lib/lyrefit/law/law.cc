@@ -343,12 +343,12 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
 }  // namespace
 
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
-                 double* current, double* jacobian, const std::vector<char>* held) {
+                 double* current, double* jacobian, const std::vector<char>* fixed) {
   CHECK_LE(law.size(), kMostParameters);
   if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, {}, workspace, current, nullptr);
   std::vector<int> free;
   for (int k = 0; k < law.size(); ++k) {
-    if (held == nullptr || (*held)[k] == 0) free.push_back(k);
+    if (fixed == nullptr || (*fixed)[k] == 0) free.push_back(k);
   }
   if (static_cast<int>(free.size()) < law.size()) {
     std::fill(jacobian, jacobian + readings.points.size() * law.size(), 0.0);

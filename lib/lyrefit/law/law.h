@@ -100,10 +100,10 @@ class LawWorkspace {
 
 // Recorded current of every reading, in current scales. `jacobian`, if not null, receives the
 // derivatives by all parameters, row-major, readings x parameters. Columns of parameters with
-// `held` 1 are 0, which saves time. Returns false if there is no result (a step left the physical
+// `fixed` 1 are 0, which saves time. Returns false if there is no result (a step left the physical
 // range).
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
-                 double* current, double* jacobian, const std::vector<char>* held = nullptr);
+                 double* current, double* jacobian, const std::vector<char>* fixed = nullptr);
 
 // Saturation current (current scales) of the first diode at the reference, base law.
 double SaturationCurrent(const Law& law, const Readings& readings, const double* p);

@@ -58,7 +58,8 @@ bool Law::Searched(int parameter) const {
   if (parameter < base_size()) return false;
   const EffectParameter* info = ParameterAt(*this, parameter);
   const auto is_it = [&](const auto& one) { return &one.first->parameters[one.second] == info; };
-  return (info->searched || info->held) && std::none_of(freed.begin(), freed.end(), is_it);
+  return (info->searched || info->fixed_by_default) &&
+         std::none_of(freed.begin(), freed.end(), is_it);
 }
 
 double SaturationCurrent(const Law&, const Readings& readings, const double* p) {

@@ -11,7 +11,7 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
-#include "lyrefit/law/held_values.h"
+#include "lyrefit/law/default_values.h"
 #include "lyrefit/law/law.h"
 
 namespace lyrefit {
@@ -242,8 +242,8 @@ int CountCells(const CurveSet& set, DataTraits* traits, std::vector<std::string>
 
 // Stated properties of the device, else the defaults of a joint fit.
 void TakeNotes(const CurveSet& set, Readings* readings) {
-  readings->bandgap_eV = kHeldBandgap_eV;
-  readings->isc_tempco_per_K = kHeldTempco_per_K;
+  readings->bandgap_eV = kDefaultBandgap_eV;
+  readings->isc_tempco_per_K = kDefaultTempco_per_K;
   readings->traits.bandgap_known = readings->traits.tempco_known = false;
   for (const IvCurve& curve : set.curves) {
     const DeviceNotes& notes = curve.notes;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {
@@ -51,8 +51,8 @@ Variant VariantOf(const Effect& effect, const ShapeStart& start) {
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     const bool freed = std::find(start.freed.begin(), start.freed.end(), k) != start.freed.end();
-    const double lower = info.held && !freed ? start.p[k] : info.lower;
-    const double upper = info.held && !freed ? start.p[k] : info.upper;
+    const double lower = info.fixed_by_default && !freed ? start.p[k] : info.lower;
+    const double upper = info.fixed_by_default && !freed ? start.p[k] : info.upper;
     variant.bounds.push_back({lower, upper, lower, upper, SearchScale::kLinear});
   }
   return variant;
@@ -187,7 +187,7 @@ void LeaveARest(const DeviceEffects& device_effects, const std::vector<Parameter
 }
 
 std::string DescribeVariant(const DeviceEffects& device_effects, const Variant& variant) {
-  std::string free, held;
+  std::string free, fixed;
   const auto add = [](std::string* list, const std::string& text) {
     *list += (list->empty() ? "" : ", ") + text;
   };
@@ -204,11 +204,11 @@ std::string DescribeVariant(const DeviceEffects& device_effects, const Variant& 
       if (own.lower < own.upper) {
         add(&free, symbol);
       } else if (own.lower != info.neutral && own.lower != info.absent_at) {
-        add(&held, fmt::format("{} = {:.4g}", symbol, reported[k]));
+        add(&fixed, fmt::format("{} = {:.4g}", symbol, reported[k]));
       }
     }
   }
-  return free + " free" + (held.empty() ? "" : "; " + held);
+  return free + " free" + (fixed.empty() ? "" : "; " + fixed);
 }
 
 }  // namespace lyrefit

@@ -33,7 +33,7 @@ class ActiveSet {
     now_.at = std::move(start);
     now_.at.local.resize(shape_.locals(), 0);
     for (const FitParameter& parameter : shape_.parameters) fixed_.push_back(parameter.fixed());
-    now_.held = fixed_;
+    now_.active = fixed_;
     refused_.assign(fixed_.size(), false);
     Clamp();
     Measure();
@@ -68,7 +68,7 @@ class ActiveSet {
  private:
   struct State {
     FitPoint at;
-    std::vector<bool> held;
+    std::vector<bool> active;
     double mean_square = HUGE_VAL;
     bool converged = false;  // the solve that led here
   };
@@ -110,13 +110,13 @@ class ActiveSet {
   // Fixing and releasing bounds may raise the sum of squares of a curve that the model does not
   // describe.
   void Remember() {
-    if (best_.held.empty() || now_.mean_square < best_.mean_square) best_ = now_;
+    if (best_.active.empty() || now_.mean_square < best_.mean_square) best_ = now_;
   }
 
   // Keeps the lowest point with a stable active set. A bound whose release did not lower the sum of
   // squares from there is not released again.
   void KeepIfBetter() {
-    if (settled_.held.empty() || now_.mean_square < settled_.mean_square) {
+    if (settled_.active.empty() || now_.mean_square < settled_.mean_square) {
       settled_ = now_;
       refused_.assign(refused_.size(), false);
       return;
@@ -134,7 +134,7 @@ class ActiveSet {
     }
     RefineEnd end;
     static_cast<FitPoint&>(end) = now_.at;
-    end.held = now_.held;
+    end.active = now_.active;
     end.mean_square = now_.mean_square;
     end.iterations = iterations_;
     end.projected_gradient = ProjectedGradient();
@@ -146,7 +146,7 @@ class ActiveSet {
   // One solve over the free parameters; keeps the better of before and after. Returns its
   // coordinates.
   std::vector<double> Solve(bool bounded, double function_tolerance, int max_iterations) {
-    const Coordinates coordinates(shape_, now_.at.p, now_.held);
+    const Coordinates coordinates(shape_, now_.at.p, now_.active);
     std::vector<double> theta = coordinates.Start();
     now_.converged = theta.empty() && now_.at.local.empty();
     // No derivatives exist at this point.
@@ -178,30 +178,30 @@ class ActiveSet {
   }
 
   // Whether the end of a solve is acceptable: inside the bounds unknown to the solve, and without a
-  // diode of negligible current. Parameters at a bound are then held there.
+  // diode of negligible current. Parameters at a bound are then active there.
   bool IsInside() {
     FitPoint at = now_.at;
-    std::vector<bool> held = now_.held;
-    if (RemoveFaded(shape_, &at.p, &held)) return false;
+    std::vector<bool> active = now_.active;
+    if (RemoveFaded(shape_, &at.p, &active)) return false;
     for (int i = 0; i < size(); ++i) {
       const ParameterRange range = BoundsAt(shape_, i, at.p);
       if (!(at.p[i] >= range.low && at.p[i] <= range.high)) return false;
-      held[i] = held[i] || at.p[i] == range.low || at.p[i] == range.high;
+      active[i] = active[i] || at.p[i] == range.low || at.p[i] == range.high;
     }
-    now_.held = std::move(held);
+    now_.active = std::move(active);
     return true;
   }
 
   // Sets the parameter of a coordinate to one of its bounds and holds it there.
-  void Hold(const Coordinates& coordinates, int k, bool lower) {
+  void Activate(const Coordinates& coordinates, int k, bool lower) {
     const int i = coordinates.parameter(k);
     now_.at.p[i] = coordinates.AtBound(k, lower, now_.at.p);
-    now_.held[i] = true;
+    now_.active[i] = true;
   }
 
   void ActivateBounds() {
-    const Linearization now = Linearize(model_, now_.at, now_.held);
-    const Coordinates coordinates(shape_, now_.at.p, now_.held);
+    const Linearization now = Linearize(model_, now_.at, now_.active);
+    const Coordinates coordinates(shape_, now_.at.p, now_.active);
     const std::vector<double> theta = coordinates.Start();
     bool any = false;
     for (int k = 0; k < coordinates.size(); ++k) {
@@ -209,7 +209,7 @@ class ActiveSet {
       const double near = 1e-6 * (1 + std::fabs(theta[k]));
       const bool low = theta[k] - coordinates.lower(k) < near && slope > 0;
       const bool high = coordinates.upper(k) - theta[k] < near && slope < 0;
-      if (low || high) Hold(coordinates, k, low);
+      if (low || high) Activate(coordinates, k, low);
       any = any || low || high;
     }
     if (TakeOutFaded() || any) Measure();
@@ -219,7 +219,7 @@ class ActiveSet {
   // first bound on the way and holds that parameter.
   bool SolveFree() {
     const State before = now_;
-    const Coordinates coordinates(shape_, before.at.p, before.held);
+    const Coordinates coordinates(shape_, before.at.p, before.active);
     const std::vector<double> from = coordinates.Start();
     const std::vector<double> to =
         Solve(/*bounded=*/false, options_.function_tolerance, options_.max_iterations);
@@ -248,12 +248,12 @@ class ActiveSet {
     }
     coordinates.ToParameters(theta.data(), now_.at.p.data());
     Clamp();
-    Hold(coordinates, first, lower);
+    Activate(coordinates, first, lower);
     TakeOutFaded();
     Measure();
     if (now_.mean_square > before.mean_square) {
       now_.at = before.at;
-      Hold(coordinates, first, lower);
+      Activate(coordinates, first, lower);
       Measure();
     }
     return false;
@@ -269,16 +269,16 @@ class ActiveSet {
     return false;
   }
 
-  bool TakeOutFaded() { return RemoveFaded(shape_, &now_.at.p, &now_.held); }
+  bool TakeOutFaded() { return RemoveFaded(shape_, &now_.at.p, &now_.active); }
 
   // Signed cosine of the residuals with the column of each parameter that is neither fixed nor of a
   // dropped diode. 0 for all others, and for a parameter at a bound whose descent direction leads
   // outside.
   std::vector<double> FreeCosines() const {
-    std::vector<bool> held = fixed_;
-    HoldAbsent(shape_, now_.at.p, &held);
-    const Linearization now = Linearize(model_, now_.at, held);
-    const Coordinates coordinates(shape_, now_.at.p, held);
+    std::vector<bool> active = fixed_;
+    ActivateAbsent(shape_, now_.at.p, &active);
+    const Linearization now = Linearize(model_, now_.at, active);
+    const Coordinates coordinates(shape_, now_.at.p, active);
     const std::vector<double> theta = coordinates.Start();
     std::vector<double> cosines(size(), 0);
     const double norm = now.residual.norm();
@@ -288,7 +288,7 @@ class ActiveSet {
       if (!(column > kNoInfluence * norm) || !(norm > 0)) continue;
       const double cosine = now.jacobian.col(k).dot(now.residual) / (column * norm);
       DCHECK(std::isfinite(cosine));
-      if (now_.held[i]) {
+      if (now_.active[i]) {
         const double own = coordinates.Own(k, theta);
         const bool low = own - coordinates.OwnLower(k) < coordinates.OwnUpper(k) - own;
         if (low ? cosine > 0 : cosine < 0) continue;
@@ -304,18 +304,18 @@ class ActiveSet {
     return largest;
   }
 
-  // Releases the held parameter whose inward descent direction has the largest cosine.
+  // Releases the active bound whose inward descent direction has the largest cosine.
   bool ReleaseOne() {
     const std::vector<double> cosines = FreeCosines();
     int best = -1;
     double largest = kFlat;
     for (int i = 0; i < size(); ++i) {
-      if (!now_.held[i] || refused_[i] || std::fabs(cosines[i]) <= largest) continue;
+      if (!now_.active[i] || refused_[i] || std::fabs(cosines[i]) <= largest) continue;
       largest = std::fabs(cosines[i]);
       best = i;
     }
     if (best < 0 || ++released_ > kMostReleased * size()) return false;
-    now_.held[best] = false;
+    now_.active[best] = false;
     last_released_ = best;
     return true;
   }
@@ -326,7 +326,7 @@ class ActiveSet {
     if (!options_.let_in || Ended()) return false;
     for (int i = 0; i < size(); ++i) {
       const FitParameter& is = shape_.parameters[i];
-      const bool vanished = is.may_vanish && now_.held[i] && now_.at.p[i] <= 0;
+      const bool vanished = is.may_vanish && now_.active[i] && now_.at.p[i] <= 0;
       if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
       if (coarse_ == nullptr) coarse_ = model_.Coarse();
       const DiodeToAdd diode = FindDiodeToAdd(model_, coarse_.get(), now_.at, i);
@@ -336,8 +336,8 @@ class ActiveSet {
       const int n = is.with[0];
       now_.at.p[i] = std::min(diode.size, is.upper);
       now_.at.p[n] = diode.n;
-      now_.held[i] = false;
-      now_.held[n] = fixed_[n];
+      now_.active[i] = false;
+      now_.active[n] = fixed_[n];
       Measure();
       Solve(/*bounded=*/true, options_.first_tolerance, options_.first_iterations);
       if (now_.mean_square < before.mean_square * (1 - 1e-13)) {
@@ -382,7 +382,7 @@ RefineEnd Nowhere(const FitModel& model, FitPoint start) {
   static_cast<FitPoint&>(end) = std::move(start);
   end.mean_square = HUGE_VAL;
   for (const FitParameter& parameter : model.shape().parameters) {
-    end.held.push_back(parameter.fixed());
+    end.active.push_back(parameter.fixed());
   }
   return end;
 }

@@ -36,9 +36,9 @@ struct RefineOptions {
 struct RefineEnd : FitPoint {
   double mean_square = 0;  // FitModel::MeanSquare, A^2
   bool converged = false;
-  bool stopped = false;    // by RefineOptions::stop
-  int iterations = 0;      // Levenberg-Marquardt iterations, all rounds
-  std::vector<bool> held;  // fixed, at a bound, or of a dropped diode
+  bool stopped = false;      // by RefineOptions::stop
+  int iterations = 0;        // Levenberg-Marquardt iterations, all rounds
+  std::vector<bool> active;  // fixed, at a bound, or of a dropped diode
   // Largest cosine between the residual vector and a Jacobian column along which the parameter is
   // free to move downhill. 0 at an exact optimum.
   double projected_gradient = 1;

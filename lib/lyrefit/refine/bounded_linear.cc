@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-// Marks the unknowns that are free; the others are held where they are.
+// Marks the unknowns that are free; the others are at an active bound.
 template <class Vector>
 using Flags = Eigen::Matrix<bool, Eigen::Dynamic, 1, 0, Vector::MaxRowsAtCompileTime, 1>;
 
@@ -100,7 +100,7 @@ bool StepTowards(const Vector& target, const Vector& lower, const Vector& upper,
   return false;
 }
 
-// The held unknown along whose column the objective falls most steeply when it leaves its bound; -1
+// The active unknown along whose column the objective falls most steeply when it leaves its bound; -1
 // if none exceeds rounding.
 template <class Problem, class Vector>
 int MostWanted(const Problem& problem, const Vector& lower, const Vector& upper, const Vector& x,

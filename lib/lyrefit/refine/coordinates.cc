@@ -21,10 +21,10 @@ double StepOf(const ModelShape& shape, const FitParameter& parameter) {
 
 }  // namespace
 
-Coordinates::Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> held)
+Coordinates::Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> active)
     : shape_(&shape), p_(std::move(p)), slot_(p_.size(), -1) {
   for (int i = 0; i < shape.size(); ++i) {
-    if (held[i]) continue;
+    if (active[i]) continue;
     slot_[i] = size();
     moving_.push_back(i);
   }

@@ -6,12 +6,12 @@
 
 namespace lyrefit {
 
-// Coordinates of a fit, one for every parameter that is not held, scaled so that none depends
+// Coordinates of a fit, one for every parameter that is free to move, scaled so that none depends
 // strongly on another:
 //   photocurrents, series, plain   linear, in units of I0, of R0 = V0 / I0, of the step
 //   ideality                       1 / n
 //   shunt                          R0 / Rsh, so that a perfect shunt is 0
-//   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; held, but not fixed, it
+//   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; at a bound, but not fixed, it
 //                                  keeps that ratio
 //   saturation current             ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's
 //                                  current at V0
@@ -19,7 +19,7 @@ namespace lyrefit {
 // on its n, and the dark shunt on its shunt.
 class Coordinates {
  public:
-  Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> held);
+  Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> active);
 
   int size() const { return static_cast<int>(moving_.size()); }
   int parameter(int coordinate) const { return moving_[coordinate]; }
@@ -63,7 +63,7 @@ class Coordinates {
   const ModelShape* shape_;
   std::vector<double> p_;
   std::vector<int> moving_;  // parameter of each coordinate
-  std::vector<int> slot_;    // coordinate of each parameter, -1 if held
+  std::vector<int> slot_;    // coordinate of each parameter, -1 at an active bound
   std::vector<double> lower_;
   std::vector<double> upper_;
 };

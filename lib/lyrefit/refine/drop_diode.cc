@@ -20,11 +20,11 @@ double Growth(const ModelShape& shape, double n) {
 
 DiodeToAdd Try(const FitModel& model, FitPoint trial, int is, double n) {
   const ModelShape& shape = model.shape();
-  std::vector<bool> held(shape.size(), true);
-  held[is] = false;
+  std::vector<bool> active(shape.size(), true);
+  active[is] = false;
   trial.p[shape.parameters[is].with[0]] = n;
   trial.p[is] = kFaded * shape.current_scale_A / Growth(shape, n);
-  const Linearization now = Linearize(model, trial, held);
+  const Linearization now = Linearize(model, trial, active);
   const double norm = now.jacobian.col(0).norm();
   const double slope = now.jacobian.col(0).dot(now.residual);
   return {-slope / (norm * now.residual.norm()), trial.p[is] * -slope / (norm * norm), n};
@@ -32,26 +32,27 @@ DiodeToAdd Try(const FitModel& model, FitPoint trial, int is, double n) {
 
 }  // namespace
 
-void HoldAbsent(const ModelShape& shape, const std::vector<double>& p, std::vector<bool>* held) {
+void ActivateAbsent(const ModelShape& shape, const std::vector<double>& p,
+                    std::vector<bool>* active) {
   for (int i = 0; i < shape.size(); ++i) {
     const FitParameter& parameter = shape.parameters[i];
     if (parameter.kind != ParameterKind::kSaturation || !(p[i] <= 0)) continue;
-    (*held)[i] = (*held)[parameter.with[0]] = true;
+    (*active)[i] = (*active)[parameter.with[0]] = true;
   }
 }
 
-bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* held) {
+bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* active) {
   bool any = false;
-  HoldAbsent(shape, *p, held);
+  ActivateAbsent(shape, *p, active);
   for (int i = 0; i < shape.size(); ++i) {
     const FitParameter& parameter = shape.parameters[i];
-    if (!parameter.may_vanish || (*held)[i]) continue;
+    if (!parameter.may_vanish || (*active)[i]) continue;
     const double strongest = (*p)[i] * Growth(shape, (*p)[parameter.with[0]]);
     if (strongest > kFaded * shape.current_scale_A) continue;
     (*p)[i] = 0;
     any = true;
   }
-  if (any) HoldAbsent(shape, *p, held);
+  if (any) ActivateAbsent(shape, *p, active);
   return any;
 }
 

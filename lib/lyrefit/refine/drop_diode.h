@@ -7,14 +7,15 @@
 namespace lyrefit {
 
 // Dropping a diode from a fit and adding it again. A diode is dropped by a saturation current of 0,
-// and its ideality is then held as well.
+// and its ideality is then active as well.
 
-// Holds the parameters of every dropped diode.
-void HoldAbsent(const ModelShape& shape, const std::vector<double>& p, std::vector<bool>* held);
+// Marks the parameters of every dropped diode as active.
+void ActivateAbsent(const ModelShape& shape, const std::vector<double>& p,
+                    std::vector<bool>* active);
 
-// Calls HoldAbsent and drops diodes that may vanish and add no visible current at the largest
+// Calls ActivateAbsent and drops diodes that may vanish and add no visible current at the largest
 // voltage. True if one was dropped.
-bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* held);
+bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bool>* active);
 
 // A diode that would lower the sum of squares.
 struct DiodeToAdd {

@@ -67,7 +67,7 @@ class Finder {
   // The bound at which a parameter is held: the nearer one, on the parameter's scale.
   BoundSide SideOf(int i) const {
     const Estimate& e = At(i);
-    if (!e.free() || !problem_.held[i]) return BoundSide::kNone;
+    if (!e.free() || !problem_.active[i]) return BoundSide::kNone;
     if (e.refined >= e.bounds.upper) return BoundSide::kUpper;
     if (e.refined <= e.bounds.lower) return BoundSide::kLower;
     if (e.info.kind == ParameterKind::kDarkShunt) {
@@ -84,7 +84,7 @@ class Finder {
 
   void MarkBounds() {
     for (int i = 0; i < size_; ++i) At(i).at_bound = SideOf(i);
-    // The ideality of a dropped diode is held at any value.
+    // The ideality of a dropped diode is fixed at any value.
     for (int i = 0; i < size_; ++i) {
       if (!IsSaturation(At(i)) || !IsDropped(i)) continue;
       Estimate& n = At(At(i).info.with[0]);
@@ -97,7 +97,7 @@ class Finder {
   bool IsDropped(int i) const {
     const Estimate& e = At(i);
     return e.refined <= 0 ||
-           (problem_.held[i] && e.bounds.lower <= 0 && e.at_bound == BoundSide::kLower);
+           (problem_.active[i] && e.bounds.lower <= 0 && e.at_bound == BoundSide::kLower);
   }
 
   void SetErrors() {
@@ -149,7 +149,7 @@ class Finder {
     const Estimate& e = At(i);
     const bool thorough = problem_.rules.thorough;
     if (!e.free() || e.interval == IntervalMethod::kProfile) return false;
-    if (!thorough && IsSaturation(e) && problem_.held[i]) return false;
+    if (!thorough && IsSaturation(e) && problem_.active[i]) return false;
     if (problem_.several_optima || IsOneOfSeveral(i) || e.at_bound != BoundSide::kNone) return true;
     if (e.interval == IntervalMethod::kNone) return thorough;
     if (thorough && std::any_of(found_.estimates.begin(), found_.estimates.end(),

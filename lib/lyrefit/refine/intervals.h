@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/refine/estimate.h"
 #include "lyrefit/refine/profile.h"
 #include "lyrefit/refine/spread.h"
@@ -40,7 +40,7 @@ struct IntervalRules {
 // Input of FindIntervals; all values in reporting units.
 struct IntervalProblem {
   std::vector<Estimate> estimates;  // info, bounds, fixed, searched and refined
-  std::vector<bool> held;           // at a bound or of a dropped diode
+  std::vector<bool> active;         // at a bound or of a dropped diode
   EffectSpan effects;
   IntervalStep last = IntervalStep::kProfile;
   IntervalRules rules;

@@ -39,7 +39,7 @@ JointEnd EndOf(const JointProblem& problem, const FamilyModel& model, RefineEnd 
   end.stopped = found.stopped;
   end.iterations = found.iterations;
   end.projected_gradient = found.projected_gradient;
-  end.held = std::move(found.held);
+  end.active = std::move(found.active);
   return end;
 }
 
@@ -85,7 +85,7 @@ JointEnd RefineJointly(const JointProblem& problem, const JointPoint& start,
   RefineEnd found = RefineModel(model, model.Pack(start), HowToRefine(options));
   const Translation& at = problem.translation;
   const int is = at.saturation_current_2;
-  if (is >= 0 && found.held[is] && found.p[is] <= 0 && problem.upper[is] > 0) {
+  if (is >= 0 && found.active[is] && found.p[is] <= 0 && problem.upper[is] > 0) {
     const double pivot = problem.voltage_scale_V / at.device.module_thermal_voltage_V;
     found.p[is] = problem.current_scale_A * std::exp(kAbsent - pivot / found.p[at.n_2]);
   }
@@ -104,7 +104,7 @@ RefineEnd PackedEnd(const JointProblem& problem, const JointEnd& end) {
   static_cast<FitPoint&>(packed) = model.Pack(end.point);
   packed.mean_square = (end.squares + end.prior_squares) / model.shape().points;
   packed.converged = end.converged;
-  packed.held = end.held;
+  packed.active = end.active;
   return packed;
 }
 
@@ -124,7 +124,7 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
                             const RefineEnd& end, double variance) {
   JointSpread spread;
-  static_cast<Spread&>(spread) = FindSpread(model, end, end.held, variance);
+  static_cast<Spread&>(spread) = FindSpread(model, end, end.active, variance);
   const double nan = std::nan("");
   std::size_t next = 0;
   for (const JointCurve& curve : problem.curves) {

@@ -79,7 +79,7 @@ struct JointEnd {
   bool converged = false;
   bool stopped = false;  // by `stop`
   int iterations = 0;
-  std::vector<bool> held;         // see RefineEnd
+  std::vector<bool> active;       // see RefineEnd
   double projected_gradient = 1;  // of the shared parameters, see RefineEnd
 };
 

@@ -48,7 +48,7 @@ Quadratic Expand(const LeastSquaresProblem& problem, const Place& place) {
   model.gradient = Times(place.jacobian, place.residuals);
   model.scale = model.gram.diagonal().cwiseMax(1e-12);
   for (int k = 0; k < place.p.size(); ++k) {
-    if (!problem.held.empty() && problem.held[k] != 0) continue;
+    if (!problem.fixed.empty() && problem.fixed[k] != 0) continue;
     const bool pressed = (place.p[k] <= problem.lower[k] && model.gradient[k] >= 0) ||
                          (place.p[k] >= problem.upper[k] && model.gradient[k] <= 0);
     if (!pressed) model.free.push_back(k);
@@ -205,7 +205,7 @@ LeastSquaresEnd SolveLeastSquares(const LeastSquaresProblem& problem,
   Place first{Eigen::Map<const VectorXd>(start.data(), size), VectorXd(problem.residuals),
               MatrixXd(size, problem.residuals)};
   for (int k = 0; k < size; ++k) {
-    if (!problem.held.empty() && problem.held[k] != 0) continue;
+    if (!problem.fixed.empty() && problem.fixed[k] != 0) continue;
     first.p[k] = std::min(std::max(start[k], problem.lower[k]), problem.upper[k]);
   }
   LeastSquaresEnd end;

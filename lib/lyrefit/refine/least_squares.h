@@ -14,7 +14,7 @@ struct LeastSquaresProblem {
   int residuals = 0;
   std::vector<double> lower;  // -+infinity: no bound
   std::vector<double> upper;
-  std::vector<char> held;  // 1: stays at its start; empty: all are free
+  std::vector<char> fixed;  // 1: stays at its start; empty: all are free
   // Residuals at `p` and, if `jacobian` is not null, their derivatives row by row. False if the
   // model cannot be evaluated: the step is then shortened.
   std::function<bool(const double* p, double* residuals, double* jacobian)> evaluate;

@@ -42,9 +42,9 @@ bool EvaluateBlock(const FitModel& model, const Coordinates& coordinates, int bl
 }
 
 Linearization Linearize(const FitModel& model, const FitPoint& point,
-                        const std::vector<bool>& held) {
+                        const std::vector<bool>& active) {
   const ModelShape& shape = model.shape();
-  const Coordinates coordinates(shape, point.p, held);
+  const Coordinates coordinates(shape, point.p, active);
   const std::vector<double> theta = coordinates.Start();
   const int moving = coordinates.size();
   Linearization now;

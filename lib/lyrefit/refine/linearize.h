@@ -27,6 +27,6 @@ struct Linearization {
 };
 
 Linearization Linearize(const FitModel& model, const FitPoint& point,
-                        const std::vector<bool>& held);
+                        const std::vector<bool>& active);
 
 }  // namespace lyrefit

@@ -43,10 +43,10 @@ std::vector<Sloped> PrepareTerms(const Device& device, const double* p) {
 
 void ModelCurrents(const Device& device, Objective objective, const double* p,
                    const CurveView& points, const Kernel& kernel, double* current, double* slopes,
-                   const std::vector<char>* held, LawWorkspace* kept) {
+                   const std::vector<char>* fixed, LawWorkspace* kept) {
   const bool measured = objective == Objective::kMeasuredCurrent;
   if (device.effects != nullptr) {
-    if (measured || !ExtendedCurrents(device, p, current, slopes, held, kept)) {
+    if (measured || !ExtendedCurrents(device, p, current, slopes, fixed, kept)) {
       current[0] = kUnknown;
     }
     return;

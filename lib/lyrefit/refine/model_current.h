@@ -20,9 +20,9 @@ struct CurveView {
 // row by row. Those of the solved current are those of the right-hand side at the root divided by 1
 // - Rs F' (implicit function theorem). Differentiating the Newton iteration would cost more and be
 // less exact. NaN if an equation with effects cannot be evaluated. Such an equation skips the
-// derivatives by `held` parameters (1), which are then 0, and may reuse a workspace.
+// derivatives by `fixed` parameters (1), which are then 0, and may reuse a workspace.
 void ModelCurrents(const Device& device, Objective objective, const double* p,
                    const CurveView& points, const Kernel& kernel, double* current, double* slopes,
-                   const std::vector<char>* held = nullptr, LawWorkspace* kept = nullptr);
+                   const std::vector<char>* fixed = nullptr, LawWorkspace* kept = nullptr);
 
 }  // namespace lyrefit

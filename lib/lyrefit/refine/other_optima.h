@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/refine/active_set.h"
 
 namespace lyrefit {

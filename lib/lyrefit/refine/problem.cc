@@ -50,11 +50,11 @@ RefineProblem MakeRefineProblem(Device device, Objective objective, std::vector<
 void Residuals(const RefineProblem& problem, const double* p, double* residuals, double* slopes,
                LawWorkspace* kept) {
   const int points = static_cast<int>(problem.voltage_V.size()), count = problem.device.size();
-  std::vector<char> held;
-  for (int i = 0; slopes != nullptr && i < count; ++i) held.push_back(problem.fixed(i) ? 1 : 0);
+  std::vector<char> fixed;
+  for (int i = 0; slopes != nullptr && i < count; ++i) fixed.push_back(problem.fixed(i) ? 1 : 0);
   ModelCurrents(problem.device, problem.objective, p,
                 {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel, residuals,
-                slopes, &held, kept);
+                slopes, &fixed, kept);
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(problem.weights[k]);
     residuals[k] = (residuals[k] - problem.current_A[k]) * root;

@@ -43,14 +43,14 @@ bool ReportingModel::Evaluate(int block, const double* p, const double* local, d
     return internal_.Evaluate(block, p, local, residuals, slopes, local_slopes);
   }
   const int count = shape().size();
-  const std::vector<double> own = Inner(effects_, std::vector<double>(p, p + count));
+  const std::vector<double> own = Internal(effects_, std::vector<double>(p, p + count));
   if (!internal_.Evaluate(block, own.data(), local, residuals, slopes, local_slopes)) return false;
   if (slopes == nullptr) return true;
   int first = effects_.first;
   for (const EffectUse& use : effects_.effects->uses) {
     const int size = use.effect->size();
     const Eigen::MatrixXd chain =
-        OwnByReported(*use.effect, effects_.effects->readings.scale, own.data() + first);
+        InternalByReported(*use.effect, effects_.effects->readings.scale, own.data() + first);
     for (int r = 0; r < shape().blocks[block].residuals; ++r) {
       Eigen::Map<Eigen::RowVectorXd> row(slopes + static_cast<std::size_t>(r) * count + first,
                                          size);
@@ -62,7 +62,7 @@ bool ReportingModel::Evaluate(int block, const double* p, const double* local, d
 }
 
 double ReportingModel::MeanSquare(const FitPoint& point) const {
-  return internal_.MeanSquare({Inner(effects_, point.p), point.local});
+  return internal_.MeanSquare({Internal(effects_, point.p), point.local});
 }
 
 }  // namespace lyrefit

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/refine/model.h"
 
 namespace lyrefit {

@@ -126,18 +126,18 @@ Spread SpreadOf(const Linearization& now, const Directions& found, int count, do
 
 }  // namespace
 
-Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& active,
                   double variance) {
-  const Linearization now = Linearize(model, point, held);
+  const Linearization now = Linearize(model, point, active);
   const Directions found = FindDirections(now);
   Spread spread = SpreadOf(now, found, model.shape().size(), variance);
   spread.local_error = FindLocalErrors(now, found, variance);
   return spread;
 }
 
-Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& held,
+Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vector<bool>& active,
                   const CovarianceProduct& covariance_times) {
-  const Linearization now = Linearize(model, point, held);
+  const Linearization now = Linearize(model, point, active);
   Directions found = FindDirections(now);
   const RowMatrix taken = Times(ProjectOut(now), found.half);
   const Eigen::MatrixXd shared =

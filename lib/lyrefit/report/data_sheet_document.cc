@@ -21,7 +21,7 @@ std::string Rounding(const DataSheetFit& fit, const std::string& name) {
   for (const DataSheetRange& range : fit.ranges) {
     if (range.name == name) return Range(range.low, range.high);
   }
-  return fit.ranges.empty() ? "" : "held";
+  return fit.ranges.empty() ? "" : "fixed";
 }
 
 Section SheetParameterSection(const DataSheetFit& fit) {

@@ -10,7 +10,7 @@
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/kernel.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -50,7 +50,7 @@ std::vector<double> ExtendedModelCurrents(const FamilyReport& report, const Fami
   const auto device = Extend(MakeDevice(spec.model, found->conditions, spec.constants), spec.model,
                              spec.constants, *found, report.with, /*force=*/true);
   if (!device || static_cast<int>(curve.individual_parameters.size()) != device->size()) return {};
-  return SolveCurrents(*device, Inner(*device, curve.individual_parameters).data(), voltage_V);
+  return SolveCurrents(*device, Internal(*device, curve.individual_parameters).data(), voltage_V);
 }
 
 // The model's currents; empty where the curve has no parameters.

@@ -3,7 +3,7 @@
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/fit/fit.h"
 #include "lyrefit/law/current.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 
 namespace lyrefit {
 namespace {

@@ -84,7 +84,7 @@ Failures SumUpFailures(const std::vector<SummaryRun>& missed, PolishLevel level)
   return failures;
 }
 
-std::optional<LevelSummary> PoolLevel(const std::vector<SummaryRun>& runs, PolishLevel level) {
+std::optional<LevelSummary> ProblemLevel(const std::vector<SummaryRun>& runs, PolishLevel level) {
   std::vector<double> ratios, seconds;
   std::vector<SummaryRun> missed;
   for (const SummaryRun& run : runs) {
@@ -94,39 +94,39 @@ std::optional<LevelSummary> PoolLevel(const std::vector<SummaryRun>& runs, Polis
     seconds.push_back(SecondsAt(*run.run, level));
     if (ratio > 1 + kHit) missed.push_back(run);
   }
-  LevelSummary pooled;
-  pooled.runs = static_cast<int>(runs.size());
-  pooled.hits = pooled.runs - static_cast<int>(missed.size());
-  pooled.excess = SpreadOf(std::move(ratios), 1);
-  for (double* figure :
-       {&pooled.excess.min, &pooled.excess.mean, &pooled.excess.median, &pooled.excess.max}) {
+  LevelSummary summarised;
+  summarised.runs = static_cast<int>(runs.size());
+  summarised.hits = summarised.runs - static_cast<int>(missed.size());
+  summarised.excess = SpreadOf(std::move(ratios), 1);
+  for (double* figure : {&summarised.excess.min, &summarised.excess.mean, &summarised.excess.median,
+                         &summarised.excess.max}) {
     *figure -= 1;
   }
   const bool timed =
       std::none_of(seconds.begin(), seconds.end(), [](double value) { return std::isnan(value); });
-  if (timed) pooled.seconds = Median(std::move(seconds));
-  pooled.failures = SumUpFailures(missed, level);
-  return pooled;
+  if (timed) summarised.seconds = Median(std::move(seconds));
+  summarised.failures = SumUpFailures(missed, level);
+  return summarised;
 }
 
-AlgorithmSummary Pool(const AlgorithmResult& compared, const std::vector<SummaryRun>& runs) {
-  AlgorithmSummary pooled;
-  pooled.name = compared.name;
-  pooled.algorithm = compared.algorithm;
-  pooled.kind = compared.kind;
-  pooled.budget = compared.budget;
+AlgorithmSummary Summarise(const AlgorithmResult& compared, const std::vector<SummaryRun>& runs) {
+  AlgorithmSummary summarised;
+  summarised.name = compared.name;
+  summarised.algorithm = compared.algorithm;
+  summarised.kind = compared.kind;
+  summarised.budget = compared.budget;
   std::vector<double> evaluations, of_curves;
   for (const SummaryRun& run : runs) {
     evaluations.push_back(static_cast<double>(run.run->evaluations));
     of_curves.push_back(static_cast<double>(run.run->curve_evaluations));
   }
-  pooled.evaluations = Median(std::move(evaluations));
-  pooled.curve_evaluations = Median(std::move(of_curves));
+  summarised.evaluations = Median(std::move(evaluations));
+  summarised.curve_evaluations = Median(std::move(of_curves));
   for (const PolishLevel level : kPolishLevels) {
     if (compared.kind != AlgorithmKind::kSearch && level != PolishLevel::kHybrid) continue;
-    pooled.levels[static_cast<std::size_t>(level)] = PoolLevel(runs, level);
+    summarised.levels[static_cast<std::size_t>(level)] = ProblemLevel(runs, level);
   }
-  return pooled;
+  return summarised;
 }
 
 // Order: by the first device that has the algorithm, then by its position there.
@@ -145,7 +145,7 @@ void SummariseAlgorithms(ProblemSummary* problem) {
           for (const RunRecord& run : same.runs) runs.push_back({device, &run});
         }
       }
-      problem->algorithms.push_back(Pool(compared, runs));
+      problem->algorithms.push_back(Summarise(compared, runs));
     }
   }
 }
@@ -196,22 +196,22 @@ Deviation LargestDeviation(const ProblemResult& device, const std::vector<double
 }
 
 std::vector<ProblemSummary> SummariseProblems(const Comparison& comparison) {
-  std::vector<ProblemSummary> pools;
+  std::vector<ProblemSummary> summaries;
   for (const ProblemResult& device : comparison.problems) {
     if (device.problem.empty()) continue;
-    auto pool = std::find_if(pools.begin(), pools.end(), [&](const ProblemSummary& other) {
-      return other.name == device.problem;
-    });
-    if (pool == pools.end()) {
-      pools.emplace_back();
-      pool = pools.end() - 1;
-      pool->name = device.problem;
+    auto summary =
+        std::find_if(summaries.begin(), summaries.end(),
+                     [&](const ProblemSummary& other) { return other.name == device.problem; });
+    if (summary == summaries.end()) {
+      summaries.emplace_back();
+      summary = summaries.end() - 1;
+      summary->name = device.problem;
     }
-    pool->devices.push_back(&device);
-    pool->certified += device.reference.certified;
+    summary->devices.push_back(&device);
+    summary->certified += device.reference.certified;
   }
-  for (ProblemSummary& pool : pools) SummariseAlgorithms(&pool);
-  return pools;
+  for (ProblemSummary& summary : summaries) SummariseAlgorithms(&summary);
+  return summaries;
 }
 
 }  // namespace lyrefit

@@ -40,8 +40,8 @@ void Keep(const std::optional<Configuration>& way,
   if (way && (!*best || better(*way, **best))) *best = way;
 }
 
-std::optional<Configuration> OfKind(const ProblemSummary& pool, AlgorithmKind kind) {
-  for (const AlgorithmSummary& compared : pool.algorithms) {
+std::optional<Configuration> OfKind(const ProblemSummary& summary, AlgorithmKind kind) {
+  for (const AlgorithmSummary& compared : summary.algorithms) {
     if (compared.kind != kind || !compared.At(PolishLevel::kHybrid)) continue;
     return Configuration{&compared, PolishLevel::kHybrid};
   }
@@ -66,12 +66,12 @@ bool SoonerSure(const Configuration& a, const Configuration& b) {
 
 int EnoughHits(int runs) { return static_cast<int>(std::ceil(kEnoughShare * runs - 1e-9)); }
 
-SearchVerdict JudgeProblem(const ProblemSummary& pool) {
+SearchVerdict JudgeProblem(const ProblemSummary& summary) {
   SearchVerdict verdict;
-  verdict.shape = OfKind(pool, AlgorithmKind::kShape);
+  verdict.shape = OfKind(summary, AlgorithmKind::kShape);
   verdict.shape_is_enough = verdict.shape && verdict.shape->IsEnough();
   std::map<std::string, std::vector<const AlgorithmSummary*>> searches;
-  for (const AlgorithmSummary& compared : pool.algorithms) {
+  for (const AlgorithmSummary& compared : summary.algorithms) {
     if (compared.kind == AlgorithmKind::kSearch) searches[compared.algorithm].push_back(&compared);
   }
   std::optional<Configuration> random_enough, random_best;
@@ -106,11 +106,11 @@ double TimeToBeSure(const Configuration& way) {
   return repeats == 0 ? kInfinity : repeats * way.figures().seconds;
 }
 
-std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& pool) {
-  const std::optional<Configuration> self = OfKind(pool, AlgorithmKind::kDefault);
+std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& summary) {
+  const std::optional<Configuration> self = OfKind(summary, AlgorithmKind::kDefault);
   if (!self) return {};
   PeerRatio ratio{*self, {}, 0, kUnknown};
-  for (const AlgorithmSummary& compared : pool.algorithms) {
+  for (const AlgorithmSummary& compared : summary.algorithms) {
     if (compared.algorithm.rfind(kPeers, 0) != 0 || !compared.At(PolishLevel::kOwn)) continue;
     Keep(Configuration{&compared, PolishLevel::kOwn}, SoonerSure, &ratio.peer);
   }

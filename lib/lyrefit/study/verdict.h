@@ -38,7 +38,7 @@ struct SearchVerdict {
   bool shape_is_enough = false;  // starts from the shape are sufficient
   bool shape_wins = false;       // they are sufficient, and no sufficient search is faster
 };
-SearchVerdict JudgeProblem(const ProblemSummary& pool);
+SearchVerdict JudgeProblem(const ProblemSummary& summary);
 
 // Median time of as many runs as are needed so that one of them hits with probability kEnoughShare,
 // in seconds. The share of runs that hit is the estimate of the hit probability. Infinite without a
@@ -55,6 +55,6 @@ struct PeerRatio {
   double times = kUnknown;
 };
 // Empty if the default fit was not compared.
-std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& pool);
+std::optional<PeerRatio> CompareWithPeers(const ProblemSummary& summary);
 
 }  // namespace lyrefit

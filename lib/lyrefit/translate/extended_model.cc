@@ -13,7 +13,7 @@
 #include "lyrefit/law/device_effects.h"
 #include "lyrefit/law/extended_set.h"
 #include "lyrefit/law/model_points.h"
-#include "lyrefit/law/quote.h"
+#include "lyrefit/law/reporting_units.h"
 #include "lyrefit/translate/model_procedures.h"
 
 namespace lyrefit {
@@ -228,7 +228,7 @@ Expected<std::shared_ptr<const ExtendedModel>> MakeExtendedModel(const IvCurve& 
                          ? key.open_circuit_voltage_V
                          : *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
   model->healthy_shunt_S = reported[kIph] / (kHealthyShunt * voc);
-  model->parameters = Inner(model->device, reported);
+  model->parameters = Internal(model->device, reported);
   if (inputs.anchored) {
     const SingleDiodeFit diode = {reported[kIph], reported[SaturationCurrentIndex(0)],
                                   n * at.ModuleThermalVoltage(ConstantSet::kCodata), reported[kRs],

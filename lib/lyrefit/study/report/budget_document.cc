@@ -179,9 +179,9 @@ std::vector<Section> BudgetSections(const Comparison& comparison, const ProblemR
 }  // namespace
 
 Document BudgetDocument(const Comparison& comparison) {
-  const std::size_t pools = SummariseProblems(comparison).size();
-  std::string where = Plural(comparison.problems.size(), pools > 0 ? "device" : "problem");
-  if (pools > 0) where += " of " + Plural(pools, "problem");
+  const std::size_t summaries = SummariseProblems(comparison).size();
+  std::string where = Plural(comparison.problems.size(), summaries > 0 ? "device" : "problem");
+  if (summaries > 0) where += " of " + Plural(summaries, "problem");
   Document document = {CompareBanners(comparison)};
   Section& head = document.head;
   head.heading = fmt::format("lyrefit {}: hits by budget, {} of each algorithm and budget on {}",
@@ -192,15 +192,16 @@ Document BudgetDocument(const Comparison& comparison) {
            "the polish comes on top",
            &head);
   AddField("hit",
-           pools > 0 ? "a run within 1e-6 of the best known optimum of its device; where effects "
-                       "have several variants, RMSEs count as BIC prices their parameters"
-                     : "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference",
+           summaries > 0
+               ? "a run within 1e-6 of the best known optimum of its device; where effects "
+                 "have several variants, RMSEs count as BIC prices their parameters"
+               : "a run within 1e-6 (search alone) or 1e-9 (polished) of the reference",
            &head);
   AddField("time", Duration(comparison.seconds), &head);
   for (const ProblemResult& problem : comparison.problems) {
     if (problem.problem.empty()) AddSections(BudgetSections(comparison, problem), &document);
   }
-  AddSections(PoolSections(comparison), &document);
+  AddSections(ProblemSections(comparison), &document);
   return document;
 }
 

@@ -14,9 +14,9 @@ std::string CompareCsv(const Comparison& comparison) {
       "curve,model,objective,bounds,algorithm,run,seed,searched_A,plain_polished_A,"
       "refined_best_candidate_A,refined_A,evaluations,curve_evaluations,evaluations_to_target,"
       "search_seconds,refine_seconds";
-  const bool pooled = std::any_of(comparison.problems.begin(), comparison.problems.end(),
-                                  [](const auto& problem) { return !problem.problem.empty(); });
-  csv += pooled ? ",problem,reference_A,plain_seconds,best_candidate_seconds\n" : "\n";
+  const bool summarised = std::any_of(comparison.problems.begin(), comparison.problems.end(),
+                                      [](const auto& problem) { return !problem.problem.empty(); });
+  csv += summarised ? ",problem,reference_A,plain_seconds,best_candidate_seconds\n" : "\n";
   for (const ProblemResult& problem : comparison.problems) {
     const std::string begin =
         fmt::format("{},{},{},{}", CsvField(problem.curve_name), ToText(problem.model),
@@ -30,7 +30,7 @@ std::string CompareCsv(const Comparison& comparison) {
                        CsvField(run.own_polished_A), CsvField(run.polished_A), run.evaluations,
                        run.curve_evaluations, to_target < 0 ? "" : std::to_string(to_target),
                        CsvField(run.search_seconds), CsvField(run.polish_seconds));
-        if (pooled) {
+        if (summarised) {
           fmt::format_to(std::back_inserter(csv), ",{},{},{},{}", CsvField(problem.problem),
                          CsvField(problem.reference.rmse_A), CsvField(run.plain_seconds),
                          CsvField(run.own_seconds));

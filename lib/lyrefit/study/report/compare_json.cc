@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/report/json_parts.h"
-#include "lyrefit/study/report/pool_json.h"
+#include "lyrefit/study/report/problem_json.h"
 #include "lyrefit/study/report/rank_json.h"
 
 namespace lyrefit {
@@ -52,7 +52,7 @@ Json ReferenceJson(const ProblemResult& problem) {
           {"parameters", std::move(parameters)}};
 }
 
-Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
+Json RunsJson(const std::vector<RunRecord>& runs, bool summarised) {
   Json list = Json::array();
   for (const RunRecord& run : runs) {
     const bool hit = run.evaluations_to_target >= 0;
@@ -66,7 +66,7 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
                     {"evaluations_to_target", hit ? Json(run.evaluations_to_target) : Json()},
                     {"search", Seconds(run.search_seconds)},
                     {"refine", Seconds(run.polish_seconds)}});
-    if (!pooled) continue;
+    if (!summarised) continue;
     Json& json = list.back();
     json["plain"] = Seconds(run.plain_seconds);
     json["best_candidate"] = Seconds(run.own_seconds);
@@ -76,7 +76,7 @@ Json RunsJson(const std::vector<RunRecord>& runs, bool pooled) {
   return list;
 }
 
-Json AlgorithmJson(const AlgorithmResult& compared, bool pooled) {
+Json AlgorithmJson(const AlgorithmResult& compared, bool summarised) {
   Json evaluations = Json::array(), best = Json::array();
   for (const MedianPoint& point : compared.trace) {
     evaluations.push_back(point.evaluations);
@@ -97,17 +97,17 @@ Json AlgorithmJson(const AlgorithmResult& compared, bool pooled) {
       {"search", Seconds(compared.search_seconds)},
       {"refine", Seconds(compared.polish_seconds)},
       {"median_trace", {{"evaluations", evaluations}, {"best_A", best}}},
-      {"runs", RunsJson(compared.runs, pooled)}};
+      {"runs", RunsJson(compared.runs, summarised)}};
 }
 
 }  // namespace
 
 void to_json(Json& j, const ProblemResult& problem) {
-  const bool pooled = !problem.problem.empty();
+  const bool summarised = !problem.problem.empty();
   const std::vector<std::string> names = AlgorithmNames(problem);
   Json algorithms = Json::array();
   for (const AlgorithmResult& c : problem.algorithms) {
-    algorithms.push_back(AlgorithmJson(c, pooled));
+    algorithms.push_back(AlgorithmJson(c, summarised));
   }
   j = {{"curve", problem.curve_name},
        {"model", problem.model},
@@ -118,7 +118,7 @@ void to_json(Json& j, const ProblemResult& problem) {
        {"ranking",
         {{"searched", RankingJson(names, problem.searched)},
          {"refined", RankingJson(names, problem.polished)}}}};
-  if (!pooled) return;
+  if (!summarised) return;
   j["problem"] = problem.problem;
   if (const Reference& reference = problem.reference; reference.points > 0) {
     j["reference"]["multistart"] = {{"found_by_it_alone", reference.by_multistart},
@@ -144,7 +144,8 @@ void to_json(Json& j, const Comparison& comparison) {
   j["seconds"] = comparison.seconds;
   j["warnings"] = comparison.doubts;
   j["problems"] = comparison.problems;
-  if (Json pools = PoolsJson(comparison); !pools.empty()) j["pools"] = std::move(pools);
+  if (Json summaries = ProblemsJson(comparison); !summaries.empty())
+    j["summaries"] = std::move(summaries);
   if (options.multistart > 0) j["multistart"] = options.multistart;
 }
 

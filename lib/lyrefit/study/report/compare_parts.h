@@ -38,7 +38,7 @@ Section PolishVerdict(const ProblemResult& problem);
 std::vector<std::string> WinnerSentences(const std::vector<std::string>& names,
                                          const Ranking& ranking);
 
-// Defined in pool_document.cc: problems with many local optima; empty if there are none.
-std::vector<Section> PoolSections(const Comparison& comparison);
+// Defined in problem_document.cc: problems with many local optima; empty if there are none.
+std::vector<Section> ProblemSections(const Comparison& comparison);
 
 }  // namespace lyrefit

@@ -23,8 +23,8 @@ Expected<void> PlotConvergence(const Comparison& comparison, const std::string& 
 }
 
 Expected<void> PlotBudget(const Comparison& comparison, const std::string& path) {
-  const bool pooled = !comparison.problems.empty() && !comparison.problems[0].problem.empty();
-  return Draw(pooled ? PoolFigure : BudgetFigure, comparison, path);
+  const bool summarised = !comparison.problems.empty() && !comparison.problems[0].problem.empty();
+  return Draw(summarised ? ProblemFigure : BudgetFigure, comparison, path);
 }
 
 }  // namespace lyrefit

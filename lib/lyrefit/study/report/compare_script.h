@@ -10,8 +10,8 @@ namespace lyrefit {
 Figure BoxFigure(const Comparison& comparison);
 Figure ConvergenceFigure(const Comparison& comparison);
 Figure BudgetFigure(const Comparison& comparison);
-// Defined in pool_script.cc: the figure for problems that are summarised over their devices.
-Figure PoolFigure(const Comparison& comparison);
+// Defined in problem_script.cc: the figure for problems that are summarised over their devices.
+Figure ProblemFigure(const Comparison& comparison);
 
 // Defined in budget_script.cc: the parts of a panel of shares of runs against budgets. Coincident
 // lines stay visible: the first is drawn widest.

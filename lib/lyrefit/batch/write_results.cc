@@ -1,0 +1,258 @@
+#include "lyrefit/batch/write_results.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/base/new_file.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/batch/count_rows.h"
+#include "lyrefit/batch/neighbours.h"
+#include "lyrefit/batch/row_text.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kCsv[] = "results.csv";
+constexpr char kLines[] = "results.jsonl";
+constexpr char kSchema[] = "results.schema.json";
+constexpr std::uintmax_t kLargestSchema = 16U << 20;
+
+// Adjacent rows with the same parent.
+struct Group {
+  std::string parent;
+  std::vector<ResultRow> rows;
+  std::vector<Neighbour> members;
+};
+
+// Positions of the columns that the comparison of neighbours uses.
+struct Places {
+  explicit Places(const std::vector<ResultColumn>& columns) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const std::string& name = columns[k].name;
+      if (name == "id") id = k;
+      if (name == "irradiance_Wm2") irradiance = k;
+      if (name == "Isc_A") isc = k;
+      if (name == "Voc_V") voc = k;
+      if (name == "FF") ff = k;
+      if (name == "Pmax_W") pmax = k;
+    }
+  }
+  std::size_t id = 0, irradiance = 0, isc = 0, voc = 0, ff = 0, pmax = 0;
+};
+
+double NumberIn(const ResultRow& row, std::size_t column) {
+  const double* const number = std::get_if<double>(&row.cells[column]);
+  return number == nullptr ? kUnknown : *number;
+}
+
+Neighbour NeighbourOf(const ResultRow& row, const Places& at) {
+  const double light = NumberIn(row, at.irradiance);
+  return {light,
+          {NumberIn(row, at.isc) / light, NumberIn(row, at.voc), NumberIn(row, at.ff),
+           NumberIn(row, at.pmax) / light}};
+}
+
+// Calls see(group) for the groups of all rows in order. Rows without a parent, and groups with too
+// many rows, are passed without members.
+template <class See>
+Expected<void> ForGroups(const std::vector<std::string>& parts,
+                         const std::vector<ResultColumn>& columns, const See& see) {
+  const Places at(columns);
+  Group group;
+  const auto end = [&]() -> Expected<void> {
+    if (!group.rows.empty()) TRY(see(group));
+    group.rows.clear();
+    group.members.clear();
+    return {};
+  };
+  bool large = false;
+  for (const std::string& part : parts) {
+    TRY(CheckpointReader reader, CheckpointReader::Open(part));
+    while (true) {
+      TRY(const auto json, reader.Next());
+      if (!json) break;
+      ResultRow row = RowOf(columns, *json);
+      const std::string* const id = std::get_if<std::string>(&row.cells[at.id]);
+      std::string parent = id == nullptr ? std::string() : ParentOf(*id);
+      if (parent != group.parent || parent.empty()) {
+        TRY(end());
+        large = false;
+        group.parent = std::move(parent);
+      }
+      if (group.rows.size() >= kMostNeighbours) {
+        large = true;
+        group.members.clear();
+        TRY(end());
+      }
+      if (!large && !group.parent.empty()) group.members.push_back(NeighbourOf(row, at));
+      group.rows.push_back(std::move(row));
+    }
+  }
+  return end();
+}
+
+std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns) {
+  // The key `lyrefit` is an extension: the standard allows additional keys.
+  const CheckpointHead schema = {{"fields", FieldsJson(columns)},
+                                 {"missingValues", {""}},
+                                 {"primaryKey", "where"},
+                                 {"lyrefit", ResultsHeadOf(head)}};
+  return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
+}
+
+// Rows passed so far, reported to an observer at intervals.
+struct RowProgress {
+  ProgressReporter progress;
+  std::int64_t rows = 0;
+  std::int64_t next = 0;
+};
+
+// An error without text after the observer requested a stop.
+Expected<void> Pass(std::size_t rows, RowProgress* passed) {
+  passed->rows += static_cast<std::int64_t>(rows);
+  if (passed->rows < passed->next) return {};
+  passed->next = passed->rows + 500;
+  return passed->progress.Report({"results", passed->rows}) ? Expected<void>(Fail(""))
+                                                            : Expected<void>();
+}
+
+// How rows are converted to results, from the head of the checkpoint file.
+struct ResultsPlan {
+  std::vector<ResultColumn> rows;     // columns of the checkpoint files
+  std::vector<ResultColumn> results;  // the columns above and those of the comparison of neighbours
+  double level = 0;
+  double like_light = 0;
+  CsvTexts texts = CsvTexts::kSafe;
+};
+
+Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::string& path) {
+  ResultsPlan plan;
+  const auto columns = ReadColumns(head.value("columns", CheckpointHead()));
+  if (!columns) return Fail(columns.error().message, path, 1);
+  plan.rows = plan.results = *columns;
+  for (const ResultColumn& column : NeighbourColumns()) plan.results.push_back(column);
+  const CheckpointHead& options = head.at("options");
+  plan.level = options.value("group-level", 0.0);
+  plan.like_light = options.value("like-light", 0.0);
+  if (options.value("raw-csv", false)) plan.texts = CsvTexts::kRaw;
+  return plan;
+}
+
+Expected<NeighbourScatter> LearnScatter(const std::vector<std::string>& parts,
+                                        const ResultsPlan& plan, RowProgress* passed) {
+  NeighbourScatter scatter;
+  TRY(ForGroups(parts, plan.rows, [&](const Group& group) -> Expected<void> {
+    if (!group.members.empty()) scatter.Add(DeviationsAmong(group.members, plan.like_light));
+    return Pass(group.rows.size(), passed);
+  }));
+  return scatter;
+}
+
+}  // namespace
+
+CheckpointHead ResultsHeadOf(const CheckpointHead& head) {
+  CheckpointHead run = head;
+  for (const char* key : {"shard", "of", "columns"}) run.erase(key);
+  return run;
+}
+
+Expected<void> PrepareFolder(const std::string& folder, bool replace) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    const std::string why = error ? error.message() : "it is no folder";
+    return Fail("cannot make the folder of the results: " + why, folder);
+  }
+  if (replace) return {};
+  for (const char* name : {kCsv, kLines, kSchema}) {
+    const std::string path = (fs::path(folder) / name).string();
+    if (fs::exists(path, error)) {
+      return Fail("results are there already: name another folder, or say --force to replace them",
+                  path);
+    }
+  }
+  return {};
+}
+
+CheckpointHead ResultsHead(const std::string& folder) {
+  std::error_code error;
+  const fs::path base(folder);
+  const bool any = fs::exists(base / kCsv, error) || fs::exists(base / kLines, error);
+  const auto text = ReadFileBytes((base / kSchema).string(), kLargestSchema);
+  if (!text) return any ? CheckpointHead::object() : CheckpointHead();
+  const CheckpointHead schema = CheckpointHead::parse(*text, nullptr, false);
+  if (!schema.is_object() || !schema.contains("lyrefit")) return CheckpointHead::object();
+  return schema["lyrefit"];
+}
+
+namespace {
+
+Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
+                               const RowObserver& row_observer, RowProgress* passed,
+                               BatchSummary* summary) {
+  // Its digest covers all of the input.
+  TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
+  TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
+  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, passed));
+  const fs::path base(folder);
+  NewFile csv((base / kCsv).string());
+  NewFile lines((base / kLines).string());
+  NewFile schema((base / kSchema).string());
+  for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Begin());
+  TRY(csv.Write(HeadCsv(plan.results)));
+  summary->columns = plan.results;
+  RowCounter counter(plan.results, summary);
+  const auto write = [&](Group& group) -> Expected<void> {
+    const auto deviations = DeviationsAmong(group.members, plan.like_light);
+    std::array<double, kNeighbourQuantities> limits{};
+    if (!deviations.empty()) limits = scatter.Limits(deviations, plan.level);
+    for (std::size_t i = 0; i < group.rows.size(); ++i) {
+      ResultRow& row = group.rows[i];
+      const NeighbourDeviation none;
+      for (ResultCell& cell : NeighbourCells(deviations.empty() ? none : deviations[i], limits)) {
+        row.cells.push_back(std::move(cell));
+      }
+      TRY(csv.Write(RowCsv(row, plan.texts)));
+      TRY(lines.Write(RowJson(plan.results, row) + "\n"));
+      counter.Count(row);
+      if (row_observer) row_observer(plan.results, row);
+    }
+    return Pass(group.rows.size(), passed);
+  };
+  TRY(ForGroups(parts, plan.rows, write));
+  TRY(schema.Write(SchemaJson(last.head(), plan.results)));
+  return NewFile::Commit({&csv, &lines, &schema});
+}
+
+}  // namespace
+
+Expected<void> WriteResults(const std::vector<std::string>& parts, const std::string& folder,
+                            const Observer& observer, const RowObserver& row_observer,
+                            BatchSummary* summary) {
+  RowProgress passed{ProgressReporter(observer)};
+  auto written = WriteAllResults(parts, folder, row_observer, &passed, summary);
+  summary->interrupted = passed.progress.stop().requested();
+  return summary->interrupted ? Expected<void>() : written;
+}
+
+Expected<void> CountRows(const std::string& part, BatchSummary* summary) {
+  TRY(CheckpointReader reader, CheckpointReader::Open(part));
+  TRY(const ResultsPlan plan, ResultsPlanOf(reader.head(), part));
+  RowCounter counter(plan.rows, summary);
+  while (true) {
+    TRY(const auto json, reader.Next());
+    if (!json) return {};
+    counter.Count(RowOf(plan.rows, *json));
+  }
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <vector>
+#include "faults/adapter.h"
+
+#include "faults/score.h"
+
+namespace faults {
+
+struct StudyOptions {
+  std::string mode;
+  std::string kind = "all";
+  std::string effect = "all";
+  std::string csv;   // file of the table; empty: none
+  std::string rows;  // file of all cases; empty: none
+  int cases = 0;     // 0: default of the mode
+  int number = 0;    // index of the case to show
+  double level = 0.05;
+  std::uint64_t seed = 1;
+  std::string asked;  // "laboratory" or "field"; empty: that of the simulator
+  int threads = 0;    // 0: one per processor
+  // For the mode `field`:
+  double misfit_above = 0;  // minimum misfit of the cases with a fault, % of Isc
+  std::string show;         // kind whose case `number` is written as a table
+  std::string dump;         // folder for the cases as tables
+};
+
+Mode ModeOf(const StudyOptions& options);
+
+// False-alarm rates on cases without an effect, by kind of data and noise, at `level` and at 0.01.
+int StudySilence(const StudyOptions& options);
+// Detection and identification rates by kind of data, effect and misfit.
+int StudyPower(const StudyOptions& options);
+// How often both of two simultaneous effects are named.
+int StudyPairs(const StudyOptions& options);
+// First names claimed for each effect with a misfit of at least 7 noise standard deviations.
+int StudyConfusion(const StudyOptions& options);
+// How often the 95 % interval of the size of a named effect contains the truth.
+int StudySize(const StudyOptions& options);
+// Field simulator (field_*.h): rates of cases with a claim, of right names and of spurious claims,
+// and the errors of lights and shares. Or writes its cases as tables. `effect` is a kind of
+// field_case.h.
+int StudyField(const StudyOptions& options);
+// Writes one case of `power` or, without an effect, of `silence` as a table of readings. The causes
+// and the answer go to standard error.
+int ShowCase(const StudyOptions& options);
+
+// Calls body(0) .. body(count - 1) in parallel. Each call must write only to its own slot.
+void ForEach(int count, int threads, const std::function<void(int)>& body);
+
+// A simulated case and its answer. `made` is false if none of the drawn devices could have the
+// effect.
+struct Run {
+  bool made = false;
+  Case with_fault;
+  Answer answer;
+};
+Request RequestFor(const StudyOptions& options, Kind kind, const Injection& injection, int number,
+                   double lowest, double highest);
+Case NullFor(const StudyOptions& options, Kind kind, int number);
+std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Injection& injection,
+                          int cases, double lowest, double highest);
+
+std::vector<const Injection*> HidesCalled(const std::string& name, Kind kind);
+
+// All claims with their equivalent names, as in "drift|temp_drift clip".
+std::string Text(const Answer& answer);
+
+double Percent(int part, int whole);  // NaN if `whole` is 0
+
+}  // namespace faults

@@ -5,24 +5,28 @@
 # Lists every violation and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
-# module -> the modules of lib/lyrefit that its files may include, besides itself
+# folder -> the modules of lib/lyrefit, or their folders, that its files may include, besides itself
 set(ALLOWED_base)
 set(ALLOWED_curve base)
-set(ALLOWED_law base curve)
+set(ALLOWED_model base curve)
+set(ALLOWED_model/effects base curve model)  # independent of fitting
 set(ALLOWED_search base)  # independent of photovoltaics
-set(ALLOWED_refine base curve law)
-set(ALLOWED_certify base curve law refine fit)
-set(ALLOWED_fit base curve law search refine effects)
-set(ALLOWED_family base curve law search refine fit effects)
-set(ALLOWED_effects base curve law)  # independent of fitting
-set(ALLOWED_diagnose base curve law search refine certify fit family effects)
-set(ALLOWED_translate base curve law fit family effects diagnose)
-set(ALLOWED_report base curve law search certify fit family diagnose translate)  # computes nothing
+set(ALLOWED_estimate/refine base curve model)
+set(ALLOWED_estimate/fit base curve model model/effects search estimate/refine)
+set(ALLOWED_estimate/family base curve model model/effects search estimate/refine estimate/fit)
+set(ALLOWED_certify base curve model estimate)
+set(ALLOWED_diagnose base curve model model/effects search estimate certify)
+set(ALLOWED_translate base curve model model/effects estimate/fit estimate/family diagnose)
+# Computes nothing.
+set(ALLOWED_report base curve model search estimate/fit estimate/family certify diagnose translate)
 # A separate library with its own writers in study/report. The core's writers do not depend on it.
-set(ALLOWED_study base curve law search refine certify fit family effects report)
+set(ALLOWED_study base curve model model/effects search estimate certify report)
 # A separate library for many curves, their rows and their page.
-set(ALLOWED_batch base curve law certify fit effects family diagnose translate report)
-set(MODULES base curve law search refine certify effects fit family diagnose translate report study batch)
+set(ALLOWED_batch base curve model model/effects estimate/fit estimate/family certify diagnose translate report)
+set(FOLDERS base curve model model/effects search estimate/refine estimate/fit estimate/family certify diagnose
+    translate report study batch)
+# A folder that is named in FOLDERS, or the module: that of "study/report/plots.h" is study.
+set(IN_FOLDER "^lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")
 
 set(PUBLIC)  # the installed headers
 if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
@@ -40,9 +44,13 @@ endmacro()
 function(check_own_include module quoted)
   if(NOT quoted MATCHES "^lyrefit/(.+)$")
     complain("includes \"${quoted}\"; inside lib/ includes start with \"lyrefit/\"")
-  elseif(CMAKE_MATCH_1 MATCHES "^([^/]+)/")
+  elseif(quoted MATCHES "${IN_FOLDER}")
     set(other "${CMAKE_MATCH_1}")
-    if(NOT other STREQUAL module AND NOT other IN_LIST ALLOWED_${module})
+    string(REGEX REPLACE "/.*" "" whole "${other}")
+    if(whole STREQUAL "model")  # the terms do not know the effects
+      set(whole "${other}")
+    endif()
+    if(NOT other STREQUAL module AND NOT other IN_LIST ALLOWED_${module} AND NOT whole IN_LIST ALLOWED_${module})
       complain("module ${module} must not include module ${other} (\"${quoted}\")")
     endif()
   else()
@@ -69,7 +77,7 @@ function(check_file module)
     set(mark "${CMAKE_MATCH_1}")
     set(header "${CMAKE_MATCH_2}")
     if(header MATCHES "^ceres/" AND NOT FILE MATCHES "/refine/(solve|least_squares)\\.cc$")
-      complain("only refine/solve.cc and refine/least_squares.cc include Ceres (<${header}>)")
+      complain("only estimate/refine/solve.cc and estimate/refine/least_squares.cc include Ceres (<${header}>)")
     endif()
     if(module STREQUAL "apps")
       check_public_include("${header}")
@@ -83,7 +91,7 @@ function(check_file module)
     if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|batch)[/.]")
       complain("the core knows nothing of the studies and of batches (\"${header}\")")
     endif()
-    if(module IN_LIST MODULES AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
+    if(module IN_LIST FOLDERS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
       check_own_include(${module} "${header}")
     endif()
   endforeach()
@@ -138,9 +146,9 @@ foreach(FILE IN LISTS files)
   endif()
   if(FILE MATCHES "^apps/")
     check_file(apps)
-  elseif(FILE MATCHES "^lib/lyrefit/([^/]+)/")
+  elseif(FILE MATCHES "^lib/lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")
     set(module "${CMAKE_MATCH_1}")
-    if(NOT module IN_LIST MODULES)
+    if(NOT module IN_LIST FOLDERS)
       complain("lib/lyrefit/${module} is no module of the library")
     endif()
     check_file(${module})

@@ -1,4 +1,4 @@
-# Test of the names in backticks on the pages lib/lyrefit/*/README.md. Every file named must exist. Every word with an
+# Test of the names in backticks on the pages README.md of the modules and their folders. Every file named must exist. Every word with an
 # underscore must be a file's name without its ending, or occur in the sources.
 #   cmake -DROOT=<folder with lib/, apps/ and tests/> -P CheckPages.cmake
 # Lists every name that does not exist and fails if there is one.
@@ -20,7 +20,7 @@ endforeach()
 set(FOREIGN ivtools.utils.astm_e1036)
 
 set(STALE "")
-file(GLOB PAGES "${ROOT}/lib/lyrefit/*/README.md")
+file(GLOB PAGES "${ROOT}/lib/lyrefit/*/README.md" "${ROOT}/lib/lyrefit/*/*/README.md")
 foreach(page IN LISTS PAGES)
   file(READ "${page}" text)
   string(REPLACE ";" " " text "${text}")
@@ -33,7 +33,8 @@ foreach(page IN LISTS PAGES)
     endif()
     string(REGEX REPLACE "^build/tests/|^\\./|/$" "" name "${name}")
     if(name MATCHES "^([a-z]+)_(rate_test|field_test|test|study)$")  # a program of tests/CMakeLists.txt
-      file(GLOB made "${ROOT}/tests/${CMAKE_MATCH_1}/*_${CMAKE_MATCH_2}.cc")
+      file(GLOB made "${ROOT}/tests/${CMAKE_MATCH_1}/*_${CMAKE_MATCH_2}.cc"
+           "${ROOT}/tests/*/${CMAKE_MATCH_1}/*_${CMAKE_MATCH_2}.cc")
       if(made)
         continue()
       endif()

@@ -14,18 +14,18 @@ set(LYREFIT_PUBLIC_HEADERS
   certify/concave_floor.h
   diagnose/diagnose.h
   diagnose/reference.h
-  effects/catalogue.h
-  family/coefficients.h
-  family/data_sheet.h
-  family/data_sheet_family.h
-  family/fit_family.h
-  family/fit_individually.h
-  family/pvlib_parameters.h
-  fit/fit.h
+  model/effects/catalogue.h
+  estimate/family/coefficients.h
+  estimate/family/data_sheet.h
+  estimate/family/data_sheet_family.h
+  estimate/family/fit_family.h
+  estimate/family/fit_individually.h
+  estimate/family/pvlib_parameters.h
+  estimate/fit/fit.h
   certify/floor.h
-  fit/fit_files.h
-  fit/simulate.h
-  law/kernel.h
+  estimate/fit/fit_files.h
+  estimate/fit/simulate.h
+  model/kernel.h
   search/search.h
   translate/procedures.h
   translate/translate.h
@@ -34,10 +34,10 @@ set(LYREFIT_PUBLIC_HEADERS
   certify/certify_options.h
   diagnose/diagnose_options.h
   diagnose/reference_options.h
-  family/family_options.h
-  fit/bounds.h
-  fit/error_spec.h
-  fit/fit_options.h
+  estimate/family/family_options.h
+  estimate/fit/bounds.h
+  estimate/fit/error_spec.h
+  estimate/fit/fit_options.h
   search/search_options.h
   translate/checklist_options.h
   translate/device_coefficients.h
@@ -51,10 +51,10 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/diagnosis.h
   diagnose/reference_comparison.h
   diagnose/plan.h
-  family/family_report.h
-  fit/fit_report.h
-  refine/error_terms.h
-  refine/estimate.h
+  estimate/family/family_report.h
+  estimate/fit/fit_report.h
+  estimate/refine/error_terms.h
+  estimate/refine/estimate.h
   search/search_summary.h
   translate/checklist.h
   translate/field_test.h
@@ -69,7 +69,7 @@ set(LYREFIT_PUBLIC_HEADERS
   curve/number_text.h
   curve/read_curve.h
   curve/write_curve.h
-  family/read_pvlib.h
+  estimate/family/read_pvlib.h
   # writers of the records
   report/csv.h
   report/document.h
@@ -81,21 +81,21 @@ set(LYREFIT_PUBLIC_HEADERS
   report/readable.h
   report/text_layout.h
   # laws, and the headers for a user's own effect
-  law/curve_shape.h
-  law/device.h
-  law/effect.h
-  law/device_effects.h
-  law/law.h
-  law/pack.h
-  law/pack.inc
-  law/parameter.h
-  law/plain_stage.h
-  law/reading.h
-  law/single_diodes.h
-  law/solve.h
-  law/string_layout.h
-  law/term.h
-  law/translation.h
+  model/curve_shape.h
+  model/device.h
+  model/effect.h
+  model/device_effects.h
+  model/law.h
+  model/pack.h
+  model/pack.inc
+  model/parameter.h
+  model/plain_stage.h
+  model/reading.h
+  model/single_diodes.h
+  model/solve.h
+  model/string_layout.h
+  model/term.h
+  model/translation.h
   curve/key_points.h
   # headers that all others share
   base/constants.h
@@ -108,7 +108,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/observer.h
   base/option.h
   curve/setting_text.h
-  fit/effect_text.h
+  estimate/fit/effect_text.h
   base/parallel.h
   base/portable_exp.h
   base/public.h

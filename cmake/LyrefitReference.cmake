@@ -15,7 +15,8 @@ endif()
 
 set(LYREFIT_REFERENCE_DIR "${PROJECT_BINARY_DIR}/reference")
 set(REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/README.md")
-foreach(module base curve law search refine certify effects fit family diagnose translate report study batch)
+foreach(module base curve model model/effects search estimate estimate/refine estimate/fit estimate/family certify
+        diagnose translate report study batch)
   list(APPEND REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${module}/README.md")
 endforeach()
 set(REFERENCE_HEADERS ${LYREFIT_PUBLIC_HEADERS} ${LYREFIT_STUDY_PUBLIC_HEADERS} ${LYREFIT_BATCH_PUBLIC_HEADERS})

@@ -1,6 +1,6 @@
 # Tests that run under Node.js, of the modules whose arithmetic decides a result. They are one program, since linking
 # one for each would take seconds. They read files of the host. Tests that start threads or processes are excluded.
-set(WEB_TEST_MODULES base law search refine)
+set(WEB_TEST_MODULES base model search estimate/refine)
 set(WEB_TEST_SOURCES)
 foreach(module IN LISTS WEB_TEST_MODULES)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${module}/*_test.cc")

@@ -12,9 +12,9 @@
 
 #include "draw.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/reporting_units.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/reporting_units.h"
 #include "studies/coverage.h"
 
 // Shared parts of the rate tests of the catalogue for single curves and for sets of curves. They

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "command_line.h"
-#include "lyrefit/fit/bounds.h"
+#include "lyrefit/estimate/fit/bounds.h"
 
 namespace lyrefit {
 

@@ -2,8 +2,8 @@
 
 #include "flags.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/family/data_sheet.h"
-#include "lyrefit/family/pvlib_parameters.h"
+#include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/estimate/family/pvlib_parameters.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

@@ -6,8 +6,8 @@
 
 #include "command_line.h"
 #include "flags.h"
-#include "lyrefit/family/fit_family.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/fit/fit.h"
 
 namespace lyrefit {
 

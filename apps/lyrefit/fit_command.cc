@@ -7,7 +7,7 @@
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/fit/fit_files.h"
+#include "lyrefit/estimate/fit/fit_files.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

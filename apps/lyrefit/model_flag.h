@@ -1,7 +1,7 @@
 #pragma once
 
 #include "command_line.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 

@@ -7,7 +7,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
-#include "lyrefit/fit/simulate.h"
+#include "lyrefit/estimate/fit/simulate.h"
 #include "verbs.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 #include "frames.h"
 #include "keywords.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/family/data_sheet.h"
+#include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"

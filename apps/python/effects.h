@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/effect.h"
+#include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/effect.h"
 #include "own_call.h"
 
 namespace lyrefit::python {

@@ -1,8 +1,8 @@
 #include "bindings.h"
 #include "effects.h"
 #include "keywords.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/effect_text.h"
+#include "lyrefit/estimate/fit/effect_text.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit::python {
 

@@ -6,8 +6,8 @@
 
 #include "effects.h"
 #include "keywords.h"
-#include "lyrefit/fit/fit_options.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_options.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "result.h"
 
 namespace lyrefit::python {

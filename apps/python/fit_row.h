@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit::python {
 

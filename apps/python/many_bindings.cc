@@ -10,7 +10,7 @@
 #include "fit_row.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/fit/fit_files.h"
+#include "lyrefit/estimate/fit/fit_files.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/page.h"

@@ -7,9 +7,9 @@
 
 #include "bindings.h"
 #include "errors.h"
-#include "lyrefit/family/fit_family.h"
-#include "lyrefit/family/pvlib_parameters.h"
-#include "lyrefit/law/single_diodes.h"
+#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/model/single_diodes.h"
 #include "work.h"
 
 // Functions for lyrefit.pvlib; pvlib.py checks and broadcasts their arguments.

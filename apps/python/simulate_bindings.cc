@@ -7,7 +7,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/fit/simulate.h"
+#include "lyrefit/estimate/fit/simulate.h"
 #include "result.h"
 #include "work.h"
 

@@ -4,7 +4,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "frames.h"
-#include "lyrefit/fit/bounds.h"
+#include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 #include "lyrefit/study/report/compare_csv.h"

@@ -7,7 +7,7 @@
 #include "lyrefit/curve/condition_options.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/fit/fit_options.h"
+#include "lyrefit/estimate/fit/fit_options.h"
 #include "table_options.h"
 
 namespace lyrefit {

@@ -24,8 +24,8 @@
 // uncertainty. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
-// Further public headers: family/pvlib_parameters.h exports a device to pvlib.
-// family/fit_individually.h fits every curve of a set separately. certify/cause_floor.h and
+// Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
+// estimate/family/fit_individually.h fits every curve of a set separately. certify/cause_floor.h and
 // certify/concave_floor.h prove lower bounds of the RMSE for given causes and for devices of
 // passive parts. diagnose/reference.h compares a sweep with reference sweeps of its module.
 // study.h, of the separate library lyrefit::study, compares searches and checks publications.
@@ -34,11 +34,11 @@
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/write_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/family/data_sheet.h"
-#include "lyrefit/family/fit_family.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/fit/simulate.h"
+#include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/estimate/fit/simulate.h"
+#include "lyrefit/model/effects/catalogue.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"

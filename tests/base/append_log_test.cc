@@ -8,7 +8,7 @@
 
 #include "../error_of.h"
 #include "../file_limit.h"
-#include "../temp_folder.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "../temp_folder.h"
 #include "error_of.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <thread>
 
-#include "../temp_folder.h"
 #include "error_of.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

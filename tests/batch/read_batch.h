@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "../error_of.h"
-#include "../temp_folder.h"
 #include "lyrefit/batch/batch_source.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 

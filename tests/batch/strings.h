@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "../temp_folder.h"
 #include "lyrefit/batch/batch.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/fit/search_space.h"
+#include "lyrefit/estimate/fit/search_space.h"
 
 namespace lyrefit::bench {
 namespace {

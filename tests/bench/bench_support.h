@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/fit/bounds.h"
-#include "lyrefit/law/device.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/model/device.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit::bench {
 

@@ -7,9 +7,9 @@
 #include "benchmarks.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/model_points.h"
-#include "lyrefit/law/translation.h"
+#include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit::bench {
 namespace {

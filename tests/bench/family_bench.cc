@@ -7,10 +7,10 @@
 
 #include "benchmarks.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/family/fit_family.h"
-#include "lyrefit/family/fit_individually.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/family/fit_individually.h"
+#include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit::bench {
 namespace {

@@ -16,8 +16,8 @@
 #include "claims.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/law/current.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/current.h"
 #include "peer.h"
 
 namespace lyrefit::bench {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench_support.h"
-#include "lyrefit/fit/search_space.h"
+#include "lyrefit/estimate/fit/search_space.h"
 
 namespace lyrefit::bench {
 

@@ -11,7 +11,7 @@
 #include "bench_support.h"
 #include "benchmarks.h"
 #include "claims.h"
-#include "lyrefit/fit/search_space.h"
+#include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit::bench {

@@ -9,8 +9,8 @@
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
 #include "repeats.h"
 
 namespace lyrefit {

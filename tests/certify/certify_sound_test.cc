@@ -7,9 +7,9 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/upper_bound.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
 #include "repeats.h"
 
 namespace lyrefit {

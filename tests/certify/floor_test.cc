@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 
 namespace lyrefit {
 namespace {

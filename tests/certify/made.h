@@ -7,7 +7,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/certify/mixture.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

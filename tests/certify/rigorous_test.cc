@@ -10,8 +10,8 @@
 #include "lyrefit/certify/safe_values.h"
 #include "lyrefit/certify/tail_bound.h"
 #include "lyrefit/certify/upper_bound.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
 #include "repeats.h"
 
 namespace lyrefit {

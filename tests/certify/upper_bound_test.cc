@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/law/current.h"
+#include "lyrefit/model/current.h"
 
 namespace lyrefit {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "../temp_folder.h"
 #include "run_app.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../json_keys.h"
-#include "../temp_folder.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 

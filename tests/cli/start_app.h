@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "../temp_folder.h"
+#include "temp_folder.h"
 
 extern char** environ;
 

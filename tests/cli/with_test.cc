@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "../repeats.h"
-#include "../temp_folder.h"
 #include "lyrefit/base/file.h"
 #include "run_app.h"
 #include "same_curve.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

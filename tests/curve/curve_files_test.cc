@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "../temp_folder.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

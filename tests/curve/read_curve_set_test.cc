@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "../temp_folder.h"
 #include "error_of.h"
 #include "lyrefit/curve/curve_set.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

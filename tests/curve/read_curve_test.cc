@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
-#include "../temp_folder.h"
 #include "error_of.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/random.h"
 #include "repeats.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

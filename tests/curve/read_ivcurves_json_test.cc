@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../temp_folder.h"
 #include "error_of.h"
 #include "lyrefit/curve/read_curve.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "../temp_folder.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/curve/read_curve.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -1,5 +1,5 @@
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/law/device_effects.h"
+#include "lyrefit/model/device_effects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 #include "diagnose/synthetic_diagnosis.h"
 #include "error_of.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 namespace {

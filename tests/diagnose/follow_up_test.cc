@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/choose_base.h"
-#include "lyrefit/law/make_readings.h"
+#include "lyrefit/model/make_readings.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "law/synthetic_curve.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "law/synthetic_curve.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/measurement.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

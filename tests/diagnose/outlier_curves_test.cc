@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "error_of.h"
-#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

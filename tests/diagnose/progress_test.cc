@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "law/synthetic_curve.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "law/synthetic_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/sweep_state.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "law/synthetic_curve.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/score.h"
 #include "lyrefit/diagnose/weighted_data.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 

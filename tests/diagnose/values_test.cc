@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "law/synthetic_curve.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "lyrefit/law/make_readings.h"
+#include "lyrefit/model/make_readings.h"
+#include "model/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

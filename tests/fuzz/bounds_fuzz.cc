@@ -1,5 +1,5 @@
 #include "fuzz_file.h"
-#include "lyrefit/fit/bounds.h"
+#include "lyrefit/estimate/fit/bounds.h"
 
 // Reader of a file of bounds.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 #include "paper/corner_page.h"
 
 namespace lyrefit {

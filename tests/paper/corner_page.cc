@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/term.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/term.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/study/report/documents.h"
 
@@ -178,14 +178,15 @@ void AddVerdict(const CornerStudy& study, Section* section) {
 Section EndsSection(const CornerStudy& study) {
   Section section = {"Where searches end"};
   AddSentence(
-      fmt::format("{} runs of each in that box, n from {:.4g} on for the reason above. A cell "
-                  "counts the runs that end at the optimum / "
-                  "between it and the literature's figure / at that figure / above it; \"at\" is "
-                  "within 1e-6 of it. One bounded solve is one least-squares solve from the best "
-                  "point, the best candidate's polish and all starts are lyrefit's "
-                  "([how](../../lib/lyrefit/fit/README.md)). The last search has the settings of "
-                  "the study above.",
-                  study.options.runs, study.two.steepest_n),
+      fmt::format(
+          "{} runs of each in that box, n from {:.4g} on for the reason above. A cell "
+          "counts the runs that end at the optimum / "
+          "between it and the literature's figure / at that figure / above it; \"at\" is "
+          "within 1e-6 of it. One bounded solve is one least-squares solve from the best "
+          "point, the best candidate's polish and all starts are lyrefit's "
+          "([how](../../lib/lyrefit/estimate/fit/README.md)). The last search has the settings of "
+          "the study above.",
+          study.options.runs, study.two.steepest_n),
       &section);
   Table table = {"lrrrrr", {{"search", "evaluations"}}};
   for (const Level& level : kLevels) table.heads[0].push_back(level.name);

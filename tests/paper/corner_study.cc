@@ -7,7 +7,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 

@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/study/comparison.h"
 
 namespace lyrefit {

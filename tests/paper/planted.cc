@@ -9,7 +9,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/certify/mixture.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
-#include "lyrefit/fit/bounds.h"
+#include "lyrefit/estimate/fit/bounds.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

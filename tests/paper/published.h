@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 #include "lyrefit/study/comparison.h"
 
 namespace lyrefit {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "../temp_folder.h"
 #include "sample_certificate.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "../temp_folder.h"
 #include "lyrefit/report/plots.h"
 #include "sample_data_sheet.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

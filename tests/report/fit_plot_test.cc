@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <iterator>
 
-#include "../temp_folder.h"
 #include "error_of.h"
 #include "sample_report.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

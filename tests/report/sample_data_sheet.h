@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "lyrefit/family/data_sheet.h"
+#include "lyrefit/estimate/family/data_sheet.h"
 
 namespace lyrefit {
 

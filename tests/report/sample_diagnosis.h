@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 #include "sample_report.h"
 
 // Diagnoses written by hand, without running the library.

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

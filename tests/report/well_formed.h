@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "../temp_folder.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 

@@ -8,8 +8,8 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/law/parameter.h"
+#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/model/parameter.h"
 #include "studies/coverage_options.h"
 
 namespace lyrefit {

@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 #include "studies/coverage_sets.h"
 
 namespace lyrefit {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/law/default_values.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/default_values.h"
+#include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 #include "studies/draw.h"
 
 namespace lyrefit {

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

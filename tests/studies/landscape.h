@@ -9,9 +9,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/family/family_options.h"
-#include "lyrefit/fit/bounds.h"
-#include "lyrefit/law/device_effects.h"
+#include "lyrefit/estimate/family/family_options.h"
+#include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/model/device_effects.h"
 #include "lyrefit/study/compare_options.h"
 
 namespace lyrefit {

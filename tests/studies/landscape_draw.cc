@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
 #include "studies/draw.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/fit/simulate.h"
+#include "lyrefit/estimate/fit/simulate.h"
 #include "studies/landscape.h"
 
 // Random drawing of the devices of landscape.h. Each function draws one device from the stream. An

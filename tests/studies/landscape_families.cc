@@ -1,4 +1,4 @@
-#include "lyrefit/law/default_values.h"
+#include "lyrefit/model/default_values.h"
 #include "studies/coverage_sets.h"
 #include "studies/draw.h"
 #include "studies/landscape_draw.h"

@@ -9,11 +9,11 @@
 #include <set>
 #include <string>
 
-#include "lyrefit/family/family_problem.h"
-#include "lyrefit/family/family_search.h"
-#include "lyrefit/fit/prepare_fit.h"
-#include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/reporting_units.h"
+#include "lyrefit/estimate/family/family_problem.h"
+#include "lyrefit/estimate/family/family_search.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
+#include "lyrefit/model/extended_set.h"
+#include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/law/parameter.h"
+#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/model/parameter.h"
 
 namespace lyrefit {
 

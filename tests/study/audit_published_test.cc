@@ -12,7 +12,7 @@
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/curve/read_curve.h"
 #include "lyrefit/curve/table_lines.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/audit.h"
 #include "repeats.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../temp_folder.h"
 #include "lyrefit/study/audit.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 

@@ -9,7 +9,7 @@
 
 #include "audit_rows_text.h"
 #include "error_of.h"
-#include "lyrefit/law/current.h"
+#include "lyrefit/model/current.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "../repeats.h"
-#include "../temp_folder.h"
 #include "json_keys.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "pooled_study.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

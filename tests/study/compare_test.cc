@@ -1,5 +1,5 @@
 #include "lyrefit/study/compare.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../temp_folder.h"
 #include "error_of.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "../file_limit.h"
-#include "../temp_folder.h"
 #include "json_keys.h"
 #include "lyrefit/study/report/compare_json.h"
 #include "small_study.h"
+#include "temp_folder.h"
 
 namespace lyrefit {
 namespace {

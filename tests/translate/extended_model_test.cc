@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/effects/catalogue.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/law/translation.h"
+#include "lyrefit/model/translation.h"
 
 namespace shown {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "../repeats.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/simulate.h"
+#include "lyrefit/estimate/fit/simulate.h"
+#include "lyrefit/model/effects/catalogue.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

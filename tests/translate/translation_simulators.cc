@@ -6,9 +6,9 @@
 
 #include "faults/field_case.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/model_points.h"
-#include "lyrefit/law/translation.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace shown {
 namespace {

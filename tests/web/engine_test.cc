@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "../json_keys.h"
-#include "../temp_folder.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/report/json.h"
 #include "repeats.h"
+#include "temp_folder.h"
 
 namespace {
 std::vector<std::string> progress_heard;

@@ -28,7 +28,7 @@ LYREFIT_INLINE inline Dual<N, T> Choose(const Condition& condition, const Dual<N
 }
 
 // Forward automatic differentiation: a value and its derivatives with respect to N unknowns. T is
-// double or a vector of doubles (law/pack.h and the vectors inside the kernels). The header that
+// double or a vector of doubles (model/pack.h and the vectors inside the kernels). The header that
 // declares T also supplies its `exp`, `log`, `sqrt` and comparisons. Dual<1, T> carries the
 // derivative along one direction.
 template <int N, class T = double>

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 

@@ -14,7 +14,7 @@
 #include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/fit/fit_options.h"
+#include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "lyrefit/batch/batch_task.h"
-#include "lyrefit/law/device.h"
-#include "lyrefit/law/device_effects.h"
+#include "lyrefit/model/device.h"
+#include "lyrefit/model/device_effects.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 

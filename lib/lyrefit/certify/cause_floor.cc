@@ -11,7 +11,7 @@
 #include "lyrefit/certify/cause_branch.h"
 #include "lyrefit/certify/cause_upper_bound.h"
 #include "lyrefit/certify/tail_bound.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {

@@ -57,7 +57,7 @@ struct CauseFloors {
 // cause whose current is linear in its strength. Errors: an unusable curve, no point that delivers
 // current at a forward voltage, an unknown cause, bounds in the wrong order. Further errors are
 // exponents of a non-ohmic shunt that do not start above 1, and so few cells in series that every
-// diode's exponent exceeds kLargestExponent of law/term.h.
+// diode's exponent exceeds kLargestExponent of model/term.h.
 Expected<CauseFloors> ProveCauses(const IvCurve& curve, const CauseFloorOptions& options = {});
 
 }  // namespace lyrefit

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/refine/bounded_linear.h"
-#include "lyrefit/refine/least_squares.h"
+#include "lyrefit/estimate/refine/bounded_linear.h"
+#include "lyrefit/estimate/refine/least_squares.h"
 
 namespace lyrefit {
 namespace {

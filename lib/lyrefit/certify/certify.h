@@ -9,7 +9,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -47,7 +47,7 @@ struct Floor {
 };
 
 // Certificate of a model with a fixed number of diodes, each with n and Is in its own ranges. Where
-// the device law would clip the exponent of a steep diode (law/term.h), the RMSE is that of
+// the device law would clip the exponent of a steep diode (model/term.h), the RMSE is that of
 // Shockley's equation without the clip.
 struct ModelCertificate {
   Model model = Model::kSingleDiode;
@@ -102,7 +102,7 @@ struct Certificate {
 // the exact quotient. `certified` allows for rounding with and without `rigorous`.
 //
 // Errors: an unusable curve; no point that delivers current at a forward voltage; so few cells that
-// every diode's exponent exceeds kLargestExponent of law/term.h; options outside their ranges.
+// every diode's exponent exceeds kLargestExponent of model/term.h; options outside their ranges.
 Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked = {},
                               const Observer& observer = {});
 

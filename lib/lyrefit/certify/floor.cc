@@ -8,9 +8,9 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {

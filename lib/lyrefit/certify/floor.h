@@ -7,10 +7,10 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/fit/bounds.h"
-#include "lyrefit/fit/fit_options.h"
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/parameter.h"
+#include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/estimate/fit/fit_options.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/parameter.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

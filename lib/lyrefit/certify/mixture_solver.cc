@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/certify/correlation.h"
-#include "lyrefit/refine/bounded_linear.h"
+#include "lyrefit/estimate/refine/bounded_linear.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/mixture_law.h"
-#include "lyrefit/refine/refine.h"
-#include "lyrefit/refine/separable.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include "lyrefit/base/groups.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/breaks.h"
-#include "lyrefit/law/make_readings.h"
+#include "lyrefit/model/make_readings.h"
 
 namespace lyrefit {
 namespace {

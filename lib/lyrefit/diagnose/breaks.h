@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/law/reading.h"
+#include "lyrefit/model/reading.h"
 
 namespace lyrefit {
 

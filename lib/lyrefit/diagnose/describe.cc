@@ -10,8 +10,8 @@
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/statistics.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

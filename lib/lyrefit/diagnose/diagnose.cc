@@ -23,8 +23,8 @@
 #include "lyrefit/diagnose/prove_causes.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/statistics.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -8,12 +8,12 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/fit/error_spec.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/estimate/fit/error_spec.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-struct Effect;  // law/effect.h
+struct Effect;  // model/effect.h
 
 // Which causes are tried, at which significance, and which additional results are computed.
 struct DiagnoseOptions {

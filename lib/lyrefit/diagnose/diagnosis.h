@@ -10,8 +10,8 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/plan.h"
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit {
 namespace {

@@ -10,8 +10,8 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/values.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/fit/statistics.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -6,11 +6,11 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/search_law.h"
-#include "lyrefit/fit/statistics.h"
-#include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/reporting_units.h"
-#include "lyrefit/refine/intervals.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/refine/intervals.h"
+#include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/extended_set.h"
+#include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {
 namespace {

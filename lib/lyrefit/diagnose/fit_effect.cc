@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/refine/multistart.h"
+#include "lyrefit/estimate/refine/multistart.h"
 
 namespace lyrefit {
 namespace {

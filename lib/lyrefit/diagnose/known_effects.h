@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/law/effect.h"
+#include "lyrefit/model/effect.h"
 
 namespace lyrefit {
 

@@ -1,7 +1,7 @@
 #include "lyrefit/diagnose/measurement.h"
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/law/make_readings.h"
+#include "lyrefit/model/make_readings.h"
 
 namespace lyrefit {
 namespace {

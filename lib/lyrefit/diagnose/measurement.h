@@ -6,8 +6,8 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/values.h"
-#include "lyrefit/fit/error_spec.h"
-#include "lyrefit/law/reading.h"
+#include "lyrefit/estimate/fit/error_spec.h"
+#include "lyrefit/model/reading.h"
 
 namespace lyrefit {
 

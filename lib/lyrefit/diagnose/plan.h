@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/public.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

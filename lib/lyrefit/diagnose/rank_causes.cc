@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "lyrefit/law/curve_shape.h"
+#include "lyrefit/model/curve_shape.h"
 
 namespace lyrefit {
 namespace {

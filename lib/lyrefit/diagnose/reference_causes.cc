@@ -11,7 +11,7 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

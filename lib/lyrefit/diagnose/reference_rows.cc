@@ -6,7 +6,7 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

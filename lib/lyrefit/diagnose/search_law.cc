@@ -2,7 +2,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/describe.h"
-#include "lyrefit/law/reading_blocks.h"
+#include "lyrefit/model/reading_blocks.h"
 
 namespace lyrefit {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/diagnose/select.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

@@ -10,7 +10,7 @@
 #include "lyrefit/diagnose/rank_causes.h"
 #include "lyrefit/diagnose/selection_state.h"
 #include "lyrefit/diagnose/weigh_candidates.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

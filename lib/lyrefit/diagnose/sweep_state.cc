@@ -9,7 +9,7 @@
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/weigh_candidates.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/refine/error_sizes.h"
+#include "lyrefit/estimate/refine/error_sizes.h"
 
 namespace lyrefit {
 bool IsFixed(const Readings& readings, const Law& law, int parameter) {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/law/law.h"
-#include "lyrefit/law/reading.h"
-#include "lyrefit/refine/error_model.h"
-#include "lyrefit/refine/least_squares.h"
+#include "lyrefit/estimate/refine/error_model.h"
+#include "lyrefit/estimate/refine/least_squares.h"
+#include "lyrefit/model/law.h"
+#include "lyrefit/model/reading.h"
 
 namespace lyrefit {
 
@@ -19,7 +19,7 @@ struct WeightedData {
   std::vector<char> used;  // 0: left out, as an outlier or held out
   double correlation = 0;  // of the noise at lag 1
   // Standard deviation of a rough path along each curve, in current scales at the brightest light.
-  // refine/error_model.h defines the path.
+  // estimate/refine/error_model.h defines the path.
   double path = 0;
   double path_length = 1;  // correlation length of the path, in pivot voltages
   // The noise variance is scaled to the residuals, but not below this fraction of sigma^2. 1: sigma

@@ -11,7 +11,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/number_text.h"
 #include "lyrefit/diagnose/reference.h"
-#include "lyrefit/family/data_sheet.h"
+#include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/report/readable.h"
 #include "lyrefit/report/record_parts.h"
 

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 // Records as CSV, one row for each item. Numbers read back to the same bits; an unknown value is an
 // empty field. Powers and currents are fractions as in the library, not percentages.

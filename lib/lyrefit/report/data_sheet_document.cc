@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/version.h"
-#include "lyrefit/family/data_sheet.h"
+#include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lyrefit/family/data_sheet.h"
-#include "lyrefit/law/current.h"
+#include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/model/current.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/kernel.h"
-#include "lyrefit/law/reporting_units.h"
+#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/model/extended_set.h"
+#include "lyrefit/model/kernel.h"
+#include "lyrefit/model/reporting_units.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"

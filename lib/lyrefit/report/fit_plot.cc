@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {

@@ -8,10 +8,10 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/reference.h"
-#include "lyrefit/family/data_sheet.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/family/pvlib_parameters.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/translate/translation_report.h"
 
 // Records as the text of a JSON file. Keys have a fixed order, numbers have enough digits to read

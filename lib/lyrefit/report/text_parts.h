@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/device.h"
-#include "lyrefit/law/device_effects.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/device.h"
+#include "lyrefit/model/device_effects.h"
 #include "lyrefit/report/document.h"
 
 // Functions shared by the reports.

@@ -9,7 +9,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/fit/bounds.h"
+#include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_explain.h"

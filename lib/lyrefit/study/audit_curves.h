@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

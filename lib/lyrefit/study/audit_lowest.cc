@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/fit/fit.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/audit_newton.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/refine/least_squares.h"
+#include "lyrefit/estimate/refine/least_squares.h"
 
 namespace lyrefit {
 namespace {

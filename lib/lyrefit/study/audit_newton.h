@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/law/kernel.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/study/audit_newton.h"
 
 namespace lyrefit {

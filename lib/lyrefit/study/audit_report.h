@@ -8,9 +8,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/fit/fit_report.h"
-#include "lyrefit/law/device.h"
-#include "lyrefit/law/parameter.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/device.h"
+#include "lyrefit/model/parameter.h"
 #include "lyrefit/study/audit_options.h"
 #include "lyrefit/study/read_audit_rows.h"
 

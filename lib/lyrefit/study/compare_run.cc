@@ -1,9 +1,9 @@
 #include "lyrefit/study/compare_run.h"
 
-#include "lyrefit/family/fit_family.h"
-#include "lyrefit/fit/fit.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/reporting_units.h"
+#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {
 namespace {

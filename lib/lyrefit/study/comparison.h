@@ -12,7 +12,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // RMSEs of one run in ampere, of the compared objective. NaN: not requested. If effects have
-// several model variants (law/variants.h), the RMSE is multiplied by FitReport::variant_penalty.
+// several model variants (model/variants.h), the RMSE is multiplied by FitReport::variant_penalty.
 // The best variant then has the lowest value.
 struct RunRecord {
   int run = 0;  // selects, with the seed, the random stream

@@ -12,7 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/json_text.h"
 #include "lyrefit/curve/number_text.h"
-#include "lyrefit/law/translation.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

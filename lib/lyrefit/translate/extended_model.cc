@@ -9,11 +9,11 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/law/device_effects.h"
-#include "lyrefit/law/extended_set.h"
-#include "lyrefit/law/model_points.h"
-#include "lyrefit/law/reporting_units.h"
+#include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/model/extended_set.h"
+#include "lyrefit/model/model_points.h"
+#include "lyrefit/model/reporting_units.h"
 #include "lyrefit/translate/model_procedures.h"
 
 namespace lyrefit {

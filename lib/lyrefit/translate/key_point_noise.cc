@@ -5,8 +5,8 @@
 #include <string>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/law/current.h"
-#include "lyrefit/law/model_points.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -3,12 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "lyrefit/law/translation.h"
+#include "lyrefit/model/translation.h"
 #include "lyrefit/translate/procedures.h"
 
 namespace lyrefit {
 
-// Key points at the target by a law (law/translation.h) for the single diode of the readings. The
+// Key points at the target by a law (model/translation.h) for the single diode of the readings. The
 // reference parameters follow from the five parameters at (G1, T1) and the law's own inputs:
 //   De Soto   EgRef, dEgdT, alpha; Rsh in proportion to 1 / G
 //   PVsyst    EgRef, mu_gamma, alpha; Rsh exponential in G, four times as large in the dark

@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/fit/fit_report.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/translate_options.h"
 

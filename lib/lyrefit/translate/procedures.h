@@ -9,7 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/law/device.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -137,7 +137,7 @@ struct FurtherCurve {
 // The diagnosed device (extended_model.h).
 struct ExtendedModel;
 
-struct Translation;  // law/translation.h
+struct Translation;  // model/translation.h
 
 // A parameter of a law, fitted so that Voc follows beta, as a linear function of beta.
 struct BetaAnchor {

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/device.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// Box of the search.
+//   physical     derived from the curve: Iph up to twice the largest current, n in [1, 2], Is on a
+//                logarithmic scale around the value that Voc implies, Rs and Rsh from the
+//                characteristic resistance V_max / I_max. Is may be 0, Rsh practically infinite.
+//   wide         as physical, but n in [0.5, 10]: wrong temperature or cell count, unusual devices
+//   a table      symbol -> [lower, upper], as published: linear in every parameter. "Is" and "n"
+//                hold for every diode unless "Is1", "n2" ... are given.
+// `overrides` replaces single ranges of any of these. Units: ampere and ohm of the device, n per
+// cell.
+struct BoundsSpec {
+  // Symbol -> [lower, upper].
+  using Table = std::map<std::string, std::pair<double, double>>;
+  std::string name = "physical";  // of a table: the path of its file
+  Table table;                    // used when `name` is neither "physical" nor "wide"
+  Table overrides;                // keys: "Rs", "Is", "n2", ...
+};
+
+// Bounds of every parameter, in the order of the device. Errors: a range that is reversed, not
+// finite or of a parameter that the model lacks; a table without a range for a parameter.
+Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const Device& device,
+                                                  const IvCurve& curve);
+
+// Reads a bounds file: {"Iph":[0,2],"Is":[0,5e-5],"n":[1,2],"Rs":[0,0.36],"Rsh":[0,1000]}. Ampere
+// and ohm of the whole device, n per cell. Errors carry file, line and column.
+Expected<BoundsSpec> ReadBoundsFile(const std::string& path);
+
+// Bounds by name: "physical", "wide", the path of a bounds file, or "paper" or "literature". The
+// last two are read from bounds-NAME.json beside the file of the curve (or in its folder). Errors
+// without a file begin with "bounds".
+Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file);
+
+}  // namespace lyrefit

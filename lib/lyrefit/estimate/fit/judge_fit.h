@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/intervals.h"
+#include "lyrefit/estimate/fit/refine_fit.h"
+
+namespace lyrefit {
+
+// Last stage of a fit: intervals around the refined end, or the reason why there are none.
+struct JudgedFit {
+  RefineEnd end;  // lower than the refined one if a profile found a better optimum
+  std::vector<Estimate> estimates;
+  std::vector<Correlation> correlations;
+  double condition = kUnknown;
+  std::vector<StartReport> restarts;   // of the polish, from lower optima that a profile found
+  std::optional<ErrorReport> errors;   // of a least-squares fit; none: not requested
+  std::vector<Estimate> under_errors;  // see FitReport
+  std::string no_intervals_because;    // empty: present, or not requested
+};
+
+// Finds intervals around the refined end. If a profile finds a lower optimum, the polish restarts
+// there and the intervals are found again. `usable`: whether the model describes the readings;
+// otherwise no interval is found. `searched`: best candidate of the search.
+JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searched, bool usable,
+                   const ProgressReporter& progress);
+
+}  // namespace lyrefit

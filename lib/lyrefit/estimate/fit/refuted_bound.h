@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/refine_fit.h"
+
+namespace lyrefit {
+
+// Tests whether the readings refute a bound at which an ideality factor is active. The problem is
+// fitted again with a wider range, and the F-test decides at 5 % whether that describes the
+// readings better. If their errors are correlated, the likelihood under those errors must agree.
+// Every interval of a refuted fit would be conditional on a false assumption. Returns the reason as
+// a sentence; empty: no bound is refuted.
+std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& progress);
+
+}  // namespace lyrefit

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/setting_text.h"
+#include "lyrefit/estimate/fit/effect_text.h"
+#include "lyrefit/model/device.h"
+#include "lyrefit/model/device_effects.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// One law of many curves (extended_set.h), and the curve of the set to simulate. Where the
+// conditions in SimulateOptions differ from those of the measured curve, they replace them.
+struct SharedLaw {
+  Law law;  // law of the whole set
+  double reference_K = 298.15;
+  CurveSet set;
+  int curve = 0;  // index of the curve in the set
+};
+
+// Simulated device, operating conditions and noise.
+struct SimulateOptions {
+  Model model = Model::kSingleDiode;
+  std::map<std::string, double> parameters;  // by symbol or name, n per cell
+  Conditions conditions;
+  ConstantSet constants = ConstantSet::kCodata;
+  std::vector<double> voltage_V;  // empty: `points` even steps from 0 to 1.02 Voc
+  int points = 100;
+  // Effects in addition to the diodes. Each of their parameters has one value. The first one, the
+  // strength, must be given; the others default to the effect's usual values. Effects act as in
+  // `taken`, a measurement with the order and times of its readings. Without voltages, the readings
+  // of `taken` are simulated. Without `taken`, effects act as in the simulated sweep itself.
+  std::vector<EffectUse> with;
+  std::optional<IvCurve> taken;
+  // Replaces `taken`. `parameters` are then those at the reference, including alpha and EgRef.
+  std::optional<SharedLaw> shared;
+  bool force_effects = false;  // also effects that the readings cannot show
+  // Layout of unlike cells (model/string_layout.h); none: all cells have the parameters above.
+  std::shared_ptr<const StringLayout> layout;
+  // Independent Gaussian noise of every current; the variances of the two parts add.
+  double noise_A = 0;              // standard deviation, constant part
+  double noise_relative = 0;       // standard deviation, relative to |current|
+  std::uint64_t seed = 0;          // seed of the noise
+  std::string name = "simulated";  // name of the simulated curve
+};
+
+inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
+    OptionRow<SimulateOptions>("Device"),
+    {"model", "NAME", "number of diodes", EnumOption<&SimulateOptions::model>()},
+    {"set", "P=VALUE", "value of one parameter, Iph=0.76; once for each",
+     AssignmentsOption<&SimulateOptions::parameters>()},
+    {"constants", "NAME", "values of k and q", EnumOption<&SimulateOptions::constants>()},
+    {"with", kEffectsUnit, kEffectsDoc, EffectsOption<&SimulateOptions::with>()},
+    {"force", "", "also effects that such data cannot show", &SimulateOptions::force_effects,
+     OptionTrait::kNoFlag},
+    OptionRow<SimulateOptions>("Points"),
+    {"points", "N", "points from 0 V to a little beyond open circuit", &SimulateOptions::points,
+     OptionTrait::kUnchecked},
+    OptionRow<SimulateOptions>("Noise"),
+    {"noise-A", "S", "standard deviation of the current in A", &SimulateOptions::noise_A,
+     OptionTrait::kUnchecked},
+    {"noise-relative", "R", "standard deviation as a part of the current",
+     &SimulateOptions::noise_relative, OptionTrait::kUnchecked},
+    {"seed", "S", "seed of the noise", &SimulateOptions::seed, OptionTrait::kUnchecked},
+};
+
+// Simulates the curve of a device under the given conditions: I(V) is solved to rounding, then
+// noise is added. Equal options give equal bits. Errors: a parameter missing, unknown or outside
+// its physical range; no open-circuit voltage to end at; options outside their ranges.
+Expected<IvCurve> Simulate(const SimulateOptions& options);
+
+// Reads model, parameters, conditions, constants and effects from a JSON fit report, ready for
+// Simulate(). With effects, the readings of the report are reproduced to 1e-9 of their currents.
+// `curve` is the id of one curve in a report of many, such as those of a family or a diagnosis. An
+// infinite shunt resistance, null in JSON, is read back as infinite. Errors: an unreadable report,
+// an unknown effect, effects in a report of another version of lyrefit, no such curve.
+Expected<SimulateOptions> ReadFitForSimulation(const std::string& path,
+                                               const std::string& curve = "");
+// ReadFitForSimulation() for the text of a report; errors name it `path`.
+Expected<SimulateOptions> ReadFitTextForSimulation(const std::string& text, const std::string& path,
+                                                   const std::string& curve = "");
+
+}  // namespace lyrefit

@@ -1,0 +1,105 @@
+#include "lyrefit/estimate/fit/usable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/base/largest.h"
+#include "lyrefit/curve/find_step.h"
+#include "lyrefit/estimate/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kLargestMisfit = 0.03;  // of Isc
+
+// Residuals of the least-squares line through the points, the baseline of any fit.
+std::vector<double> StraightLineResiduals(const IvCurve& curve) {
+  const double n = static_cast<double>(curve.size());
+  const auto mean = [&](const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / n;
+  };
+  const double v0 = mean(curve.voltage_V), i0 = mean(curve.current_A);
+  double vv = 0, vi = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double v = curve.voltage_V[k] - v0;
+    vv += v * v;
+    vi += v * (curve.current_A[k] - i0);
+  }
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    residuals.push_back(i0 + vi / vv * (curve.voltage_V[k] - v0) - curve.current_A[k]);
+  }
+  return residuals;
+}
+
+double Typical(const std::vector<double>& residuals, bool robust) {
+  if (robust) return RobustScale(residuals);
+  double squares = 0;
+  for (const double one : residuals) squares += one * one;
+  return std::sqrt(squares / static_cast<double>(residuals.size()));
+}
+
+// Whether a line describes the curve as well as parameters with `misfit`: by AICc, or by BIC if the
+// readings are too few for AICc. An interrupted or unpolished fit does not show what the model can
+// reach, so only its misfit is compared with that of the line.
+bool LineDoesAsWell(const IvCurve& curve, const InformationCriteria& of_model, double misfit,
+                    bool robust, bool at_its_end) {
+  constexpr double kRounding = 1e-11;  // of the largest current: smaller residuals are rounding
+  constexpr int kLineParameters = 2;
+  const double line = Typical(StraightLineResiduals(curve), robust);
+  if (!at_its_end) return misfit >= line;
+  const double smallest = kRounding * LargestMagnitude(curve.current_A);
+  const auto criteria = [&](double size, int parameters) {
+    const double mean_square = std::pow(std::max(size, smallest), 2);
+    return FindInformation(mean_square, of_model.points, parameters);
+  };
+  const InformationCriteria of_fit = criteria(misfit, of_model.parameters);
+  const InformationCriteria of_line = criteria(line, kLineParameters);
+  if (std::isnan(of_fit.aicc)) return of_line.bic <= of_fit.bic;
+  return of_line.aicc <= of_fit.aicc;
+}
+
+// Scale of the misfit: Isc, or the largest current of a curve with negligible Isc (dark, or taken
+// far beyond open circuit).
+struct Scale {
+  double current_A = 0;
+  const char* name = "Isc";
+};
+
+Scale ScaleOf(const IvCurve& curve, const KeyPoints& measured) {
+  constexpr double kToSpeakOf = 0.1;
+  const double largest = LargestMagnitude(curve.current_A);
+  const double isc = measured.short_circuit_current_A;
+  if (isc > kToSpeakOf * largest) return {isc, "Isc"};
+  return {largest, "the largest current"};
+}
+
+}  // namespace
+
+std::string WhyNotUsable(const IvCurve& curve, const ModelResults& results,
+                         const UsabilityFacts& facts) {
+  if (!std::isfinite(facts.rmse_A)) return "the model gives no finite current at these readings";
+  const Scale scale = ScaleOf(curve, results.measured);
+  const double misfit = facts.robust ? RobustScale(results.residual_A) : facts.rmse_A;
+  if (LineDoesAsWell(curve, results.criteria, misfit, facts.robust, facts.at_its_end)) {
+    return "a straight line describes these points as well";
+  }
+  if (!facts.at_its_end || !(misfit > kLargestMisfit * scale.current_A)) return "";
+  const std::string size =
+      fmt::format("{} is {:.1f} % of {}", facts.robust ? "the typical residual" : "RMSE",
+                  100 * misfit / scale.current_A, scale.name);
+  if (const auto step = FindStep(curve)) {
+    return fmt::format(
+        "the curve has a step near {:.3g} V: no diode model describes it ({}); a diagnosis can "
+        "name the cause (lyrefit diagnose)",
+        step->voltage_V, size);
+  }
+  return fmt::format("no diode model within the bounds describes this curve: {}; {}", size,
+                     facts.doubtful ? "look first at what is doubtful about its readings"
+                                    : "a diagnosis may name the cause (lyrefit diagnose)");
+}
+
+}  // namespace lyrefit

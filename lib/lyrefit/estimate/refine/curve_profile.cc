@@ -1,0 +1,149 @@
+#include <cmath>
+#include <utility>
+
+#include "lyrefit/estimate/refine/curve_model.h"
+#include "lyrefit/estimate/refine/profile.h"
+#include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/estimate/refine/separable.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kBriefly = 12;         // iterations that suffice for most refits
+constexpr int kMaxIterations = 200;  // of the other refits
+constexpr int kMaxRounds = 10;
+constexpr double kHopeless = 10;   // of t; no exchange of diodes is tried above it
+constexpr double kInside = 0.994;  // of the rise at the end; no exchange is tried below it
+
+// Exchanges the diode of parameter i and diode d, if both have the same bounds.
+bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>* p) {
+  const ParameterKind kind = problem.device.parameters[i].kind;
+  const bool saturation = kind == ParameterKind::kSaturation;
+  if (!saturation && kind != ParameterKind::kIdeality) return false;
+  const int own = saturation ? i : i - 1;
+  const int other = SaturationCurrentIndex(d);
+  if (own == other) return false;
+  for (const int k : {0, 1}) {
+    if (problem.lower[own + k] != problem.lower[other + k]) return false;
+    if (problem.upper[own + k] != problem.upper[other + k]) return false;
+    std::swap((*p)[own + k], (*p)[other + k]);
+  }
+  return true;
+}
+
+// The refits of the profile of one parameter of one curve.
+class CurveRefits {
+ public:
+  CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
+              const StopToken& stop)
+      : i_(query.parameter), best_(best), held_(problem), model_(held_) {
+    const double rise = query.t * query.t * query.variance / model_.shape().points;
+    outside_ = best.mean_square + kInside * rise;
+    if (Kind() == ParameterKind::kSaturation)
+      hopeless_ = best.mean_square + kHopeless * kHopeless * rise;
+    how_.small = true;
+    how_.let_in = false;  // the separable descents add diodes
+    how_.max_iterations = how_.first_iterations = kMaxIterations;
+    how_.max_rounds = kMaxRounds;
+    how_.stop = stop;
+  }
+  CurveRefits(const CurveRefits&) = delete;
+  CurveRefits& operator=(const CurveRefits&) = delete;
+
+  RefineEnd Refit(double value, const FitPoint& start, double target, double tolerance) {
+    Ask(value, target, tolerance);
+    FitPoint from = start;
+    from.p[i_] = value;
+    RefineOptions briefly = how_;
+    briefly.first_iterations = kBriefly;
+    briefly.max_rounds = 0;
+    if (target > 0) briefly.cutoff = target;
+    RefineEnd end = RefineModel(model_, from, briefly);
+    // RefineFrom is tried if the brief fit did not reach its goal. It is also tried before a point
+    // counts as outside, since the diodes may have exchanged roles there.
+    const bool further = end.converged ? end.mean_square > outside_ && OfDiode()
+                                       : end.mean_square > target && (OfDiode() || !(target > 0));
+    if (further) TakeIfLower(RefineFrom(held_, from.p, how_), &end);
+    if (end.mean_square > outside_ && end.mean_square < hopeless_) {
+      for (std::vector<double>& traded : Traded(value)) {
+        TakeIfLower(RefineModel(model_, {std::move(traded), {}}, how_), &end);
+      }
+    }
+    end.stopped = how_.stop.requested();
+    return end;
+  }
+
+  // Whether a fit from a deterministic start ends at or below `target`.
+  bool Elsewhere(double value, double target, double tolerance, FitPoint* there) {
+    Ask(value, target, tolerance);
+    RefineOptions reach = how_;
+    reach.cutoff = target;
+    reach.let_in = true;
+    std::vector<std::vector<double>> starts = Traded(value);
+    for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
+      starts.push_back(std::move(grid.p));
+    }
+    starts.push_back(best_.p);
+    starts.back()[i_] = value;
+    for (const std::vector<double>& from : starts) {
+      RefineEnd end = RefineFrom(held_, from, reach);
+      if (end.mean_square > target) continue;
+      *there = std::move(end);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  ParameterKind Kind() const { return held_.device.parameters[i_].kind; }
+  bool OfDiode() const {
+    return Kind() == ParameterKind::kSaturation || Kind() == ParameterKind::kIdeality;
+  }
+
+  static void TakeIfLower(RefineEnd other, RefineEnd* end) {
+    if (other.mean_square < end->mean_square) *end = std::move(other);
+  }
+
+  void Ask(double value, double target, double tolerance) {
+    held_.lower[i_] = held_.upper[i_] = value;
+    model_.Fix(i_, value);
+    how_.target = target;
+    how_.function_tolerance = how_.first_tolerance = tolerance;
+  }
+
+  // The optima with the parameter's diode and another one exchanged.
+  std::vector<std::vector<double>> Traded(double value) const {
+    std::vector<std::vector<double>> all;
+    for (int d = 0; d < DiodeCount(held_.device); ++d) {
+      std::vector<double> traded = best_.p;
+      if (!TradePlaces(held_, i_, d, &traded)) continue;
+      traded[i_] = value;
+      all.push_back(std::move(traded));
+    }
+    return all;
+  }
+
+  const int i_;
+  const RefineEnd& best_;
+  RefineProblem held_;
+  CurveModel model_;
+  double outside_ = 0;  // mean square of a point outside the interval
+  double hopeless_ = HUGE_VAL;
+  RefineOptions how_;
+};
+
+}  // namespace
+
+ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
+                            const ProfileQuery& query, const StopToken& stop) {
+  CurveRefits curve(problem, best, query, stop);
+  const auto bind = [&](auto member) {
+    return [&, member](auto&&... of) { return (curve.*member)(of...); };
+  };
+  ProfileRefits refits{bind(&CurveRefits::Refit), bind(&CurveRefits::Elsewhere)};
+  // A model with a single diode has only one local optimum.
+  if (DiodeCount(problem.device) == 1) refits.elsewhere = nullptr;
+  return FindProfileSide(CurveModel(problem), best, query, refits);
+}
+
+}  // namespace lyrefit

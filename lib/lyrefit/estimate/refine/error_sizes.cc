@@ -1,0 +1,297 @@
+#include "lyrefit/estimate/refine/error_sizes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/estimate/refine/newton_ascent.h"
+
+namespace lyrefit {
+namespace {
+
+// Standard deviation of the prior of ln length below its center, and above it. A path longer than
+// the center hardly changes within the sweep: only one combination of its size and length is
+// identifiable.
+constexpr double kLengthWidth = 8;
+constexpr double kLongerWidth = 0.5;
+
+using Logs = std::vector<double>;  // ln of current_A, voltage_V, path, length
+
+Logs LogsOf(const ErrorSizes& sizes) {
+  return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path),
+          std::log(sizes.length)};
+}
+
+ErrorSizes SizesAt(const Logs& at) {
+  return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), std::exp(at[3])};
+}
+
+struct Rows {
+  const ErrorShape& shape;
+  RowMatrix columns;  // orthonormal basis of the fitted directions, then the residual
+  const Differences& differences;
+};
+
+// 1 less the mean of exp(-|x - x'|) over a stretch of three times `third`: the part of the path's
+// variance that averaging removes.
+double AveragedAway(double third) {
+  const double x = 3 * third;
+  if (x < 1e-3) return third;
+  return 1 - 2 * (x + std::expm1(-x)) / (x * x);
+}
+
+// Sum of the logarithms of many factors, with one logarithm for many of them.
+class LogSum {
+ public:
+  void Add(double factor) {
+    product_ *= factor;
+    if (product_ > 1e-200 && product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double Total() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0;
+  double product_ = 1;
+};
+
+// Restricted log-likelihood from ln det of the covariance and the lower triangle of the Gram matrix
+// of the whitened columns, the residual last. The columns must be nearly orthogonal.
+double RestrictedFromProducts(double* products, int columns, LogSum log_determinant) {
+  const int last = columns - 1;
+  const auto at = [&](int i, int j) -> double& { return products[i * columns + j]; };
+  for (int i = 0; i < last; ++i) {  // Cholesky; the last pivot is the residual sum
+    const double pivot = at(i, i);
+    if (!(pivot > 0)) return -HUGE_VAL;
+    log_determinant.Add(pivot);
+    for (int j = i + 1; j <= last; ++j) {
+      const double part = at(j, i) / pivot;
+      for (int k = i + 1; k <= j; ++k) at(j, k) -= part * at(k, i);
+    }
+  }
+  return -0.5 * (log_determinant.Total() + std::max(at(last, last), 0.0));
+}
+
+// The restricted log-likelihood of MakeErrorModel(shape, sizes), in one pass over the readings: the
+// columns are whitened as by Whiten() and multiplied row by row. kColumns: their number, 0: any.
+template <int kColumns>
+double LikelihoodOf(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& rows) {
+  const int columns = kColumns > 0 ? kColumns : static_cast<int>(rows.cols());
+  constexpr int kBuffer = kColumns > 0 ? kColumns * (2 + kColumns) : 1;
+  std::array<double, kBuffer> few = {};
+  std::vector<double> many(kColumns > 0 ? 0 : columns * (2 + columns), 0.0);
+  double* const state = kColumns > 0 ? few.data() : many.data();  // prediction of the path
+  double* const white = state + columns;
+  double* const products = white + columns;
+  const double per_length = 1 / sizes.length;
+  double variance = 1;  // of the state
+  LogSum logs;
+  for (std::size_t k = 0; k < shape.current.size(); ++k) {
+    const double current =
+        shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
+    const double voltage = sizes.voltage_V * shape.voltage[k];
+    const double path = sizes.path * shape.path[k];
+    double own = current * current + voltage * voltage;
+    if (!shape.averaged_away.empty() && shape.averaged_away[k] > 0) {
+      own -= path * path * AveragedAway(shape.averaged_away[k] * per_length);
+    }
+    const bool follows = k > 0 && shape.chain[k - 1] == shape.chain[k];
+    const double kept =
+        follows ? std::exp((shape.position[k - 1] - shape.position[k]) * per_length) : 0.0;
+    variance = kept * kept * variance + (1 - kept * kept);
+    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
+    const double learnt = path * variance / total;
+    logs.Add(total);
+    const double* const row = rows.data() + k * columns;
+    for (int c = 0; c < columns; ++c) {
+      const double foretold = kept * state[c];
+      const double news = row[c] - path * foretold;
+      state[c] = foretold + learnt * news;
+      white[c] = news * scale;
+    }
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j <= i; ++j) products[i * columns + j] += white[i] * white[j];
+    }
+    variance *= own / total;
+  }
+  return RestrictedFromProducts(products, columns, logs);
+}
+
+double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& columns) {
+  switch (columns.cols()) {
+    case 4:
+      return LikelihoodOf<4>(shape, sizes, columns);
+    case 5:
+      return LikelihoodOf<5>(shape, sizes, columns);
+    case 6:
+      return LikelihoodOf<6>(shape, sizes, columns);
+    case 7:
+      return LikelihoodOf<7>(shape, sizes, columns);
+    case 8:
+      return LikelihoodOf<8>(shape, sizes, columns);
+    default:
+      return LikelihoodOf<0>(shape, sizes, columns);
+  }
+}
+
+double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
+  const ErrorModel errors = MakeErrorModel(differences.shape, sizes);
+  double sum = 0;
+  for (int g = 0; g < errors.size(); ++g) {
+    const double path = errors.path.empty() ? 0 : errors.path[g];
+    const double parted = -std::expm1(-errors.position[g]);
+    const double variance = errors.white[g] * errors.white[g] + path * path * parted;
+    const double terms = std::log(variance) + differences.mean_square[g] / variance;
+    sum -= 0.5 * differences.count[g] * terms;
+  }
+  return sum;
+}
+
+double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
+  const Logs center = LogsOf(prior.center);
+  const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path,
+                          prior.width.length};
+  const ErrorSizes sizes = SizesAt(at);
+  double sum =
+      LogLikelihood(rows.shape, sizes, rows.columns) + LogLikelihood(rows.differences, sizes);
+  for (int i = 0; i < 4; ++i) {
+    const bool longer = i == 3 && at[i] > center[i];
+    sum -= 0.5 * std::pow((at[i] - center[i]) / (longer ? kLongerWidth : width[i]), 2);
+  }
+  return std::isnan(sum) ? -HUGE_VAL : sum;
+}
+
+// The best point of a coarse grid about the prior and about the size of the residuals.
+Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
+  const Eigen::VectorXd residual = rows.columns.rightCols(1);
+  double typical = 0;
+  for (const double one : rows.shape.current) typical += one * one;
+  const double rms_A =
+      std::max(residual.norm() / std::sqrt(typical), 1e-12 * prior.center.current_A);
+  const Logs usual = LogsOf(prior.center);
+  const double relative = rms_A / prior.center.current_A * prior.width.path;
+  Logs best;
+  double highest = -HUGE_VAL;
+  const auto consider = [&](double current, double voltage, double path, double length) {
+    const Logs at = {std::log(current * rms_A), usual[1] + std::log(voltage),
+                     usual[2] + std::log(path * std::min(std::max(relative, 1e-3), 10.0)),
+                     usual[3] + std::log(length)};
+    const double value = LogPosterior(rows, prior, at);
+    if (!(value > highest)) return;
+    highest = value;
+    best = at;
+  };
+  for (const double current : {1.0, 0.2}) {
+    for (const double voltage : {0.03, 1.0}) {
+      for (const double path : {0.05, 0.5, 2.0}) {
+        for (const double length : {1.0, 0.2, 0.04}) consider(current, voltage, path, length);
+      }
+    }
+  }
+  return highest > -HUGE_VAL ? best : usual;
+}
+
+// 0 if the matrix is not positive definite.
+Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
+  Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+  for (int j = 0; j < 4; ++j) {
+    Eigen::VectorXd column;
+    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(4, j), &column)) {
+      return Eigen::Matrix4d::Zero();
+    }
+    inverse.col(j) = column;
+  }
+  return inverse;
+}
+
+// LogLikelihood of independent errors of the best size.
+double WhiteLogLikelihood(const Rows& rows) {
+  ErrorShape independent = rows.shape;
+  if (!independent.stated.empty()) independent.current = std::move(independent.stated);
+  independent.stated.clear();
+  RowMatrix unit = rows.columns;
+  for (Eigen::Index k = 0; k < unit.rows(); ++k) unit.row(k) /= independent.current[k];
+  const Eigen::MatrixXd slopes = unit.leftCols(unit.cols() - 1);
+  const double degrees = static_cast<double>(slopes.rows() - slopes.cols());
+  const double rest = WithoutColumns(slopes, Eigen::VectorXd(unit.rightCols(1))).norm();
+  return LogLikelihood(independent, {rest / std::sqrt(degrees), 0, 0, 1}, rows.columns);
+}
+
+// The longest path, up to the prior's length, of nearly the posterior of the maximum `top`. A fit
+// absorbs the slowest part of the path from the residuals, so the data hardly bound its length from
+// above. Too short a path makes standard errors too small.
+Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs& top,
+                    double usual) {
+  constexpr double kAllowed = 0.25;  // loss in ln posterior
+  constexpr int kLonger = 4, kMostSteps = 10;
+  const double highest = value(top);
+  Logs at = top, longest = top;
+  for (int step = 1; step <= kLonger && top[3] < usual; ++step) {
+    const double length = top[3] + (usual - top[3]) * step / kLonger;
+    const auto others = [&](const Logs& three) {
+      return value({three[0], three[1], three[2], length});
+    };
+    // The differences of neighbours, path^2 / length, stay constant.
+    const double path = at[2] + 0.5 * (length - at[3]);
+    at = NewtonAscent(others, {at[0], at[1], path}, kMostSteps);
+    at.push_back(length);
+    if (value(at) >= highest - kAllowed) longest = at;
+  }
+  return longest;
+}
+
+}  // namespace
+
+bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
+  const auto close = [&](double one, double other) {
+    return std::fabs(one - other) <= tolerance * std::fabs(other);
+  };
+  return close(a.current_A, b.current_A) && close(a.voltage_V, b.voltage_V) &&
+         close(a.path, b.path) && close(a.length, b.length);
+}
+
+ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
+  ErrorModel errors;
+  errors.white.reserve(shape.current.size());
+  if (sizes.path > 0) errors.path.reserve(shape.current.size());
+  for (std::size_t k = 0; k < shape.current.size(); ++k) {
+    const double current =
+        shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
+    errors.white.push_back(std::hypot(current, sizes.voltage_V * shape.voltage[k]));
+    if (sizes.path > 0) errors.path.push_back(sizes.path * shape.path[k]);
+  }
+  for (const double position : shape.position) errors.position.push_back(position / sizes.length);
+  errors.chain = shape.chain;
+  for (const double part : shape.averaged_away) {
+    errors.averaged_away.push_back(AveragedAway(part / sizes.length));
+  }
+  return errors;
+}
+
+ErrorPrior UsualErrors(double isc_A, double voc_V) {
+  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3, 1}, {3, 3, 1, kLengthWidth}};
+}
+
+FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
+                           const Eigen::VectorXd& residual, const RowMatrix& jacobian,
+                           const Differences& differences) {
+  const Eigen::MatrixXd basis = RankedBasis(Eigen::MatrixXd(jacobian));
+  Rows all{shape, RowMatrix(residual.size(), basis.cols() + 1), differences};
+  all.columns.leftCols(basis.cols()) = basis;
+  all.columns.rightCols(1) = residual;
+  constexpr int kMostSteps = 30;
+  const auto value = [&](const Logs& there) { return LogPosterior(all, prior, there); };
+  const Logs top = NewtonAscent(value, FindStart(all, prior), kMostSteps);
+  FoundErrors found;
+  found.sizes = SizesAt(LongestAllowed(value, top, std::log(prior.center.length)));
+  found.uncertainty = InverseOf(-CurvatureAt(value, top));
+  const double likely = LogLikelihood(shape, found.sizes, all.columns);
+  found.gain = 2 * (likely - WhiteLogLikelihood(all));
+  return found;
+}
+
+}  // namespace lyrefit

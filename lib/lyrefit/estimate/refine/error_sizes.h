@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/estimate/refine/error_model.h"
+#include "lyrefit/estimate/refine/error_terms.h"
+
+namespace lyrefit {
+
+// Factors of the sizes for every reading, in the unit of the residuals per unit of the size.
+struct ErrorShape {
+  std::vector<double> current;
+  std::vector<double> voltage;
+  std::vector<double> path;
+  std::vector<double> position;  // as in ErrorModel, but in Voc
+  std::vector<int> chain;
+  std::vector<double> averaged_away;  // part of path^2 per length of the path, if small
+  std::vector<double> stated;         // standard deviation of a stated current error, in the
+                                      // unit of the residuals; replaces `current`; empty: none
+};
+
+ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes);
+
+// Prior of the sizes: their logarithms are normal about those of `center` with the standard
+// deviations `width`.
+struct ErrorPrior {
+  ErrorSizes center;
+  ErrorSizes width;
+};
+
+// The prior of a curve of this Isc and Voc. Path: healthy modules depart from the model by 0.98 to
+// 1.33e-3 of Isc, one by 3.4e-3, clean cells by much less; hence 1.2e-3 and a factor of e either
+// way. Length: one Voc fits those modules best; filters of instruments and short disturbances
+// correlate only neighbours. Readings: a factor of 20 about those of tracers, a very weak prior.
+ErrorPrior UsualErrors(double isc_A, double voc_V);
+
+// Error sizes estimated from residuals.
+struct FoundErrors {
+  // Maximum of restricted likelihood times prior, or a longer path of nearly the same posterior.
+  ErrorSizes sizes;
+  // Covariance of the logarithms of current, voltage, path and length, from the curvature at the
+  // maximum; 0 if there is no maximum.
+  Eigen::Matrix4d uncertainty = Eigen::Matrix4d::Zero();
+  // Twice the gain in ln restricted likelihood over independent errors of the shape of `current`
+  // (or `stated`) and their best size.
+  double gain = 0;
+};
+
+// For rows that are means of groups of readings: the differences of neighbours within each group.
+// They are independent of each other, nearly independent of the means, and show the independent
+// errors of the readings.
+struct Differences {
+  // One for each group, typical of its differences. `position` is the distance of two neighbours;
+  // `chain` is unused.
+  ErrorShape shape;
+  std::vector<double> count;
+  std::vector<double> mean_square;
+};
+
+// `residual` and `jacobian` (its derivatives by the fitted parameters) as in
+// RestrictedLogLikelihood; more rows than columns. Linear in the rows.
+FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
+                           const Eigen::VectorXd& residual, const RowMatrix& jacobian,
+                           const Differences& differences = {});
+
+}  // namespace lyrefit

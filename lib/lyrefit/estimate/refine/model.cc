@@ -1,0 +1,46 @@
+#include "lyrefit/estimate/refine/model.h"
+
+#include <cmath>
+
+namespace lyrefit {
+
+int ModelShape::locals() const {
+  int count = 0;
+  for (const FitBlock& block : blocks) count += block.locals;
+  return count;
+}
+
+std::vector<FitParameter> MakeFitParameters(const std::vector<ParameterInfo>& infos,
+                                            const std::vector<double>& lower,
+                                            const std::vector<double>& upper) {
+  std::vector<FitParameter> parameters(lower.size());
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    FitParameter& parameter = parameters[i];
+    if (i < infos.size()) {
+      parameter.kind = infos[i].kind;
+      parameter.step = infos[i].step;
+      parameter.with = infos[i].with;
+    }
+    parameter.lower = lower[i];
+    parameter.upper = upper[i];
+    parameter.may_vanish = parameter.kind == ParameterKind::kSaturation && lower[i] <= 0;
+  }
+  return parameters;
+}
+
+double FitModel::MeanSquare(const FitPoint& point) const {
+  double sum = 0;
+  const double* local = point.local.data();
+  std::vector<double> residuals;
+  for (std::size_t b = 0; b < shape_.blocks.size(); ++b) {
+    residuals.assign(shape_.blocks[b].residuals, 0);
+    if (!Evaluate(static_cast<int>(b), point.p.data(), local, residuals.data(), nullptr, nullptr)) {
+      return HUGE_VAL;
+    }
+    for (const double r : residuals) sum += r * r;
+    local += shape_.blocks[b].locals;
+  }
+  return sum / shape_.points;
+}
+
+}  // namespace lyrefit

@@ -1,6 +1,0 @@
-#if defined(__x86_64__)
-#define LYREFIT_KERNEL avx2
-#define LYREFIT_KERNEL_NAME "avx2"
-#define LYREFIT_KERNEL_WIDTH 4
-#include "lyrefit/law/kernel_impl.h"
-#endif

@@ -1,0 +1,279 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/model/call_stage.h"
+#include "lyrefit/model/effect.h"
+#include "lyrefit/model/law.h"
+#include "lyrefit/model/reading.h"
+#include "lyrefit/model/term.h"
+
+// Terms of the terminal law of one cell, over any number type. string.h solves cells in series with
+// them, law.cc differentiates them.
+namespace lyrefit {
+
+// Conductance that every junction keeps, in current scales per volt. The first value applies when
+// all cells are alike and is negligible in any result. The second applies to cells of a string: it
+// lets a cell carry the string current in reverse, at a very large voltage.
+constexpr double kLeastConductance = 1e-13;
+constexpr double kLeastLeak = 1e-8;
+
+// A law, its readings and its parameters. `offsets`: position in `p` of the first parameter of each
+// effect.
+template <class S>
+struct EvaluationContext {
+  const Law& law;
+  const Readings& readings;
+  const S* p;
+  std::vector<int> offsets;
+};
+
+template <class S>
+EvaluationContext<S> MakeEvaluationContext(const Law& law, const Readings& readings, const S* p) {
+  EvaluationContext<S> context{law, readings, p, {}};
+  int offset = law.base_size();
+  for (const Effect* effect : law.effects) {
+    context.offsets.push_back(offset);
+    offset += effect->size();
+  }
+  return context;
+}
+
+// Temperature coefficient of the photocurrent, relative, in 1/K.
+template <class S>
+S TempcoOf(const EvaluationContext<S>& context) {
+  if (!context.law.free_tempco) return S(context.readings.isc_tempco_per_K);
+  const S& alpha = context.p[context.law.TempcoAt()];
+  return context.law.natural ? S(alpha / context.p[kIph]) : alpha;
+}
+
+template <class S>
+OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
+                                    const ReadingBlock& readings) {
+  const Law& law = context.law;
+  OperatingConditions<S> conditions{
+      S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
+      law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
+      TempcoOf(context)};
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    const auto stage = law.effects[e]->conditions.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], readings, &conditions);
+  }
+  return conditions;
+}
+
+// Adds the diodes of the base in pivot parameters (BaseParameter of law.h) at one temperature.
+// `warmer` is the factor of the first diode's saturation current between the reference and that
+// temperature. Saturation current of the second diode follows `saturation_2_unit` of the cell.
+template <class S>
+void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
+                 Cell<S>* cell) {
+  const double k_eV = ThermalVoltage(1.0);
+  const S inverse_n = 1.0 / context.p[kBaseIdeality];
+  const S exponent = inverse_n * (context.readings.pivot_voltage /
+                                  (k_eV * context.readings.reference_temperature_K));
+  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
+  const S saturation = exp(context.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
+  cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
+  if (context.law.model == Model::kSingleDiode) return;
+  cell->diode[cell->diodes++] = {context.p[kBaseSecond] * cell->saturation_2_unit,
+                                 0.5 * inverse_vt};
+}
+template <class S>
+void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
+                   const S& warmer_2, Cell<S>* cell) {
+  const double per_scale = 1 / context.readings.scale.current_A;
+  for (int d = 0; d < static_cast<int>(context.law.model); ++d) {
+    const S saturation = context.p[SaturationCurrentIndex(d)] * per_scale;
+    cell->diode[cell->diodes++] = {saturation * (d == 0 ? warmer : warmer_2),
+                                   inverse_vt / context.p[IdealityIndex(d)]};
+  }
+}
+
+// Sets all fields of a cell that depend on the temperature but not on the irradiance.
+template <class S>
+void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions,
+               Cell<S>* cell) {
+  const ReadingScale& scale = context.readings.scale;
+  const double k_eV = ThermalVoltage(1.0, context.law.constants);
+  const double reference_K = context.readings.reference_temperature_K;
+  const S ratio = conditions.temperature_K * (1 / reference_K);
+  const S inverse_vt = 1.0 / (conditions.temperature_K * k_eV);
+  const S barrier = DeSotoBarrier(conditions.bandgap_eV, S(context.law.bandgap_slope_per_K),
+                                  reference_K, conditions.temperature_K, k_eV);
+  const S warmer = exp(barrier) * (ratio * ratio * ratio);
+  const S warmer_2 = (ratio * ratio * sqrt(ratio)) * exp(0.5 * barrier);
+  cell->thermal_voltage = conditions.temperature_K * k_eV;
+  cell->saturation_2_unit = scale.saturation_2_unit * warmer_2;
+  cell->diodes = 0;
+  if (context.law.natural) {
+    NaturalDiodes(context, inverse_vt, warmer, warmer_2, cell);
+    cell->resistance = context.p[kRs] * (scale.current_A / scale.cells);
+  } else {
+    PivotDiodes(context, inverse_vt, warmer, cell);
+    cell->resistance = context.p[kBaseResistance];
+  }
+  cell->reach = scale.reach_V;
+  const DataTraits& traits = context.readings.traits;
+  cell->cells = traits.cells;
+  cell->substring_cells = cell->cells / SubstringsOf(traits);
+}
+
+// Sets the fields that depend on the irradiance: photocurrent and shunt conductance. CellUnder must
+// have run before.
+template <class S>
+void Light(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions,
+           Cell<S>* cell) {
+  const ReadingScale& scale = context.readings.scale;
+  const S* p = context.p;
+  cell->irradiance = conditions.irradiance;
+  const S warmer = conditions.temperature_K - context.readings.reference_temperature_K;
+  const bool natural = context.law.natural;
+  const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
+  cell->photocurrent =
+      conditions.irradiance * (photocurrent * (1.0 + conditions.isc_tempco_per_K * warmer) +
+                               context.readings.isc_tempco_scales_per_K * warmer);
+  const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
+  const bool inverse = context.law.shunt == ShuntLaw::kInverse;
+  cell->conductance = inverse ? conductance * conditions.irradiance : conductance;
+}
+
+// Sets cell groups, substrings, bypass diodes and reverse law from a layout.
+template <class S>
+void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
+  cell->groups = static_cast<int>(layout.groups.size());
+  cell->substrings = static_cast<int>(layout.substrings.size());
+  cell->strings = layout.strings;
+  for (int g = 0; g < cell->groups; ++g) {
+    const StringLayout::Cells& cells = layout.groups[g];
+    const double leak = cells.leak_S * layout.strings / current_scale_A;
+    cell->group[g] = {S(cells.share), S(cells.light), S(leak), cells.substring};
+  }
+  for (int p = 0; p < cell->substrings; ++p) cell->substring[p] = layout.substrings[p];
+  cell->bypass = S(layout.bypass_voltage_V);
+  cell->bypass_ideality = layout.bypass_ideality;
+  cell->reverse = layout.reverse;
+  cell->reverse_strength = S(layout.reverse_strength);
+  cell->reverse_voltage = S(layout.reverse_voltage_V);
+  cell->reverse_exponent = S(layout.reverse_exponent);
+}
+
+// Applies the layout and the cell stages of all effects to a cell at its operating conditions.
+template <class S>
+void ApplyCellStages(const EvaluationContext<S>& context, Cell<S>* cell) {
+  if (context.law.layout != nullptr) {
+    LayOut(*context.law.layout, context.readings.scale.current_A, cell);
+  }
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const auto stage = context.law.effects[e]->cell.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], cell);
+  }
+}
+
+template <class T>
+T Cut(const T& exponent) {
+  return Smaller(exponent, T(kLargestExponent));
+}
+
+// Current that a cell adds in reverse beside its shunt current, in current scales.
+template <class S>
+Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
+  using T = Tangent<S>;
+  constexpr double kLeast = 1e-9;  // of reverse_voltage; smaller depths count as this
+  if (!Any(voltage < 0.0)) return T(0.0);
+  const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
+  if (cell.reverse == ReverseLaw::kSoft) {
+    const T current = exp(log(depth) * cell.reverse_exponent) * cell.photocurrent;
+    return Choose(voltage < 0.0, current, T(0.0));
+  }
+  constexpr double kClosest = 0.02;  // above 1 - this depth a tangent replaces the pole
+  const T gap = Larger(1.0 - depth, kClosest);
+  const T edge = -(1.0 - gap) * cell.reverse_voltage;  // limited to the tangent's start
+  const T factor = exp(-log(gap) * cell.reverse_exponent);
+  const T slope = factor * (1.0 - edge * (cell.reverse_exponent / cell.reverse_voltage) / gap);
+  const T current =
+      -(edge * factor + (voltage - edge) * slope) * S(cell.conductance * cell.reverse_strength);
+  return Choose(voltage < 0.0, current, T(0.0));
+}
+
+// Whether the junction has terms beside photocurrent, diodes and shunt.
+template <class S>
+bool HasMore(const EvaluationContext<S>& context, const Cell<S>& cell) {
+  if (cell.reverse != ReverseLaw::kShunt) return true;
+  for (const Effect* effect : context.law.effects) {
+    if (effect->ChangesJunction()) return true;
+  }
+  return false;
+}
+template <class S>
+Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
+                       const S& photocurrent, const Tangent<S>& voltage) {
+  Tangent<S> current = 0.0;
+  if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const Effect& effect = *context.law.effects[e];
+    const S* const p = context.p + context.offsets[e];
+    const auto stage = effect.junction.template For<S>();
+    if (stage != nullptr) current = current + stage(p, cell, photocurrent, voltage);
+    if (!effect.plain_junction) continue;
+    current =
+        current + CallStage(effect.plain_junction, effect.size(), p, cell, photocurrent, voltage);
+  }
+  return current;
+}
+
+// F(Vj): the current that one cell group delivers at its junction voltage, with its slope.
+inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                                     int group, const Dual<1, Pack>& voltage) {
+  const bool alike = cell.groups == 1;
+  const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.group[group].light;
+  const Pack leak = alike ? Pack(kLeastConductance) : cell.group[group].leak + kLeastLeak;
+  Dual<1, Pack> current = light - voltage * (cell.conductance + leak);
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Diode<Pack>& diode = cell.diode[d];
+    current = current + DiodeCurrent(diode.saturation, diode.inverse_n_vt, voltage);
+  }
+  return HasMore(context, cell) ? current + MoreCurrent(context, cell, light, voltage) : current;
+}
+
+// Whether the series drop D(I) has terms beside I Rs.
+template <class S>
+bool HasMoreDrop(const EvaluationContext<S>& context) {
+  for (const Effect* effect : context.law.effects) {
+    if (effect->ChangesSeries()) return true;
+  }
+  return false;
+}
+template <class S>
+Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell,
+                    const Tangent<S>& current) {
+  Tangent<S> drop = 0.0;
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const Effect& effect = *context.law.effects[e];
+    const S* const p = context.p + context.offsets[e];
+    const auto stage = effect.series.template For<S>();
+    if (stage != nullptr) drop = drop + stage(p, cell, current);
+    if (!effect.plain_series) continue;
+    drop =
+        drop + CallStage(effect.plain_series, effect.size(), p, cell, cell.photocurrent, current);
+  }
+  return drop;
+}
+inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+                                const Dual<1, Pack>& current) {
+  const Dual<1, Pack> drop = current * cell.resistance;
+  return HasMoreDrop(context) ? drop + MoreDrop(context, cell, current) : drop;
+}
+
+// Current through the bypass diode beside a substring of `cells` cells, in current scales.
+// `reverse`: reverse voltage per cell, in V.
+template <class S>
+Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
+  const S inverse = (1 / cell.bypass_ideality) / cell.thermal_voltage;
+  const S start = exp(-(cell.bypass * inverse));
+  return exp(Cut(Tangent<S>((reverse * cells - cell.bypass) * inverse))) - start;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "lyrefit/base/public.h"
+#include "lyrefit/model/reading.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// A lit curve between short and open circuit, current over voltage, without a model. Up and down
+// sweeps are merged.
+struct CurveShape {
+  double open_circuit = 0;      // per cell, V
+  std::vector<double> current;  // in current scales, at equal voltage steps from 0 to Voc
+
+  // Current at `part` (0 to 1) of the open-circuit voltage, in current scales.
+  double At(double part) const;
+};
+
+// Curve of all lit readings, smoothed by a running median of five, which keeps steps sharp. Empty
+// for fewer than two lit readings.
+CurveShape ShapeOf(const Readings& readings);
+
+}  // namespace lyrefit

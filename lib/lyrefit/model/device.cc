@@ -1,0 +1,59 @@
+#include "lyrefit/model/device.h"
+
+#include <utility>
+
+namespace lyrefit {
+namespace {
+
+ParameterInfo SaturationInfo(std::string symbol, std::string name, std::string doc, int diode) {
+  ParameterInfo info{std::move(symbol), std::move(name), "A", std::move(doc),
+                     ParameterKind::kSaturation};
+  info.with[0] = IdealityIndex(diode);
+  return info;
+}
+
+}  // namespace
+
+std::optional<int> Device::Find(const std::string& symbol_or_name) const {
+  return FindParameter(parameters, symbol_or_name);
+}
+
+Device MakeDevice(Model model, const Conditions& conditions, ConstantSet constants) {
+  Device device;
+  device.module_thermal_voltage_V = conditions.ModuleThermalVoltage(constants);
+  device.resistance_series = kRs;
+  device.parameters = {
+      {"Iph", "photocurrent", "A", "current the light generates", ParameterKind::kPhotocurrent},
+      SaturationInfo("Is1", "saturation_current", "saturation current of the diode", 0),
+      {"n1", "n", "", "ideality of the diode, per cell", ParameterKind::kIdeality},
+      {"Rs", "resistance_series", "ohm", "series resistance of the whole device",
+       ParameterKind::kSeries},
+      {"Rsh", "resistance_shunt", "ohm", "shunt resistance of the whole device",
+       ParameterKind::kShunt},
+  };
+  device.terms = {{TermKind::kPhotocurrent, {kIph, -1, -1}},
+                  {TermKind::kShunt, {kRsh, -1, -1}},
+                  {TermKind::kDiode, {SaturationCurrentIndex(0), IdealityIndex(0), -1}}};
+  for (int diode = 1; diode < static_cast<int>(model); ++diode) {
+    const std::string number = std::to_string(diode + 1);
+    device.parameters.push_back(SaturationInfo("Is" + number, "saturation_current_" + number,
+                                               "saturation current of diode " + number, diode));
+    device.parameters.push_back({"n" + number, "n_" + number, "",
+                                 "ideality of diode " + number + ", per cell",
+                                 ParameterKind::kIdeality});
+    device.terms.push_back(
+        {TermKind::kDiode, {SaturationCurrentIndex(diode), IdealityIndex(diode), -1}});
+  }
+  return device;
+}
+
+void AddRecombination(Device* device) {
+  const int first = device->size();
+  device->parameters.push_back(
+      {"d2mutau", "d2mutau", "V", "i-layer thickness squared over mobility times lifetime"});
+  device->parameters.push_back({"NsVbi", "NsVbi", "V", "built-in voltage of all cells in series",
+                                ParameterKind::kPlain, 10});
+  device->terms.push_back({TermKind::kRecombination, {kIph, first, first + 1}});
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,45 @@
+#include "lyrefit/model/effects/catalogue_entries.h"
+#include "lyrefit/model/effects/needs.h"
+
+namespace lyrefit {
+
+Effect Capacitance() {
+  Effect e;
+  e.id = "capacitance";
+  e.title = "capacitive hysteresis";
+  e.where = Where::kInstrument;
+  e.equation = "I = ... - (C0 + tau gd(Vj)) dVj/dt";
+  e.reference = "Friesen and Ossenbrink 1997, Solar Energy Materials and Solar Cells 48, 77";
+  e.sentence =
+      "the sweep was too fast: charging the cells adds to the current upwards and takes from it "
+      "downwards";
+  e.needs = "a sweep up and a sweep down with times";
+  e.acts = "between the sweeps up and down, near open circuit if the diffusion part rules";
+  e.confused_with = {"timing_skew", "irr_step"};
+  e.separate_by =
+      "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
+  e.parameters = {
+      Parameter("C0", "capacitance", "of the whole device")
+          .Unit("F")
+          .Between(0, 0.3)
+          .CurrentPower(1)
+          .CellsPower(-1)
+          .RatePower(-1),
+      Parameter("tau", "lifetime", "diffusion capacitance over the conductance of the diode")
+          .Unit("s")
+          .Between(0, 0.3)
+          .RatePower(-1),
+  };
+  e.instrument = [](const auto* p, const auto& reading, auto* solved) {
+    const auto divider = 1.0 + solved->resistance * solved->conductance;
+    const auto charge = p[0] + p[1] * solved->diode_conductance;
+    solved->current = solved->current - charge * reading.rate / (divider * divider);
+  };
+  e.why_not = NeedsUpDown;
+  e.probes = [](const DataTraits&) {
+    return std::vector<Probe>{{0.002, 0}, {0, 0.002}, {0.001, 0.001}, {0.004, 0.001}};
+  };
+  return e;
+}
+
+}  // namespace lyrefit

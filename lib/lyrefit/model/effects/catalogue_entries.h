@@ -1,0 +1,51 @@
+#pragma once
+
+#include "lyrefit/model/effect.h"
+
+namespace lyrefit {
+
+// One line for each file of the catalogue, in the order of reports.
+#define LYREFIT_EFFECTS(ENTRY)     \
+  ENTRY(SecondDiode)               \
+  ENTRY(NonohmicShunt)             \
+  ENTRY(Breakdown)                 \
+  ENTRY(Collection)                \
+  ENTRY(Photoshunt)                \
+  ENTRY(BackContact)               \
+  ENTRY(RsCurrent)                 \
+  ENTRY(DistributedRs)             \
+  ENTRY(Shading)                   \
+  ENTRY(Mismatch)                  \
+  ENTRY(Substrings)                \
+  ENTRY(WeakCell)                  \
+  ENTRY(Scatter)                   \
+  ENTRY(LeakyCell)                 \
+  ENTRY(BypassOpen)                \
+  ENTRY(BypassShort)               \
+  ENTRY(Drift)                     \
+  ENTRY(IrradianceStep)            \
+  ENTRY(Transient)                 \
+  ENTRY(TemperatureDrift)          \
+  ENTRY(Capacitance)               \
+  ENTRY(TimingSkew)                \
+  ENTRY(Clip)                      \
+  ENTRY(RangeSwitch)               \
+  ENTRY(Outliers)                  \
+  ENTRY(Quantisation)              \
+  ENTRY(VoltageBins)               \
+  ENTRY(CurrentOffset)             \
+  ENTRY(VoltageOffset)             \
+  ENTRY(SensorOffset)              \
+  ENTRY(SensorNonlinearity)        \
+  ENTRY(TemperatureOffset)         \
+  ENTRY(TemperatureGradient)       \
+  ENTRY(Bandgap)                   \
+  ENTRY(IscTemperatureCoefficient) \
+  ENTRY(TemperatureOrCells)        \
+  ENTRY(UnknownStructure)
+
+#define LYREFIT_DECLARE_EFFECT(name) Effect name();
+LYREFIT_EFFECTS(LYREFIT_DECLARE_EFFECT)
+#undef LYREFIT_DECLARE_EFFECT
+
+}  // namespace lyrefit

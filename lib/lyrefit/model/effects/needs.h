@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/model/effect.h"
+
+namespace lyrefit {
+
+// Relative standard deviation of the light inferred from the level of a plateau, without the fit's
+// own error. It has two sources. Photocurrents of a module's cells differ by some parts in a
+// thousand: cells are sorted into classes of half a percent, and the weakest cell determines a
+// substring's plateau. The module also departs from its diode model. The five parameters absorb
+// most of that, down to 1 to 2 parts in a thousand, but not differences between plateaus, which are
+// several times larger.
+constexpr double kCellScatter = 0.007;
+constexpr double kSubstringScatter = 0.0063;
+
+// Reasons that several effects share; empty if the data can show the effect.
+using WhyNot = std::optional<std::string>;
+WhyNot NeedsLight(const DataTraits& traits);
+WhyNot NeedsOneLitCondition(const DataTraits& traits);  // effects of one sweep
+WhyNot NeedsModule(const DataTraits& traits);           // cells in series, one lit condition
+WhyNot NeedsBypassDiodes(const DataTraits& traits);
+WhyNot NeedsBypassedModule(const DataTraits& traits);  // cells in series, no deep reverse voltage
+WhyNot NeedsUpDown(const DataTraits& traits);
+WhyNot NeedsLightLevels(const DataTraits& traits);   // two irradiances; a dark curve counts
+WhyNot NeedsIrradiances(const DataTraits& traits);   // several irradiances
+WhyNot NeedsTemperatures(const DataTraits& traits);  // several temperatures
+
+// Probes of one parameter each.
+std::vector<Probe> Strengths(const std::vector<double>& values);
+
+}  // namespace lyrefit

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "lyrefit/model/effect.h"
+
+namespace lyrefit {
+
+constexpr EffectParameter kChains =
+    Parameter("chains", "chains_side_by_side", "that share a bypass diode: two in half-cut modules")
+        .Between(1, 2)
+        .From(1)
+        .FixedByDefault()
+        .AbsentAt(1)
+        .Only(Whole::kCount);
+
+// Sets `count` cells of one substring to a light and a leak of their own. Other substrings are
+// never in reverse. If all cells are one substring it has no bypass diode. `deficit`: fraction of
+// the substring's light that is missing because of these cells. `chains`: parallel chains of a
+// substring (1 or 2), of which one is affected. Its cells are dark if the deficit exceeds their
+// light.
+template <class S>
+void SetOddCells(const S& count, const S& deficit, const S& leak, const S& chains, Cell<S>* cell) {
+  const double mates = cell->substring_cells < cell->cells ? cell->substring_cells : cell->cells;
+  const S odd = count * (1 / cell->cells);
+  const double elsewhere = 1 - mates / cell->cells;
+  const bool bypassed = elsewhere > 1e-9;
+  cell->group[0] = {mates / cell->cells - odd, S(1.0), S(0.0), 0};
+  constexpr double kDark = 1e-3;
+  const S light = 1.0 - deficit * chains;
+  cell->group[1] = {odd, Choose(ValueOf(light) < kDark, S(kDark), light), leak * chains, 0};
+  cell->substring[0] = {bypassed, mates, 0};
+  cell->groups = 2;
+  cell->substrings = 1;
+  if (bypassed) {
+    cell->group[cell->groups++] = {S(elsewhere), S(1.0), S(0.0), 1};
+    cell->substring[cell->substrings++] = {false, mates, 0};
+  }
+  if (ValueOf(chains)[0] < 1.5) return;  // all lanes have the same parameters
+  cell->substring[0].parallel = true;
+  cell->group[cell->groups++] = {odd, S(1.0), S(0.0), 0, true};
+}
+
+}  // namespace lyrefit

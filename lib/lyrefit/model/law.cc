@@ -1,0 +1,362 @@
+#include "lyrefit/model/law.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/model/cell.h"
+#include "lyrefit/model/reading_blocks.h"
+#include "lyrefit/model/string.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kNear_V = 2;       // larger distance from the guess: no start
+constexpr double kBeside_V = 0.25;  // largest distance of consecutive readings
+
+bool IsSame(const Pack& a, const Pack& b) { return All((!(a < b)) & (!(b < a))); }
+template <int N>
+bool IsSame(const Dual<N, Pack>& a, const Dual<N, Pack>& b) {
+  if (!IsSame(a.a, b.a)) return false;
+  for (int k = 0; k < N; ++k) {
+    if (!IsSame(a.v[k], b.v[k])) return false;
+  }
+  return true;
+}
+
+// Reuses cells: readings at the same operating conditions share one cell. The temperature-dependent
+// fields are also reused at other irradiances.
+template <class S>
+class CellKeeper {
+ public:
+  CellKeeper(const CellKeeper&) = delete;  // `warm_` and its copies point into this object
+  explicit CellKeeper(const EvaluationContext<S>& context) : context_(context) {
+    warm_.group = groups_;
+    for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->conditions;
+  }
+
+  // Updates the cell for `block`; returns whether it changed.
+  bool Settle(const ReadingBlock& block) {
+    conditions_ = ConditionsAt(context_, block);
+    const bool same = known_ && block.same_conditions && last_.same_conditions &&
+                      IsSame(block.temperature_K, last_.temperature_K) &&
+                      IsSame(block.irradiance, last_.irradiance);
+    if (!varies_ && same) return false;
+    if (!known_ || !IsSame(conditions_.temperature_K, warm_conditions_.temperature_K) ||
+        !IsSame(conditions_.bandgap_eV, warm_conditions_.bandgap_eV)) {
+      CellUnder(context_, conditions_, &warm_);
+      warm_conditions_ = conditions_;
+    }
+    cell_ = warm_;
+    Light(context_, conditions_, &cell_);
+    ApplyCellStages(context_, &cell_);
+    last_ = block;
+    known_ = true;
+    return true;
+  }
+  const Cell<S>& cell() const { return cell_; }
+  const OperatingConditions<S>& conditions() const { return conditions_; }
+
+ private:
+  const EvaluationContext<S>& context_;
+  bool varies_ = false;
+  bool known_ = false;
+  ReadingBlock last_;
+  OperatingConditions<S> conditions_;
+  OperatingConditions<S> warm_conditions_;
+  Cell<S> warm_;  // fields for the temperature of warm_conditions_ only
+  Cell<S> cell_;
+  CellGroup<S> groups_[kMostGroups];
+};
+
+template <class S>
+S Recorded(const EvaluationContext<S>& context, const ReadingBlock& block, const Cell<S>& cell,
+           const S& current, const S& junction) {
+  Solved<S> solved;
+  solved.current = current;
+  solved.resistance = cell.resistance;
+  solved.diode_conductance = S(0.0);
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Diode<S>& diode = cell.diode[d];
+    const S through = DiodeCurrent(diode.saturation, diode.inverse_n_vt, junction);
+    solved.diode_conductance =
+        solved.diode_conductance + (diode.saturation - through) * diode.inverse_n_vt;
+  }
+  solved.conductance = solved.diode_conductance + cell.conductance;
+  for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
+    const auto stage = context.law.effects[e]->instrument.template For<S>();
+    if (stage != nullptr) stage(context.p + context.offsets[e], block, &solved);
+  }
+  return solved.current;
+}
+
+// Start from the solution of the last evaluation in lanes where it is near the guess, else from the
+// guess.
+void Start(const Cell<Pack>& cell, const StringLimits& limits, const ReadingBlock& block,
+           const Pack& voltage, bool fresh, StringState* state) {
+  StringState guess;
+  StartString(cell, limits, voltage, block.current, &guess);
+  if (fresh) {
+    *state = guess;
+    return;
+  }
+  const Mask near = abs(state->u[0] - guess.u[0]) < kNear_V;
+  if (All(near)) return;
+  for (int g = 0; g < cell.groups; ++g) {
+    state->u[g] = Choose(near, state->u[g], guess.u[g]);
+    state->far[g] = Choose(near, state->far[g], guess.far[g]);
+  }
+  for (int p = 0; p < cell.substrings; ++p) {
+    state->substring_voltage[p] =
+        Choose(near, state->substring_voltage[p], guess.substring_voltage[p]);
+  }
+  for (int s = 0; s < cell.strings; ++s) {
+    state->current[s] = Choose(near, state->current[s], guess.current[s]);
+  }
+}
+
+// Start from the solution of the last reading in the previous block. For unlike cells that is
+// better than any guess. Returns false if that reading is not a neighbour.
+bool StartBeside(const ReadingBlock& before, const StringState& there, const ReadingBlock& block,
+                 const Cell<Pack>& cell, StringState* state) {
+  constexpr int kLast = Block::kLanes - 1;
+  if (cell.groups == 1 || !there.Fits(cell) ||
+      std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
+      block.irradiance[0] != before.irradiance[kLast]) {
+    return false;
+  }
+  state->groups = there.groups;
+  state->substrings = there.substrings;
+  state->strings = there.strings;
+  for (int g = 0; g < cell.groups; ++g) {
+    state->u[g] = Pack(there.u[g][kLast]);
+    state->far[g] = Pack(there.far[g][kLast]);
+  }
+  for (int p = 0; p < cell.substrings; ++p)
+    state->substring_voltage[p] = Pack(there.substring_voltage[p][kLast]);
+  for (int s = 0; s < cell.strings; ++s) state->current[s] = Pack(there.current[s][kLast]);
+  return true;
+}
+
+bool HasInstrument(const Law& law) {
+  for (const Effect* effect : law.effects) {
+    if (effect->instrument) return true;
+  }
+  return false;
+}
+
+// Adds `factor` times the derivatives of x to `sum`.
+template <int N>
+void Add(const Pack& factor, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
+  for (int k = 0; k < N; ++k) sum->v[k] = sum->v[k] + factor * x.v[k];
+}
+
+// The cell and its context at a root, in duals and in plain numbers.
+template <class S>
+struct Place {
+  const EvaluationContext<S>& context;
+  const Cell<S>& cell;
+  const Cell<Pack>& plain;
+};
+
+// Adds `factor` times the derivatives of F of a cell group, at a fixed junction voltage.
+template <class S>
+void AddJunction(const Place<S>& at, int group, const Pack& voltage, const Pack& factor, S* sum) {
+  const Cell<S>& cell = at.cell;
+  const bool alike = at.plain.groups == 1;
+  S light = cell.photocurrent;
+  if (!alike) light = light * cell.group[group].light;
+  Add(factor, light, sum);
+  Add(-factor * voltage, cell.conductance, sum);
+  if (!alike) Add(-factor * voltage, cell.group[group].leak, sum);
+  for (int d = 0; d < cell.diodes; ++d) {
+    using OfTwo = Dual<2, Pack>;
+    const Diode<Pack>& diode = at.plain.diode[d];
+    const OfTwo current =
+        DiodeCurrent(OfTwo(diode.saturation, 0), OfTwo(diode.inverse_n_vt, 1), OfTwo(voltage));
+    Add(factor * current.v[0], cell.diode[d].saturation, sum);
+    Add(factor * current.v[1], cell.diode[d].inverse_n_vt, sum);
+  }
+  if (HasMore(at.context, cell)) Add(factor, MoreCurrent(at.context, cell, light, S(voltage)), sum);
+}
+
+// Adds `factor` times the derivatives of a cell group's current, of both halves where cells are
+// half-cut.
+template <class S>
+void AddGroup(const Place<S>& at, const StringState& state, const GroupPoint& point, int group,
+              const Pack& factor, S* sum) {
+  const Pack near = at.plain.parallel_halves ? 0.5 * factor : factor;
+  AddJunction(at, group, state.u[group], near, sum);
+  if (!at.plain.parallel_halves) return;
+  const Pack far = near * point.follows;
+  AddJunction(at, group, state.far[group], far, sum);
+  Add(0.5 * far * point.far.v[0] * point.far.a, at.cell.lateral, sum);
+}
+
+// The delivered current with its derivatives, from the slopes at the root.
+template <class S>
+S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& state,
+                       const StringRoot& root) {
+  const StringSlopes& slopes = root.slopes;
+  const Cell<Pack>& plain = at.plain;
+  S current = root.current;
+  for (int g = 0; g < plain.groups; ++g) {
+    AddGroup(at, state, root.group[g], g, slopes.by_current[g], &current);
+    if (plain.groups > 1) Add(slopes.by_share[g], at.cell.group[g].share, &current);
+    if (plain.groups == 1 || !plain.substring[plain.group[g].substring].parallel) continue;
+    const Pack& carried = root.group[g].current.a;
+    Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
+    if (HasMoreDrop(at.context)) {
+      Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(carried)), &current);
+    }
+  }
+  for (int s = 0; s < plain.strings; ++s) {
+    Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);
+    Add(slopes.by_terminal[s], voltage, &current);
+    if (!HasMoreDrop(at.context)) continue;
+    Add(slopes.by_drop[s], MoreDrop(at.context, at.cell, S(state.current[s])), &current);
+  }
+  for (int p = 0; p < plain.substrings; ++p) {
+    if (!plain.substring[p].bypassed) continue;
+    Add(slopes.by_bypass[p],
+        BypassCurrent(at.cell, plain.substring[p].cells, S(-state.substring_voltage[p])), &current);
+  }
+  return current;
+}
+
+// Junction voltage of the first cell group at cell current `current`, with derivatives.
+template <class S>
+S DifferentiateJunction(const Place<S>& at, const StringState& state, const StringRoot& root,
+                        const S& current) {
+  const GroupPoint& point = root.group[0];
+  const Pack slope = 1.0 / point.current.v[0];
+  S junction = state.u[0];
+  Add(slope, current, &junction);
+  AddGroup(at, state, point, 0, -slope, &junction);
+  return junction;
+}
+
+template <int N>
+bool AllFinite(const Dual<N, Pack>& a, int size) {
+  bool finite = AllFinite(a.a);
+  for (int k = 0; k < size; ++k) finite = finite && AllFinite(a.v[k]);
+  return finite;
+}
+
+void StoreRows(const Pack& values, const ReadingBlock& block, int stride, double* to) {
+  Block lanes;
+  every_processor::Store(values, &lanes);
+  for (int i = 0; i < block.count; ++i) to[(block.first + i) * stride] = lanes.lane[i];
+}
+
+}  // namespace
+
+struct LawWorkspace::State {
+  std::vector<ReadingBlock> own;
+  const std::vector<ReadingBlock>* blocks = nullptr;
+  std::vector<StringState> strings;  // per block, from the last evaluation; may be empty
+  bool fresh = true;
+  GiveUp give_up = GiveUp::kNever;
+};
+
+LawWorkspace::LawWorkspace(GiveUp give_up) : give_up_(give_up) {}
+LawWorkspace::LawWorkspace(const std::vector<ReadingBlock>& blocks)
+    : state_(std::make_unique<State>()) {
+  state_->blocks = &blocks;
+}
+LawWorkspace::~LawWorkspace() = default;
+LawWorkspace::State* LawWorkspace::Of(const Readings& readings) {
+  if (state_ == nullptr) {
+    state_ = std::make_unique<State>();
+    state_->own = BlocksOf(readings);
+    state_->blocks = &state_->own;
+    state_->strings.resize(state_->own.size());
+    state_->give_up = give_up_;
+  }
+  return state_.get();
+}
+
+namespace {
+
+template <class S>
+bool Evaluate(const Law& law, const Readings& readings, const double* values,
+              const std::vector<int>& free, LawWorkspace* workspace, double* current,
+              double* jacobian) {
+  constexpr bool kDerivatives = !std::is_same_v<S, Pack>;
+  const int size = law.size(), moved = static_cast<int>(free.size());
+  std::vector<Pack> plain_values(size);
+  for (int k = 0; k < size; ++k) plain_values[k] = Pack(values[k]);
+  const EvaluationContext<Pack> plain =
+      MakeEvaluationContext(law, readings, static_cast<const Pack*>(plain_values.data()));
+  std::vector<S> duals;
+  if constexpr (kDerivatives) {
+    for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
+    for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
+  }
+  const EvaluationContext<S> context =
+      MakeEvaluationContext(law, readings, static_cast<const S*>(duals.data()));
+  CellKeeper<Pack> plain_cells(plain);
+  CellKeeper<S> cells(context);
+  const bool instrument = HasInstrument(law);
+  LawWorkspace::State& state = *workspace->Of(readings);
+  StringLimits limits;
+  StringState unkept;
+  for (std::size_t b = 0; b < state.blocks->size(); ++b) {
+    const ReadingBlock& block = (*state.blocks)[b];
+    if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
+    const Cell<Pack>& cell = plain_cells.cell();
+    const Pack& temperature = plain_cells.conditions().temperature_K;
+    if (!All((100.0 < temperature) & (temperature < 700.0))) return false;
+    const bool kept = !state.strings.empty();
+    StringState& at = kept ? state.strings[b] : unkept;
+    const Pack& voltage = plain_cells.conditions().voltage;
+    // A state with other numbers of groups, substrings or strings cannot be reused.
+    const bool fresh = state.fresh || !at.Fits(cell);
+    const bool follows =
+        fresh && b > 0 &&
+        StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
+    if (!follows) Start(cell, limits, block, voltage, fresh, &at);
+    const StringRoot root = SolveString(plain, cell, limits, voltage, &at, state.give_up);
+    if constexpr (!kDerivatives) {
+      const Pack recorded =
+          instrument ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;
+      if (!AllFinite(recorded)) return false;
+      StoreRows(recorded, block, 1, current);
+    } else {
+      cells.Settle(block);
+      const Place<S> place{context, cells.cell(), cell};
+      S recorded = DifferentiateCurrent(place, cells.conditions().voltage, at, root);
+      if (instrument) {
+        const S junction = DifferentiateJunction(place, at, root, recorded);
+        recorded = Recorded(context, block, cells.cell(), recorded, junction);
+      }
+      if (!AllFinite(recorded, moved)) return false;
+      StoreRows(recorded.a, block, 1, current);
+      for (int i = 0; i < moved; ++i) StoreRows(recorded.v[i], block, size, jacobian + free[i]);
+    }
+  }
+  state.fresh = state.strings.empty();
+  return true;
+}
+
+}  // namespace
+
+bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
+                 double* current, double* jacobian, const std::vector<char>* fixed) {
+  CHECK_LE(law.size(), kMostParameters);
+  if (jacobian == nullptr) return Evaluate<Pack>(law, readings, p, {}, workspace, current, nullptr);
+  std::vector<int> free;
+  for (int k = 0; k < law.size(); ++k) {
+    if (fixed == nullptr || (*fixed)[k] == 0) free.push_back(k);
+  }
+  if (static_cast<int>(free.size()) < law.size()) {
+    std::fill(jacobian, jacobian + readings.points.size() * law.size(), 0.0);
+  }
+  const auto evaluate = free.size() <= 6    ? Evaluate<Narrow>
+                        : free.size() <= 10 ? Evaluate<Middle>
+                                            : Evaluate<Wide>;
+  return evaluate(law, readings, p, free, workspace, current, jacobian);
+}
+
+}  // namespace lyrefit

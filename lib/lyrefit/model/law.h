@@ -1,0 +1,114 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/base/public.h"
+#include "lyrefit/model/effect.h"
+#include "lyrefit/model/reading.h"
+#include "lyrefit/model/string_layout.h"
+#include "lyrefit/model/translation.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// A law: base model and effects with one parameter vector for a whole measurement. The parameters
+// of the base come first, then those of each effect in turn.
+//
+// The base has one diode, or a second one with n = 2. Its five parameters serve all readings and
+// are translated by De Soto, Klein and Beckman 2006 (model/translation.h,
+// doi:10.1016/j.solener.2005.06.010):
+//   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
+//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
+//   n and Rs constant, Gsh = 1 / Rsh constant or proportional to g
+// alpha and EgRef are parameters too if they are not stated. The recombination diode follows (T /
+// Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
+enum BaseParameter {
+  kBasePhotocurrent = 0,  // at g = 1 and Tref, in current scales
+  kBasePivot = 1,  // ln of the first diode's current at the pivot voltage, in current scales; in
+                   // contrast to ln Is, almost uncorrelated with n
+  kBaseIdeality = 2,
+  kBaseResistance = 3,
+  kBaseConductance = 4,
+  kBaseSecond = 5,  // dd: current of the second diode at the pivot voltage
+  // Free alpha (1/K, relative) and free EgRef (eV) follow: see Law.
+};
+
+// Maximum number of parameters of a law: the derivative types hold as many.
+constexpr int kMostParameters = 20;
+
+// The terminal law of a measurement.
+struct Law {
+  Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
+  // The base has the parameters of device.h, in their order and units, at the reference temperature
+  // and irradiance 1, instead of BaseParameter. All models are supported. A free alpha is in A/K.
+  bool natural = false;
+  ConstantSet constants = ConstantSet::kCodata;
+  std::vector<const Effect*> effects;          // in the order of their parameters
+  std::shared_ptr<const StringLayout> layout;  // groups of unlike cells; null: all cells alike
+  double bandgap_slope_per_K = 0;              // dEgdT
+  ShuntLaw shunt = ShuntLaw::kConstant;        // or kInverse
+  bool free_tempco = false;                    // alpha is a parameter
+  bool free_bandgap = false;                   // EgRef is a parameter
+  // Parameters of effects, by position, that are fitted although they are fixed by default.
+  std::vector<std::pair<const Effect*, int>> freed;
+
+  // Position of alpha among the parameters, if free.
+  int TempcoAt() const {
+    const int diodes = static_cast<int>(model);
+    return natural ? 3 + 2 * diodes : 4 + diodes;
+  }
+  int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // EgRef, if free
+  // Number of parameters of the base.
+  int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
+  // Number of all parameters.
+  int size() const;
+  int Offset(int effect) const;  // position of its first parameter
+  // Bounds of any parameter.
+  double Lower(int parameter) const;
+  double Upper(int parameter) const;
+  bool Searched(int parameter) const;  // not fitted by descent by default
+};
+
+// Whether an evaluation may stop without a current, instead of the bracketed search (some ten
+// thousand times as long).
+enum class GiveUp {
+  kNever,
+  kAbsurd,  // if cells drive over a million scales through their own bypass diode
+  kSlow,    // if Newton's steps do not converge
+};
+
+// Readings in blocks, and the solution of the last evaluation as the start of the next one. Serves
+// one law and one set of readings, which must not change in between.
+class LawWorkspace {
+ public:
+  // Empty: the first evaluation fills it.
+  explicit LawWorkspace(GiveUp give_up = GiveUp::kAbsurd);
+  // Uses existing blocks (reading_blocks.h) that must outlive this object. Every evaluation starts
+  // from a guess, and none stops early.
+  explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
+  ~LawWorkspace();
+
+  struct State;
+  // The state for these readings, created at the first call.
+  State* Of(const Readings& readings);
+
+ private:
+  std::unique_ptr<State> state_;
+  GiveUp give_up_ = GiveUp::kNever;
+};
+
+// Recorded current of every reading, in current scales. `jacobian`, if not null, receives the
+// derivatives by all parameters, row-major, readings x parameters. Columns of parameters with
+// `fixed` 1 are 0, which saves time. Returns false if there is no result (a step left the physical
+// range).
+bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
+                 double* current, double* jacobian, const std::vector<char>* fixed = nullptr);
+
+// Saturation current (current scales) of the first diode at the reference, base law.
+double SaturationCurrent(const Law& law, const Readings& readings, const double* p);
+
+// Saturation current exp(-pivot / 2 Vt) of a diode with n = 2 that carries 1 at the pivot voltage.
+double Saturation2Unit(const Readings& readings);
+
+}  // namespace lyrefit

@@ -1,0 +1,79 @@
+#include "lyrefit/estimate/fit/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include "estimate/fit/simulated.h"
+#include "lyrefit/curve/read_curve.h"
+#include "temp_folder.h"
+
+namespace lyrefit {
+namespace {
+
+TEST(MakeBounds, DerivesAPhysicalBoxThatHoldsTheTruth) {
+  const IvCurve curve = ModuleCurve(Model::kDoubleDiode, kDoubleTruth, 1e-3);
+  const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
+  const auto bounds = *MakeBounds({}, device, curve);
+  for (int i = 0; i < device.size(); ++i) {
+    EXPECT_LE(bounds[i].lower, bounds[i].search_lower);
+    EXPECT_LE(bounds[i].search_lower, kDoubleTruth[i]) << device.parameters[i].symbol;
+    EXPECT_GE(bounds[i].search_upper, kDoubleTruth[i]) << device.parameters[i].symbol;
+    EXPECT_LE(bounds[i].search_upper, bounds[i].upper);
+  }
+}
+
+TEST(MakeBounds, WidensNWhereTheNumberOfCellsCannotBeRight) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3);
+  curve.conditions.cells_in_series = 1;
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const auto bounds = *MakeBounds({}, device, curve);
+  EXPECT_LE(bounds[2].lower, 36 * 1.2);
+  EXPECT_GE(bounds[2].upper, 36 * 1.2);
+}
+
+TEST(MakeBounds, LetsATableSpeakForEveryDiodeOrForOne) {
+  const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3);
+  const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);
+  BoundsSpec spec;
+  spec.name = "table";
+  spec.table = {{"Iph", {0, 5}},  {"Is", {0, 1e-6}}, {"n", {1, 2}},
+                {"n2", {1.8, 2}}, {"Rs", {0, 1}},    {"Rsh", {0, 1000}}};
+  const auto bounds = *MakeBounds(spec, device, curve);
+  EXPECT_EQ(bounds[2].lower, 1);
+  EXPECT_EQ(bounds[6].lower, 1.8);
+  EXPECT_EQ(bounds[5].upper, 1e-6);
+  EXPECT_EQ(bounds[1].scale, SearchScale::kLinear);
+  spec.table.erase("Rs");
+  EXPECT_EQ(MakeBounds(spec, device, curve).error().message, "bounds 'table' leave out Rs");
+}
+
+TEST(ReadBoundsFile, ReadsThePublishedOnes) {
+  const auto spec = ReadBoundsFile(LYREFIT_DATA_DIR "/rtc_france/bounds-paper.json");
+  ASSERT_TRUE(spec.has_value()) << spec.error().ToString();
+  EXPECT_EQ(spec->table.at("Rsh"), (std::pair{0.0, 100.0}));
+}
+
+TEST(ReadBoundsFile, SaysWhereAndWhatIsWrong) {
+  const TempFolder folder;
+  const struct {
+    const char* text;
+    const char* expected;
+  } cases[] = {
+      {"{\"Iph\":[0,1],\n \"Rs\":[0]}", ":2:"},
+      {"{\"Iph\":[0,1],\n \"Rs\":[0,\"a\"]}", ":2:"},
+      {"[1,2]", "expected bounds as an object"},
+      {"{\"Foo\":[0,1]}", "no such parameter"},
+      {"{\"Rs\":[1,0]}", "reversed"},
+      {"{\"Rs\":[-1,0]}", "expected 0 or more"},
+      {"{\"Rs\":[0,1]", ":1:"},
+  };
+  for (const auto& c : cases) {
+    const auto spec = ReadBoundsFile(folder.Write("b.json", c.text));
+    ASSERT_FALSE(spec.has_value()) << c.text;
+    EXPECT_NE(spec.error().ToString().find(c.expected), std::string::npos)
+        << c.text << " gave " << spec.error().ToString();
+  }
+  EXPECT_FALSE(ReadBoundsFile(folder.Path("missing.json")).has_value());
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,75 @@
+#include "lyrefit/estimate/fit/refuted_bound.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "simulated.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+FitReport FitOf(const IvCurve& curve, const FitOptions& options = {}) {
+  auto report = Fit(curve, options);
+  EXPECT_TRUE(report) << report.error().ToString();
+  return report ? std::move(*report) : FitReport();
+}
+
+const std::vector<double> kSteepTruth = {3.8, 1e-3, 2.7, 0.05, 300};  // n is above its bound
+
+TEST(RefutedBound, LeavesNoIntervalThatHoldsUnderItAlone) {
+  for (const double noise_A : {0.0, 1e-3}) {
+    const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSteepTruth, noise_A);
+    const FitReport report = FitOf(curve);
+    EXPECT_EQ(report.estimates[2].at_bound, BoundSide::kUpper);
+    EXPECT_THAT(report.no_intervals_because, HasSubstr("n1 = 2, its upper bound"));
+    EXPECT_THAT(report.no_intervals_because, HasSubstr("--bound n1=1:8"));
+    EXPECT_THAT(report.warnings, Contains(HasSubstr("no intervals: the readings refute n1 = 2")));
+    EXPECT_TRUE(report.under_errors.empty());
+    for (const Estimate& e : report.estimates) {
+      EXPECT_TRUE(std::isnan(e.low_95) && std::isnan(e.standard_error)) << e.info.symbol;
+    }
+    FitOptions wider;
+    wider.bounds.overrides["n"] = {1, 8};
+    const FitReport wide = FitOf(curve, wider);
+    EXPECT_EQ(wide.no_intervals_because, "");
+    EXPECT_NEAR(wide.refined[2], 2.7, 0.1);
+  }
+}
+
+TEST(RefutedBound, ASecondDiodeAtTwoKeepsItsIntervals) {
+  const auto rtc = ReadCurve(std::string(LYREFIT_DATA_DIR) + "/rtc_france");
+  ASSERT_TRUE(rtc);
+  FitOptions options;
+  options.model = Model::kDoubleDiode;
+  const FitReport report = FitOf(*rtc, options);
+  EXPECT_EQ(report.no_intervals_because, "");
+  EXPECT_GT(report.estimates[kRs].high_95, report.estimates[kRs].low_95);
+}
+
+// If the true value is at the bound, one fit in twenty refutes it by chance.
+TEST(RefutedBound, TruthsAtTheBoundAreSeldomRefuted) {
+  constexpr int kCurves = 60;
+  std::vector<double> truth = kSingleTruth;
+  truth[1] = 3e-4;
+  truth[2] = 2;
+  int at_bound = 0, refuted = 0;
+  FitOptions options;
+  options.find_errors = options.random_baseline = false;
+  for (int seed = 1; seed <= kCurves; ++seed) {
+    const FitReport report = FitOf(ModuleCurve(Model::kSingleDiode, truth, 4e-3, seed), options);
+    at_bound += report.estimates[2].at_bound == BoundSide::kUpper ? 1 : 0;
+    refuted += report.no_intervals_because.empty() ? 0 : 1;
+  }
+  EXPECT_GT(at_bound, 15);
+  EXPECT_LE(refuted, 7);
+}
+
+}  // namespace
+}  // namespace lyrefit

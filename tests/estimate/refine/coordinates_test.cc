@@ -1,0 +1,126 @@
+#include "lyrefit/estimate/refine/coordinates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lyrefit {
+namespace {
+
+enum { kCurrent, kSaturation, kN, kResistance, kShunt, kDark, kExponent, kAny };
+
+// One parameter of every kind.
+ModelShape EveryKind() {
+  ModelShape shape;
+  shape.current_scale_A = 4;
+  shape.voltage_scale_V = 20;
+  shape.thermal_voltage_V = 0.9;
+  const auto add = [&](ParameterKind kind, double step, std::array<int, 2> with, double lower,
+                       double upper) {
+    shape.parameters.push_back({kind, step, with, lower, upper});
+  };
+  add(ParameterKind::kPhotocurrent, 1, {-1, -1}, 0, 8);
+  add(ParameterKind::kSaturation, 1, {kN, -1}, 1e-12, 1e-4);
+  add(ParameterKind::kIdeality, 1, {-1, -1}, 1, 2);
+  add(ParameterKind::kSeries, 1, {-1, -1}, 0, 3);
+  add(ParameterKind::kShunt, 1, {-1, -1}, 5, 1e9);
+  add(ParameterKind::kDarkShunt, 1, {kShunt, kExponent}, 0, HUGE_VAL);
+  add(ParameterKind::kPlain, 1, {-1, -1}, 1, 10);
+  add(ParameterKind::kPlain, 0.01, {-1, -1}, -1, 1);
+  return shape;
+}
+
+const std::vector<double> kAt = {3.8, 2e-8, 1.2, 0.25, 300, 1200, 5.5, -0.003};
+const std::vector<bool> kNone(8, false);
+
+TEST(Coordinates, GoThereAndBack) {
+  const ModelShape shape = EveryKind();
+  const Coordinates coordinates(shape, kAt, kNone);
+  std::vector<double> p(8);
+  coordinates.ToParameters(coordinates.Start().data(), p.data());
+  for (int i = 0; i < 8; ++i) EXPECT_NEAR(p[i] / kAt[i], 1, 1e-13) << i;
+}
+
+TEST(Coordinates, HaveTheSlopesOfCentralDifferences) {
+  const ModelShape shape = EveryKind();
+  std::vector<bool> without_dark = kNone, without_n = kNone;
+  without_dark[kDark] = without_n[kN] = true;
+  for (const std::vector<bool>& active : {kNone, without_dark, without_n}) {
+    const Coordinates coordinates(shape, kAt, active);
+    const std::vector<Coordinates::Slope> slopes = coordinates.Slopes(kAt.data());
+    for (int k = 0; k < coordinates.size(); ++k) {
+      std::vector<double> up = coordinates.Start(), down = up, high(8), low(8);
+      const double step = 1e-6 * (1 + std::fabs(up[k]));
+      up[k] += step;
+      down[k] -= step;
+      coordinates.ToParameters(up.data(), high.data());
+      coordinates.ToParameters(down.data(), low.data());
+      for (int i = 0; i < 8; ++i) {
+        double claimed = 0;
+        for (const Coordinates::Slope& slope : slopes) {
+          if (slope.parameter == i && slope.coordinate == k) claimed += slope.value;
+        }
+        const double slope = (high[i] - low[i]) / (2 * step);
+        EXPECT_NEAR(claimed, slope, 1e-6 * std::fabs(slope) + 1e-15) << i << " by " << k;
+      }
+    }
+  }
+}
+
+TEST(Coordinates, BoundASaturationCurrentOnlyWhereItsIdealityIsHeld) {
+  const ModelShape shape = EveryKind();
+  EXPECT_TRUE(std::isinf(Coordinates(shape, kAt, kNone).lower(kSaturation)));
+  std::vector<bool> active = kNone;
+  active[kN] = true;
+  const Coordinates coordinates(shape, kAt, active);
+  std::vector<double> theta = coordinates.Start(), p(8);
+  for (const bool lower : {true, false}) {
+    theta[kSaturation] = lower ? coordinates.lower(kSaturation) : coordinates.upper(kSaturation);
+    coordinates.ToParameters(theta.data(), p.data());
+    EXPECT_NEAR(p[kSaturation] / (lower ? 1e-12 : 1e-4), 1, 1e-12);
+  }
+}
+
+TEST(Coordinates, AreLinearInTheLogarithmOfASaturationCurrent) {
+  const ModelShape shape = EveryKind();
+  const Coordinates coordinates(shape, kAt, kNone);
+  std::vector<double> theta = coordinates.Start(), p(8);
+  theta[kSaturation] += 1.5;
+  theta[kN] *= 0.9;
+  coordinates.ToParameters(theta.data(), p.data());
+  EXPECT_NEAR(coordinates.Own(kSaturation, theta), std::log(p[kSaturation] / 4), 1e-12);
+  EXPECT_NEAR(coordinates.OwnUpper(kSaturation), std::log(1e-4 / 4), 1e-12);
+}
+
+TEST(Coordinates, KeepADarkShuntBetweenTheShuntAndWhatTheExponentAllows) {
+  const ModelShape shape = EveryKind();
+  const Coordinates coordinates(shape, kAt, kNone);
+  EXPECT_EQ(coordinates.upper(kDark), 1);
+  EXPECT_NEAR(coordinates.lower(kDark), std::exp(-5.5), 1e-15);
+  EXPECT_EQ(coordinates.AtBound(kDark, /*lower=*/false, kAt), 300);
+  // A fixed dark shunt keeps its ratio to the shunt.
+  std::vector<bool> active = kNone;
+  active[kDark] = true;
+  const Coordinates rest(shape, kAt, active);
+  std::vector<double> theta = rest.Start(), p(8);
+  theta[kShunt] *= 2;
+  rest.ToParameters(theta.data(), p.data());
+  EXPECT_NEAR(p[kShunt], 150, 1e-10);
+  EXPECT_NEAR(p[kDark], 600, 1e-10);
+}
+
+TEST(Coordinates, SayWhereABoundLiesExactly) {
+  const ModelShape shape = EveryKind();
+  const Coordinates coordinates(shape, kAt, kNone);
+  for (const int i : {kCurrent, kSaturation, kResistance, kExponent, kAny}) {
+    EXPECT_EQ(coordinates.AtBound(i, true, kAt), shape.parameters[i].lower) << i;
+    EXPECT_EQ(coordinates.AtBound(i, false, kAt), shape.parameters[i].upper) << i;
+  }
+  for (const int i : {kN, kShunt}) {  // coordinates that fall with the parameter
+    EXPECT_EQ(coordinates.AtBound(i, true, kAt), shape.parameters[i].upper) << i;
+    EXPECT_EQ(coordinates.AtBound(i, false, kAt), shape.parameters[i].lower) << i;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

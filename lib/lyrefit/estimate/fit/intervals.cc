@@ -189,7 +189,7 @@ CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimate
                              const ProgressReporter& progress) {
   IntervalProblem problem;
   problem.estimates = std::move(estimates);
-  // A setting may end at a bound without being held there.
+  // A setting may end at a bound without an active bound there.
   problem.active.reserve(problem.estimates.size());
   for (const Estimate& e : problem.estimates) {
     problem.active.push_back(fit.end.active[problem.active.size()] || e.refined <= e.bounds.lower ||

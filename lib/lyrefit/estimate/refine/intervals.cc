@@ -64,7 +64,7 @@ class Finder {
   const Estimate& At(int i) const { return found_.estimates[i]; }
   double Stretch(int i) const { return problem_.stretch.empty() ? 1 : problem_.stretch[i]; }
 
-  // The bound at which a parameter is held: the nearer one, on the parameter's scale.
+  // The active bound of a parameter: the nearer one, on the parameter's scale.
   BoundSide SideOf(int i) const {
     const Estimate& e = At(i);
     if (!e.free() || !problem_.active[i]) return BoundSide::kNone;

@@ -14,7 +14,7 @@ set(ALLOWED_search base)  # independent of photovoltaics
 set(ALLOWED_estimate/refine base curve model)
 set(ALLOWED_estimate/fit base curve model model/effects search estimate/refine)
 set(ALLOWED_estimate/family base curve model model/effects search estimate/refine estimate/fit)
-set(ALLOWED_certify base curve model estimate)
+set(ALLOWED_certify base curve model estimate/refine estimate/fit)
 set(ALLOWED_diagnose base curve model model/effects search estimate certify)
 set(ALLOWED_translate base curve model model/effects estimate/fit estimate/family diagnose)
 # Computes nothing.

@@ -48,7 +48,7 @@ class DescentsTest : public ::testing::Test {
   const LandscapeCase synthetic_ = MakeLandscape("strings_4", 1, 3).value().front();
   const FitOptions options_ = WithSubstrings();
   const PreparedFit fit_ = PrepareFit(synthetic_.curve, options_).value();
-  const ProgressReporter progress_;
+  const ProgressReporter progress_ = {};
 };
 
 TEST_F(DescentsTest, TheShapesPlacesLeadToTheOptimumOfTheTruth) {

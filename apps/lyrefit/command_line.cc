@@ -316,6 +316,7 @@ const VerbLine* CommandLine::Chosen() const {
 Expected<std::string> CommandLine::Parse(int argc, char** argv) {
   std::vector<std::string> words = CurrentWords(argc, argv);
   std::vector<char*> pointers;
+  pointers.reserve(words.size());
   for (std::string& word : words) pointers.push_back(word.data());
   try {
     impl_->app.parse(argc, pointers.data());

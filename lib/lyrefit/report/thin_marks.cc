@@ -23,8 +23,10 @@ std::vector<std::size_t> MarksToDraw(const std::vector<double>& x, const std::ve
   const auto [left, right] = std::minmax_element(places.begin(), places.end(), by_x);
   const double begin = x[*left];
   const double span = x[*right] - begin;
-  const auto last = static_cast<double>((most - 2) / 4);  // bin
+  const std::size_t last_bin = (most - 2) / 4;
+  const auto last = static_cast<double>(last_bin);
   std::vector<double> bins;
+  bins.reserve(places.size());
   for (const std::size_t i : places) {
     bins.push_back(span > 0 ? std::floor((x[i] - begin) / span * last) : 0);
   }

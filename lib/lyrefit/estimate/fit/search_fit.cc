@@ -52,6 +52,7 @@ std::vector<std::vector<double>> Suggestions(const SearchSpace& space, const Ref
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.rank < b.rank; });
   std::vector<std::vector<double>> suggested;
+  suggested.reserve(places.size());
   for (const Place& place : places) {
     suggested.push_back(space.FromParameters(place.start->p.data(), place.start->variant));
   }

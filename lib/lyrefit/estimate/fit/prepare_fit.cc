@@ -9,7 +9,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/distinct_readings.h"
-#include "lyrefit/estimate/fit/fixed_values.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/variant_problem.h"
 #include "lyrefit/estimate/refine/coarsen.h"
@@ -46,6 +45,32 @@ Expected<void> AddEffects(PreparedFit* fit) {
     fit->fixed.push_back(kUnknown);
   }
   return {};
+}
+
+// Value of each parameter that the user fixed, NaN for the others. Keys are symbols or names; "Is"
+// and "n" stand for every diode.
+Expected<std::vector<double>> FixedValues(const std::map<std::string, double>& fixed,
+                                          const Device& device) {
+  std::vector<double> values(device.size(), kUnknown);
+  for (const auto& [key, value] : fixed) {
+    bool known = false;
+    for (int i = 0; i < device.size(); ++i) {
+      const ParameterInfo& info = device.parameters[i];
+      const bool group = (key == "Is" && info.kind == ParameterKind::kSaturation) ||
+                         (key == "n" && info.kind == ParameterKind::kIdeality);
+      if (!group && info.symbol != key && info.name != key) continue;
+      const bool must_be_positive =
+          info.kind == ParameterKind::kIdeality || info.kind == ParameterKind::kShunt;
+      if (!std::isfinite(value) || value < 0 || (must_be_positive && value <= 0)) {
+        return Fail(fmt::format("{} cannot be fixed at {:g}, expected a finite number {}", key,
+                                value, must_be_positive ? "above 0" : "of 0 or more"));
+      }
+      values[i] = value;
+      known = true;
+    }
+    if (!known) return Fail(fmt::format("cannot fix '{}': this model has no such parameter", key));
+  }
+  return values;
 }
 
 // Error for options that do not support weighting by an error model.

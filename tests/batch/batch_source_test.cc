@@ -383,9 +383,8 @@ TEST(Pipes, AreBrokenRowsOfAFolder) {
   ASSERT_EQ(mkfifo(folder.Path("t/b.json").c_str(), 0600), 0);  // a sidecar
   const auto items = ReadBatch({folder.Path("t")});
   ASSERT_THAT(IdsOf(items), ElementsAre("a", "b"));
-  for (const ReadItem& one : items) {
+  for (const ReadItem& one : items)
     EXPECT_EQ(MessageOf(one.curve.curve), "expected a file, found a pipe, a socket or a device");
-  }
 }
 
 TEST(Inputs, WithoutAnyCurveAreRefused) {

@@ -27,8 +27,8 @@ Expected<CertifyOptions> CertifyWithin(const BoundsSpec& spec, const IvCurve& cu
 // The report of a fit with these options, with the floor if `options.floor` asks for it: the lowest
 // RMSE of the objective that any number of diodes within the bounds can reach. For the solved
 // current the gap is closed to 1e-6 only, with a limited number of convex problems. That takes some
-// seconds for 1000 readings. A report without a floor has a warning that says why: a fit that is not
-// usable, more than 2000 readings of the solved current, an error of Certify(). If the observer
+// seconds for 1000 readings. A report without a floor has a warning that says why: a fit that is
+// not usable, more than 2000 readings of the solved current, an error of Certify(). If the observer
 // stops the proof, the bound remains valid and the report is marked as interrupted.
 FitReport WithFloor(FitReport report, const FitOptions& options, const Observer& observer = {});
 

@@ -6,8 +6,8 @@
 
 namespace lyrefit {
 
-// The law of model/translation.h that is fitted before any cause: De Soto's, as in `fit --family`. If
-// the temperatures differ, alpha and EgRef are free parameters unless stated. A stated band gap
+// The law of model/translation.h that is fitted before any cause: De Soto's, as in `fit --family`.
+// If the temperatures differ, alpha and EgRef are free parameters unless stated. A stated band gap
 // slope is used unchanged: without it, errors of temperature and voltage would be harder to detect.
 Law StartingLaw(const Readings& readings, Model model);
 

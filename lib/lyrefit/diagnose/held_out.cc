@@ -93,8 +93,8 @@ SelectOptions Repeated(const SelectOptions& options, const Selection& selection)
   return inner;
 }
 
-// Squares at the `held_out` readings of a fold. The base model, each trial and the whole selection are
-// fitted without these readings. Empty if a fit fails.
+// Squares at the `held_out` readings of a fold. The base model, each trial and the whole selection
+// are fitted without these readings. Empty if a fit fails.
 Fold MissOf(const std::vector<int>& held_out, const std::vector<char>& used,
             const Measurement& measurement, const SelectOptions& options,
             const Selection& selection) {

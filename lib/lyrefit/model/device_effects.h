@@ -49,8 +49,8 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
                         const IvCurve& curve, const std::vector<EffectUse>& uses, bool force,
                         std::shared_ptr<const StringLayout> layout = nullptr);
 
-// Adds effects to `base` in a measurement whose law and readings are set in `device_effects`. Errors:
-// those of Extend.
+// Adds effects to `base` in a measurement whose law and readings are set in `device_effects`.
+// Errors: those of Extend.
 Expected<Device> AddEffects(const Device& base, DeviceEffects device_effects,
                             const std::vector<EffectUse>& uses, bool force);
 

@@ -41,8 +41,8 @@ using PlainStage = std::function<void(const StageInput& input, const StageOutput
 // A stage from values alone, differentiated by five-point differences. The steps are 1e-4 of a volt
 // or a current scale, or of a parameter's value (at least of a thousandth of its range). The error
 // is some 1e-12 of the value if the function is smooth over ten steps. Steps stay inside `ranges`,
-// [low, high] of each parameter. `under_conditions`: the stage depends on photocurrent or thermal voltage.
-// If false, the derivatives by them are 0 and not evaluated.
+// [low, high] of each parameter. `under_conditions`: the stage depends on photocurrent or thermal
+// voltage. If false, the derivatives by them are 0 and not evaluated.
 using PlainValue = std::function<void(const StageInput& input, double* value)>;
 PlainStage WithDifferences(PlainValue stage, std::vector<std::pair<double, double>> ranges,
                            bool under_conditions);

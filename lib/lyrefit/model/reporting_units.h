@@ -28,8 +28,8 @@ std::vector<ParameterRange> ReportedRanges(const Effect& effect, const ReadingSc
 Eigen::MatrixXd InternalByReported(const Effect& effect, const ReadingScale& scale,
                                    const double* p);
 
-// The effects of a model and the position of their first parameter; the parameters of all effects are
-// contiguous. Null: no effects, so that both units are equal.
+// The effects of a model and the position of their first parameter; the parameters of all effects
+// are contiguous. Null: no effects, so that both units are equal.
 struct EffectSpan {
   const DeviceEffects* effects = nullptr;
   int first = 0;

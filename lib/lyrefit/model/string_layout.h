@@ -43,8 +43,8 @@ struct StringLayout {
 // Strings are in parallel, the parts (substrings) of each in series. `times` (1) repeats a part,
 // `bypass` (false) gives each of them a bypass diode. reverse: {"law": "shunt"} (default), "bishop"
 // (a, Vbr_V, m; doi:10.1016/0379-6787(88)90059-2) or "soft" (A_V, m). Equal parts of a string are
-// merged. Errors: unknown keys, strings of unequal numbers of cells, more than kMostGroups different
-// cell groups, numbers outside their ranges.
+// merged. Errors: unknown keys, strings of unequal numbers of cells, more than kMostGroups
+// different cell groups, numbers outside their ranges.
 Expected<StringLayout> ReadStringLayout(const std::string& path);
 
 }  // namespace lyrefit

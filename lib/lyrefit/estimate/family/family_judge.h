@@ -41,8 +41,8 @@ struct JudgedEnd : JudgedFamily {
 JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
                       const std::vector<double>& searched, const ProgressReporter& progress);
 
-// The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends are
-// NaN without a finite standard error.
+// The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends
+// are NaN without a finite standard error.
 Interval SymmetricInterval(double value, double standard_error, double t,
                            ParameterKind kind = ParameterKind::kPlain,
                            const ParameterBounds& bounds = {-kInfinity, kInfinity});

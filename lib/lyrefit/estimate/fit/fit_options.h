@@ -65,8 +65,8 @@ struct FitOptions {
   BoundsSpec bounds;                    // default: physical bounds derived from the curve
   std::map<std::string, double> fixed;  // symbol or name -> value: "n2" -> 2
   // Effects in addition to the diodes (FindEffect, or effects of your own). They are searched,
-  // polished and reported like the diode parameters; see model/device_effects.h. The objective must then
-  // be the solved current.
+  // polished and reported like the diode parameters; see model/device_effects.h. The objective must
+  // then be the solved current.
   std::vector<EffectUse> with;
   bool force_effects = false;  // also effects that the data cannot show
   SearchOptions search;

@@ -127,7 +127,8 @@ class CurveProfiles {
   }
 
   // The lowest of these ends of refits and the local optima, if it is below the end of the fit;
-  // empty: none is. An end that is lower on coarsened data counts only if it is lower on all points.
+  // empty: none is. An end that is lower on coarsened data counts only if it is lower on all
+  // points.
   std::vector<double> FindLower(const std::vector<std::vector<double>>& refits) const {
     constexpr double kLower = 1e-7;  // relative
     std::vector<double> lower;

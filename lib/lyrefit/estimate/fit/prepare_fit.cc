@@ -86,7 +86,8 @@ Expected<void> CheckErrorSpec(const FitOptions& options) {
   return {};
 }
 
-// Smallest n at which no exponent is cut off (model/term.h), at any reading and any Rs in its range.
+// Smallest n at which no exponent is cut off (model/term.h), at any reading and any Rs in its
+// range.
 double SteepestIdeality(const IvCurve& curve, const Device& device, const ParameterBounds& rs) {
   double voltage = 0, current = 0;
   for (std::size_t k = 0; k < curve.size(); ++k) {

@@ -15,8 +15,8 @@
 namespace lyrefit {
 namespace {
 
-// RMSE of the points of the search space on the points of a problem, in the objective of the fit, in
-// ampere. Space and problem must outlive the function.
+// RMSE of the points of the search space on the points of a problem, in the objective of the fit,
+// in ampere. Space and problem must outlive the function.
 ObjectiveFunction RmseIn(const SearchSpace& space, const RefineProblem& problem) {
   std::vector<double> p(problem.device.size());
   return [&space, &problem, p](const double* x) mutable {

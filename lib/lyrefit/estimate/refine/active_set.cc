@@ -19,8 +19,7 @@ constexpr double kFlat = 1e-8;
 // Limits of released bounds and of added diodes, as multiples of the number of parameters.
 constexpr int kMostReleased = 2;
 constexpr int kMostLetIn = 1;
-// Length of a column, in residuals, below which its coordinate has no influence.
-constexpr double kNoInfluence = 1e-12;
+constexpr double kNoInfluence = 1e-12;  // length of a column, in residuals, without influence
 // Relative rise of the mean square, from the lowest point to the end, beyond rounding.
 constexpr double kWorse = 1e-9;
 constexpr double kNoLoss = 1e-12;  // the same limit when a diode is dropped
@@ -381,9 +380,8 @@ RefineEnd Nowhere(const FitModel& model, FitPoint start) {
   RefineEnd end;
   static_cast<FitPoint&>(end) = std::move(start);
   end.mean_square = HUGE_VAL;
-  for (const FitParameter& parameter : model.shape().parameters) {
+  for (const FitParameter& parameter : model.shape().parameters)
     end.active.push_back(parameter.fixed());
-  }
   return end;
 }
 

@@ -100,8 +100,8 @@ bool StepTowards(const Vector& target, const Vector& lower, const Vector& upper,
   return false;
 }
 
-// The active unknown along whose column the objective falls most steeply when it leaves its bound; -1
-// if none exceeds rounding.
+// The active unknown along whose column the objective falls most steeply when it leaves its bound;
+// -1 if none exceeds rounding.
 template <class Problem, class Vector>
 int MostWanted(const Problem& problem, const Vector& lower, const Vector& upper, const Vector& x,
                const Flags<Vector>& free) {

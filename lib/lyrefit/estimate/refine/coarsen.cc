@@ -47,8 +47,8 @@ Moments FindMoments(const RefineProblem& problem, const std::vector<int>& order,
   return m;
 }
 
-// Groups of the points in `order`. Noise would lengthen a path from point to point, so the length is
-// that of the path through the means of the bins.
+// Groups of the points in `order`. Noise would lengthen a path from point to point, so the length
+// is that of the path through the means of the bins.
 Grouping CutIntoGroups(const RefineProblem& problem, const std::vector<int>& order, int groups) {
   const Grouping bins = EqualGroups(static_cast<int>(order.size()), kBins);
   std::vector<double> length(kBins, 0);

@@ -12,9 +12,9 @@ constexpr int kFewPoints = 512;
 // four points with its weight, its mean and its covariance of voltage and current. Solved current:
 // each group becomes the nodes of its Gauss quadrature, which keep a cubic within the group. Sums
 // of squares of residuals that are straight within each group are kept for all parameters. The rise
-// of the sum of squares around the optimum is therefore kept far better than the 0.3 % to which
-// a profile finds its root. Bounds, scales and kernel stay. Returns the problem unchanged for at most kFewPoints, a
-// device with effects, or correlated errors.
+// of the sum of squares around the optimum is therefore kept far better than the 0.3 % to which a
+// profile finds its root. Bounds, scales and kernel stay. Returns the problem unchanged for at most
+// kFewPoints, a device with effects, or correlated errors.
 RefineProblem Coarsen(const RefineProblem& problem);
 
 // The problem with other points and independent errors. Bounds, scales and kernel stay.

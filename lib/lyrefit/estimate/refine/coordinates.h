@@ -11,7 +11,7 @@ namespace lyrefit {
 //   photocurrents, series, plain   linear, in units of I0, of R0 = V0 / I0, of the step
 //   ideality                       1 / n
 //   shunt                          R0 / Rsh, so that a perfect shunt is 0
-//   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; at a bound, but not fixed, it
+//   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; at a bound it
 //                                  keeps that ratio
 //   saturation current             ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's
 //                                  current at V0

@@ -24,9 +24,10 @@ TERMS = {
     r"sketch(es)?": "sparkline",
     r"contenders?": "algorithm",
     r"comebacks?|impatient": "drop diode, evaluation limit",
+    r"pool(s|ed)?": "summary",
 }
 # Files where a word has another sense.
-USUAL = {"data/json.md": ".*", "lib/lyrefit/base/append_log.cc": "flock", "lib/lyrefit/base/former_names.h": "bird|basins|contenders"}
+USUAL = {"data/json.md": ".*", "lib/lyrefit/base/append_log.cc": "flock", "cmake/web/dependencies.cmake": "pool", "lib/lyrefit/base/former_names.h": "bird|basins|contenders"}
 SUFFIXES = {".cc", ".h", ".inc", ".py", ".js", ".mjs", ".cmake", ".sh", ".md", ".html", ".css"}
 FOLDERS = ("apps", "cmake", "data", "lib", "tests")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")

@@ -7,8 +7,8 @@
 
 #include "../repeats.h"
 #include "lyrefit/study/compare_run.h"
-#include "pooled_study.h"
 #include "studies/landscape.h"
+#include "summary_study.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/study/problem_summary.h"
 #include "lyrefit/study/report/compare_json.h"
-#include "pooled_study.h"
+#include "summary_study.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 Comparison Compared(const std::vector<CompareCurve>& subjects, const CompareOptions& options,
                     const Observer& observer = {}) {
-  const auto comparison = Compare(subjects, PooledAlgorithms(), options, observer);
+  const auto comparison = Compare(subjects, SummaryAlgorithms(), options, observer);
   EXPECT_TRUE(comparison) << comparison.error().ToString();
   return *comparison;
 }
@@ -39,9 +39,9 @@ std::vector<CompareCurve> StringsAndFamilies() {
   return subjects;
 }
 
-TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
+TEST(CompareSummaries, TakesDevicesWithEffectsAndFamilies) {
   SKIP_IF_SANITIZED();
-  const Comparison comparison = Compared(StringsAndFamilies(), PooledOptions());
+  const Comparison comparison = Compared(StringsAndFamilies(), SummaryStudyOptions());
   ASSERT_EQ(comparison.problems.size(), 3U);
   const auto summaries = SummariseProblems(comparison);
   ASSERT_EQ(summaries.size(), 2U);
@@ -70,10 +70,10 @@ TEST(ComparePooled, TakesDevicesWithEffectsAndFamilies) {
             "substrings.d1");
 }
 
-TEST(ComparePooled, RunsADefaultFitAsItIs) {
+TEST(CompareSummaries, RunsADefaultFitAsItIs) {
   SKIP_IF_SANITIZED();
   const CompareCurve subject = SyntheticSubjects("strings_2", 1)[0];
-  const Comparison comparison = Compared({subject}, PooledOptions());
+  const Comparison comparison = Compared({subject}, SummaryStudyOptions());
   FitOptions fit;
   fit.with = subject.with;
   fit.bounds = subject.bounds;
@@ -87,18 +87,18 @@ TEST(ComparePooled, RunsADefaultFitAsItIs) {
   EXPECT_EQ(run.evaluations, report->search.evaluations);
 }
 
-TEST(ComparePooled, GivesTheSameBitsOnAnyNumberOfThreads) {
+TEST(CompareSummaries, GivesTheSameBitsOnAnyNumberOfThreads) {
   SKIP_IF_SANITIZED();
-  CompareOptions options = PooledOptions();
+  CompareOptions options = SummaryStudyOptions();
   const nlohmann::json two = Figures(Compared(StringsAndFamilies(), options));
   options.threads = 1;
   EXPECT_EQ(Figures(Compared(StringsAndFamilies(), options)), two);
 }
 
-TEST(ComparePooled, IsTakenUpWithTheSameBits) {
+TEST(CompareSummaries, IsTakenUpWithTheSameBits) {
   SKIP_IF_SANITIZED();
   const TempFolder folder;
-  CompareOptions options = PooledOptions();
+  CompareOptions options = SummaryStudyOptions();
   const nlohmann::json whole = Figures(Compared(StringsAndFamilies(), options));
   options.journal = folder.Path("study.jsonl");
   const Comparison part = Compared(StringsAndFamilies(), options, [](const Progress& progress) {
@@ -111,9 +111,9 @@ TEST(ComparePooled, IsTakenUpWithTheSameBits) {
   EXPECT_EQ(Figures(again), whole);
 }
 
-TEST(ComparePooled, TakesUpWhatTheKneesCost) {
+TEST(CompareSummaries, TakesUpWhatTheKneesCost) {
   const TempFolder folder;
-  CompareOptions options = PooledOptions();
+  CompareOptions options = SummaryStudyOptions();
   options.journal = folder.Path("study.jsonl");
   for (int time = 0; time < 2; ++time) {
     const auto comparison = Compare(SyntheticSubjects("strings_2", 1),
@@ -124,13 +124,13 @@ TEST(ComparePooled, TakesUpWhatTheKneesCost) {
   }
 }
 
-TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
+TEST(CompareSummaries, IsNotTakenUpByAnotherStudy) {
   const TempFolder folder;
-  CompareOptions options = PooledOptions();
+  CompareOptions options = SummaryStudyOptions();
   options.journal = folder.Path("study.jsonl");
   Compared(SyntheticSubjects("strings_2", 1), options);
   const auto refusal = [&](const std::vector<CompareCurve>& subjects) {
-    const auto comparison = Compare(subjects, PooledAlgorithms(), options);
+    const auto comparison = Compare(subjects, SummaryAlgorithms(), options);
     return comparison ? "not refused" : comparison.error().ToString();
   };
   EXPECT_THAT(refusal(SyntheticSubjects("strings_2", 2)),
@@ -145,10 +145,10 @@ TEST(ComparePooled, IsNotTakenUpByAnotherStudy) {
   EXPECT_THAT(refusal(SyntheticSubjects("strings_2", 1)), HasSubstr("begun with multistart: 2"));
 }
 
-TEST(ComparePooled, NamesWhatCannotBeFitted) {
+TEST(CompareSummaries, NamesWhatCannotBeFitted) {
   std::vector<CompareCurve> subjects = SyntheticSubjects("family_offsets", 1);
   subjects[0].set->curves.resize(1);
-  const auto comparison = Compare(subjects, PooledAlgorithms(), PooledOptions());
+  const auto comparison = Compare(subjects, SummaryAlgorithms(), SummaryStudyOptions());
   ASSERT_FALSE(comparison);
   EXPECT_THAT(comparison.error().ToString(), HasSubstr("cannot be compared on family_offsets 0"));
 }

@@ -21,7 +21,7 @@ inline std::vector<CompareCurve> SyntheticSubjects(const std::string& problem, i
 }
 
 // Two searches with two budgets each, the starts from the curve's shape, and the default fit.
-inline std::vector<ComparedAlgorithm> PooledAlgorithms() {
+inline std::vector<ComparedAlgorithm> SummaryAlgorithms() {
   std::vector<ComparedAlgorithm> algorithms =
       BudgetAlgorithms({Algorithm::kMlo, Algorithm::kRandom}, {10, 40});
   algorithms.push_back(OwnAlgorithm(AlgorithmKind::kShape));
@@ -29,7 +29,7 @@ inline std::vector<ComparedAlgorithm> PooledAlgorithms() {
   return algorithms;
 }
 
-inline CompareOptions PooledOptions() {
+inline CompareOptions SummaryStudyOptions() {
   CompareOptions options;
   options.runs = 1;
   options.plain_polish = true;

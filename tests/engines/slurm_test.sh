@@ -46,13 +46,17 @@ if "${submit[@]}" --out "$out" --shards 4 > "$work/twice.log" 2>&1; then
   Fail "a second submission to one folder"
 fi
 
+# Each shard stands still from its first rows on, so that none is done before it is told to end.
 for k in 1 2 3 4; do
   WaitFor 600 HasRows "$(PartOf "$k")" || Fail "shard $k does not get on its way"
+  Run kill -STOP "$(ProcessOf "$k")"
 done
 Run scancel --batch --signal=USR1 "${job}_1"
+Run kill -CONT "$(ProcessOf 1)"
 Run kill -KILL "$(ProcessOf 2)"
 Run scontrol requeue "${job}_3"
 Run scancel "${job}_4"
+for k in 3 4; do kill -CONT "$(ProcessOf "$k")" 2> /dev/null || :; done
 Run squeue --array
 Run "$lyrefit_slurm" status "$out"
 WaitFor 600 NothingQueued || Fail "the queue does not empty"

@@ -97,13 +97,14 @@ bool IsLargest(const ProblemSummary& summary, const AlgorithmSummary& compared) 
 void AddFailures(const ProblemSummary& summary, Section* section) {
   block::Table table = {
       "llrrrrrrrr",
-      {{"compared", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
+      {{"algorithm", "level", "missed", "optima", "most", "% above", "median", "worst", "% wrong",
         "worst"}},
       {},
       "Cost of failure, largest budgets: runs that missed, the wrong local optima they ended in, "
-      "runs in "
-      "the commonest and how far its RMSE is above the best known one (%); median and worst of "
-      "that over all that missed; and median and worst of how far their most deviating parameter "
+      "runs in the commonest and how far its RMSE is above the best known one (%); median and "
+      "worst "
+      "of that over all that missed; and median and worst of how far their most deviating "
+      "parameter "
       "is from its value there (%)"};
   for (const AlgorithmSummary& compared : summary.algorithms) {
     if (!IsLargest(summary, compared)) continue;

@@ -20,7 +20,8 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
   const bool has_path = !errors.path.empty();
   const Eigen::Index columns = rows.cols();
   Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // prediction of the path
-  double variance = 1, logs = 0;                                 // of the state
+  PathFilter filter;
+  double logs = 0;
   int before = -1;
   for (int k = 0; k < errors.size(); ++k) {
     if (!used.empty() && used[k] == 0) {
@@ -33,21 +34,12 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
       rows.row(k) *= 1 / std::sqrt(own);
       continue;
     }
-    const double path = errors.path[k];
     const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
     const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
-    variance = kept * kept * variance + (1 - kept * kept);
-    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
-    const double learnt = path * variance / total;
-    logs += std::log(total);
+    const FilterStep step = filter.Next(own, errors.path[k], kept);
+    logs += std::log(step.total);
     double* const row = rows.data() + k * rows.outerStride();
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      const double foretold = kept * state[c];
-      const double news = row[c] - path * foretold;
-      state[c] = foretold + learnt * news;
-      row[c] = news * scale;
-    }
-    variance *= own / total;
+    step.Whiten(columns, row, state.data(), row);
     before = k;
   }
   return logs;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "lyrefit/base/dense.h"
@@ -24,6 +25,41 @@ struct ErrorModel {
   std::vector<double> averaged_away;
 
   int size() const { return static_cast<int>(white.size()); }
+};
+
+// One reading of the filter that whitens a chain: its prediction and its innovation.
+struct FilterStep {
+  double path = 0;    // of the reading
+  double kept = 0;    // correlation of its path with that of the reading before
+  double learnt = 0;  // change of the predicted path per innovation
+  double total = 1;   // variance of the innovation
+
+  // The innovations of the columns of one row over their standard deviation. `state`: prediction of
+  // the path in each column. `white` may be `row`.
+  void Whiten(Eigen::Index columns, const double* row, double* state, double* white) const {
+    const double scale = 1 / std::sqrt(total);
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const double foretold = kept * state[c];
+      const double news = row[c] - path * foretold;
+      state[c] = foretold + learnt * news;
+      white[c] = news * scale;
+    }
+  }
+};
+
+// Variance of the predicted path, in units of that of the path.
+class PathFilter {
+ public:
+  // The next reading, with the variance `own` of its independent error.
+  FilterStep Next(double own, double path, double kept) {
+    const double variance = kept * kept * variance_ + (1 - kept * kept);
+    const double total = path * path * variance + own;
+    variance_ = variance * (own / total);
+    return {path, kept, path * variance / total, total};
+  }
+
+ private:
+  double variance_ = 1;
 };
 
 // Whitens the rows in place to independent errors of unit variance. The path is a first-order

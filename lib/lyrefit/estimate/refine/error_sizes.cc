@@ -1,7 +1,6 @@
 #include "lyrefit/estimate/refine/error_sizes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -77,18 +76,15 @@ double RestrictedFromProducts(double* products, int columns, LogSum log_determin
 }
 
 // The restricted log-likelihood of MakeErrorModel(shape, sizes), in one pass over the readings: the
-// columns are whitened as by Whiten() and multiplied row by row. kColumns: their number, 0: any.
-template <int kColumns>
-double LikelihoodOf(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& rows) {
-  const int columns = kColumns > 0 ? kColumns : static_cast<int>(rows.cols());
-  constexpr int kBuffer = kColumns > 0 ? kColumns * (2 + kColumns) : 1;
-  std::array<double, kBuffer> few = {};
-  std::vector<double> many(kColumns > 0 ? 0 : columns * (2 + columns), 0.0);
-  double* const state = kColumns > 0 ? few.data() : many.data();  // prediction of the path
+// columns are whitened and multiplied row by row.
+double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& rows) {
+  const int columns = static_cast<int>(rows.cols());
+  std::vector<double> buffer(columns * (2 + columns), 0.0);
+  double* const state = buffer.data();  // prediction of the path
   double* const white = state + columns;
   double* const products = white + columns;
   const double per_length = 1 / sizes.length;
-  double variance = 1;  // of the state
+  PathFilter filter;
   LogSum logs;
   for (std::size_t k = 0; k < shape.current.size(); ++k) {
     const double current =
@@ -102,40 +98,14 @@ double LikelihoodOf(const ErrorShape& shape, const ErrorSizes& sizes, const RowM
     const bool follows = k > 0 && shape.chain[k - 1] == shape.chain[k];
     const double kept =
         follows ? std::exp((shape.position[k - 1] - shape.position[k]) * per_length) : 0.0;
-    variance = kept * kept * variance + (1 - kept * kept);
-    const double total = path * path * variance + own, scale = 1 / std::sqrt(total);
-    const double learnt = path * variance / total;
-    logs.Add(total);
-    const double* const row = rows.data() + k * columns;
-    for (int c = 0; c < columns; ++c) {
-      const double foretold = kept * state[c];
-      const double news = row[c] - path * foretold;
-      state[c] = foretold + learnt * news;
-      white[c] = news * scale;
-    }
+    const FilterStep step = filter.Next(own, path, kept);
+    logs.Add(step.total);
+    step.Whiten(columns, rows.data() + k * columns, state, white);
     for (int i = 0; i < columns; ++i) {
       for (int j = 0; j <= i; ++j) products[i * columns + j] += white[i] * white[j];
     }
-    variance *= own / total;
   }
   return RestrictedFromProducts(products, columns, logs);
-}
-
-double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& columns) {
-  switch (columns.cols()) {
-    case 4:
-      return LikelihoodOf<4>(shape, sizes, columns);
-    case 5:
-      return LikelihoodOf<5>(shape, sizes, columns);
-    case 6:
-      return LikelihoodOf<6>(shape, sizes, columns);
-    case 7:
-      return LikelihoodOf<7>(shape, sizes, columns);
-    case 8:
-      return LikelihoodOf<8>(shape, sizes, columns);
-    default:
-      return LikelihoodOf<0>(shape, sizes, columns);
-  }
 }
 
 double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {

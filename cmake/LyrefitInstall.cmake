@@ -9,9 +9,7 @@ set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 set(LYREFIT_PUBLIC_HEADERS
   # public headers
   lyrefit.h
-  certify/cause_floor.h
   certify/certify.h
-  certify/concave_floor.h
   diagnose/diagnose.h
   diagnose/reference.h
   model/effects/catalogue.h

@@ -26,9 +26,9 @@
 //
 // Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
 // estimate/family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
-// curve and proves the floor of its RMSE. certify/cause_floor.h and certify/concave_floor.h prove
-// lower bounds of the RMSE for given causes and for devices of passive parts. diagnose/reference.h compares a sweep with reference sweeps of its module.
-// study.h, of the separate library lyrefit::study, compares searches and checks publications.
+// curve and proves the floor of its RMSE. diagnose/reference.h compares a sweep with reference
+// sweeps of its module. study.h, of the separate library lyrefit::study, compares searches and
+// checks publications.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/read_curve.h"

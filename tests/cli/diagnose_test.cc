@@ -107,30 +107,6 @@ TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
   }
 }
 
-// The bypass diodes of this module conduct, so no cause without them explains the step.
-TEST(DiagnoseVerb, ProvesWhatCausesCanExplain) {
-  SKIP_IF_SANITIZED();
-  const std::string shaded =
-      "diagnose '" + DataFolder("diagnosis/shaded_module.csv") + "' --draws 200 --no-held-out ";
-  const AppResult result = RunApp(shaded + "--proofs");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("What a cause can explain at most\n"));
-  EXPECT_THAT(result.out, HasSubstr("shading (named)"));
-  const json report = json::parse(RunApp(shaded + "--proofs --json -").out);
-  const json plain = json::parse(RunApp(shaded + "--json -").out);
-  EXPECT_FALSE(plain.contains("proofs"));
-  EXPECT_EQ(plain.at("verdict"), report.at("verdict"));
-  double shading = 0, others = 1;
-  for (const json& proof : report.at("proofs").at("causes")) {
-    EXPECT_LE(proof.at("lower_bound_A").get<double>(), proof.at("upper_bound_A").get<double>());
-    const double most = proof.at("explains_at_most");
-    if (proof.at("effect") == "shading") shading = most;
-    if (proof.at("objective") == "measured-current") others = std::min(others, 1 - most);
-  }
-  EXPECT_GT(shading, 0.8);
-  EXPECT_GT(others, 0.9);
-}
-
 // With several files, each gets its line of results or its error.
 TEST(DiagnoseVerb, GoesOnBehindAFileThatCannotBeRead) {
   const std::string files = "diagnose no_such_file.csv '" + DataFolder("rtc_france") + "' ";

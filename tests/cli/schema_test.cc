@@ -78,7 +78,7 @@ std::vector<SchemaCase> SchemaCases() {
            "--draws 200 --quiet",
        "translation"},
       {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
-      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan --proofs" + kCauses, "diagnosis"},
+      {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},
       {"DiagnosisOfSeveral", "diagnose " + rtc + kData + "pwp201 --json FILE" + kCauses,
        "diagnosis"},
       {"ExtendedModel", "diagnose " + shaded + "--extend FILE" + kCauses, "fit"},

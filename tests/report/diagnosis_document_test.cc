@@ -71,22 +71,6 @@ TEST(DiagnosisText, TellsWhatToMeasureNextWhereThatWasAskedFor) {
   EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("between ")));
 }
 
-// Bounds are rounded outwards, so that they remain valid.
-TEST(DiagnosisText, SaysWhatCausesCanExplainAtMost) {
-  Diagnosis diagnosis = SampleDiagnosis();
-  EXPECT_THAT(DiagnosisText(diagnosis), Not(HasSubstr("What a cause can explain at most")));
-  diagnosis.proofs = SampleProofs();
-  const std::string text = DiagnosisText(diagnosis);
-  EXPECT_THAT(text, HasSubstr("What a cause can explain at most\n"));
-  EXPECT_THAT(text, HasSubstr("collection       measured-current   9.860e-04"));
-  EXPECT_THAT(text, HasSubstr("8.300e-04              33 %\n"));
-  EXPECT_THAT(text, HasSubstr("shading (named)  solved-current"));
-  EXPECT_THAT(text, HasSubstr(" 100 %\n"));
-  EXPECT_THAT(text, HasSubstr("- shading: two parts.\n"));
-  diagnosis.proofs = Proofs{{}, "nothing is proved of a dark curve"};
-  EXPECT_THAT(DiagnosisText(diagnosis), HasSubstr("nothing is proved of a dark curve.\n"));
-}
-
 TEST(DiagnosisText, ShowsTheGainAndWhatMoved) {
   const std::string text = DiagnosisText(SampleDiagnosis());
   EXPECT_THAT(text, HasSubstr("RMSE in A, solved-current"));

@@ -105,7 +105,6 @@ TEST(DrawHtml, IsWellFormedForEveryRecord) {
   fit.usable = false;
   Diagnosis diagnosis = SampleDiagnosis();
   diagnosis.plan = SamplePlan();
-  diagnosis.proofs = SampleProofs();
   const std::vector<Document> documents = {HostileDocument(),
                                            FitDocument(fit),
                                            FitsDocument({{"<a>", fit}, {"b", Fail("x < y")}}),

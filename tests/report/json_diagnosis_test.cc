@@ -36,20 +36,6 @@ TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
   EXPECT_TRUE(first.at("causes").at("drift").at("separation").is_null());
 }
 
-TEST(DiagnosisJson, HoldsTheProofsWhereTheyWereAskedFor) {
-  Diagnosis diagnosis = SampleDiagnosis();
-  EXPECT_FALSE(json::parse(DiagnosisJson(diagnosis)).contains("proofs"));
-  diagnosis.proofs = SampleProofs();
-  const json proofs = json::parse(DiagnosisJson(diagnosis)).at("proofs");
-  EXPECT_EQ(Keys(proofs), (Set{"causes", "sentence"}));
-  const json& first = proofs.at("causes").at(0);
-  EXPECT_EQ(Keys(first), (Set{"effect", "title", "named", "objective", "base_A", "lower_bound_A",
-                              "upper_bound_A", "explains_at_most", "holds_for"}));
-  EXPECT_EQ(first.at("objective"), "measured-current");
-  EXPECT_EQ(first.at("lower_bound_A"), 8.1e-4);
-  EXPECT_EQ(proofs.at("causes").at(1).at("named"), true);
-}
-
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
   EXPECT_EQ(

@@ -173,15 +173,6 @@ inline Plan SamplePlan() {
           "take the sweep backwards"};
 }
 
-inline Proofs SampleProofs() {
-  Proofs proofs;
-  proofs.causes = {{"collection", "voltage-dependent collection", false,
-                    Objective::kMeasuredCurrent, 9.86e-4, 8.1e-4, 8.3e-4, 0.3251, "one diode"},
-                   {"shading", "partial shading", true, Objective::kSolvedCurrent, 7.73e-4, 1e-5,
-                    kUnknown, 0.99983, "two parts"}};
-  return proofs;
-}
-
 inline Diagnosis SampleUpDown() {
   Diagnosis d = SampleDiagnosisHead();
   d.name = "up_down";

@@ -135,7 +135,7 @@ TEST(Engine, FormsAreTheOptionTables) {
     EXPECT_THAT(fit, Contains(name));
   }
   const std::set<std::string> diagnose = names(forms["diagnose"]);
-  for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan", "proofs"}) {
+  for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
   // Every choice that a form offers is accepted.

@@ -30,7 +30,6 @@ inline constexpr FormerName kFormerKeys[] = {
     {"best_bird_polished_A", "refined_best_candidate_A"},
     {"contenders", "algorithms"},
     {"departure", "lack_of_fit"},
-    {"attained_A", "upper_bound_A"},
     {"without_odd", "without_outliers"},
     {"odd", "outlier"},
     {"odd", "outliers"},

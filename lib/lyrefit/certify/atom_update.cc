@@ -153,7 +153,7 @@ bool MixtureSolver::UpdateAtomsOnce(double* damping) {
 double MixtureSolver::SlopeInRs(const MixtureState& state) const {
   Eigen::ArrayXd slope = Eigen::ArrayXd::Zero(points());
   for (Eigen::Index j = 0; j < terms_; ++j) {
-    slope += state.linear[j] / sizes_[j] * data_.terms[j].Slope(vd_).array();
+    slope += state.linear[j] / sizes_[j] * data_.terms[j].per_volt.array();
   }
   for (const Atom& atom : state.atoms) {
     const double scale = atom.current_A / -std::expm1(-atom.u * scale_);

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/certify/cause_shape.h"
 
 namespace lyrefit {
 
@@ -27,23 +25,16 @@ namespace lyrefit {
 
 // A linear unknown in [lower, upper] with the column constant + per_volt Vd. The column has one
 // sign at forward voltages: positive for light, which has no part per volt, and negative for a
-// leak. With a shape the column is -shape->value(Vd, theta), that of a cause (cause_shape.h). Terms
-// of one shape are adjacent, in order of rising theta, and cover all theta between.
+// leak.
 struct LinearTerm {
   Eigen::VectorXd constant;
   Eigen::VectorXd per_volt;
   double lower = 0;
   double upper = kInfinity;
-  std::shared_ptr<const CauseShape> shape = nullptr;
-  double theta = 0;
 
-  bool light() const { return shape == nullptr && per_volt.isZero(0); }
+  bool light() const { return per_volt.isZero(0); }
   Eigen::VectorXd Column(const Eigen::VectorXd& vd) const {
-    if (shape != nullptr) return -shape->Values(vd, theta);
     return constant + per_volt.cwiseProduct(vd);
-  }
-  Eigen::VectorXd Slope(const Eigen::VectorXd& vd) const {  // derivative of the column by Vd
-    return shape != nullptr ? Eigen::VectorXd(-shape->Slopes(vd, theta)) : per_volt;
   }
 };
 

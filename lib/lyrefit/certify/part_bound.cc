@@ -4,7 +4,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "lyrefit/certify/cause_dual_gain.h"
 #include "lyrefit/certify/correlation.h"
 #include "lyrefit/certify/real_data.h"
 
@@ -104,7 +103,6 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
   const ArrayOf<Real> per_ohm = WeightedArray<Real>(data, data.current_A);
   for (std::size_t j = 0; j < data.terms.size(); ++j) {
     const LinearTerm& term = data.terms[j];
-    if (term.shape != nullptr) continue;
     const auto index = static_cast<Eigen::Index>(j);
     const Real largest(LargestCoefficient<Real>(data, term, dual_gain, known));
     if (term.upper == kInfinity) {  // finite ranges are in the dual values already
@@ -119,15 +117,6 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
     const bool gains = Upper(highest + 0.125 * std::max(Upper(rise), 0.0)) > 0;
     bend += gains ? max(rise * largest, least) : least;
   }
-  if constexpr (!std::is_same_v<Real, double>) {  // causes are bounded in doubles
-    for (const LinearTerm& term : data.terms) {
-      if (term.shape != nullptr) return bound;  // nothing is proved
-    }
-  }
-  const CauseGain causes = CauseDualGains(data, a, b, dual_gain);
-  left -= Real(causes.at_a);
-  right -= Real(causes.at_b);
-  bend += Real(causes.bend);
   bound.lower = std::min(Lower(left), Lower(right));
   if (b.rs > a.rs) {
     bend += current * BoundBend<Real>(data, windows, a.rs, b.rs, a.y, b.y, dual_gain.voltage_V,

@@ -24,8 +24,7 @@ DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double
 // two solutions `a` and `b`, within the dual gain. `a` has the lower Rs, or both are the same
 // solution. The interpolated dual vectors prove the bound. They are feasible up to second order in
 // the distance, and the infeasibility is subtracted as a penalty. With `Real` Interval rounding
-// cannot raise the bound above the truth, if MakeSafe() was applied to both solutions and no term
-// is a cause.
+// cannot raise the bound above the truth, if MakeSafe() was applied to both solutions.
 struct PartBound {
   double lower = 0;  // may be negative, or -infinity
   double ends = 0;   // lower of the dual values at both ends, no penalty subtracted

@@ -20,7 +20,6 @@
 #include "lyrefit/diagnose/held_out.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "lyrefit/diagnose/prove_causes.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/estimate/fit/statistics.h"
@@ -303,9 +302,6 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
   DescribeGain(found, outcome.at, measurement.has_path(), &diagnosis.gain);
   if (options.plan && !progress.Stopped()) {
     diagnosis.plan = MakePlan(found, options.seed, options.threads);
-  }
-  if (options.proofs && !progress.Stopped()) {
-    diagnosis.proofs = FindProofs(set, found, outcome.at, diagnosis, progress);
   }
   DescribePoints(set, measurement, outcome.at, &diagnosis);
   AddWarnings(found, measurement, &diagnosis);

@@ -38,7 +38,6 @@ struct DiagnoseOptions {
   bool held_out = true;    // measure the gain on readings that were not fitted
   int folds = 10;
   bool plan = false;    // simulate measurements that separate the first cause from its equivalents
-  bool proofs = false;  // prove how much of the misfit single causes can explain at most
   bool extend = false;  // search and polish the extended model as a FitReport
   int threads = 0;
 };
@@ -94,8 +93,6 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      &DiagnoseOptions::held_out},
     {"plan", "", "simulate which further measurement tells the first cause from what looks like it",
      &DiagnoseOptions::plan},
-    {"proofs", "", "prove how much of the misfit single causes can explain at most",
-     &DiagnoseOptions::proofs},
     {"extend", "", "search and polish the extended model", &DiagnoseOptions::extend,
      OptionTrait::kNoFlag | OptionTrait::kNoEcho},
     {"threads", "N", "0: all cores; never changes a result", &DiagnoseOptions::threads, 0,

@@ -15,8 +15,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// All results are for the solved-current objective, r = I_model(V) - I_measured, except proofs that
-// state another one.
+// All results are for the solved-current objective, r = I_model(V) - I_measured.
 
 // One reading: measured current, base model and extended model. The points are in the order of
 // measurement.
@@ -169,26 +168,6 @@ struct Gain {
   std::vector<ParameterShift> shifts;
 };
 
-// Proved upper limit of the misfit that a cause can explain. All numbers are for one objective and
-// for the readings that the diagnosis fitted, unweighted.
-struct CauseProof {
-  std::string effect;  // its id
-  std::string title;
-  bool named = false;  // it is a cause of the verdict
-  Objective objective = Objective::kMeasuredCurrent;
-  double base_A = kUnknown;            // RMSE of the base model
-  double lower_bound_A = kUnknown;     // proved: no parameters of the cause give a lower RMSE
-  double upper_bound_A = kUnknown;     // RMSE of a fit with the cause
-  double explains_at_most = kUnknown;  // fraction of the base model's sum of squares
-  std::string holds_for;               // models for which the bound is valid, as text
-};
-
-// Proofs for several causes, or the reason why there are none.
-struct Proofs {
-  std::vector<CauseProof> causes;  // by objective, then largest `explains_at_most` first
-  std::string sentence;
-};
-
 // Result of a diagnosis, with the evidence for it.
 struct Diagnosis {
   std::string version;        // of lyrefit
@@ -203,12 +182,11 @@ struct Diagnosis {
   int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;  // in the set's order
   std::vector<DiagnosedPoint> points;
-  Evidence evidence;             // before any cause is tried
-  std::vector<Trial> trials;     // in the order of the catalogue
-  Verdict verdict;               // conclusion
-  Gain gain;                     // improvement by the causes
-  std::optional<Plan> plan;      // if requested
-  std::optional<Proofs> proofs;  // if requested
+  Evidence evidence;          // before any cause is tried
+  std::vector<Trial> trials;  // in the order of the catalogue
+  Verdict verdict;            // conclusion
+  Gain gain;                  // improvement by the causes
+  std::optional<Plan> plan;   // if requested
   // The extended model (the base model if nothing was found) as a FitReport. With
   // DiagnoseOptions::extend it is searched and polished. Otherwise only `model`, `estimates`,
   // `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled, and `device` is empty:

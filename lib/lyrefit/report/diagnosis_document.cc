@@ -301,7 +301,7 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
   AddSections({{"Verdict", {block::Sentence{FullSentence(diagnosis.verdict.sentence)}}}},
               &document);
   AddSections(CauseSections(diagnosis), &document);
-  AddSections({PlanSection(diagnosis), ProofSection(diagnosis)}, &document);
+  AddSections({PlanSection(diagnosis)}, &document);
   AddSections(BelowSections(diagnosis), &document);
   AddSections({found ? GainSection(gain) : BaseGainSection(gain),
                found ? ShiftSection(gain.shifts) : BaseSection(gain.shifts)},

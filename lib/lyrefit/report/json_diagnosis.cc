@@ -121,9 +121,6 @@ void to_json(Json& j, const PlannedMeasurement& measurement) {
 }
 
 LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
-LYREFIT_JSON_FIELDS(CauseProof, effect, title, named, objective, base_A, lower_bound_A,
-                    upper_bound_A, explains_at_most, holds_for)
-LYREFIT_JSON_FIELDS(Proofs, causes, sentence)
 
 void to_json(Json& j, const DiagnosedCurve& curve) {
   j = {{"name", curve.name},
@@ -169,7 +166,6 @@ void to_json(Json& j, const Diagnosis& diagnosis) {
        {"verdict", diagnosis.verdict},
        {"gain", diagnosis.gain}};
   if (diagnosis.plan) j["plan"] = *diagnosis.plan;
-  if (diagnosis.proofs) j["proofs"] = *diagnosis.proofs;
   j["evidence"] = diagnosis.evidence;
   j["trials"] = diagnosis.trials;
   j["non_default_options"] = diagnosis.non_default_options;

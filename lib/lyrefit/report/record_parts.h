@@ -66,9 +66,6 @@ std::vector<Section> FamilyCurveSections(const FamilyReport& report);
 // diagnosis_document.cc: each cause with its size and its equivalents.
 std::vector<Section> CauseSections(const Diagnosis& diagnosis);
 
-// diagnosis_proof_document.cc: upper bounds of the misfit that causes explain, where requested.
-Section ProofSection(const Diagnosis& diagnosis);
-
 // diagnosis_plot.cc: adds the bands and titles of causes to a panel over voltage with known ends.
 void MarkCauses(const Diagnosis& diagnosis, Panel* panel);
 

@@ -54,7 +54,7 @@ TEST(With, AFitIsReportedAndSimulatedAgain) {
   EXPECT_NEAR(share["whole"].get<double>(), 1.0 / 3, 1e-15);
   EXPECT_TRUE(share["low_95"].is_null());
   EXPECT_FALSE(share["fixed"].get<bool>());
-  EXPECT_THAT(fit.out, HasSubstr("whole number, settled by trying"));
+  EXPECT_THAT(fit.out, HasSubstr("whole number, by trying"));
   const json& local_optima = report["refine"]["local_optima"];
   EXPECT_GE(local_optima["ends"], local_optima["local_optima"]);
   EXPECT_GE(local_optima["best_visits"], 1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "golden.h"
 #include "sample_certificate.h"
 #include "sample_data_sheet.h"
 #include "sample_family.h"

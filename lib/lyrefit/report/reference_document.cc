@@ -12,18 +12,20 @@ namespace lyrefit {
 namespace {
 
 Section NowSection(const ReferenceComparison& comparison) {
-  block::Table table = {"lrrlrrl", {{"", "now", "expected", "95 % interval", "z", "Pmax", ""}}};
+  block::Table table = {"lrrlrr", {{"", "now", "expected", "95 % interval", "z", "Pmax"}}};
   for (const ReferenceRow& row : comparison.rows) {
-    const std::string label = row.name + (row.unit.empty() ? "" : " (" + row.unit + ")");
-    table.rows.push_back({label, Significant(row.now, 4), Significant(row.expected, 4),
-                          Range(row.low_95, row.high_95), fmt::format("{:+.1f}", row.z),
-                          std::isfinite(row.power) ? fmt::format("{:+.2f} %", 100 * row.power) : "",
-                          row.differs ? "differs" : ""});
+    const std::string label =
+        row.name + (row.unit.empty() ? "" : " (" + row.unit + ")") + (row.differs ? " <-" : "");
+    table.rows.push_back(
+        {label, Significant(row.now, 4), Significant(row.expected, 4),
+         Range(row.low_95, row.high_95), fmt::format("{:+.1f}", row.z),
+         std::isfinite(row.power) ? fmt::format("{:+.2f} %", 100 * row.power) : ""});
   }
   Section section = {"Now and as expected"};
   AddTable(std::move(table), &section);
   AddSentence(
-      "95 % interval: of what a reference sweep shows; z: difference in standard deviations of its "
+      "<-: differs. 95 % interval: of what a reference sweep shows; z: difference in standard "
+      "deviations of its "
       "prediction; Pmax: what the difference alone gives of it or costs; parameters make up for "
       "one another, the causes do not",
       &section);

@@ -90,7 +90,7 @@ std::string LabelWithUnit(const ParameterInfo& info) {
 
 std::string EstimateMarks(const Estimate& estimate) {
   if (estimate.fixed) return "fixed";
-  if (estimate.bounds.whole > 0) return "whole number, settled by trying";
+  if (estimate.bounds.whole > 0) return "whole number, by trying";
   std::string marks;
   if (estimate.at_bound != BoundSide::kNone) {
     marks = fmt::format("{} bound", ToText(estimate.at_bound));

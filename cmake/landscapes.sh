@@ -15,7 +15,7 @@ folder=data/landscapes
 
 Say "lyrefit_studies landscape"
 $studies landscape --devices 50 --multistart 50 --budgets 100,300,1000,3000 \
-  --algorithms shape,default,mlo,mlo+knees,lo,de,random,pagmo:cmaes,pagmo:de \
+  --algorithms shape,default,mlo,mlo+shape,lo,de,random,pagmo:cmaes,pagmo:de \
   --resume build/landscapes.journal --plot "$folder/made.svg" > "$folder/made.txt"
 
 if [[ -n ${LYREFIT_FIELD_DATA:-} ]]; then

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lyrefit/search/search_options.h"
+
 namespace lyrefit {
 
 enum class Candidate { kLyrebird, kEmu };
@@ -31,6 +33,11 @@ TEST(EnumTextTest, ValueOutsideTheTableIsAQuestionMark) {
 }
 
 TEST(EnumTextTest, ListsAllTextsInOrder) { EXPECT_EQ(AllTexts<Candidate>(), "lyrebird, emu"); }
+
+TEST(EnumText, TakesTheSpellingOfTheFormerVersion) {
+  EXPECT_EQ(FromText<Algorithm>("mlo+knees"), Algorithm::kMloShape);
+  EXPECT_EQ(ToText(Algorithm::kMloShape), "mlo+shape");
+}
 
 }  // namespace
 }  // namespace lyrefit

@@ -205,14 +205,14 @@ double TwoBowls(const double* x) {
   return std::min(first, second);
 }
 
-TEST(Knees, WithoutASuggestionIsMloToTheBit) {
+TEST(InitialPoints, AreMissingAndTheSearchIsMloToTheBit) {
   SearchOptions options;
   const SearchSummary mlo = Search(Sphere, kBox, options);
-  options.algorithm = Algorithm::kMloKnees;
+  options.algorithm = Algorithm::kMloShape;
   ExpectSame(Search(Sphere, kBox, options), mlo);
 }
 
-TEST(Knees, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
+TEST(InitialPoints, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
   const auto first_population = [](Algorithm algorithm, const Box& box) {
     std::vector<std::vector<double>> candidates;
     SearchOptions options;
@@ -227,24 +227,24 @@ TEST(Knees, SitInAtMostAQuarterOfTheFirstPopulationAndTheRestIsThatOfMlo) {
     return candidates;
   };
   Box box = kBox;
-  box.suggested.assign(9, {1, 9, -9});  // outside of the box: clipped to its bounds
+  box.initial.assign(9, {1, 9, -9});  // outside of the box: clipped to its bounds
   const auto mlo = first_population(Algorithm::kMlo, box);
-  const auto knees = first_population(Algorithm::kMloKnees, box);
-  ASSERT_EQ(knees.size(), 20U);
+  const auto shaped = first_population(Algorithm::kMloShape, box);
+  ASSERT_EQ(shaped.size(), 20U);
   for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(knees[i], i < 5 ? (std::vector<double>{1, 3, -2}) : mlo[i]) << i;
+    EXPECT_EQ(shaped[i], i < 5 ? (std::vector<double>{1, 3, -2}) : mlo[i]) << i;
   }
-  box.suggested.resize(2);
-  const auto two = first_population(Algorithm::kMloKnees, box);
-  EXPECT_EQ(two[1], knees[1]);
+  box.initial.resize(2);
+  const auto two = first_population(Algorithm::kMloShape, box);
+  EXPECT_EQ(two[1], shaped[1]);
   EXPECT_EQ(two[2], mlo[2]);
 }
 
-TEST(Knees, FindTheOptimumThatIsSuggested) {
+TEST(InitialPoints, FindTheOptimumThatIsSuggested) {
   Box box = kBox;
-  box.suggested = {{2.1, 1.9, 2}};
+  box.initial = {{2.1, 1.9, 2}};
   SearchOptions options;
-  options.algorithm = Algorithm::kMloKnees;
+  options.algorithm = Algorithm::kMloShape;
   for (options.seed = 0; options.seed < 20; ++options.seed) {
     EXPECT_LT(Search(TwoBowls, box, options).best.objective, -0.07) << options.seed;
   }

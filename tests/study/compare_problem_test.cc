@@ -111,13 +111,13 @@ TEST(CompareSummaries, IsTakenUpWithTheSameBits) {
   EXPECT_EQ(Figures(again), whole);
 }
 
-TEST(CompareSummaries, TakesUpWhatTheKneesCost) {
+TEST(CompareSummaries, CountsTheEvaluationsOfInitialPoints) {
   const TempFolder folder;
   CompareOptions options = SummaryStudyOptions();
   options.journal = folder.Path("study.jsonl");
   for (int time = 0; time < 2; ++time) {
     const auto comparison = Compare(SyntheticSubjects("strings_2", 1),
-                                    BudgetAlgorithms({Algorithm::kMloKnees}, {40}), options);
+                                    BudgetAlgorithms({Algorithm::kMloShape}, {40}), options);
     ASSERT_TRUE(comparison) << comparison.error().ToString();
     const RunRecord& run = comparison->problems.at(0).algorithms.at(0).runs.at(0);
     EXPECT_GT(run.curve_evaluations, run.evaluations) << time;

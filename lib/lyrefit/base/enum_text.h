@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "lyrefit/base/former_names.h"
 #include "lyrefit/base/public.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -29,9 +30,12 @@ std::string ToText(E value) {
   return "?";
 }
 
-// The value whose text is `text`; nullopt if the table has no such row.
+// The value whose text is `text`, or whose text was `text` in version 0.1; nullopt if there is none.
 template <class E>
 std::optional<E> FromText(std::string_view text) {
+  for (const FormerName& pair : kFormerValues) {
+    if (pair.former == text) text = pair.name;
+  }
   for (const auto& row : EnumTable<E>::kRows) {
     if (row.text == text) return row.value;
   }

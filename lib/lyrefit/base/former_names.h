@@ -5,7 +5,7 @@
 #include "lyrefit/base/public.h"
 
 // Names that options and keys of JSON had in version 0.1. The command and the Python module accept
-// the options, and the results of the Python module find the keys, until version 0.3.
+// the options and their values, and the results of the Python module find the keys, until version 0.3.
 namespace LYREFIT_PUBLIC lyrefit {
 
 // A name that changed.
@@ -37,6 +37,11 @@ inline constexpr FormerName kFormerKeys[] = {
     {"free_rmse", "individual_rmse"},
     {"free_parameters", "individual_parameters"},
     {"median_free_solved_current_A", "median_individual_solved_current_A"},
+};
+
+// Values of options, as in tables of base/enum_text.h.
+inline constexpr FormerName kFormerValues[] = {
+    {"mlo+knees", "mlo+shape"},
 };
 
 // The option's name now; `option` itself if it was not renamed.

@@ -181,7 +181,7 @@ std::vector<double> Lyrebird::UnitPopulation() {
 
 void RunLyrebird(SearchRun* run, const SearchOptions& options) {
   RandomStream random(options.seed, options.run);
-  DrawPopulation(run, &random, options.iterations, options.algorithm == Algorithm::kMloKnees);
+  DrawPopulation(run, &random, options.iterations, options.algorithm == Algorithm::kMloShape);
   if (run->stopped()) return;
   Lyrebird population(run, options, &random);
   for (std::int64_t t = 1; !run->stopped(); ++t) {

@@ -76,11 +76,11 @@ void RunLyrebird(SearchRun* run, const SearchOptions& options);
 void RunRandom(SearchRun* run, const SearchOptions& options);
 void RunDifferentialEvolution(SearchRun* run, const SearchOptions& options);
 
-// Draws the first population uniformly in the box (Eq. 14) and ends iteration 0. With `suggested`,
-// up to a quarter of the candidates start at the points that the box suggests.
+// Draws the first population uniformly in the box (Eq. 14) and ends iteration 0. With `initial`, up
+// to a quarter of the candidates start at the initial points of the box.
 class RandomStream;
 void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned,
-                    bool suggested = false);
+                    bool initial = false);
 
 // Draws x uniformly in the box.
 void DrawPoint(const Box& box, RandomStream* random, double* x);

@@ -131,15 +131,15 @@ void DrawPoint(const Box& box, RandomStream* random, double* x) {
   }
 }
 
-void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned, bool suggested) {
+void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned, bool initial) {
   const Box& box = run->box();
-  const int seats = std::min(run->population() / 4, static_cast<int>(box.suggested.size()));
+  const int seats = std::min(run->population() / 4, static_cast<int>(box.initial.size()));
   std::vector<double> x(run->dimensions());
   for (int i = 0; i < run->population() && !run->stopped(); ++i) {
     DrawPoint(box, random, x.data());
-    if (suggested && i < seats) {
+    if (initial && i < seats) {
       for (std::size_t j = 0; j < x.size(); ++j) {
-        x[j] = std::clamp(box.suggested[i][j], box.lower[j], box.upper[j]);
+        x[j] = std::clamp(box.initial[i][j], box.lower[j], box.upper[j]);
       }
     }
     run->Replace(i, x.data(), run->Evaluate(x.data()));
@@ -154,7 +154,7 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
   CHECK_EQ(box.lower.size(), box.upper.size());
   CHECK_LE(box.lower.size(), 64U);
   for (std::size_t j = 0; j < box.lower.size(); ++j) CHECK_LE(box.lower[j], box.upper[j]);
-  for (const std::vector<double>& place : box.suggested) CHECK_EQ(place.size(), box.lower.size());
+  for (const std::vector<double>& place : box.initial) CHECK_EQ(place.size(), box.lower.size());
   SearchRun run(objective, box, options, observer);
   switch (options.algorithm) {
     case Algorithm::kMlo:
@@ -162,7 +162,7 @@ SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
     case Algorithm::kLoMblss:
     case Algorithm::kLoDmlss:
     case Algorithm::kMloVector:
-    case Algorithm::kMloKnees:
+    case Algorithm::kMloShape:
       RunLyrebird(&run, options);
       break;
     case Algorithm::kRandom:

@@ -16,7 +16,7 @@ enum class Algorithm {
   kLo,         // the original lyrebird optimizer (doi:10.3390/biomimetics8060507)
   kLoMblss,    // with the memory-based learn search strategy only
   kLoDmlss,    // with the diversity-maintenance learn search strategy only
-  kMloKnees,   // mlo whose first population contains points that the problem suggests
+  kMloShape,   // mlo with a first population seeded by the curve's shape (Box::initial)
   kRandom,     // uniform random points: the baseline
   kDe,         // differential evolution DE/rand/1/bin (doi:10.1023/A:1008202821328)
   kMloVector,  // mlo that draws z of Eq. 20 for each coordinate, as the paper prints it
@@ -30,7 +30,7 @@ struct EnumTable<Algorithm> {
       {Algorithm::kLoMblss, "lo+mblss"},
       {Algorithm::kLoDmlss, "lo+dmlss"},
       {Algorithm::kMloVector, "mlo+vector"},
-      {Algorithm::kMloKnees, "mlo+knees"},
+      {Algorithm::kMloShape, "mlo+shape"},
       {Algorithm::kRandom, "random"},
       {Algorithm::kDe, "de"},
   };

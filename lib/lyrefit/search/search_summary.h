@@ -68,8 +68,8 @@ struct SearchSummary {
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;
-  // Points where a minimum may lie, most likely first; used by kMloKnees only. May be empty.
-  std::vector<std::vector<double>> suggested = {};
+  // Points where a minimum may lie, most likely first; used by kMloShape only. May be empty.
+  std::vector<std::vector<double>> initial = {};
 };
 
 // The function to minimise. It reads as many numbers as the box has sides and must return the same

@@ -190,7 +190,7 @@ TEST(FitWith, TakesPlainFunctionsForAnEffect) {
 }
 
 // A suggested point is evaluated once more, for its rank.
-TEST(FitWith, BeginsAtTheKneesIfTheSearchAsksForThem) {
+TEST(FitWith, BeginsAtTheShapeOfTheCurveIfTheSearchAsksForIt) {
   const std::pair<double, double> third = {1.0 / 3, 1.0 / 3};
   EffectUse use{FindEffect("substrings"), {{"w1", third}, {"w2", third}}};
   SimulateOptions options = Module();
@@ -203,12 +203,12 @@ TEST(FitWith, BeginsAtTheKneesIfTheSearchAsksForThem) {
   fit.with = {use};
   fit.intervals = Intervals::kNone;
   const auto plain = Fit(*curve, fit);
-  fit.search.algorithm = Algorithm::kMloKnees;
-  const auto knees = Fit(*curve, fit);
-  ASSERT_TRUE(plain && knees);
+  fit.search.algorithm = Algorithm::kMloShape;
+  const auto shaped = Fit(*curve, fit);
+  ASSERT_TRUE(plain && shaped);
   EXPECT_EQ(plain->curve_evaluations, plain->search.evaluations);
-  EXPECT_GT(knees->curve_evaluations, knees->search.evaluations);
-  EXPECT_LE(knees->search.trace[0].best, plain->search.trace[0].best);
+  EXPECT_GT(shaped->curve_evaluations, shaped->search.evaluations);
+  EXPECT_LE(shaped->search.trace[0].best, plain->search.trace[0].best);
 }
 
 TEST(FitWith, SaysWhatDoesNotGoWithEffects) {

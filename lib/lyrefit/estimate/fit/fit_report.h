@@ -202,7 +202,7 @@ struct FitReport : ModelResults {
   SearchOptions search_options;           // options of the search
   SearchSummary search;                   // result of the search
   // Evaluations of the whole curve by the search: those of its candidates, and with
-  // Algorithm::kMloKnees those that rank the points it begins with.
+  // Algorithm::kMloShape those that rank the points it begins with.
   std::int64_t curve_evaluations = 0;
   RefineReport refine;
   // Factors on the RMSE for the comparison of model variants by BIC: points ^ ((free parameters -

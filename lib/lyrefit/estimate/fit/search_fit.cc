@@ -33,8 +33,9 @@ std::vector<double> DeviceAt(const SearchSpace& space, const PreparedFit& fit, c
 
 // Starts as points of the search space, sorted by rank within their variant: the best of each
 // variant first, then the second of each. Costs one evaluation of the objective each.
-std::vector<std::vector<double>> Suggestions(const SearchSpace& space, const RefineProblem& problem,
-                                             const std::vector<PolishStart>& starts) {
+std::vector<std::vector<double>> InitialPoints(const SearchSpace& space,
+                                               const RefineProblem& problem,
+                                               const std::vector<PolishStart>& starts) {
   struct Place {
     const PolishStart* start;
     double mean_square;
@@ -51,12 +52,12 @@ std::vector<std::vector<double>> Suggestions(const SearchSpace& space, const Ref
   for (Place& place : places) place.rank = of_variant[place.start->variant]++;
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.rank < b.rank; });
-  std::vector<std::vector<double>> suggested;
-  suggested.reserve(places.size());
+  std::vector<std::vector<double>> initial;
+  initial.reserve(places.size());
   for (const Place& place : places) {
-    suggested.push_back(space.FromParameters(place.start->p.data(), place.start->variant));
+    initial.push_back(space.FromParameters(place.start->p.data(), place.start->variant));
   }
-  return suggested;
+  return initial;
 }
 
 // RMSE of the best of as many random points as the search evaluated.
@@ -80,9 +81,9 @@ Expected<SearchedFit> SearchFit(const PreparedFit& fit, const SearchSpace& space
   const Instant begin = Now();
   SearchedFit searched;
   Box box = space.box();
-  if (options.search.algorithm == Algorithm::kMloKnees) {
+  if (options.search.algorithm == Algorithm::kMloShape) {
     const std::vector<PolishStart> starts = ShapeStarts(fit);
-    box.suggested = Suggestions(space, fit.coarse, starts);
+    box.initial = InitialPoints(space, fit.coarse, starts);
     searched.curve_evaluations = static_cast<std::int64_t>(starts.size());
   }
   const double getting_ready = SecondsSince(begin);

@@ -79,22 +79,18 @@ TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   options.candidates = {FindEffect("irr_step"), FindEffect("outliers")};
   const std::vector<char> used(measurement.readings.points.size(), 1);
   const Selection selection = SelectCauses(measurement, used, 0, options);
-  Gain one, two;
-  std::vector<Trial> trials(1);
-  trials[0].effect = "irr_step";
-  std::vector<Trial> again = trials;
-  MeasureHeldOut(measurement, options, selection, 10, 1, &one, &trials);
-  MeasureHeldOut(measurement, options, selection, 10, 2, &two, &again);
+  const HeldOutErrors one = MeasureHeldOut(measurement, options, selection, 10, 1);
+  const HeldOutErrors two = MeasureHeldOut(measurement, options, selection, 10, 2);
   EXPECT_EQ(one.folds, 10);
   // The gain is incomplete: where the reading at the step is held out, the position of the step is
   // uncertain.
-  EXPECT_LT(one.held_out_after_A, 0.7 * one.held_out_before_A);
-  EXPECT_GT(one.held_out_gain_A2, one.held_out_gain_error_A2);
-  EXPECT_GT(one.held_out_gain_error_A2, 0);
-  EXPECT_LT(trials[0].held_out_rmse_A, one.held_out_before_A);
-  EXPECT_EQ(one.held_out_after_A, two.held_out_after_A);
-  EXPECT_EQ(one.held_out_gain_A2, two.held_out_gain_A2);
-  EXPECT_EQ(trials[0].held_out_rmse_A, again[0].held_out_rmse_A);
+  EXPECT_LT(one.after_A, 0.7 * one.before_A);
+  EXPECT_TRUE(one.gained());
+  EXPECT_GT(one.gain_error_A2, 0);
+  EXPECT_LT(one.effects_A.at("irr_step"), one.before_A);
+  EXPECT_EQ(one.after_A, two.after_A);
+  EXPECT_EQ(one.gain_A2, two.gain_A2);
+  EXPECT_EQ(one.effects_A, two.effects_A);
 }
 
 }  // namespace

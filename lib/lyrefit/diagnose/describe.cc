@@ -147,7 +147,7 @@ std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, con
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
                                   const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
-                                  const DiagnoseOptions& options) {
+                                  const HeldOutErrors& held_out, const DiagnoseOptions& options) {
   const WeightedData& weighted = selection.base_weighted;
   const int points = weighted.count();
   const double base_aicc =
@@ -172,6 +172,8 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
     } else if (!allowed) {
       trial.why_not = "part of the base model";
     }
+    const auto error = held_out.effects_A.find(trial.effect);
+    if (error != held_out.effects_A.end()) trial.held_out_rmse_A = error->second;
     for (const FittedCandidate& fitted : selection.trials) {
       if (fitted.score.effect != effect) continue;
       trial.kept = fitted.score.kept;

@@ -6,6 +6,7 @@
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/held_out.h"
 
 namespace lyrefit {
 
@@ -18,7 +19,7 @@ std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, con
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
                                   const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
-                                  const DiagnoseOptions& options);
+                                  const HeldOutErrors& held_out, const DiagnoseOptions& options);
 
 // A cause without size and place. `evidence`: "fit" or "values".
 Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);

@@ -30,48 +30,59 @@ namespace {
 
 constexpr double kPollPeriod_s = 0.02;  // shortest time between calls of the observer by polls
 
+// A selection of causes and the autocorrelation of its first residuals.
+struct WhitenedSelection {
+  Selection found;
+  Autocorrelation correlation;
+};
+
 // Selects causes, and repeats the selection with whitened noise if the residuals of the extended
 // model are correlated. Without whitening, correlated noise makes every test see effects.
-Autocorrelation SelectWhitened(const Measurement& measurement, const SelectOptions& options,
-                               Selection* selection) {
+WhitenedSelection SelectWhitened(const Measurement& measurement, const SelectOptions& options) {
   // A larger correlation is rather structure that no cause explains than noise.
   constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
-  *selection = SelectCauses(measurement, used, 0, options);
-  if (!selection->base.usable || options.progress.Stopped()) return {};
+  Selection first = SelectCauses(measurement, used, 0, options);
+  if (!first.base.usable || options.progress.Stopped()) return {std::move(first), {}};
   std::vector<double> whitened;
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
-    whitened.push_back((selection->extended.current[k] - readings.points[k].current) /
-                       selection->weighted.sigma[k]);
+    whitened.push_back((first.extended.current[k] - readings.points[k].current) /
+                       first.weighted.sigma[k]);
   }
-  const Autocorrelation correlation =
-      EstimateAutocorrelation(readings, whitened, selection->weighted.used,
-                              FreeCount(selection->weighted, selection->extended.law));
-  const bool coarse = IsCoarse(measurement, selection->noise);
+  const Autocorrelation correlation = EstimateAutocorrelation(
+      readings, whitened, first.weighted.used, FreeCount(first.weighted, first.extended.law));
+  const bool coarse = IsCoarse(measurement, first.noise);
   if (!measurement.has_path() && !coarse && correlation.value > kNotable &&
       correlation.value > kSure * correlation.standard_error) {
     Selection again =
         SelectCauses(measurement, used, std::min(correlation.value, kLargest), options);
-    if (again.base.usable) *selection = std::move(again);
+    if (again.base.usable) return {std::move(again), correlation};
   }
-  return correlation;
+  return {std::move(first), correlation};
 }
 
-void DescribePoints(const CurveSet& set, const Measurement& measurement, const AtReadings& at,
-                    Diagnosis* diagnosis) {
+std::vector<DiagnosedCurve> DescribeCurves(const CurveSet& set, const Readings& readings) {
+  std::vector<DiagnosedCurve> curves;
+  for (const IvCurve& curve : set.curves) {
+    curves.push_back({curve.name, curve.conditions.irradiance_W_m2,
+                      curve.conditions.cell_temperature_K - kZeroCelsius_K, false,
+                      static_cast<int>(curve.size())});
+  }
+  for (const Reading& r : readings.points) curves[r.curve].dark = r.dark;
+  return curves;
+}
+
+std::vector<DiagnosedPoint> DescribePoints(const CurveSet& set, const Measurement& measurement,
+                                           const AtReadings& at) {
   const Readings& readings = measurement.readings;
   const double scale = readings.scale.current_A;
-  for (const IvCurve& curve : set.curves) {
-    diagnosis->curves.push_back({curve.name, curve.conditions.irradiance_W_m2,
-                                 curve.conditions.cell_temperature_K - kZeroCelsius_K, false,
-                                 static_cast<int>(curve.size())});
-  }
+  std::vector<DiagnosedPoint> points;
+  points.reserve(readings.points.size());
   for (std::size_t k = 0; k < readings.points.size(); ++k) {
     const Reading& r = readings.points[k];
     const IvCurve& curve = set.curves[r.curve];
-    diagnosis->curves[r.curve].dark = r.dark;
-    DiagnosedPoint point;
+    DiagnosedPoint& point = points.emplace_back();
     point.curve = r.curve;
     point.segment = r.segment;
     point.voltage_V = curve.voltage_V[r.index];
@@ -81,97 +92,76 @@ void DescribePoints(const CurveSet& set, const Measurement& measurement, const A
     point.after_A = at.extended[k] * scale;
     point.without_A = at.without[k] * scale;
     point.time_s = curve.time_s.empty() ? kUnknown : curve.time_s[r.index];
-    diagnosis->points.push_back(point);
   }
   // The instrument limit applies to the base model's currents as well.
   for (const int k : measurement.values.at_lower) {
-    DiagnosedPoint& point = diagnosis->points[k];
-    point.before_A = std::max(point.before_A, measurement.values.lower_limit * scale);
+    points[k].before_A = std::max(points[k].before_A, measurement.values.lower_limit * scale);
   }
+  return points;
 }
 
-void DescribeGain(const Selection& selection, const AtReadings& at, bool field, Gain* gain) {
-  gain->rmse_before_A = RmseOf(at.weighted, at.base);
-  gain->rmse_after_A = RmseOf(at.weighted, at.extended);
-  gain->shifts = DescribeShifts(selection);
-  gain->gain = gain->folds > 1 && gain->held_out_gain_A2 > gain->held_out_gain_error_A2;
+std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_out, bool field) {
   if (selection.causes.empty() && selection.outliers.empty()) {
-    gain->sentence = "no cause that can be modelled was found, so there is nothing to gain";
-  } else if (gain->folds < 2) {
-    gain->sentence = "not measured on readings that were not fitted";
-  } else {
-    const std::string held_out = gain->by_sweeps ? "whole sweeps" : "readings";
-    gain->sentence =
-        gain->gain ? "the gain holds on " + held_out + " that were not fitted"
-                   : "no gain on " + held_out + " that were not fitted: within its standard error";
-    if (field && !gain->by_sweeps) {
-      gain->sentence +=
-          "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "
-          "fault from the model's own error, which is in it as well (three sweeps or more would)";
-    }
+    return "no cause that can be modelled was found, so there is nothing to gain";
   }
+  if (held_out.folds < 2) return "not measured on readings that were not fitted";
+  const std::string parts = held_out.by_sweeps ? "whole sweeps" : "readings";
+  const std::string sentence =
+      held_out.gained()
+          ? "the gain holds on " + parts + " that were not fitted"
+          : "no gain on " + parts + " that were not fitted: within its standard error";
+  if (!field || held_out.by_sweeps) return sentence;
+  return sentence +
+         "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "
+         "fault from the model's own error, which is in it as well (three sweeps or more would)";
 }
 
-void AddWarnings(const Selection& selection, const Measurement& measurement, Diagnosis* diagnosis) {
-  diagnosis->warnings = diagnosis->doubts;
-  diagnosis->warnings.insert(diagnosis->warnings.end(), measurement.warnings.begin(),
-                             measurement.warnings.end());
+Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOutErrors& held_out,
+                 bool field) {
+  Gain gain;
+  gain.rmse_before_A = RmseOf(at.weighted, at.base);
+  gain.rmse_after_A = RmseOf(at.weighted, at.extended);
+  gain.held_out_before_A = held_out.before_A;
+  gain.held_out_after_A = held_out.after_A;
+  gain.held_out_gain_A2 = held_out.gain_A2;
+  gain.held_out_gain_error_A2 = held_out.gain_error_A2;
+  gain.gain = held_out.gained();
+  gain.folds = held_out.folds;
+  gain.by_sweeps = held_out.by_sweeps;
+  gain.sentence = DescribeGain(selection, held_out, field);
+  gain.shifts = DescribeShifts(selection);
+  return gain;
+}
+
+std::vector<std::string> FindWarnings(const Selection& selection, const Measurement& measurement,
+                                      const std::vector<std::string>& doubts, double level) {
+  std::vector<std::string> warnings = doubts;
+  warnings.insert(warnings.end(), measurement.warnings.begin(), measurement.warnings.end());
   if (selection.weighted.correlation > 0) {
-    diagnosis->warnings.push_back(
+    warnings.emplace_back(
         "the noise of neighbouring readings is correlated; p-values allow for it, but trust them "
         "less");
   }
   if (!selection.at_rest.empty()) {
-    diagnosis->warnings.push_back(
-        std::to_string(selection.at_rest.size()) +
-        " readings at ends of a sweep, where its voltage stood still, are left out beside what "
-        "depends on its rate");
+    warnings.push_back(std::to_string(selection.at_rest.size()) +
+                       " readings at ends of a sweep, where its voltage stood still, are left out "
+                       "beside what depends on its rate");
   }
-  if (selection.unknown_p < diagnosis->level && !selection.unknown) {
-    diagnosis->warnings.push_back(
-        "structure remains in the residuals that no further cause explains");
+  if (selection.unknown_p < level && !selection.unknown) {
+    warnings.emplace_back("structure remains in the residuals that no further cause explains");
   }
   if (selection.noise.lit.constant < 1e-6 && selection.noise.lit.relative < 1e-6) {
-    diagnosis->warnings.push_back(
+    warnings.emplace_back(
         "the readings have almost no noise, as if they were computed: p-values say little");
   }
+  return warnings;
 }
 
-SelectOptions MakeSelectOptions(const Readings& readings, const DiagnoseOptions& options,
-                                const std::vector<const Effect*>& candidates,
-                                const ProgressReporter& progress) {
-  SelectOptions select;
-  select.level = options.level;
-  select.draws = options.draws;
-  select.largest_causes = options.largest_causes;
-  select.seed = options.seed;
-  select.floors = {options.floor_current, options.floor_power};
-  select.base = StartingLaw(readings, options.base);
-  select.candidates = candidates;
-  select.progress = progress;
-  return select;
-}
-
-Diagnosis BeginDiagnosis(const CurveSet& set, const Measurement& measurement,
-                         const DiagnoseOptions& options) {
-  Diagnosis diagnosis;
-  diagnosis.version = Version();
-  diagnosis.name = set.curves.size() == 1 || set.name.empty() ? set.curves.front().name : set.name;
-  diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
-  diagnosis.base = ToText(options.base);
-  diagnosis.seed = options.seed;
-  diagnosis.level = options.level;
-  diagnosis.floor_current = options.floor_current;
-  diagnosis.floor_power = options.floor_power;
-  diagnosis.cells_in_series = measurement.readings.scale.cells;
-  diagnosis.non_default_options = NonDefaults(options, kDiagnoseOptionTable);
-  for (const IvCurve& curve : set.curves) {
-    for (const std::string& sentence : SentencesOf(curve.assumptions)) {
-      auto& all = diagnosis.assumptions;
-      if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
-    }
-  }
-  return diagnosis;
+Expected<void> CheckOptions(const DiagnoseOptions& options) {
+  TRY(ValidateOptions(options, kDiagnoseOptionTable));
+  TRY(ValidateThreads(options.threads));
+  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
+  return {};
 }
 
 void ForgetLimits(ValueFindings* values) {
@@ -182,66 +172,137 @@ void ForgetLimits(ValueFindings* values) {
   values->at_voltage_limit.clear();
 }
 
-// Result of the selection on readings or, in a long measurement, on averages of them.
-struct Outcome {
-  Selection found;
-  AtReadings at;
-  Autocorrelation correlation;
+// The input of a diagnosis.
+struct PreparedDiagnosis {
+  CurveSet set;  // its curves in order
+  DiagnoseOptions options;
+  std::vector<const Effect*> known;  // effects
+  std::vector<std::string> doubts;   // about the readings
+  Measurement measurement;
 };
 
-Outcome SearchCauses(const Measurement& measurement, const SelectOptions& select,
-                     const DiagnoseOptions& options, const std::vector<const Effect*>& known,
-                     Diagnosis* diagnosis) {
+Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions& options) {
+  TRY(CheckOptions(options));
+  PreparedDiagnosis prepared;
+  prepared.options = options;
+  TRY(prepared.known, KnownEffects(options));
+  TRY(prepared.doubts, JudgeReadings(taken.curves));
+  std::vector<std::string> disorder;
+  prepared.set = InOrder(taken, &disorder);
+  TRY(prepared.measurement, MakeMeasurement(prepared.set));
+  std::vector<std::string>& warnings = prepared.measurement.warnings;
+  warnings.insert(warnings.begin(), disorder.begin(), disorder.end());
+  prepared.measurement.errors = options.noise;
+  if (!IsWanted(*FindEffect("clip"), options)) ForgetLimits(&prepared.measurement.values);
+  return prepared;
+}
+
+SelectOptions MakeSelectOptions(const PreparedDiagnosis& prepared,
+                                const ProgressReporter& progress) {
+  const DiagnoseOptions& options = prepared.options;
+  const Readings& readings = prepared.measurement.readings;
+  SelectOptions select;
+  select.level = options.level;
+  select.draws = options.draws;
+  select.largest_causes = options.largest_causes;
+  select.seed = options.seed;
+  select.floors = {options.floor_current, options.floor_power};
+  select.base = StartingLaw(readings, options.base);
+  select.candidates = Candidates(prepared.known, readings.traits, options);
+  select.progress = progress;
+  return select;
+}
+
+// The selection of causes on the readings or, in a long measurement, on averages of them.
+struct SelectedCauses {
+  Selection found;  // unusable base: the rest is empty
+  Autocorrelation correlation;
+  AtReadings at;
+  std::vector<const Effect*> candidates;
+  HeldOutErrors held_out;
+};
+
+SelectedCauses SelectPrepared(const PreparedDiagnosis& prepared, const ProgressReporter& progress) {
+  const Measurement& measurement = prepared.measurement;
+  const SelectOptions select = MakeSelectOptions(prepared, progress);
   const bool is_long = IsLong(measurement.readings);
-  const Averaged averaged =
-      is_long ? Average(measurement, select.base, select.progress) : Averaged();
+  const Averaged averaged = is_long ? Average(measurement, select.base, progress) : Averaged();
   const Measurement& seen = is_long ? averaged.measurement : measurement;
-  Outcome outcome;
-  outcome.correlation = SelectWhitened(seen, select, &outcome.found);
-  if (!outcome.found.base.usable) return outcome;
-  FindFittedCandidates(select, &outcome.found);
-  outcome.at =
-      is_long ? AtItsReadings(outcome.found, averaged, measurement) : AtItsReadings(outcome.found);
-  diagnosis->trials =
-      DescribeTrials(measurement.readings, outcome.found, known, select.candidates, options);
-  if (options.held_out && !select.progress.Stopped()) {
-    MeasureHeldOut(seen, select, outcome.found, options.folds, options.threads, &diagnosis->gain,
-                   &diagnosis->trials);
+  SelectedCauses selected;
+  WhitenedSelection whitened = SelectWhitened(seen, select);
+  selected.found = std::move(whitened.found);
+  selected.correlation = whitened.correlation;
+  selected.candidates = select.candidates;
+  Selection& found = selected.found;
+  if (!found.base.usable) return selected;
+  FindFittedCandidates(select, &found);
+  selected.at = is_long ? AtItsReadings(found, averaged, measurement) : AtItsReadings(found);
+  if (prepared.options.held_out && !progress.Stopped()) {
+    selected.held_out =
+        MeasureHeldOut(seen, select, found, prepared.options.folds, prepared.options.threads);
   }
-  return outcome;
+  return selected;
 }
 
-Expected<void> CheckOptions(const DiagnoseOptions& options) {
-  TRY(ValidateOptions(options, kDiagnoseOptionTable));
-  TRY(ValidateThreads(options.threads));
-  if (options.base == Model::kTripleDiode) return Fail("the base of a diagnosis is sd or dd");
-  return {};
-}
-
-// Makes the measurement from curves in order. `disorder`: warnings about their order.
-Expected<Measurement> TakeIn(const CurveSet& set, const std::vector<std::string>& disorder,
-                             const DiagnoseOptions& options) {
-  TRY(Measurement measurement, MakeMeasurement(set));
-  measurement.warnings.insert(measurement.warnings.begin(), disorder.begin(), disorder.end());
-  measurement.errors = options.noise;
-  if (!IsWanted(*FindEffect("clip"), options)) ForgetLimits(&measurement.values);
-  return measurement;
-}
-
-void DescribeEvidenceAndVerdict(const Measurement& measurement, const Outcome& outcome,
-                                const DiagnoseOptions& options, Diagnosis* diagnosis) {
-  const Selection& found = outcome.found;
-  const AtReadings& at = outcome.at;
-  const Readings& readings = measurement.readings;
-  diagnosis->base_sentence = DescribeLaw(readings, found.base.law);
-  Evidence& evidence = diagnosis->evidence;
-  evidence = DescribeEvidence(found, at, measurement.values, outcome.correlation);
+Evidence FindEvidence(const PreparedDiagnosis& prepared, const SelectedCauses& selected) {
+  const Measurement& measurement = prepared.measurement;
+  const Selection& found = selected.found;
+  Evidence evidence =
+      DescribeEvidence(found, selected.at, measurement.values, selected.correlation);
   if (measurement.noise_is_stated()) {
-    evidence.noise_stated_A = UpperMedian(at.weighted.sigma) * readings.scale.current_A;
+    evidence.noise_stated_A =
+        UpperMedian(selected.at.weighted.sigma) * measurement.readings.scale.current_A;
   }
   evidence.whiteness_p_value = Whiteness(found.base_weighted, found.base);
   evidence.whiteness_after_p_value = Whiteness(found.weighted, found.extended);
-  diagnosis->verdict = Decide(measurement, found, at, options, evidence.whiteness_after_p_value);
+  return evidence;
+}
+
+std::vector<std::string> AssumptionsOf(const CurveSet& set) {
+  std::vector<std::string> all;
+  for (const IvCurve& curve : set.curves) {
+    for (const std::string& sentence : SentencesOf(curve.assumptions)) {
+      if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
+    }
+  }
+  return all;
+}
+
+Diagnosis BeginDiagnosis(const PreparedDiagnosis& prepared) {
+  const CurveSet& set = prepared.set;
+  const DiagnoseOptions& options = prepared.options;
+  Diagnosis diagnosis;
+  diagnosis.version = Version();
+  diagnosis.name = set.curves.size() == 1 || set.name.empty() ? set.curves.front().name : set.name;
+  diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
+  diagnosis.base = ToText(options.base);
+  diagnosis.seed = options.seed;
+  diagnosis.level = options.level;
+  diagnosis.floor_current = options.floor_current;
+  diagnosis.floor_power = options.floor_power;
+  diagnosis.cells_in_series = prepared.measurement.readings.scale.cells;
+  diagnosis.non_default_options = NonDefaults(options, kDiagnoseOptionTable);
+  diagnosis.assumptions = AssumptionsOf(set);
+  diagnosis.doubts = prepared.doubts;
+  return diagnosis;
+}
+
+// Everything that follows from the selection, without plan and extended model.
+Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& selected) {
+  const Measurement& measurement = prepared.measurement;
+  const Selection& found = selected.found;
+  Diagnosis diagnosis = BeginDiagnosis(prepared);
+  diagnosis.base_sentence = DescribeLaw(measurement.readings, found.base.law);
+  diagnosis.evidence = FindEvidence(prepared, selected);
+  diagnosis.verdict = Decide(measurement, found, selected.at, prepared.options,
+                             diagnosis.evidence.whiteness_after_p_value);
+  diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
+                                    selected.candidates, selected.held_out, prepared.options);
+  diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());
+  diagnosis.curves = DescribeCurves(prepared.set, measurement.readings);
+  diagnosis.points = DescribePoints(prepared.set, measurement, selected.at);
+  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts, diagnosis.level);
+  return diagnosis;
 }
 
 void MarkInterrupted(Diagnosis* diagnosis) {
@@ -279,35 +340,24 @@ std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options) {
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {
   const Instant begin = Now();
-  TRY(CheckOptions(options));
-  TRY(const auto known, KnownEffects(options));
-  TRY(auto doubts, JudgeReadings(taken.curves));
-  std::vector<std::string> disorder;
-  const CurveSet set = InOrder(taken, &disorder);
-  TRY(const Measurement measurement, TakeIn(set, disorder, options));
-  const Readings& readings = measurement.readings;
+  TRY(const PreparedDiagnosis prepared, Prepare(taken, options));
   const ProgressReporter progress(observer, kPollPeriod_s);
   progress.Begin("base fit", 3);
-  const SelectOptions select =
-      MakeSelectOptions(readings, options, Candidates(known, readings.traits, options), progress);
-  Diagnosis diagnosis = BeginDiagnosis(set, measurement, options);
-  diagnosis.doubts = std::move(doubts);
-  const Outcome outcome = SearchCauses(measurement, select, options, known, &diagnosis);
-  const Selection& found = outcome.found;
+  const SelectedCauses selected = SelectPrepared(prepared, progress);
+  const Selection& found = selected.found;
   if (!found.base.usable || !found.extended.usable) {
-    return Fail(diagnosis.name + (progress.Stopped() ? ": stopped before the base model was fitted"
+    return Fail(BeginDiagnosis(prepared).name + (progress.Stopped()
+                                                     ? ": stopped before the base model was fitted"
                                                      : ": no diode model fits these readings"));
   }
-  DescribeEvidenceAndVerdict(measurement, outcome, options, &diagnosis);
-  DescribeGain(found, outcome.at, measurement.has_path(), &diagnosis.gain);
+  Diagnosis diagnosis = Describe(prepared, selected);
   if (options.plan && !progress.Stopped()) {
     diagnosis.plan = MakePlan(found, options.seed, options.threads);
   }
-  DescribePoints(set, measurement, outcome.at, &diagnosis);
-  AddWarnings(found, measurement, &diagnosis);
   if (progress.Stopped()) MarkInterrupted(&diagnosis);
-  diagnosis.extended = ExtendedReport(
-      set, found, outcome.at, options.extend && !diagnosis.interrupted, options.seed, observer);
+  diagnosis.extended =
+      ExtendedReport(prepared.set, found, selected.at, options.extend && !diagnosis.interrupted,
+                     options.seed, observer);
   diagnosis.interrupted = diagnosis.interrupted || diagnosis.extended.interrupted;
   diagnosis.seconds = SecondsSince(begin);
   return diagnosis;

@@ -121,8 +121,9 @@ Fold MissOf(const std::vector<int>& held_out, const std::vector<char>& used,
 }
 
 // Combines the folds whose fits succeeded.
-void Summarise(const std::vector<Fold>& folds, const Readings& readings,
-               const std::vector<FittedCandidate>& tried, Gain* gain, std::vector<Trial>* trials) {
+HeldOutErrors Summarise(const std::vector<Fold>& folds, const Readings& readings,
+                        const std::vector<FittedCandidate>& tried) {
+  HeldOutErrors errors;
   Squares before, after;
   std::vector<Squares> by_trial(tried.size());
   std::vector<double> gains;
@@ -133,24 +134,23 @@ void Summarise(const std::vector<Fold>& folds, const Readings& readings,
     for (std::size_t t = 0; t < by_trial.size(); ++t) AddSquares(fold.trials[t], &by_trial[t]);
     gains.push_back(fold.before.Mean() - fold.after.Mean());
   }
-  gain->folds = static_cast<int>(gains.size());
-  gain->by_sweeps = LeavesSweepsOut(readings);
-  if (gains.size() < 2) return;
+  errors.folds = static_cast<int>(gains.size());
+  errors.by_sweeps = LeavesSweepsOut(readings);
+  if (gains.size() < 2) return errors;
   const double scale = readings.scale.current_A;
-  gain->held_out_before_A = scale * std::sqrt(before.Mean());
-  gain->held_out_after_A = scale * std::sqrt(after.Mean());
+  errors.before_A = scale * std::sqrt(before.Mean());
+  errors.after_A = scale * std::sqrt(after.Mean());
   double mean = 0, square = 0;
   for (const double g : gains) mean += g / static_cast<double>(gains.size());
   for (const double g : gains) square += (g - mean) * (g - mean);
   const double n = static_cast<double>(gains.size());
-  gain->held_out_gain_A2 = scale * scale * mean;
-  gain->held_out_gain_error_A2 = scale * scale * std::sqrt(square / (n * (n - 1)));
+  errors.gain_A2 = scale * scale * mean;
+  errors.gain_error_A2 = scale * scale * std::sqrt(square / (n * (n - 1)));
   for (std::size_t t = 0; t < by_trial.size(); ++t) {
-    for (Trial& trial : *trials) {
-      if (trial.effect != tried[t].score.effect->id) continue;
-      if (by_trial[t].count > 0) trial.held_out_rmse_A = scale * std::sqrt(by_trial[t].Mean());
-    }
+    if (by_trial[t].count == 0) continue;
+    errors.effects_A[tried[t].score.effect->id] = scale * std::sqrt(by_trial[t].Mean());
   }
+  return errors;
 }
 
 }  // namespace
@@ -171,9 +171,8 @@ std::vector<int> MakeFolds(const Readings& readings, int folds) {
   return of;
 }
 
-void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
-                    const Selection& selection, int folds, int threads, Gain* gain,
-                    std::vector<Trial>* trials) {
+HeldOutErrors MeasureHeldOut(const Measurement& measurement, const SelectOptions& options,
+                             const Selection& selection, int folds, int threads) {
   const Readings& readings = measurement.readings;
   const std::vector<int> of = MakeFolds(readings, folds);
   const int used_folds = *std::max_element(of.begin(), of.end()) + 1;
@@ -186,8 +185,8 @@ void MeasureHeldOut(const Measurement& measurement, const SelectOptions& options
     for (std::size_t k = 0; k < of.size(); ++k) used[k] = of[k] != f ? 1 : 0;
     results[f] = MissOf(held_out, used, measurement, options, selection);
   });
-  if (options.progress.Stopped()) return;
-  Summarise(results, readings, selection.trials, gain, trials);
+  if (options.progress.Stopped()) return {};
+  return Summarise(results, readings, selection.trials);
 }
 
 }  // namespace lyrefit

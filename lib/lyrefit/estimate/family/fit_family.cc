@@ -42,38 +42,46 @@ std::vector<FamilyCurve> DescribeCurves(const PreparedFamily& prepared) {
   return rows;
 }
 
-// Fills the differences of the individual fit from the shared parameters.
-void FillExcess(const TranslatedDevice& shared, FamilyCurve* row) {
-  if (row->individual_parameters.size() != shared.parameters.size()) return;
+// The differences of the individual fit from the shared parameters.
+struct Excess {
+  double isc = kUnknown;
+  double voc_V = kUnknown;
+};
+Excess ExcessOf(const TranslatedDevice& shared, const std::vector<double>& individual) {
+  if (individual.size() != shared.parameters.size()) return {};
   const KeyPoints model = ModelKeyPoints(shared.device, shared.parameters.data());
-  const KeyPoints own = ModelKeyPoints(shared.device, row->individual_parameters.data());
-  row->isc_excess = own.short_circuit_current_A / model.short_circuit_current_A - 1;
-  row->voc_excess_V = own.open_circuit_voltage_V - model.open_circuit_voltage_V;
+  const KeyPoints own = ModelKeyPoints(shared.device, individual.data());
+  return {own.short_circuit_current_A / model.short_circuit_current_A - 1,
+          own.open_circuit_voltage_V - model.open_circuit_voltage_V};
 }
 
-// Adds curve number `k` of a joint problem under the shared parameters `refined` to its row.
-void AddJoint(const JointProblem& problem, const JointPoint& point, int k,
-              const std::vector<double>& refined, const IvCurve& curve, FamilyCurve* row) {
-  row->rmse = CurveRmse(problem, point, k);
+// The row of curve number `k` of a joint problem, with the results under the shared parameters
+// `refined`.
+FamilyCurve WithJointFit(FamilyCurve row, const JointProblem& problem, const JointPoint& point,
+                         int k, const std::vector<double>& refined, const IvCurve& curve) {
+  row.rmse = CurveRmse(problem, point, k);
   const TrueConditions at = ConditionsAt(problem, point, k);
   const TranslatedDevice device =
       TranslateTo(problem.translation, refined, at.irradiance_W_m2, at.temperature_K);
-  row->parameters = device.parameters;
+  row.parameters = device.parameters;
   std::vector<double> model;
   if (problem.translation.extended) {
     model = SolveCurrents(DeviceOf(problem, k), DeviceAt(problem, point, k).data(),
                           MakePointSet(curve.voltage_V, curve.current_A));
   } else {
-    FillExcess(device, row);
-    model = SolveCurrents(device.device, row->parameters.data(), curve.voltage_V);
+    const Excess excess = ExcessOf(device, row.individual_parameters);
+    row.isc_excess = excess.isc;
+    row.voc_excess_V = excess.voc_V;
+    model = SolveCurrents(device.device, row.parameters.data(), curve.voltage_V);
   }
   double sum = 0;
-  row->residual_A.reserve(model.size());
+  row.residual_A.reserve(model.size());
   for (std::size_t i = 0; i < model.size(); ++i) {
-    row->residual_A.push_back(model[i] - curve.current_A[i]);
-    sum += row->residual_A.back();
+    row.residual_A.push_back(model[i] - curve.current_A[i]);
+    sum += row.residual_A.back();
   }
-  row->mean_residual_A = sum / static_cast<double>(model.size());
+  row.mean_residual_A = sum / static_cast<double>(model.size());
+  return row;
 }
 
 // The curves that do not belong to the device of the others, and the joint fit without them.
@@ -118,8 +126,9 @@ OutlierFit FitWithoutOutliers(const RefinedFamily& refined, const CurveSet& set,
   return found;
 }
 
-// The part of the report that is known before the search.
-FamilyReport Header(const PreparedFamily& prepared) {
+// The part of the report that is known after the search and the individual fits.
+FamilyReport SearchReport(const PreparedFamily& prepared, const FamilySearchEnd& searched,
+                          const CurvesAlone& alone) {
   const CurveSet& set = prepared.set;
   const FamilyOptions& options = prepared.options;
   const Translation& at = prepared.family.translation;
@@ -139,110 +148,134 @@ FamilyReport Header(const PreparedFamily& prepared) {
   report.with = options.with;
   if (at.extended) report.taken = at.extended->effects->set;
   report.termination = "not run";
+  report.search = searched.summary;
+  for (const int c : prepared.search_curves) report.search_ids.push_back(set.curves[c].name);
+  const JointProblem problem = JointProblemOn(prepared.family, options, prepared.search_curves);
+  report.rmse.searched = FamilyRmse(problem, searched.elites[0]);
+  if (searched.has_random) report.rmse.random_baseline = FamilyRmse(problem, searched.random);
+  const std::vector<double>& shared = searched.elites[0].shared;
+  report.searched.assign(shared.begin(), shared.begin() + at.size());
   report.curves = DescribeCurves(prepared);
+  report.individual_seconds = alone.fits.seconds;
+  for (std::size_t k = 0; k < alone.curves.size(); ++k) {
+    const std::optional<Expected<FitReport>>& one = alone.fits.reports[k];
+    if (one && *one) FillIndividualFit(**one, &report.curves[alone.curves[k]]);
+  }
   return report;
 }
 
-void AddSearch(const PreparedFamily& prepared, const FamilySearchEnd& searched,
-               FamilyReport* report) {
-  report->search = searched.summary;
-  for (const int c : prepared.search_curves) {
-    report->search_ids.push_back(prepared.set.curves[c].name);
-  }
-  const JointProblem problem =
-      JointProblemOn(prepared.family, prepared.options, prepared.search_curves);
-  report->rmse.searched = FamilyRmse(problem, searched.elites[0]);
-  if (searched.has_random) report->rmse.random_baseline = FamilyRmse(problem, searched.random);
-  const std::vector<double>& shared = searched.elites[0].shared;
-  report->searched.assign(shared.begin(), shared.begin() + prepared.family.translation.size());
-}
+// Last stage of a family fit: what follows from the end of the joint fit. After a request to stop
+// the later members are missing.
+struct JudgedJointFit {
+  JudgedEnd end;
+  FamilyErrorIntervals error_intervals;
+  std::vector<FamilyCurve> curves;  // of the set
+  FamilyTests tests;
+  std::optional<WithoutOutliers> without_outliers;
+  std::vector<Interval> jackknife;  // empty: not computed
+  bool stopped = false;
+};
 
-void AddIndividualFits(const CurvesAlone& alone, FamilyReport* report) {
-  report->individual_seconds = alone.fits.seconds;
-  for (std::size_t k = 0; k < alone.curves.size(); ++k) {
-    const std::optional<Expected<FitReport>>& one = alone.fits.reports[k];
-    if (one && *one) FillIndividualFit(**one, &report->curves[alone.curves[k]]);
-  }
-}
-
-// Adds the best candidate polished alone.
-void AddCandidate(const RefinedFamily& refined, FamilyReport* report) {
-  const CandidateEnds& ends = *refined.candidate;
-  const Translation& at = refined.family.translation;
-  report->rmse.plain_polished = FamilyRmse(refined.problem, ends.plain.point);
-  report->rmse.refined_best_candidate = FamilyRmse(refined.problem, ends.own.point);
-  report->refined_best_candidate = ReportedShared(at, ends.own.point.shared);
-  report->refined_best_candidate.resize(at.size());
-  report->plain_seconds = ends.plain_seconds;
-  report->best_candidate_seconds = ends.own_seconds;
-}
-
-void AddCurves(const PreparedFamily& prepared, const RefinedFamily& refined, FamilyReport* report) {
+// The rows of the curves with the joint fit's results.
+std::vector<FamilyCurve> WithJointFit(std::vector<FamilyCurve> rows, const PreparedFamily& prepared,
+                                      const RefinedFamily& refined, const JudgedEnd& judged) {
   const FamilyMembers& members = refined.family.curves;
   const auto add = [&](const JointProblem& problem, const JointPoint& point,
                        const std::vector<int>& curves) {
     for (std::size_t k = 0; k < curves.size(); ++k) {
       const int c = curves[k];
-      AddJoint(problem, point, static_cast<int>(k), report->refined, prepared.set.curves[c],
-               &report->curves[c]);
+      rows[c] = WithJointFit(std::move(rows[c]), problem, point, static_cast<int>(k),
+                             judged.refined, prepared.set.curves[c]);
     }
   };
-  add(refined.problem, refined.end.point, members.fitted);
-  if (members.held_out.empty()) return;
-  add(JointProblemOn(refined.family, prepared.options, members.held_out),
-      {refined.end.point.shared, std::vector<JointLocal>(members.held_out.size(), {0, 0})},
-      members.held_out);
-}
-
-// Adds the joint fit with its intervals and tests. Returns whether the observer stopped it.
-bool AddJointFit(const PreparedFamily& prepared, const RefinedFamily& refined,
-                 const Observer& observer, FamilyReport* report) {
-  const FamilyOptions& options = prepared.options;
-  const FamilyMembers& members = refined.family.curves;
-  const JointEnd& end = refined.end;
-  if (refined.candidate) AddCandidate(refined, report);
-  report->rmse.searched_all = refined.searched;
-  report->rmse.refined = FamilyRmse(refined.problem, end.point);
-  report->weights = refined.weights.used;
-  report->weights_gain = refined.weights.gain;
-  report->joint_seconds = refined.seconds;
-  report->termination = end.stopped     ? "interrupted"
-                        : end.converged ? "converged"
-                                        : "no convergence";
-  report->projected_gradient = end.projected_gradient;
-
-  const ReportedFit reported(refined.family, refined.problem, end);
-  const ProgressReporter progress(observer, 0);
-  const JudgedEnd judged = JudgeFamily(reported, options, report->searched, progress);
-  bool stopped = progress.Stopped();
-  static_cast<JudgedFamily&>(*report) = judged;
   for (std::size_t k = 0; k < judged.offsets.size(); ++k) {
-    FamilyCurve& row = report->curves[members.fitted[k]];
+    FamilyCurve& row = rows[members.fitted[k]];
     row.irradiance_offset_W_m2 = judged.offsets[k].irradiance_W_m2;
     row.temperature_offset_K = judged.offsets[k].temperature_K;
   }
-  if (options.intervals && !stopped) {
-    static_cast<FamilyErrorIntervals&>(*report) = FindFamilyIntervals(
-        reported, JointProblemOn(refined.family, options, members.held_out), judged);
-  }
-  AddCurves(prepared, refined, report);
-  const std::optional<CandidateEnds>& candidate = refined.candidate;
-  stopped =
-      stopped || end.stopped || (candidate && (candidate->plain.stopped || candidate->own.stopped));
-  if (stopped) return true;
+  add(refined.problem, refined.end.point, members.fitted);
+  if (members.held_out.empty()) return rows;
+  add(JointProblemOn(refined.family, prepared.options, members.held_out),
+      {refined.end.point.shared, std::vector<JointLocal>(members.held_out.size(), {0, 0})},
+      members.held_out);
+  return rows;
+}
 
-  std::optional<FamilyTests> tests = TestFamily(prepared, refined, report->curves, observer);
-  if (!tests) return true;
-  static_cast<FamilyTests&>(*report) = std::move(*tests);
+// `rows`: the curves with their individual fits; `searched`: shared parameters of the search.
+JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily& refined,
+                             std::vector<FamilyCurve> rows, const std::vector<double>& searched,
+                             const Observer& observer) {
+  const FamilyOptions& options = prepared.options;
+  const ReportedFit reported(refined.family, refined.problem, refined.end);
+  const ProgressReporter progress(observer, 0);
+  JudgedJointFit judged;
+  judged.end = JudgeFamily(reported, options, searched, progress);
+  judged.stopped = progress.Stopped();
+  if (options.intervals && !judged.stopped) {
+    judged.error_intervals = FindFamilyIntervals(
+        reported, JointProblemOn(refined.family, options, refined.family.curves.held_out),
+        judged.end);
+  }
+  judged.curves = WithJointFit(std::move(rows), prepared, refined, judged.end);
+  const std::optional<CandidateEnds>& candidate = refined.candidate;
+  judged.stopped = judged.stopped || refined.end.stopped ||
+                   (candidate && (candidate->plain.stopped || candidate->own.stopped));
+  if (judged.stopped) return judged;
+
+  judged.stopped = true;  // unless all that follows is done
+  std::optional<FamilyTests> tests = TestFamily(prepared, refined, judged.curves, observer);
+  if (!tests) return judged;
+  judged.tests = std::move(*tests);
   OutlierFit outliers = FitWithoutOutliers(refined, prepared.set, observer);
-  if (outliers.stopped) return true;
-  for (const int c : outliers.curves) report->curves[c].outlier = true;
-  report->without_outliers = std::move(outliers.without_outliers);
+  if (outliers.stopped) return judged;
+  for (const int c : outliers.curves) judged.curves[c].outlier = true;
+  judged.without_outliers = std::move(outliers.without_outliers);
   const std::size_t curves = refined.problem.curves.size();
-  if (!options.intervals || curves <= 2 || curves > kMostJackknifed) return false;
-  auto jackknife = Jackknife(reported, report->estimates, options.threads, observer);
-  if (jackknife) report->jackknife = std::move(*jackknife);
-  return !jackknife;
+  if (options.intervals && curves > 2 && curves <= kMostJackknifed) {
+    auto jackknife = Jackknife(reported, judged.end.estimates, options.threads, observer);
+    if (!jackknife) return judged;
+    judged.jackknife = std::move(*jackknife);
+  }
+  judged.stopped = false;
+  return judged;
+}
+
+// The RMSEs of search and joint fit.
+FamilyRmseTable RmseOf(FamilyRmseTable rmse, const RefinedFamily& refined) {
+  if (refined.candidate) {
+    rmse.plain_polished = FamilyRmse(refined.problem, refined.candidate->plain.point);
+    rmse.refined_best_candidate = FamilyRmse(refined.problem, refined.candidate->own.point);
+  }
+  rmse.searched_all = refined.searched;
+  rmse.refined = FamilyRmse(refined.problem, refined.end.point);
+  return rmse;
+}
+
+// The report with the joint fit.
+FamilyReport WithJointFit(FamilyReport report, const RefinedFamily& refined,
+                          JudgedJointFit judged) {
+  const Translation& at = refined.family.translation;
+  const JointEnd& end = refined.end;
+  report.rmse = RmseOf(report.rmse, refined);
+  if (refined.candidate) {
+    report.refined_best_candidate = ReportedShared(at, refined.candidate->own.point.shared);
+    report.refined_best_candidate.resize(at.size());
+    report.plain_seconds = refined.candidate->plain_seconds;
+    report.best_candidate_seconds = refined.candidate->own_seconds;
+  }
+  report.weights = refined.weights.used;
+  report.weights_gain = refined.weights.gain;
+  report.joint_seconds = refined.seconds;
+  report.termination = end.stopped ? "interrupted" : end.converged ? "converged" : "no convergence";
+  report.projected_gradient = end.projected_gradient;
+  static_cast<JudgedFamily&>(report) = std::move(judged.end);
+  static_cast<FamilyErrorIntervals&>(report) = std::move(judged.error_intervals);
+  static_cast<FamilyTests&>(report) = std::move(judged.tests);
+  report.curves = std::move(judged.curves);
+  report.without_outliers = std::move(judged.without_outliers);
+  report.jackknife = std::move(judged.jackknife);
+  report.interrupted = judged.stopped;
+  return report;
 }
 
 }  // namespace
@@ -258,20 +291,17 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   TRY(const PreparedFamily prepared, PrepareFamily(set, options));
   TRY(const FamilySearchEnd searched,
       SearchFamily(prepared.family, options, prepared.search_curves, observer));
-  FamilyReport report = Header(prepared);
-  AddSearch(prepared, searched, &report);
-  report.interrupted = searched.summary.termination == SearchTermination::kInterrupted;
-  CurvesAlone alone;
-  if (!report.interrupted) {
-    alone = FitCurvesAlone(prepared, observer);
-    AddIndividualFits(alone, &report);
-    report.interrupted = alone.fits.interrupted;
-  }
+  const bool interrupted = searched.summary.termination == SearchTermination::kInterrupted;
+  const CurvesAlone alone = interrupted ? CurvesAlone() : FitCurvesAlone(prepared, observer);
+  FamilyReport report = SearchReport(prepared, searched, alone);
+  report.interrupted = interrupted || alone.fits.interrupted;
   if (report.interrupted) {
     report.refined = report.searched;
   } else {
     const RefinedFamily refined = RefineFamily(prepared, searched, alone.starts, observer);
-    report.interrupted = AddJointFit(prepared, refined, observer, &report);
+    JudgedJointFit judged =
+        JudgeJointFit(prepared, refined, report.curves, report.searched, observer);
+    report = WithJointFit(std::move(report), refined, std::move(judged));
   }
   report.doubts = DoubtsOfKept(set, report);
   report.warnings = report.doubts;

@@ -1,6 +1,8 @@
 #include "lyrefit/estimate/fit/fit.h"
 
-#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
@@ -27,13 +29,19 @@ ResidualStatistics StatisticsOfDistinct(const PreparedFit& fit, const std::vecto
   return FindResidualStatistics(fit.distinct.voltage_V, residual);
 }
 
-// The results at parameters `p`, whose solved-current RMSE is `rmse_A`. `at_its_end`: they were
-// polished without an interruption.
-ModelResults ResultsAt(const PreparedFit& fit, const std::vector<double>& p, double rmse_A,
-                       bool at_its_end) {
+// A parameter vector and what follows from it.
+struct Answer {
+  std::vector<double> p;
+  RmsePair rmse;
+  ModelResults results;
+};
+
+// `at_its_end`: the parameters were polished without an interruption.
+Answer AnswerAt(const PreparedFit& fit, const std::vector<double>& p, bool at_its_end) {
   const IvCurve& curve = fit.curve;
   const RefineProblem& problem = fit.problem;
-  ModelResults results;
+  Answer answer{p, BothRmse(fit.device, p, curve), {}};
+  ModelResults& results = answer.results;
   results.nNsVth = p[IdealityIndex(0)] * fit.device.module_thermal_voltage_V;
   results.measured = FindKeyPoints(curve.voltage_V, curve.current_A);
   results.simulated = ModelKeyPoints(fit.device, p.data());
@@ -51,13 +59,14 @@ ModelResults ResultsAt(const PreparedFit& fit, const std::vector<double>& p, dou
                           : StatisticsOfDistinct(fit, p);
   results.not_usable_because =
       WhyNotUsable(curve, results,
-                   {rmse_A, at_its_end, fit.options.loss != Loss::kSquared, !fit.doubts.empty()});
+                   {answer.rmse.solved_current_A, at_its_end, fit.options.loss != Loss::kSquared,
+                    !fit.doubts.empty()});
   results.usable = results.not_usable_because.empty();
-  return results;
+  return answer;
 }
 
-// The part of the report that is known before the search.
-FitReport Header(const PreparedFit& fit) {
+// The part of the report that is known after the search.
+FitReport SearchReport(const PreparedFit& fit, const SearchedFit& searched) {
   const FitOptions& options = fit.options;
   FitReport report;
   report.version = Version();
@@ -67,76 +76,88 @@ FitReport Header(const PreparedFit& fit) {
   report.constants = options.constants;
   report.bounds_name = options.bounds.name;
   report.steepest_n = fit.steepest_n;
-  report.device = fit.device;
   report.doubts = fit.doubts;
   for (const EffectUse& use : options.with) report.causes.push_back(use.effect->id);
   report.search_options = options.search;
   report.non_default_options = NonDefaults(options, kFitOptionTable);
+  const PolishStart& best = searched.candidates.front();
+  report.search = searched.summary;
+  report.curve_evaluations = searched.curve_evaluations;
+  if (searched.random_baseline) report.rmse.random_baseline = *searched.random_baseline;
+  report.searched = best.p;
+  OrderAlike(fit.device, fit.bounds, &report.searched, nullptr);
+  report.rmse.searched = BothRmse(fit.device, report.searched, fit.curve);
+  if (fit.extended()) report.best_candidate_penalty = VariantPenaltyOf(fit, best.variant);
   return report;
 }
 
-void AddSearch(const PreparedFit& fit, const SearchedFit& searched, FitReport* report) {
-  const PolishStart& best = searched.candidates.front();
-  report->search = searched.summary;
-  report->curve_evaluations = searched.curve_evaluations;
-  if (searched.random_baseline) report->rmse.random_baseline = *searched.random_baseline;
-  report->searched = report->refined = best.p;
-  OrderAlike(fit.device, fit.bounds, &report->searched, nullptr);
-  report->rmse.searched = BothRmse(fit.device, report->searched, fit.curve);
-  if (fit.extended()) report->best_candidate_penalty = VariantPenaltyOf(fit, best.variant);
+// The report with its answer. `fit`: in the selected variant.
+FitReport WithAnswer(FitReport report, const PreparedFit& fit, Answer answer) {
+  report.device = fit.device;
+  report.variant_penalty = fit.variant_penalty;
+  static_cast<ModelResults&>(report) = std::move(answer.results);
+  report.refined = std::move(answer.p);
+  return report;
 }
 
-// Without a polish the best candidate is the result.
-void AddUnpolished(const PreparedFit& fit, FitReport* report) {
-  report->device = fit.device;
-  report->variant_penalty = fit.variant_penalty;
-  report->refined = report->searched;
-  report->estimates = EstimatesOf(fit, report->searched, {});
-  static_cast<ModelResults&>(*report) =
-      ResultsAt(fit, report->refined, report->rmse.searched.solved_current_A, false);
+// The course of the polish, with restarts by the profiles and the best candidate's own polish.
+RefineReport CourseOf(const RefinedFit& refined, const JudgedFit& judged,
+                      const std::optional<PlainPolish>& plain) {
+  RefineReport course = refined.report;
+  for (const StartReport& restart : judged.restarts) {
+    for (StartReport& start : course.starts) start.agrees = false;
+    course.starts.push_back(restart);
+    course.winner = static_cast<int>(course.starts.size()) - 1;
+    course.agreeing = 1;
+  }
+  course.projected_gradient = judged.end.projected_gradient;
+  course.condition = judged.condition;
+  if (plain) course.best_candidate_seconds = plain->best_candidate_seconds;
+  return course;
 }
 
-// Adds the polish and the intervals.
-void AddPolish(const RefinedFit& refined, const ProgressReporter& progress, FitReport* report) {
+// Polishes the search's candidates, and judges the end.
+FitReport PolishedReport(FitReport report, const PreparedFit& prepared, const SearchedFit& searched,
+                         const SearchSpace& space, const std::optional<PlainPolish>& plain,
+                         const ProgressReporter& progress) {
+  const RefinedFit refined = RefineFit(prepared, searched.candidates, space, progress);
   const PreparedFit& fit = refined.prepared;
-  report->device = fit.device;
-  report->variant_penalty = fit.variant_penalty;
-  report->polished = true;
-  const double best_candidate_seconds = report->refine.best_candidate_seconds;
-  report->refine = refined.report;
-  report->refine.best_candidate_seconds = best_candidate_seconds;
-  report->variants = refined.variants;
-  std::vector<double>& candidate = report->refined_best_candidate;
-  if (candidate.empty()) candidate = refined.best_candidate;
+  const auto answer_at = [&](const std::vector<double>& p) {
+    return AnswerAt(fit, p, !progress.stop().requested());
+  };
+  Answer answer = answer_at(refined.end.p);
+  const Instant begin = Now();
+  JudgedFit judged = JudgeFit(refined, report.searched, answer.results.usable, progress);
+  report.interval_seconds = SecondsSince(begin);
+  if (judged.end.p != refined.end.p) answer = answer_at(judged.end.p);
+
+  report.polished = true;
+  report.refine = CourseOf(refined, judged, plain);
+  report.variants = refined.variants;
+  if (report.refined_best_candidate.empty()) {
+    report.refined_best_candidate = refined.best_candidate;
+  }
+  std::vector<double>& candidate = report.refined_best_candidate;
   if (!candidate.empty()) {
     OrderAlike(fit.device, fit.bounds, &candidate, nullptr);
-    report->rmse.refined_best_candidate = BothRmse(fit.device, candidate, fit.curve);
+    report.rmse.refined_best_candidate = BothRmse(fit.device, candidate, fit.curve);
   }
-  const auto results_at = [&](const std::vector<double>& p) {
-    report->rmse.refined = BothRmse(fit.device, p, fit.curve);
-    return ResultsAt(fit, p, report->rmse.refined.solved_current_A, !progress.stop().requested());
-  };
-  ModelResults results = results_at(refined.end.p);
+  report.rmse.refined = answer.rmse;
+  report.estimates = std::move(judged.estimates);
+  report.correlations = std::move(judged.correlations);
+  report.no_intervals_because = std::move(judged.no_intervals_because);
+  report.errors = judged.errors;
+  report.under_errors = std::move(judged.under_errors);
+  return WithAnswer(std::move(report), fit, std::move(answer));
+}
 
-  const Instant begin = Now();
-  JudgedFit judged = JudgeFit(refined, report->searched, results.usable, progress);
-  report->interval_seconds = SecondsSince(begin);
-  if (judged.end.p != refined.end.p) results = results_at(judged.end.p);
-  static_cast<ModelResults&>(*report) = std::move(results);
-  for (StartReport& restart : judged.restarts) {
-    for (StartReport& start : report->refine.starts) start.agrees = false;
-    report->refine.starts.push_back(std::move(restart));
-    report->refine.winner = static_cast<int>(report->refine.starts.size()) - 1;
-    report->refine.agreeing = 1;
-  }
-  report->refine.projected_gradient = judged.end.projected_gradient;
-  report->refine.condition = judged.condition;
-  report->refined = std::move(judged.end.p);
-  report->estimates = std::move(judged.estimates);
-  report->correlations = std::move(judged.correlations);
-  report->no_intervals_because = std::move(judged.no_intervals_because);
-  report->errors = judged.errors;
-  report->under_errors = std::move(judged.under_errors);
+// Without a polish the best candidate is the answer.
+FitReport UnpolishedReport(FitReport report, const PreparedFit& prepared, const PolishStart& best) {
+  const PreparedFit fit =
+      prepared.extended() ? WithVariant(prepared, best.variant, best.p) : prepared;
+  report.estimates = EstimatesOf(fit, report.searched, {});
+  Answer answer = AnswerAt(fit, report.searched, false);
+  return WithAnswer(std::move(report), fit, std::move(answer));
 }
 
 }  // namespace
@@ -147,21 +168,18 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
   const SearchSpace space = SpaceOf(prepared);
   TRY(const SearchedFit searched, SearchFit(prepared, space, observer, progress));
   const PolishStart& best = searched.candidates.front();
-  FitReport report = Header(prepared);
-  AddSearch(prepared, searched, &report);
+  FitReport report = SearchReport(prepared, searched);
+  std::optional<PlainPolish> plain;
   if (options.plain_polish) {
-    PlainPolish plain = PolishPlainly(prepared, best, progress);
-    report.rmse.plain_polished = plain.rmse;
-    report.plain_seconds = plain.seconds;
-    report.refined_best_candidate = std::move(plain.best_candidate);
-    report.refine.best_candidate_seconds = plain.best_candidate_seconds;
+    plain = PolishPlainly(prepared, best, progress);
+    report.rmse.plain_polished = plain->rmse;
+    report.plain_seconds = plain->seconds;
+    report.refined_best_candidate = plain->best_candidate;
+    report.refine.best_candidate_seconds = plain->best_candidate_seconds;
   }
-  if (options.polish) {
-    AddPolish(RefineFit(prepared, searched.candidates, space, progress), progress, &report);
-  } else {
-    AddUnpolished(prepared.extended() ? WithVariant(prepared, best.variant, best.p) : prepared,
-                  &report);
-  }
+  report = options.polish
+               ? PolishedReport(std::move(report), prepared, searched, space, plain, progress)
+               : UnpolishedReport(std::move(report), prepared, best);
   report.interrupted = progress.stop().requested();
   report.warnings = FindWarnings(report);
   return report;

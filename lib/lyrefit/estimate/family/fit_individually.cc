@@ -115,19 +115,22 @@ FitOptions FreeOptions(const FamilyOptions& options) {
   return fit;
 }
 
-// The curves to be fitted. All curves of the set are described in the report.
-Expected<std::vector<const IvCurve*>> WantedCurves(const CurveSet& set,
-                                                   const FamilyOptions& options,
-                                                   FamilyReport* report) {
-  const std::vector<std::string>& unwanted = options.leave_out;
+// The rows of all curves of the set, and the curves to be fitted.
+struct WantedCurves {
+  std::vector<FamilyCurve> rows;
   std::vector<const IvCurve*> curves;
+};
+
+Expected<WantedCurves> FindWantedCurves(const CurveSet& set, const FamilyOptions& options) {
+  const std::vector<std::string>& unwanted = options.leave_out;
+  WantedCurves wanted;
   for (const IvCurve& curve : set.curves) {
-    report->curves.push_back(DescribeCurve(curve));
+    FamilyCurve& row = wanted.rows.emplace_back(DescribeCurve(curve));
     if (std::find(unwanted.begin(), unwanted.end(), curve.name) == unwanted.end()) {
-      curves.push_back(&curve);
+      wanted.curves.push_back(&curve);
     } else {
-      report->curves.back().reason = "left out as asked";
-      report->curves.back().role = CurveRole::kLeftOut;
+      row.reason = "left out as asked";
+      row.role = CurveRole::kLeftOut;
     }
   }
   for (const std::string& id : unwanted) {
@@ -135,12 +138,16 @@ Expected<std::vector<const IvCurve*>> WantedCurves(const CurveSet& set,
                                    [&](const IvCurve& curve) { return curve.name == id; });
     if (!found) return Fail(fmt::format("leave-out: the set has no curve {}", id));
   }
-  if (curves.empty()) return Fail("expected at least one curve, found none", set.source);
-  return curves;
+  if (wanted.curves.empty()) {
+    return Fail("expected at least one curve, found none", set.source);
+  }
+  return wanted;
 }
 
-// Counts of the outcomes of individual fits.
-struct FreeCounts {
+// The rows of all curves with their fits, and counts of the outcomes.
+struct FittedRows {
+  std::vector<FamilyCurve> rows;
+  std::vector<std::string> warnings;  // of curves that cannot be fitted and are left out
   int fitted = 0;
   int failed = 0;      // fits that are not usable
   int correlated = 0;  // fits with fewer sign changes of the residuals than expected
@@ -149,49 +156,51 @@ struct FreeCounts {
   const FitReport* unusable = nullptr;  // first fit that is not usable
 };
 
-// Fills the curves of the report; those that cannot be fitted are left out with a warning.
-FreeCounts TakeFits(const IndividualFits& fits, FamilyReport* report) {
-  FreeCounts counts;
+FittedRows WithFits(std::vector<FamilyCurve> rows, const IndividualFits& fits) {
+  FittedRows fitted;
+  fitted.rows = std::move(rows);
   std::size_t next = 0;
-  for (FamilyCurve& curve : report->curves) {
+  for (FamilyCurve& curve : fitted.rows) {
     if (curve.role == CurveRole::kLeftOut) continue;
     const std::optional<Expected<FitReport>>& one = fits.reports[next++];
     if (one && *one) {
       const FitReport& fit = **one;
       FillIndividualFit(fit, &curve);
-      counts.fitted += fit.usable;
-      counts.failed += !fit.usable;
-      if (!fit.usable && counts.unusable == nullptr) counts.unusable = &fit;
+      fitted.fitted += fit.usable;
+      fitted.failed += !fit.usable;
+      if (!fit.usable && fitted.unusable == nullptr) fitted.unusable = &fit;
       const ResidualStatistics& residuals = fit.residuals;
-      counts.correlated +=
+      fitted.correlated +=
           residuals.runs < residuals.expected_runs && residuals.runs_p_value < kCorrelated;
       continue;
     }
     curve.role = CurveRole::kLeftOut;
     curve.reason = one ? one->error().message : "interrupted before its turn";
     if (!one) continue;
-    if (counts.first == nullptr) counts.first = &one->error();
-    ++counts.refused;
-    report->warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
+    if (fitted.first == nullptr) fitted.first = &one->error();
+    ++fitted.refused;
+    fitted.warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }
-  return counts;
+  return fitted;
 }
 
-void WarnOfFits(const FreeCounts& counts, std::vector<std::string>* warnings) {
-  if (counts.failed > 0) {
-    warnings->push_back(fmt::format("{} of {} fits are not usable; the first, of curve {}: {}.",
-                                    counts.failed, counts.failed + counts.fitted,
-                                    counts.unusable->curve.name,
-                                    counts.unusable->not_usable_because));
+std::vector<std::string> WarningsOf(const FittedRows& fitted) {
+  std::vector<std::string> warnings = fitted.warnings;
+  if (fitted.failed > 0) {
+    warnings.push_back(fmt::format("{} of {} fits are not usable; the first, of curve {}: {}.",
+                                   fitted.failed, fitted.failed + fitted.fitted,
+                                   fitted.unusable->curve.name,
+                                   fitted.unusable->not_usable_because));
   }
-  if (2 * counts.correlated > counts.fitted) {
-    warnings->push_back(fmt::format(
+  if (2 * fitted.correlated > fitted.fitted) {
+    warnings.push_back(fmt::format(
         "The residuals keep their sign too long in {} of {} fits (p below {:g} in the runs test): "
         "a law that misses, or noise that hangs together from point to point. The intervals of the "
         "single fits are too narrow then; the spread between fits of equal curves is the honest "
         "measure.",
-        counts.correlated, counts.fitted, kCorrelated));
+        fitted.correlated, fitted.fitted, kCorrelated));
   }
+  return warnings;
 }
 
 }  // namespace
@@ -199,23 +208,25 @@ void WarnOfFits(const FreeCounts& counts, std::vector<std::string>* warnings) {
 Expected<FamilyReport> FitIndividually(const CurveSet& set, const FamilyOptions& options,
                                        const Observer& observer) {
   TRY(ValidateThreads(options.threads));
-  FamilyReport report = FreeHead(set, options);
-  TRY(const auto curves, WantedCurves(set, options, &report));
-  report.cells_in_series = curves[0]->conditions.cells_in_series;
+  TRY(WantedCurves wanted, FindWantedCurves(set, options));
   const IndividualFits fits =
-      FitEveryCurve(curves, FreeOptions(options), options.threads, observer);
+      FitEveryCurve(wanted.curves, FreeOptions(options), options.threads, observer);
+  FittedRows fitted = WithFits(std::move(wanted.rows), fits);
+  // If no curve can be fitted, the options or the set are at fault.
+  if (fitted.first != nullptr && fitted.refused == static_cast<int>(wanted.curves.size())) {
+    return tl::unexpected(*fitted.first);
+  }
+  FamilyReport report = FreeHead(set, options);
+  report.curves = std::move(fitted.rows);
+  report.cells_in_series = wanted.curves[0]->conditions.cells_in_series;
   report.individual_seconds = report.seconds = fits.seconds;
   report.interrupted = fits.interrupted;
-  const FreeCounts counts = TakeFits(fits, &report);
-  // If no curve can be fitted, the options or the set are at fault.
-  if (counts.first != nullptr && counts.refused == static_cast<int>(curves.size())) {
-    return tl::unexpected(*counts.first);
-  }
   if (!options.with.empty()) report.taken = std::make_shared<CurveSet>(KeptCurves(set, report));
   report.doubts = DoubtsOfKept(set, report);
-  report.warnings.insert(report.warnings.begin(), report.doubts.begin(), report.doubts.end());
-  WarnOfFits(counts, &report.warnings);
-  report.usable = counts.fitted > 0;
+  report.warnings = report.doubts;
+  const std::vector<std::string> found = WarningsOf(fitted);
+  report.warnings.insert(report.warnings.end(), found.begin(), found.end());
+  report.usable = fitted.fitted > 0;
   return report;
 }
 

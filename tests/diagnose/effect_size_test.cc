@@ -7,6 +7,7 @@
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "repeats.h"
 #include "synthetic_data.h"
 
@@ -173,7 +174,7 @@ TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {
   const SyntheticData made = OnTheData(done.curve);
   LawFit fit = FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
   fit.law.effects = {FindEffect("weak_cell")};
-  fit.p = {1, 0, 1.2, 0.015, 1e-3};
+  fit.p = LawCoordinates(fit.law, *made.weighted.readings).Parameters({1, 0, 1.2, 0.015, 1e-3});
   fit.p.insert(fit.p.end(), weak.begin(), weak.end());
   const HotCell hot = FindHotCell(made.weighted, fit, 0);
   EXPECT_NEAR(hot.voltage_V, -3.2 * std::pow(0.6, 1 / 3.4), 0.15);

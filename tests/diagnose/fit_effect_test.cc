@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {
@@ -27,9 +28,11 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
     const bool always_there =
         id == "shading" || id == "clip" || id == "weak_cell" || id == "scatter";
     EXPECT_TRUE(always_there || fit.sum <= base.sum * (1 + 1e-6)) << id;
+    const LeastSquaresProblem bounded = BoundedProblem(*made.weighted.readings, fit.law);
+    const auto theta = LawCoordinates(fit.law, *made.weighted.readings).Of(fit.p);
     for (int k = 0; k < fit.law.size(); ++k) {
-      EXPECT_GE(fit.p[k], fit.law.Lower(k)) << id;
-      EXPECT_LE(fit.p[k], fit.law.Upper(k)) << id;
+      EXPECT_GE(theta[k], bounded.lower[k]) << id;
+      EXPECT_LE(theta[k], bounded.upper[k]) << id;
     }
     ++fitted;
   }

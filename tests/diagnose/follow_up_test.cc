@@ -82,26 +82,26 @@ TEST(LawOnTest, WhatHappenedInTimeStaysThere) {
   const Readings readings = ReadingsOf(Module());
   Law law = StartingLaw(readings, Model::kSingleDiode);
   law.effects = {FindEffect("irr_step"), FindEffect("shading")};
-  std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.02, 0.1, 0.4, 1.0 / 3, 0.5, 1};
+  std::vector<double> theta = {1, 0, 1.2, 0.015, 0.05, 0.02, 0.1, 0.4, 1.0 / 3, 0.5, 1};
   const std::vector<FollowUp> all = FollowUpMeasurements(readings);
-  const CurveLaw at_once = LawOn(Find(all, "reverse_sweep").curves.front(), law, p);
+  const CurveLaw at_once = LawOn(Find(all, "reverse_sweep").curves.front(), law, theta);
   EXPECT_EQ(at_once.law.effects, law.effects);
-  EXPECT_EQ(at_once.p, p);
-  const CurveLaw later = LawOn(Find(all, "slower_sweep").curves.front(), law, p);
+  EXPECT_EQ(at_once.theta, theta);
+  const CurveLaw later = LawOn(Find(all, "slower_sweep").curves.front(), law, theta);
   EXPECT_THAT(later.law.effects, ElementsAre(FindEffect("shading")));
   EXPECT_THAT(later.from, ElementsAre(0, 1, 2, 3, 4, 7, 8, 9, 10));
-  EXPECT_EQ(later.p[5], 0.4);
+  EXPECT_EQ(later.theta[5], 0.4);
 }
 
 TEST(LawOnTest, ACoveredShadeIsGone) {
   const Readings readings = ReadingsOf(Module());
   Law law = StartingLaw(readings, Model::kSingleDiode);
   law.effects = {FindEffect("shading")};
-  const std::vector<double> p = {1, 0, 1.2, 0.015, 0.05, 0.4, 1.0 / 3, 0.5, 1};
+  const std::vector<double> theta = {1, 0, 1.2, 0.015, 0.05, 0.4, 1.0 / 3, 0.5, 1};
   const std::vector<FollowUp> all = FollowUpMeasurements(readings);
   const auto& curves = Find(all, "cover_part").curves;
-  EXPECT_TRUE(LawOn(curves[0], law, p).law.effects.empty());
-  EXPECT_NEAR(LawOn(curves[1], law, p).p[6], 0.5, 1e-12);
+  EXPECT_TRUE(LawOn(curves[0], law, theta).law.effects.empty());
+  EXPECT_NEAR(LawOn(curves[1], law, theta).theta[6], 0.5, 1e-12);
 }
 
 TEST(UnderTest, MovesWhatIsUnknown) {

@@ -37,13 +37,13 @@ TEST(TakeFurtherTest, OpenCircuitIsWhereNothingFlows) {
   const std::vector<double> unknown(follow_up.unknown.size(), 0.5);
   const auto joint = TakeFurther(reference.made.weighted, 1, follow_up, reference.fit, unknown);
   ASSERT_TRUE(joint);
+  const double photocurrent = reference.fit.p[kIph] / joint->readings.scale.current_A;
   double before = 1;
   for (std::size_t k = joint->taken; k < joint->readings.points.size(); k += 2) {
     const Reading &isc = joint->readings.points[k], &voc = joint->readings.points[k + 1];
     EXPECT_NEAR(voc.current, 0, 1e-9);
     EXPECT_LT(voc.voltage, before);
-    EXPECT_NEAR(isc.current, isc.irradiance * 1.015 * reference.fit.p[kBasePhotocurrent],
-                0.01 * isc.irradiance);
+    EXPECT_NEAR(isc.current, isc.irradiance * 1.015 * photocurrent, 0.01 * isc.irradiance);
     before = voc.voltage;
   }
 }

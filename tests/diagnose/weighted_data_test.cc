@@ -63,11 +63,10 @@ TEST(FitBaseTest, FindsTheDevice) {
     const SyntheticData made = OnTheData(SyntheticCurve(recipe));
     const LawFit fit = FitBase(made.weighted, Law());
     ASSERT_TRUE(fit.usable);
-    const double scale = made.measurement.readings.scale.current_A;
-    EXPECT_NEAR(fit.p[kBasePhotocurrent] * scale, 8, 1e-4);
-    EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 1e-3);
-    EXPECT_NEAR(fit.p[kBaseResistance] / scale, 0.004, 1e-5);
-    EXPECT_NEAR(fit.p[kBaseConductance] * scale, 1 / 20., 1e-3);
+    EXPECT_NEAR(fit.p[kIph], 8, 1e-4);
+    EXPECT_NEAR(Ideality(fit), 1.2, 1e-3);
+    EXPECT_NEAR(fit.p[kRs] / cells, 0.004, 1e-5);
+    EXPECT_NEAR(cells / fit.p[kRsh], 1 / 20., 1e-3);
     EXPECT_LT(fit.sum, 1e-3);
   }
 }
@@ -107,7 +106,7 @@ TEST(FitLawTest, DarkCurvesHaveNoPhotocurrent) {
   EXPECT_EQ(FreeCount(made.weighted, Law()), 4);
   const LawFit fit = FitBase(made.weighted, Law());
   ASSERT_TRUE(fit.usable);
-  EXPECT_NEAR(fit.p[kBaseIdeality], 1.2, 0.02);
+  EXPECT_NEAR(Ideality(fit), 1.2, 0.02);
 }
 
 TEST(LinearizeTest, IsTheFitsTangent) {
@@ -131,9 +130,9 @@ TEST(LinearizeTest, ParametersPressedAgainstABoundAreNotFree) {
   const SyntheticData made = OnTheData(curve);  // rises: 1/Rsh would be negative
   const LawFit fit = FitBase(made.weighted, Law());
   const Linearized linear = Linearize(made.weighted, fit);
-  EXPECT_LT(fit.p[kBaseConductance], 1e-6);
-  EXPECT_EQ(std::count(linear.free.begin(), linear.free.end(), kBaseConductance), 0);
-  EXPECT_EQ(StandardErrors(linear, 5)[kBaseConductance], 0);
+  EXPECT_GT(fit.p[kRsh], 1e6);
+  EXPECT_EQ(std::count(linear.free.begin(), linear.free.end(), kRsh), 0);
+  EXPECT_EQ(StandardErrors(linear)[kRsh], 0);
 }
 
 // Standard errors equal the spread of fits over seeds.
@@ -146,18 +145,18 @@ TEST(StandardErrorsTest, AreTheSpreadOfRepeatedFits) {
     recipe.points = 120;
     const SyntheticData made = OnTheData(SyntheticCurve(recipe));
     const LawFit fit = FitBase(made.weighted, Law());
-    const double scale = made.measurement.readings.scale.current_A;
-    const std::vector<double> errors = StandardErrors(Linearize(made.weighted, fit), 5);
-    const double to_A[] = {scale, 1, 1, 1 / scale, scale};
+    const std::vector<double> errors = StandardErrors(Linearize(made.weighted, fit));
     for (int k = 0; k < 5; ++k) {
-      if (k == kBasePivot) continue;  // the pivot moves with the curve
-      const double value = fit.p[k] * to_A[k];
+      const double p = fit.p[k];
+      const bool bent = k == SaturationCurrentIndex(0) || k == kRsh;  // normal on other scales
+      const double value = !bent ? p : k == kRsh ? 1 / p : std::log(p);
+      const double slope = !bent ? 1 : k == kRsh ? 1 / (p * p) : 1 / p;
       sum[k] += value / kSeeds;
       square[k] += value * value / kSeeds;
-      stated[k] += errors[k] * to_A[k] / kSeeds;
+      stated[k] += errors[k] * slope / kSeeds;
     }
   }
-  for (const int k : {kBasePhotocurrent, kBaseIdeality, kBaseResistance, kBaseConductance}) {
+  for (int k = 0; k < 5; ++k) {
     const double spread = std::sqrt(square[k] - sum[k] * sum[k]);
     EXPECT_NEAR(stated[k] / spread, 1, 0.25) << k;
   }

@@ -100,7 +100,7 @@ struct Evaluated {
 Evaluated Evaluate(const Effect& effect, const Readings& readings, const std::vector<double>& own) {
   Law law;
   law.effects = {&effect};
-  std::vector<double> p = OrdinaryCell();
+  std::vector<double> p = ParametersOf({}, readings);
   p.insert(p.end(), own.begin(), own.end());
   Evaluated result;
   result.current.resize(readings.points.size());

@@ -100,7 +100,7 @@ TEST(StringLayoutTest, NamesThePlaceOfWhatItCannotRead) {
 std::vector<double> CurrentsOf(const Readings& readings, const std::string& text) {
   Law law;
   if (!text.empty()) law.layout = std::make_shared<const StringLayout>(Layout(text));
-  return Currents(law, readings, OrdinaryCell());
+  return Currents(law, readings, ParametersOf({}, readings));
 }
 
 void ExpectNear(const std::vector<double>& a, const std::vector<double>& b, double error) {
@@ -159,20 +159,20 @@ TEST(StringLayoutTest, DerivativesAreThoseOfTheCurrents) {
   const Readings readings = SyntheticReadings(DataKind::kUpDown, 36);
   Law law;
   law.layout = std::make_shared<const StringLayout>(Layout(kTwoStrings));
-  const std::vector<double> p = OrdinaryCell();
+  const std::vector<double> p = ParametersOf({}, readings);
   const std::vector<double> jacobian = Jacobian(law, readings, p);
   ASSERT_FALSE(jacobian.empty());
   for (int i = 0; i < law.size(); ++i) {
-    const double step = 1e-4 * (1e-3 + std::fabs(p[i]));
+    constexpr double kStep = 3e-5;  // relative
     const auto moved = [&](double by) {
       std::vector<double> at = p;
-      at[i] += by * step;
+      at[i] *= 1 + by * kStep;
       return Currents(law, readings, at);
     };
     const auto up = moved(1), down = moved(-1), up2 = moved(2), down2 = moved(-2);
     for (std::size_t k = 0; k < up.size(); ++k) {
-      const double slope = (8 * (up[k] - down[k]) - (up2[k] - down2[k])) / (12 * step);
-      EXPECT_NEAR(jacobian[k * law.size() + i], slope, 1e-7 * (1 + std::fabs(slope)))
+      const double slope = (8 * (up[k] - down[k]) - (up2[k] - down2[k])) / (12 * kStep);
+      EXPECT_NEAR(p[i] * jacobian[k * law.size() + i], slope, 1e-9 * (1 + std::fabs(slope)))
           << "reading " << k << ", parameter " << i;
     }
   }

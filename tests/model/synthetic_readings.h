@@ -24,11 +24,28 @@ inline std::string NameOf(DataKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-// Base parameters of an ordinary cell in internal units; with `second_diode`, a sixth parameter for
-// the second diode.
-inline std::vector<double> OrdinaryCell(bool second_diode = false) {
-  std::vector<double> p = {1, -0.1, 1.25, 0.02, 0.04};
-  if (second_diode) p.push_back(0.1);
+// A cell in current scales and volts per cell.
+struct CellValues {
+  double photocurrent = 1;
+  double log_pivot = -0.1;  // ln of the first diode's current at the pivot voltage
+  double ideality = 1.25;
+  double resistance = 0.02;
+  double conductance = 0.04;
+  double second_pivot = 0.1;  // current of a second diode with n = 2 there
+};
+
+// Base parameters of a law for cells like this.
+inline std::vector<double> ParametersOf(const CellValues& cell, const Readings& readings,
+                                        Model model = Model::kSingleDiode) {
+  const double scale = readings.scale.current_A, ohm = readings.scale.resistance_ohm();
+  const double thermal = ThermalVoltage(readings.reference_temperature_K);
+  const auto saturation = [&](double pivot, double n) {
+    return scale * pivot / std::expm1(readings.pivot_voltage / (n * thermal));
+  };
+  std::vector<double> p = {cell.photocurrent * scale,
+                           saturation(std::exp(cell.log_pivot), cell.ideality), cell.ideality,
+                           cell.resistance * ohm, ohm / cell.conductance};
+  if (model == Model::kDoubleDiode) p.insert(p.end(), {saturation(cell.second_pivot, 2), 2});
   return p;
 }
 
@@ -117,20 +134,22 @@ inline Readings SyntheticReadings(DataKind kind, int cells) {
   readings.scale.saturation_2_unit = Saturation2Unit(readings);
   LawWorkspace workspace;
   std::vector<double> current(count);
-  EXPECT_TRUE(EvaluateLaw(Law{}, readings, OrdinaryCell().data(), &workspace, current.data(), {}));
+  EXPECT_TRUE(EvaluateLaw(Law{}, readings, ParametersOf({}, readings).data(), &workspace,
+                          current.data(), {}));
   for (int k = 0; k < count; ++k) readings.points[k].current = current[k];
   SetRangeCurrents(&readings);
   return readings;
 }
 
-// A law with effects, and its parameters: those of the ordinary cell and of the effects.
+// A law with an effect, and its parameters: those of an ordinary cell and of the effect.
 struct Settled {
   Law law;
   std::vector<double> p;
 };
 
-inline Settled WithEffect(const Effect& effect, const std::vector<double>& values) {
-  Settled settled{Law{}, OrdinaryCell()};
+inline Settled WithEffect(const Effect& effect, const std::vector<double>& values,
+                          const Readings& readings) {
+  Settled settled{Law{}, ParametersOf({}, readings)};
   settled.law.effects = {&effect};
   EXPECT_EQ(static_cast<int>(values.size()), effect.size()) << effect.id;
   settled.p.insert(settled.p.end(), values.begin(), values.end());

@@ -128,8 +128,8 @@ HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) 
   const HealthyCell reference(weighted, fit);
   double brightest = 0;
   for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
-  const double photocurrent = fit.p[kBasePhotocurrent] * brightest;
-  const double conductance = fit.p[kBaseConductance];
+  const double photocurrent = fit.p[kIph] * brightest / readings.scale.current_A;
+  const double conductance = readings.scale.resistance_ohm() / fit.p[kRsh];
   const double cells = readings.traits.cells;
   const double mates = cells / SubstringsOf(readings.traits) - 1;
   const bool bypassed = SubstringsOf(readings.traits) > 1;

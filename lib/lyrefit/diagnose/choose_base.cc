@@ -21,9 +21,8 @@ LawFit WithConstantShunt(const WeightedData& weighted, const LawFit& inverse) {
     both.shunt = ShuntLaw::kConstant;
     both.effects.push_back(FindEffect("photoshunt"));
     std::vector<double> start = inverse.p;
-    const double lit = start[kBaseConductance];
-    start[kBaseConductance] = 0.05 * lit;
-    start.push_back(0.95 * lit);
+    start.push_back(0.95 * weighted.readings->scale.resistance_ohm() / start[kRsh]);
+    start[kRsh] /= 0.05;
     start.push_back(law);
     best = Better(std::move(best), FitLaw(weighted, both, start));
   }

@@ -69,7 +69,7 @@ std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fi
                                   const Effect& effect) {
   constexpr double kUnlike = 3;  // scatter between modules / estimate of one sweep
   if (weighted.path == 0 || effect.where != Where::kSweep) {
-    return StandardErrors(Linearize(weighted, fit), fit.law.size());
+    return StandardErrors(Linearize(weighted, fit));
   }
   WeightedData allowed = weighted;
   allowed.path *= kUnlike;
@@ -77,7 +77,7 @@ std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fi
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].fixed_by_default) freed.law.freed.emplace_back(&effect, k);
   }
-  return StandardErrors(Linearize(allowed, freed), fit.law.size());
+  return StandardErrors(Linearize(allowed, freed));
 }
 
 }  // namespace
@@ -289,57 +289,31 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
   const WeightedData& weighted = selection.weighted;
   const Readings& readings = *weighted.readings;
   const LawFit &before = selection.base, &after = selection.extended;
-  const std::vector<double> errors = StandardErrors(Linearize(weighted, after), after.law.size());
+  const std::vector<double> errors = StandardErrors(Linearize(weighted, after));
   const double sd = std::sqrt(NoiseVariance(weighted, after));
-  const double scale = readings.scale.current_A, cells = readings.scale.cells;
-  double brightest = 1;
-  if (readings.traits.single && !readings.traits.only_dark) {
-    brightest = readings.points.front().irradiance;
-  }
   std::vector<ParameterShift> shifts;
-  const auto add = [&](const char* symbol, const char* name, const char* unit, auto value,
-                       double error) {
-    shifts.push_back({symbol, name, unit, value(before), value(after), error});
+  const auto add = [&](int k, const char* symbol, const char* name, const char* unit) {
+    const double error = std::isfinite(after.p[k]) ? errors[k] * sd : kUnknown;
+    shifts.push_back({symbol, name, unit, before.p[k], after.p[k], error});
   };
-  const double per_p = brightest * scale;
-  add(
-      "Iph", "photocurrent", "A", [&](const LawFit& f) { return f.p[kBasePhotocurrent] * per_p; },
-      errors[kBasePhotocurrent] * sd * per_p);
-  add(
-      "Is1", "saturation_current", "A",
-      [&](const LawFit& f) { return scale * SaturationCurrent(f.law, readings, f.p.data()); },
-      kUnknown);
-  add(
-      "n1", "n", "", [](const LawFit& f) { return f.p[kBaseIdeality]; },
-      errors[kBaseIdeality] * sd);
-  add(
-      "Rs", "resistance_series", "ohm",
-      [&](const LawFit& f) { return f.p[kBaseResistance] * cells / scale; },
-      errors[kBaseResistance] * sd * cells / scale);
-  const double at_reference = per_p / brightest;
-  if (after.law.free_tempco) {
-    add(
-        "alpha", "alpha_sc", "A/K",
-        [&](const LawFit& f) {
-          return f.p[f.law.TempcoAt()] * f.p[kBasePhotocurrent] * at_reference;
-        },
-        errors[after.law.TempcoAt()] * sd * after.p[kBasePhotocurrent] * at_reference);
+  add(kIph, "Iph", "photocurrent", "A");
+  if (readings.traits.single && !readings.traits.only_dark) {
+    ParameterShift& shift = shifts.back();
+    for (double* value : {&shift.before, &shift.after, &shift.standard_error}) {
+      *value *= readings.points.front().irradiance;
+    }
   }
-  if (after.law.free_bandgap) {
-    add(
-        "Eg", "EgRef", "eV", [](const LawFit& f) { return f.p[f.law.BandgapAt()]; },
-        errors[after.law.BandgapAt()] * sd);
-  }
-  const double g = after.p[kBaseConductance];
-  add(
-      "Rsh", "resistance_shunt", "ohm",
-      [&](const LawFit& f) { return cells / (f.p[kBaseConductance] * scale); },
-      errors[kBaseConductance] * sd * cells / (g * g * scale));
+  add(SaturationCurrentIndex(0), "Is1", "saturation_current", "A");
+  shifts.back().standard_error = kUnknown;
+  add(IdealityIndex(0), "n1", "n", "");
+  add(kRs, "Rs", "resistance_series", "ohm");
+  if (after.law.free_tempco) add(after.law.TempcoAt(), "alpha", "alpha_sc", "A/K");
+  if (after.law.free_bandgap) add(after.law.BandgapAt(), "Eg", "EgRef", "eV");
+  add(kRsh, "Rsh", "resistance_shunt", "ohm");
   if (!readings.traits.only_dark) {
     const PowerAndError now = DevicePowerAndError(weighted, after);
-    add(
-        "Pmax", "max_power", "W", [&](const LawFit& f) { return DevicePower(weighted, f); },
-        now.error * now.power_W);
+    shifts.push_back({"Pmax", "max_power", "W", DevicePower(weighted, before),
+                      DevicePower(weighted, after), now.error * now.power_W});
   }
   return shifts;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit {
@@ -99,7 +100,9 @@ double ErrorOf(const WeightedData& weighted, const LawFit& fit, Bare bare, const
   LawWorkspace workspace;
   double current = 0;
   std::vector<double> derivative(terms.p.size());
-  if (!EvaluateLaw(terms.law, bare.grid, terms.p.data(), &workspace, &current, derivative.data())) {
+  const LawCoordinates coordinates(terms.law, bare.grid);
+  const std::vector<double> theta = coordinates.Of(terms.p);
+  if (!coordinates.Evaluate(theta.data(), &workspace, &current, derivative.data())) {
     return kUnknown;
   }
   std::vector<double> by(fit.p.size(), 0.0);

@@ -66,7 +66,7 @@ void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
 // significant.
 void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
   const Readings& readings = *selection.weighted.readings;
-  const double n = std::min(selection.base.p[kBaseIdeality], selection.extended.p[kBaseIdeality]);
+  const double n = std::min(Ideality(selection.base), Ideality(selection.extended));
   if (n > 1) return;
   const double kelvin = readings.reference_temperature_K * n;
   evidence->findings.push_back(
@@ -142,9 +142,10 @@ void AddFindings(const Selection& selection, const AtReadings& at, const ValueFi
   AddResidualFindings(selection, evidence);
   AddIrradianceFinding(*at.weighted.readings, evidence);
   AddIdealityFinding(selection, evidence);
-  const LawFit& fit = selection.extended;
-  for (const auto& [k, name] : {std::pair{kBaseConductance, "1/Rsh"}, {kBaseResistance, "Rs"}}) {
-    if (fit.p[k] > 1e-9) continue;
+  const std::vector<double>& p = selection.extended.p;
+  const double ohm = at.weighted.readings->scale.resistance_ohm();
+  for (const auto& [value, name] : {std::pair{ohm / p[kRsh], "1/Rsh"}, {p[kRs] / ohm, "Rs"}}) {
+    if (value > 1e-9) continue;
     evidence->findings.push_back({"bound", fmt::format("{} is pressed against 0", name), {}});
   }
 }
@@ -232,7 +233,7 @@ Cause Metadata(const char* evidence, double p) {
 // The stated number of cells requires a higher voltage per cell than a junction gives.
 Cause WrongCells(const Selection& selection) {
   const DataTraits& traits = selection.weighted.readings->traits;
-  const double cells = traits.cells * selection.extended.p[kBaseIdeality];
+  const double cells = traits.cells * Ideality(selection.extended);
   Cause cause = Metadata("values", 0);
   cause.strength = {{"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
   cause.sentence = fmt::format(
@@ -280,10 +281,10 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const Readings& readings = *weighted.readings;
   const DataTraits& traits = readings.traits;
   if (traits.cells_known && traits.stated_cells != traits.cells) return {WrongCells(selection)};
-  const double n = fit.p[kBaseIdeality];
+  const double n = Ideality(fit);
   if (n >= smallest && n <= kLargest) return {};
-  const std::vector<double> errors = StandardErrors(Linearize(weighted, fit), fit.law.size());
-  const double error = errors[kBaseIdeality] * std::sqrt(SquarePerDegree(weighted, fit));
+  const std::vector<double> errors = StandardErrors(Linearize(weighted, fit));
+  const double error = errors[IdealityIndex(0)] * std::sqrt(SquarePerDegree(weighted, fit));
   if (!(error > 0)) return {};
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);

@@ -33,41 +33,27 @@ constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
 std::vector<double> Reported(const WeightedData& weighted, const Law& law,
                              const std::vector<double>& p) {
   const Readings& readings = *weighted.readings;
-  const double scale = readings.scale.current_A, cells = readings.scale.cells;
-  double light = 1;
+  std::vector<double> values = p;
   if (readings.traits.single && !readings.traits.only_dark) {
-    light = readings.points.front().irradiance;
+    values[kIph] *= readings.points.front().irradiance;
   }
-  std::vector<double> values = {
-      p[kBasePhotocurrent] * light * scale, SaturationCurrent(law, readings, p.data()) * scale,
-      p[kBaseIdeality], p[kBaseResistance] * cells / scale, cells / (p[kBaseConductance] * scale)};
-  if (law.model == Model::kDoubleDiode) {
-    values.push_back(p[kBaseSecond] * readings.scale.saturation_2_unit * scale);
-    values.push_back(2);
-  }
-  if (law.free_tempco) values.push_back(p[law.TempcoAt()] * p[kBasePhotocurrent] * scale);
-  if (law.free_bandgap) values.push_back(p[law.BandgapAt()]);
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const int first = law.Offset(static_cast<int>(e));
     for (int k = 0; k < law.effects[e]->size(); ++k) {
-      values.push_back(p[first + k] * law.effects[e]->parameters[k].ReportedFactor(p.data() + first,
-                                                                                   readings.scale));
+      values[first + k] *=
+          law.effects[e]->parameters[k].ReportedFactor(p.data() + first, readings.scale);
     }
   }
   return values;
 }
 
-// Standard errors of the base parameters in the order of the report; NaN if not available.
-std::vector<double> StandardErrorsOf(const Selection& selection, std::size_t count) {
-  const Law& law = selection.extended.law;
-  std::vector<double> errors(count, kUnknown);
+// Standard errors of the base parameters in these rows; NaN if not available.
+std::vector<double> StandardErrorsOf(const Selection& selection, const std::vector<Row>& rows) {
+  std::vector<double> errors(rows.size(), kUnknown);
   for (const ParameterShift& shift : DescribeShifts(selection)) {
-    for (int k = 0; k < 5; ++k) {
-      if (shift.symbol == kBaseRows[k].symbol) errors[k] = shift.standard_error;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (shift.symbol == rows[k].symbol) errors[k] = shift.standard_error;
     }
-    const int second = law.model == Model::kDoubleDiode ? 1 : 0;  // offset by the row n2
-    if (shift.symbol == "alpha") errors[law.TempcoAt() + second] = shift.standard_error;
-    if (shift.symbol == "Eg") errors[law.BandgapAt() + second] = shift.standard_error;
   }
   return errors;
 }
@@ -133,7 +119,7 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     if (!searched.empty()) estimates[k].searched = searched[k];
   }
   const std::vector<Row> rows = BaseRows(law);
-  const std::vector<double> errors = StandardErrorsOf(selection, rows.size());
+  const std::vector<double> errors = StandardErrorsOf(selection, rows);
   const double t = StudentT95(Degrees(selection.weighted, law));
   for (std::size_t k = 0; k < rows.size(); ++k) {
     estimates[k].info = {rows[k].symbol, rows[k].name, rows[k].unit, rows[k].doc};
@@ -182,10 +168,9 @@ void AddHeld(const Selection& selection, FitReport* report) {
   };
   const int first = 3 + 2 * static_cast<int>(law.model);
   if (!law.free_tempco) {
-    const double scales = readings.isc_tempco_per_K * selection.extended.p[kBasePhotocurrent] +
-                          readings.isc_tempco_scales_per_K;
     insert(first, {"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"},
-           scales * readings.scale.current_A);
+           readings.isc_tempco_per_K * selection.extended.p[kIph] +
+               readings.isc_tempco_scales_per_K * readings.scale.current_A);
   }
   if (!law.free_bandgap) {
     insert(first + 1, {"Eg", "EgRef", "eV", "band gap at the reference"}, readings.bandgap_eV);
@@ -273,7 +258,7 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const 
   }
   AddEstimates(selection, searched, &report);
   report.rmse.refined.solved_current_A = RmseOf(at.weighted, at.extended);
-  report.nNsVth = fit.p[kBaseIdeality] * readings.traits.thermal_voltage * readings.scale.cells;
+  report.nNsVth = Ideality(fit) * readings.traits.thermal_voltage * readings.scale.cells;
   if (!search) return report;
   AttachLaw(set, selection, *at.weighted.readings, &report);
   report.curve = AllPoints(set);

@@ -181,7 +181,7 @@ void DescendInProbes(const WeightedData& weighted, const Effect& effect,
 
 bool LeadsAstray(const WeightedData& weighted, const LawFit& fit) {
   constexpr double kMisfit = 0.01, kLeastIdeality = 0.8, kMostIdeality = 2.2;
-  const double n = fit.p[kBaseIdeality];
+  const double n = Ideality(fit);
   return !(n > kLeastIdeality && n < kMostIdeality) || Misses(weighted, fit, kMisfit);
 }
 

@@ -169,22 +169,22 @@ std::vector<FollowUp> FollowUpMeasurements(const Readings& measured) {
   return all;
 }
 
-CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& p) {
+CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& theta) {
   CurveLaw own;
   own.law = law;
   own.law.effects.clear();
   for (int k = 0; k < law.base_size(); ++k) own.from.push_back(k);
-  own.p.assign(p.begin(), p.begin() + law.base_size());
+  own.theta.assign(theta.begin(), theta.begin() + law.base_size());
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const Effect& effect = *law.effects[e];
     if (!curve.at_once && effect.where == Where::kSweep) continue;
     const int first = law.Offset(static_cast<int>(e));
-    std::vector<double> values(p.begin() + first, p.begin() + first + effect.size());
+    std::vector<double> values(theta.begin() + first, theta.begin() + first + effect.size());
     const bool moves = curve.covered >= 0 && effect.covered != nullptr;
     if (moves && !effect.covered(values.data(), curve.covered, curve.groups)) continue;
     own.law.effects.push_back(&effect);
     for (int k = 0; k < effect.size(); ++k) own.from.push_back(first + k);
-    own.p.insert(own.p.end(), values.begin(), values.end());
+    own.theta.insert(own.theta.end(), values.begin(), values.end());
   }
   return own;
 }

@@ -35,13 +35,14 @@ struct FollowUp {
 // All further measurements that are possible for readings of this type.
 std::vector<FollowUp> FollowUpMeasurements(const Readings& measured);
 
-// A law restricted to a further curve.
+// A law restricted to a further curve. Its coordinates (law_coordinates.h) are of the cells that
+// this curve measures, unlike its parameters.
 struct CurveLaw {
   Law law;
-  std::vector<int> from;  // position in the whole law of each of its parameters
-  std::vector<double> p;  // its parameters
+  std::vector<int> from;      // position in the whole law of each of its coordinates
+  std::vector<double> theta;  // its coordinates
 };
-CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& p);
+CurveLaw LawOn(const PlannedCurve& curve, const Law& law, const std::vector<double>& theta);
 
 // The readings of a curve under given values of the unknowns, in the units of FollowUp::unknown.
 Readings Under(const PlannedCurve& curve, const std::vector<double>& unknown);

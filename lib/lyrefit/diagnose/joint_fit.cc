@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 
 namespace lyrefit {
 namespace {
@@ -16,7 +17,8 @@ constexpr double kOpenCircuit = 1;  // search range above the initial Voc, V per
 bool Currents(const CurveLaw& own, const Readings& readings, double* current,
               double* jacobian = nullptr) {
   LawWorkspace workspace;
-  return EvaluateLaw(own.law, readings, own.p.data(), &workspace, current, jacobian);
+  return LawCoordinates(own.law, readings)
+      .Evaluate(own.theta.data(), &workspace, current, jacobian);
 }
 
 // Sets the voltage of readings above 0 V to the law's Voc, by bisection. These curves have no
@@ -64,13 +66,13 @@ std::vector<double> InUnits(const std::vector<double>& unknown, const std::vecto
   return values;
 }
 
-// Residuals of one further curve from row `first` on, and derivatives by all parameters.
+// Residuals of one further curve from row `first` on, and derivatives by all coordinates.
 bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, const Law& law,
-                   const std::vector<double>& p, double* residuals, RowMatrix* rows) {
+                   const std::vector<double>& theta, double* residuals, RowMatrix* rows) {
   const int count = static_cast<int>(curve.readings.points.size());
   const int size = law.size();
-  const CurveLaw own = LawOn(curve, law, p);
-  std::vector<double> unknown(p.begin() + size, p.end());
+  const CurveLaw own = LawOn(curve, law, theta);
+  std::vector<double> unknown(theta.begin() + size, theta.end());
   const Readings readings = Under(curve, InUnits(unknown, joint.unknown));
   std::vector<double> current(count);
   RowMatrix slopes(count, own.law.size());
@@ -100,13 +102,13 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
                    LawWorkspace* workspace, double* residuals, double* jacobian) {
   const int size = law.size(), unknown = static_cast<int>(joint.unknown.size());
   const int count = static_cast<int>(joint.readings.points.size());
-  const std::vector<double> p(values, values + size + unknown);
+  const std::vector<double> theta(values, values + size + unknown);
   RowMatrix rows;
   if (jacobian != nullptr) rows.setZero(count, size + unknown);
   RowMatrix slopes(joint.taken, size);
   std::vector<double> current(joint.taken);
-  if (!EvaluateLaw(law, old, values, workspace, current.data(),
-                   jacobian != nullptr ? slopes.data() : nullptr)) {
+  if (!LawCoordinates(law, old).Evaluate(values, workspace, current.data(),
+                                         jacobian != nullptr ? slopes.data() : nullptr)) {
     return false;
   }
   for (int k = 0; k < joint.taken; ++k) {
@@ -115,7 +117,7 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
   if (jacobian != nullptr) rows.topLeftCorner(joint.taken, size) = slopes;
   int first = joint.taken;
   for (const PlannedCurve& curve : joint.curves) {
-    if (!EvaluateCurve(joint, curve, first, law, p, residuals,
+    if (!EvaluateCurve(joint, curve, first, law, theta, residuals,
                        jacobian != nullptr ? &rows : nullptr)) {
       return false;
     }
@@ -123,7 +125,7 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
   }
   Eigen::Map<RowMatrix> r(residuals, count, 1);
   Whiten(joint.errors, joint.used, r);
-  for (int k = 0; k < unknown; ++k) residuals[count + k] = p[size + k];
+  for (int k = 0; k < unknown; ++k) residuals[count + k] = theta[size + k];
   if (!r.allFinite()) return false;
   if (jacobian == nullptr) return true;
   Whiten(joint.errors, joint.used, rows);
@@ -149,8 +151,9 @@ std::optional<Joint> TakeFurther(const WeightedData& measured, double deviation,
   for (double& sigma : joint.sigma) sigma *= deviation;
   joint.taken = static_cast<int>(measured.readings->points.size());
   const std::vector<double> values = InUnits(unknown, follow_up.unknown);
+  const std::vector<double> theta = LawCoordinates(truth.law, *measured.readings).Of(truth.p);
   for (PlannedCurve& curve : joint.curves) {
-    const CurveLaw own = LawOn(curve, truth.law, truth.p);
+    const CurveLaw own = LawOn(curve, truth.law, theta);
     if (curve.open_circuit && !FindOpenCircuit(own, values, &curve)) return std::nullopt;
     std::vector<double> current(curve.readings.points.size());
     if (!Currents(own, Under(curve, values), current.data())) return std::nullopt;
@@ -200,24 +203,20 @@ FurtherEnd FitJoint(const Joint& joint, const Law& law,
                     const std::vector<std::vector<double>>& starts) {
   Readings old = joint.readings;
   old.points.resize(joint.taken);
-  LeastSquaresProblem problem;
+  LeastSquaresProblem problem = BoundedProblem(old, law);
   const int unknown = static_cast<int>(joint.unknown.size());
   const int count = static_cast<int>(joint.readings.points.size());
   problem.residuals = count + unknown;
-  for (int k = 0; k < law.size(); ++k) {
-    problem.lower.push_back(law.Lower(k));
-    problem.upper.push_back(law.Upper(k));
-    problem.fixed.push_back(IsFixed(old, law, k) ? 1 : 0);
-  }
   problem.lower.resize(law.size() + unknown, -kFarthest);
   problem.upper.resize(law.size() + unknown, kFarthest);
   problem.fixed.resize(law.size() + unknown, 0);
   LawWorkspace workspace;
-  problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
-    return EvaluateJoint(joint, old, law, p, &workspace, residuals, jacobian);
+  problem.evaluate = [&](const double* theta, double* residuals, double* jacobian) {
+    return EvaluateJoint(joint, old, law, theta, &workspace, residuals, jacobian);
   };
   LeastSquaresEnd best;
-  for (std::vector<double> start : starts) {
+  for (const std::vector<double>& p : starts) {
+    std::vector<double> start = LawCoordinates(law, old).Of(p);
     start.resize(law.size() + unknown, 0.0);
     LeastSquaresOptions options = UpTo(40, 1e-6);
     if (best.usable) options.cutoff = best.sum_of_squares;

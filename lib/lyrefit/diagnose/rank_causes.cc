@@ -64,9 +64,8 @@ int Complexity(const WeightedData& weighted, const FittedCandidate& fitted) {
   if (id != "shading" && id != "substrings") return place(id);
   const double covered = Value(fitted, fitted.score.effect->size() - 1);
   if (covered >= 1) return place(id);
-  const double error =
-      StandardErrors(Linearize(weighted, fitted.fit), fitted.fit.law.size()).back() *
-      std::sqrt(NoiseVariance(weighted, fitted.fit));
+  const double error = StandardErrors(Linearize(weighted, fitted.fit)).back() *
+                       std::sqrt(NoiseVariance(weighted, fitted.fit));
   const auto cells = [&](double sigmas) {
     return CoveredCells(*weighted.readings, covered + sigmas * error);
   };
@@ -76,7 +75,7 @@ int Complexity(const WeightedData& weighted, const FittedCandidate& fitted) {
 
 bool HasPossibleIdeality(const LawFit& fit, double least) {
   constexpr double kMost = 2.5;
-  const double n = fit.p[kBaseIdeality];
+  const double n = Ideality(fit);
   return n > least && n < kMost;
 }
 

@@ -11,40 +11,41 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
-// A dose of a possible change of a module: a base parameter raised, or an effect.
+// A dose of a possible change of a module: a coordinate of the base raised, or an effect.
 struct Dose {
   std::string id;
   std::string words;        // sentence with {} for the size in per cent
   double percent = 1;       // size of the dose, in the unit of `words`
   bool either_way = false;  // negative doses are possible too
-  int parameter = -1;       // raised base parameter, -1: an effect
-  double raise = 0;         // increase of the parameter
+  int coordinate = -1;      // the raised one (law_coordinates.h), -1: an effect
+  double raise = 0;         // its increase
   const char* effect = "";  // id of an effect in the catalogue
   std::vector<double> p;    // parameters of the effect
 };
 
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
   const DataTraits& traits = sweep.weighted.readings->traits;
-  const std::vector<double>& p = sweep.fit.p;
+  const double ohm = sweep.weighted.readings->scale.resistance_ohm();
   const double voltage = sweep.state.voc_V / sweep.state.cells;
   std::vector<Dose> doses = {{"series_resistance",
                               "series resistance {:+.2g} %",
                               5,
                               true,
-                              kBaseResistance,
-                              0.05 * std::max(p[kBaseResistance], 1e-3),
+                              kRs,
+                              0.05 * std::max(sweep.fit.p[kRs] / ohm, 1e-3),
                               "",
                               {}},
                              {"shunt",
                               "a leak that takes {:.2g} % of Isc at Voc",
                               0.5,
                               false,
-                              kBaseConductance,
+                              kRsh,
                               0.005 / voltage,
                               "",
                               {}},
@@ -52,8 +53,8 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
                               "n of the diode {:+.2g} % (recombination; the temperature)",
                               2,
                               true,
-                              kBaseIdeality,
-                              0.02 * p[kBaseIdeality],
+                              IdealityIndex(0),
+                              0.02 * Ideality(sweep.fit),
                               "",
                               {}},
                              {"nonohmic_shunt",
@@ -96,10 +97,13 @@ std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double 
   const Readings& readings = *sweep.weighted.readings;
   Law law = sweep.fit.law;
   std::vector<double> p = sweep.fit.p;
-  const bool taken = dose.parameter >= 0 && dose.either_way;
+  const bool taken = dose.coordinate >= 0 && dose.either_way;
   const double sign = taken ? -1 : 1;
-  if (dose.parameter >= 0) {
-    p[dose.parameter] = std::max(p[dose.parameter] + sign * doses * dose.raise, 0.0);
+  if (dose.coordinate >= 0) {
+    const LawCoordinates coordinates(law, readings);
+    std::vector<double> theta = coordinates.Of(p);
+    theta[dose.coordinate] = std::max(theta[dose.coordinate] + sign * doses * dose.raise, 0.0);
+    p = coordinates.Parameters(theta);
   } else {
     law.effects.push_back(FindEffect(dose.effect));
     p.insert(p.end(), dose.p.begin(), dose.p.end());
@@ -187,7 +191,7 @@ struct Attempt {
 
 // Converts a relative change from the present value of a parameter to its former value.
 double InPercent(const Dose& dose, double percent) {
-  if (dose.parameter < 0 || !dose.either_way) return percent;
+  if (dose.coordinate < 0 || !dose.either_way) return percent;
   return percent / std::max(1 - percent / 100, 0.01);
 }
 

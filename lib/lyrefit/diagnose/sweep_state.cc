@@ -14,21 +14,17 @@
 namespace lyrefit {
 namespace {
 
-// Converts parameters to A, ohm and S of the device, and computes its key points.
+// Parameters at the sweep's light, and key points.
 void TakeParameters(const Readings& readings, const LawFit& fit, SweepState* state) {
-  const ReadingScale& scale = readings.scale;
-  const double ampere = scale.current_A, ohm = scale.cells / scale.current_A;
-  const double irradiance = readings.points.front().irradiance;
-  state->photocurrent_A = fit.p[kBasePhotocurrent] * irradiance * ampere;
-  state->ideality = fit.p[kBaseIdeality];
-  state->series_ohm = fit.p[kBaseResistance] * ohm;
-  state->shunt_S = fit.p[kBaseConductance] / ohm;
+  state->photocurrent_A = fit.p[kIph] * readings.points.front().irradiance;
+  state->ideality = Ideality(fit);
+  state->series_ohm = fit.p[kRs];
+  state->shunt_S = 1 / fit.p[kRsh];
   Conditions conditions;
   conditions.cell_temperature_K = readings.reference_temperature_K;
-  conditions.cells_in_series = scale.cells;
-  const double p[] = {state->photocurrent_A,
-                      SaturationCurrent(fit.law, readings, fit.p.data()) * ampere, state->ideality,
-                      state->series_ohm, 1 / std::max(state->shunt_S, 1e-15)};
+  conditions.cells_in_series = readings.scale.cells;
+  const double p[] = {state->photocurrent_A, fit.p[SaturationCurrentIndex(0)], state->ideality,
+                      state->series_ohm, std::min(fit.p[kRsh], 1e15)};
   const KeyPoints key = ModelKeyPoints(MakeDevice(Model::kSingleDiode, conditions), p);
   state->isc_A = key.short_circuit_current_A;
   state->voc_V = key.open_circuit_voltage_V;

@@ -4,12 +4,27 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
+#include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
 bool IsFixed(const Readings& readings, const Law& law, int parameter) {
-  if (parameter == kBasePhotocurrent && readings.traits.only_dark) return true;
+  if (parameter == kIph && readings.traits.only_dark) return true;
+  if (parameter == IdealityIndex(1) && law.model == Model::kDoubleDiode) return true;
   return law.Searched(parameter);
+}
+
+LeastSquaresProblem BoundedProblem(const Readings& readings, const Law& law) {
+  LeastSquaresProblem problem;
+  problem.residuals = static_cast<int>(readings.points.size());
+  const LawCoordinates coordinates(law, readings);
+  for (int k = 0; k < law.size(); ++k) {
+    problem.lower.push_back(coordinates.Lower(k));
+    problem.upper.push_back(coordinates.Upper(k));
+    problem.fixed.push_back(IsFixed(readings, law, k) ? 1 : 0);
+  }
+  return problem;
 }
 
 ErrorModel ErrorsOf(const WeightedData& weighted) {
@@ -54,42 +69,38 @@ void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
 
 // Evaluates whitened residuals and derivatives. The solver accepts failed residuals of a step, but
 // not missing derivatives, so these become 0 if they cannot be evaluated.
-bool EvaluateWhitened(const WeightedData& weighted, const Law& law, const std::vector<char>& fixed,
-                      const double* p, LawWorkspace* workspace, std::vector<double>* current,
-                      double* residuals, double* jacobian) {
+bool EvaluateWhitened(const WeightedData& weighted, const LawCoordinates& law,
+                      const std::vector<char>& fixed, const double* theta, LawWorkspace* workspace,
+                      std::vector<double>* current, double* residuals, double* jacobian) {
   const Readings& readings = *weighted.readings;
   const int count = static_cast<int>(readings.points.size());
+  const int size = static_cast<int>(fixed.size());
   if (jacobian == nullptr && weighted.progress.Stopped()) return false;
-  if (!EvaluateLaw(law, readings, p, workspace, current->data(), jacobian, &fixed)) {
+  if (!law.Evaluate(theta, workspace, current->data(), jacobian, &fixed)) {
     if (jacobian == nullptr) return false;
-    if (!EvaluateLaw(law, readings, p, workspace, current->data(), nullptr)) return false;
-    std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * law.size(), 0.0);
+    if (!law.Evaluate(theta, workspace, current->data(), nullptr)) return false;
+    std::fill(jacobian, jacobian + static_cast<std::ptrdiff_t>(count) * size, 0.0);
   }
   Eigen::Map<RowMatrix> r(residuals, count, 1);
   for (int k = 0; k < count; ++k) r(k, 0) = (*current)[k] - readings.points[k].current;
   WhitenRows(weighted, r);
   if (!std::isfinite(r.squaredNorm())) return false;
   if (jacobian == nullptr) return true;
-  Eigen::Map<RowMatrix> rows(jacobian, count, law.size());
+  Eigen::Map<RowMatrix> rows(jacobian, count, size);
   WhitenRows(weighted, rows);
   if (!std::isfinite(rows.squaredNorm())) rows.setZero();
   return true;
 }
 
 LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law,
-                                LawWorkspace* workspace, std::vector<double>* current) {
-  LeastSquaresProblem problem;
-  const int count = static_cast<int>(weighted.readings->points.size());
-  problem.residuals = count;
-  for (int k = 0; k < law.size(); ++k) {
-    problem.lower.push_back(law.Lower(k));
-    problem.upper.push_back(law.Upper(k));
-    problem.fixed.push_back(IsFixed(*weighted.readings, law, k) ? 1 : 0);
-  }
-  current->resize(count);
-  problem.evaluate = [&weighted, law, fixed = problem.fixed, workspace, current](
-                         const double* p, double* residuals, double* jacobian) {
-    return EvaluateWhitened(weighted, law, fixed, p, workspace, current, residuals, jacobian);
+                                const LawCoordinates& coordinates, LawWorkspace* workspace,
+                                std::vector<double>* current) {
+  LeastSquaresProblem problem = BoundedProblem(*weighted.readings, law);
+  current->resize(problem.residuals);
+  problem.evaluate = [&weighted, &coordinates, fixed = problem.fixed, workspace, current](
+                         const double* theta, double* residuals, double* jacobian) {
+    return EvaluateWhitened(weighted, coordinates, fixed, theta, workspace, current, residuals,
+                            jacobian);
   };
   return problem;
 }
@@ -99,11 +110,11 @@ std::vector<double> BaseStart(const Readings& readings, const Law& law, double l
                               double resistance) {
   double brightest = 0;
   for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
-  std::vector<double> p = {brightest > 0 ? light / brightest : 0, 0, n, resistance, 0.05};
-  if (law.model == Model::kDoubleDiode) p.push_back(0.05);
-  if (law.free_tempco) p.push_back(readings.isc_tempco_per_K);
-  if (law.free_bandgap) p.push_back(readings.bandgap_eV);
-  return p;
+  std::vector<double> theta = {brightest > 0 ? light / brightest : 0, 0, n, resistance, 0.05};
+  if (law.model == Model::kDoubleDiode) theta.insert(theta.end(), {0.05, kDefaultIdeality2});
+  if (law.free_tempco) theta.push_back(readings.isc_tempco_per_K);
+  if (law.free_bandgap) theta.push_back(readings.bandgap_eV);
+  return LawCoordinates(law, readings).Parameters(theta);
 }
 
 }  // namespace
@@ -133,11 +144,13 @@ LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<do
   LawFit fit;
   fit.law = law;
   LawWorkspace workspace;
-  const LeastSquaresProblem problem = MakeProblem(weighted, law, &workspace, &fit.current);
+  const LawCoordinates coordinates(law, *weighted.readings);
+  const LeastSquaresProblem problem =
+      MakeProblem(weighted, law, coordinates, &workspace, &fit.current);
   LeastSquaresOptions watched = options;
   watched.stop = weighted.progress.stop();
-  const LeastSquaresEnd end = SolveLeastSquares(problem, start, watched);
-  fit.p = end.p;
+  const LeastSquaresEnd end = SolveLeastSquares(problem, coordinates.Of(start), watched);
+  fit.p = coordinates.Parameters(end.p);
   fit.sum = end.sum_of_squares;
   fit.usable = end.usable && EvaluateLaw(law, *weighted.readings, fit.p.data(), &workspace,
                                          fit.current.data(), nullptr);
@@ -160,11 +173,14 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   std::vector<double> current;
   WeightedData unwatched = weighted;  // a fit found before a stop request is still described
   unwatched.progress = {};
-  const LeastSquaresProblem problem = MakeProblem(unwatched, fit.law, &workspace, &current);
+  const LawCoordinates coordinates(fit.law, *weighted.readings);
+  const LeastSquaresProblem problem =
+      MakeProblem(unwatched, fit.law, coordinates, &workspace, &current);
+  const std::vector<double> theta = coordinates.Of(fit.p);
   Linearized linear;
   linear.residual.resize(count);
   RowMatrix jacobian = RowMatrix::Zero(count, size);
-  const bool fine = problem.evaluate(fit.p.data(), linear.residual.data(), jacobian.data());
+  const bool fine = problem.evaluate(theta.data(), linear.residual.data(), jacobian.data());
   if (!fine || !jacobian.allFinite() || !linear.residual.allFinite()) {
     linear.residual.setZero();
     jacobian.setZero();
@@ -173,14 +189,17 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   for (int k = 0; k < size; ++k) {
     if (problem.fixed[k] != 0 || !(jacobian.col(k).norm() > 0)) continue;
     const double slack = 1e-9 * (problem.upper[k] - problem.lower[k]);
-    const bool pressed = (fit.p[k] <= problem.lower[k] + slack && gradient[k] >= 0) ||
-                         (fit.p[k] >= problem.upper[k] - slack && gradient[k] <= 0);
+    const bool pressed = (theta[k] <= problem.lower[k] + slack && gradient[k] >= 0) ||
+                         (theta[k] >= problem.upper[k] - slack && gradient[k] <= 0);
     if (!pressed) linear.free.push_back(k);
   }
+  const Eigen::MatrixXd slopes = coordinates.Slopes(theta);
   linear.jacobian.resize(count, static_cast<int>(linear.free.size()));
+  linear.slopes.resize(size, static_cast<int>(linear.free.size()));
   Eigen::MatrixXd scaled(count, static_cast<int>(linear.free.size()));
   for (std::size_t k = 0; k < linear.free.size(); ++k) {
     linear.jacobian.col(k) = jacobian.col(linear.free[k]);
+    linear.slopes.col(k) = slopes.col(linear.free[k]);
     scaled.col(k) = linear.jacobian.col(k).normalized();
   }
   if (linear.free.empty()) {
@@ -193,7 +212,7 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
 
 namespace {
 
-// Standard error of a value with this derivative by the free parameters, with columns scaled to
+// Standard error of a value with this derivative by the free coordinates, with columns scaled to
 // unit length.
 double ErrorAlong(const RightSingular& svd, const Eigen::VectorXd& derivative) {
   double variance = 0;
@@ -209,13 +228,14 @@ RightSingular SingularOf(const Linearized& linear, const Eigen::VectorXd& length
 
 }  // namespace
 
-std::vector<double> StandardErrors(const Linearized& linear, int parameters) {
-  std::vector<double> errors(parameters, 0.0);
+std::vector<double> StandardErrors(const Linearized& linear) {
+  std::vector<double> errors(linear.slopes.rows(), 0.0);
   if (linear.free.empty()) return errors;
   const Eigen::VectorXd lengths = linear.jacobian.colwise().norm();
   const RightSingular svd = SingularOf(linear, lengths);
-  for (int k = 0; k < lengths.size(); ++k) {
-    errors[linear.free[k]] = ErrorAlong(svd, Eigen::VectorXd::Unit(lengths.size(), k)) / lengths[k];
+  for (int k = 0; k < linear.slopes.rows(); ++k) {
+    const Eigen::VectorXd slope = linear.slopes.row(k);
+    errors[k] = ErrorAlong(svd, slope.cwiseQuotient(lengths));
   }
   return errors;
 }

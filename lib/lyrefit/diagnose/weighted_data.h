@@ -7,6 +7,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/refine/error_model.h"
 #include "lyrefit/estimate/refine/least_squares.h"
+#include "lyrefit/model/device.h"
 #include "lyrefit/model/law.h"
 #include "lyrefit/model/reading.h"
 
@@ -33,6 +34,9 @@ struct WeightedData {
 // Whether fits keep a parameter fixed.
 bool IsFixed(const Readings& readings, const Law& law, int parameter);
 
+// A problem over the coordinates of a law (law_coordinates.h), without its evaluation.
+LeastSquaresProblem BoundedProblem(const Readings& readings, const Law& law);
+
 // Error model of the readings.
 ErrorModel ErrorsOf(const WeightedData& weighted);
 
@@ -43,13 +47,16 @@ Eigen::MatrixXd WhitenColumns(const WeightedData& weighted, const Eigen::MatrixX
 
 struct LawFit {
   Law law;
-  std::vector<double> p;
-  double sum = 0;  // of squared whitened residuals
+  std::vector<double> p;  // Rsh is infinite without a shunt
+  double sum = 0;         // of squared whitened residuals
   bool usable = false;
   std::vector<double> current;  // of every reading, also of those left out, in scales
 };
 
-// Least squares in all parameters of `law` that IsFixed() leaves free, from `start`.
+// Of the first diode.
+inline double Ideality(const LawFit& fit) { return fit.p[IdealityIndex(0)]; }
+
+// Least squares in all parameters of `law` that IsFixed() leaves free, from the parameters `start`.
 LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 
@@ -69,19 +76,20 @@ double FindPath(const WeightedData& weighted, const LawFit& fit);
 LawFit FitBase(const WeightedData& weighted, const Law& law);
 
 // Linearization of a fit: whitened residuals (model - measured) and their derivatives by the free
-// parameters, i.e. those neither fixed nor active at a bound.
+// coordinates (law_coordinates.h), i.e. those neither fixed nor active at a bound.
 struct Linearized {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;
   std::vector<int> free;
-  Eigen::MatrixXd basis;  // orthonormal basis of the jacobian's columns
+  Eigen::MatrixXd slopes;  // derivatives of all parameters by the free coordinates
+  Eigen::MatrixXd basis;   // orthonormal basis of the jacobian's columns
 };
 Linearized Linearize(const WeightedData& weighted, const LawFit& fit);
 
 // Standard errors of all parameters (0 if not free), for unit noise.
-std::vector<double> StandardErrors(const Linearized& linear, int parameters);
+std::vector<double> StandardErrors(const Linearized& linear);
 
-// Standard error of a value with this derivative by all parameters, for unit noise.
+// Standard error of a value with this derivative by all coordinates, for unit noise.
 double StandardError(const Linearized& linear, const std::vector<double>& derivative);
 
 // Lack of fit of a fit to `currents`: root mean square over the used readings, in scales, of their

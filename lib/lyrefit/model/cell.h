@@ -41,14 +41,6 @@ EvaluationContext<S> MakeEvaluationContext(const Law& law, const Readings& readi
   return context;
 }
 
-// Temperature coefficient of the photocurrent, relative, in 1/K.
-template <class S>
-S TempcoOf(const EvaluationContext<S>& context) {
-  if (!context.law.free_tempco) return S(context.readings.isc_tempco_per_K);
-  const S& alpha = context.p[context.law.TempcoAt()];
-  return context.law.natural ? S(alpha / context.p[kIph]) : alpha;
-}
-
 template <class S>
 OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
                                     const ReadingBlock& readings) {
@@ -56,7 +48,7 @@ OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
   OperatingConditions<S> conditions{
       S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
       law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
-      TempcoOf(context)};
+      S(law.free_tempco ? 0.0 : context.readings.isc_tempco_per_K)};
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     const auto stage = law.effects[e]->conditions.template For<S>();
     if (stage != nullptr) stage(context.p + context.offsets[e], readings, &conditions);
@@ -64,26 +56,11 @@ OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
   return conditions;
 }
 
-// Adds the diodes of the base in pivot parameters (BaseParameter of law.h) at one temperature.
-// `warmer` is the factor of the first diode's saturation current between the reference and that
-// temperature. Saturation current of the second diode follows `saturation_2_unit` of the cell.
+// Adds the diodes of the base at one temperature. `warmer` and `warmer_2`: factors of the saturation
+// currents of the first and of further diodes between the reference and that temperature.
 template <class S>
-void PivotDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
-                 Cell<S>* cell) {
-  const double k_eV = ThermalVoltage(1.0);
-  const S inverse_n = 1.0 / context.p[kBaseIdeality];
-  const S exponent = inverse_n * (context.readings.pivot_voltage /
-                                  (k_eV * context.readings.reference_temperature_K));
-  // exp(pivot) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
-  const S saturation = exp(context.p[kBasePivot] - exponent) * warmer / (1.0 - exp(-exponent));
-  cell->diode[cell->diodes++] = {saturation, inverse_vt * inverse_n};
-  if (context.law.model == Model::kSingleDiode) return;
-  cell->diode[cell->diodes++] = {context.p[kBaseSecond] * cell->saturation_2_unit,
-                                 0.5 * inverse_vt};
-}
-template <class S>
-void NaturalDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
-                   const S& warmer_2, Cell<S>* cell) {
+void AddDiodes(const EvaluationContext<S>& context, const S& inverse_vt, const S& warmer,
+               const S& warmer_2, Cell<S>* cell) {
   const double per_scale = 1 / context.readings.scale.current_A;
   for (int d = 0; d < static_cast<int>(context.law.model); ++d) {
     const S saturation = context.p[SaturationCurrentIndex(d)] * per_scale;
@@ -108,13 +85,8 @@ void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>
   cell->thermal_voltage = conditions.temperature_K * k_eV;
   cell->saturation_2_unit = scale.saturation_2_unit * warmer_2;
   cell->diodes = 0;
-  if (context.law.natural) {
-    NaturalDiodes(context, inverse_vt, warmer, warmer_2, cell);
-    cell->resistance = context.p[kRs] * (scale.current_A / scale.cells);
-  } else {
-    PivotDiodes(context, inverse_vt, warmer, cell);
-    cell->resistance = context.p[kBaseResistance];
-  }
+  AddDiodes(context, inverse_vt, warmer, warmer_2, cell);
+  cell->resistance = context.p[kRs] * (1 / scale.resistance_ohm());
   cell->reach = scale.reach_V;
   const DataTraits& traits = context.readings.traits;
   cell->cells = traits.cells;
@@ -126,17 +98,19 @@ void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>
 template <class S>
 void Light(const EvaluationContext<S>& context, const OperatingConditions<S>& conditions,
            Cell<S>* cell) {
-  const ReadingScale& scale = context.readings.scale;
+  const Law& law = context.law;
+  const Readings& readings = context.readings;
+  const double per_scale = 1 / readings.scale.current_A;
   const S* p = context.p;
   cell->irradiance = conditions.irradiance;
-  const S warmer = conditions.temperature_K - context.readings.reference_temperature_K;
-  const bool natural = context.law.natural;
-  const S photocurrent = natural ? p[kIph] * (1 / scale.current_A) : p[kBasePhotocurrent];
+  const S warmer = conditions.temperature_K - readings.reference_temperature_K;
+  const S absolute =
+      law.free_tempco ? S(p[law.TempcoAt()] * per_scale) : S(readings.isc_tempco_scales_per_K);
   cell->photocurrent =
-      conditions.irradiance * (photocurrent * (1.0 + conditions.isc_tempco_per_K * warmer) +
-                               context.readings.isc_tempco_scales_per_K * warmer);
-  const S conductance = natural ? (scale.cells / scale.current_A) / p[kRsh] : p[kBaseConductance];
-  const bool inverse = context.law.shunt == ShuntLaw::kInverse;
+      conditions.irradiance *
+      (p[kIph] * per_scale * (1.0 + conditions.isc_tempco_per_K * warmer) + absolute * warmer);
+  const S conductance = readings.scale.resistance_ohm() / p[kRsh];
+  const bool inverse = law.shunt == ShuntLaw::kInverse;
   cell->conductance = inverse ? conductance * conditions.irradiance : conductance;
 }
 

@@ -93,7 +93,6 @@ Expected<Device> Extend(const Device& base, Model model, ConstantSet constants,
   TRY(auto readings, ReadingsOf(curve));
   DeviceEffects device_effects;
   device_effects.readings = std::move(readings);
-  device_effects.law.natural = true;
   device_effects.law.model = model;
   device_effects.law.constants = constants;
   device_effects.law.layout = std::move(layout);

@@ -69,8 +69,7 @@ Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, dou
   DeviceEffects device_effects;
   device_effects.readings = std::move(readings);
   device_effects.law = std::move(law);
-  device_effects.law.natural = device_effects.law.free_tempco = device_effects.law.free_bandgap =
-      true;
+  device_effects.law.free_tempco = device_effects.law.free_bandgap = true;
   device_effects.law.effects.clear();
   device_effects.set = std::make_shared<const CurveSet>(set);
   Device device = base;

@@ -12,37 +12,22 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A law: base model and effects with one parameter vector for a whole measurement. The parameters
-// of the base come first, then those of each effect in turn.
-//
-// The base has one diode, or a second one with n = 2. Its five parameters serve all readings and
-// are translated by De Soto, Klein and Beckman 2006 (model/translation.h,
-// doi:10.1016/j.solener.2005.06.010):
-//   Iph = g Iph_ref (1 + alpha (T - Tref)),   g = G / (1000 W/m2)
-//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
-//   n and Rs constant, Gsh = 1 / Rsh constant or proportional to g
-// alpha and EgRef are parameters too if they are not stated. The recombination diode follows (T /
-// Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
-enum BaseParameter {
-  kBasePhotocurrent = 0,  // at g = 1 and Tref, in current scales
-  kBasePivot = 1,  // ln of the first diode's current at the pivot voltage, in current scales; in
-                   // contrast to ln Is, almost uncorrelated with n
-  kBaseIdeality = 2,
-  kBaseResistance = 3,
-  kBaseConductance = 4,
-  kBaseSecond = 5,  // dd: current of the second diode at the pivot voltage
-  // Free alpha (1/K, relative) and free EgRef (eV) follow: see Law.
-};
-
 // Maximum number of parameters of a law: the derivative types hold as many.
 constexpr int kMostParameters = 20;
 
-// The terminal law of a measurement.
+// A law: base model and effects with one parameter vector for a whole measurement. The parameters
+// of the base come first, in the order and units of device.h, at the reference temperature and
+// irradiance 1. Those of each effect follow in turn.
+//
+// The parameters of the base serve all readings and are translated by De Soto, Klein and Beckman
+// 2006 (model/translation.h, doi:10.1016/j.solener.2005.06.010):
+//   Iph = g (Iph_ref + alpha (T - Tref)),   g = G / (1000 W/m2)
+//   Is  = Is_ref (T / Tref)^3 exp(Eg / k Tref - Eg / k T),   Eg = EgRef (1 + dEgdT (T - 25 C))
+//   n and Rs constant, Gsh = 1 / Rsh constant or proportional to g
+// A free alpha (A/K) and a free EgRef (eV) follow the parameters of the device. Further diodes
+// follow (T / Tref)^2.5 exp((Eg / k Tref - Eg / k T) / 2).
 struct Law {
-  Model model = Model::kSingleDiode;  // of the base: sd, or dd with n2 = 2
-  // The base has the parameters of device.h, in their order and units, at the reference temperature
-  // and irradiance 1, instead of BaseParameter. All models are supported. A free alpha is in A/K.
-  bool natural = false;
+  Model model = Model::kSingleDiode;  // of the base
   ConstantSet constants = ConstantSet::kCodata;
   std::vector<const Effect*> effects;          // in the order of their parameters
   std::shared_ptr<const StringLayout> layout;  // groups of unlike cells; null: all cells alike
@@ -54,19 +39,14 @@ struct Law {
   std::vector<std::pair<const Effect*, int>> freed;
 
   // Position of alpha among the parameters, if free.
-  int TempcoAt() const {
-    const int diodes = static_cast<int>(model);
-    return natural ? 3 + 2 * diodes : 4 + diodes;
-  }
+  int TempcoAt() const { return 3 + 2 * static_cast<int>(model); }
   int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // EgRef, if free
   // Number of parameters of the base.
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
   // Number of all parameters.
   int size() const;
-  int Offset(int effect) const;  // position of its first parameter
-  // Bounds of any parameter.
-  double Lower(int parameter) const;
-  double Upper(int parameter) const;
+  int Offset(int effect) const;                                   // position of its first parameter
+  const EffectParameter* EffectParameterAt(int parameter) const;  // null: of the base
   bool Searched(int parameter) const;  // not fitted by descent by default
 };
 
@@ -104,9 +84,6 @@ class LawWorkspace {
 // range).
 bool EvaluateLaw(const Law& law, const Readings& readings, const double* p, LawWorkspace* workspace,
                  double* current, double* jacobian, const std::vector<char>* fixed = nullptr);
-
-// Saturation current (current scales) of the first diode at the reference, base law.
-double SaturationCurrent(const Law& law, const Readings& readings, const double* p);
 
 // Saturation current exp(-pivot / 2 Vt) of a diode with n = 2 that carries 1 at the pivot voltage.
 double Saturation2Unit(const Readings& readings);

@@ -36,6 +36,9 @@ struct ReadingScale {
   bool times = false;            // times were recorded
   double saturation_2_unit = 1;  // see Cell
   double reach_V = 1;            // largest |voltage| per cell
+
+  // Resistance of the device that drops 1 V per cell at 1 scale.
+  double resistance_ohm() const { return cells / current_A; }
 };
 
 // Properties of a measurement: they decide which effects it can show.
@@ -81,7 +84,7 @@ struct Readings {
   std::optional<double> bandgap_slope_per_K;  // as stated
   double isc_tempco_per_K = 0;                // relative to the photocurrent at 1000 W/m2
   double isc_tempco_scales_per_K = 0;         // absolute part, if stated in A/K; both add up
-  double pivot_voltage = 0;                   // V per cell: its diode current is a parameter
+  double pivot_voltage = 0;                   // V per cell, about Voc
 };
 
 }  // namespace lyrefit

@@ -93,9 +93,8 @@ std::vector<double> ExactColumn(const Settled& at, const Readings& readings, int
 }
 
 Column CompareColumn(const Settled& at, const Readings& readings, int parameter, double part) {
-  const double range = at.law.Upper(parameter) - at.law.Lower(parameter);
-  // The upper bound of the photocurrent is 10,000 times its value, so that its range says nothing
-  // about suitable steps.
+  const EffectParameter* own = at.law.EffectParameterAt(parameter);
+  const double range = own != nullptr ? own->upper - own->lower : 0;
   const double step = part * std::max(std::fabs(at.p[parameter]), 1e-2 * std::min(range, 20.0));
   const auto moved = [&](double steps) {
     Settled there = at;
@@ -123,7 +122,7 @@ TEST_P(LawEffectsTest, DerivativesAreThoseOfTheCurrents) {
   double worst = 0;
   int kinked = 0, compared = 0;
   for (const Probe& probe : SomeProbes()) {
-    const Settled at = WithEffect(effect(), probe);
+    const Settled at = WithEffect(effect(), probe, readings_);
     for (int parameter = 0; parameter < at.law.size(); ++parameter) {
       const int own = parameter - at.law.base_size();
       // the parameter has no influence
@@ -151,7 +150,7 @@ TEST_P(LawEffectsTest, DerivativesAreThoseOfTheCurrents) {
 
 TEST_P(LawEffectsTest, CurrentsAreTheSameWithAndWithoutDerivatives) {
   for (const Probe& probe : SomeProbes()) {
-    const Settled at = WithEffect(effect(), probe);
+    const Settled at = WithEffect(effect(), probe, readings_);
     const std::vector<double> plain = Currents(at.law, readings_, at.p);
     ASSERT_FALSE(plain.empty());
     LawWorkspace workspace;
@@ -163,8 +162,8 @@ TEST_P(LawEffectsTest, CurrentsAreTheSameWithAndWithoutDerivatives) {
 }
 
 TEST_P(LawEffectsTest, IsNotThereAtItsNeutralValue) {
-  const std::vector<double> base = Currents(Law{}, readings_, OrdinaryCell());
-  const Settled at = WithEffect(effect(), NeutralValues(effect()));
+  const std::vector<double> base = Currents(Law{}, readings_, ParametersOf({}, readings_));
+  const Settled at = WithEffect(effect(), NeutralValues(effect()), readings_);
   const std::vector<double> current = Currents(at.law, readings_, at.p);
   ASSERT_FALSE(current.empty());
   for (std::size_t k = 0; k < base.size(); ++k) {
@@ -175,9 +174,9 @@ TEST_P(LawEffectsTest, IsNotThereAtItsNeutralValue) {
 }
 
 TEST_P(LawEffectsTest, ShowsAtItsProbes) {
-  const std::vector<double> base = Currents(Law{}, readings_, OrdinaryCell());
+  const std::vector<double> base = Currents(Law{}, readings_, ParametersOf({}, readings_));
   for (const Probe& probe : SomeProbes()) {
-    const Settled at = WithEffect(effect(), probe);
+    const Settled at = WithEffect(effect(), probe, readings_);
     const std::vector<double> current = Currents(at.law, readings_, at.p);
     double moved = 0;
     for (std::size_t k = 0; k < base.size(); ++k) {
@@ -191,7 +190,7 @@ using DeviceEffectsTest = LawEffectsTest;
 
 TEST_P(DeviceEffectsTest, CurrentsNeverRiseWithVoltage) {
   for (const Probe& probe : SomeProbes()) {
-    const Settled at = WithEffect(effect(), probe);
+    const Settled at = WithEffect(effect(), probe, readings_);
     const std::vector<double> current = Currents(at.law, readings_, at.p);
     for (std::size_t k = 1; k < current.size(); ++k) {
       const Reading &a = readings_.points[k - 1], &b = readings_.points[k];
@@ -208,7 +207,7 @@ TEST_P(LawEffectsTest, LargeModelsSeeTheSameEffect) {
                                            FindEffect("voltage_offset"),
                                            FindEffect("current_offset")};
   for (const Probe& probe : SomeProbes()) {
-    const Settled narrow = WithEffect(effect(), probe);
+    const Settled narrow = WithEffect(effect(), probe, readings_);
     Settled wide = narrow;
     wide.law.effects.insert(wide.law.effects.end(), idle.begin(), idle.end());
     wide.p.resize(narrow.p.size() + idle.size(), 0.0);
@@ -232,15 +231,18 @@ TEST_P(LawEffectsTest, OddParametersGiveFiniteCurrentsOrNone) {
   int fine = 0;
   constexpr int kDraws = kSanitized ? 20 : 60;
   for (int draw = 0; draw < kDraws; ++draw) {
-    Settled at = WithEffect(effect(), NeutralValues(effect()));
+    Settled at = WithEffect(effect(), NeutralValues(effect()), readings_);
     at.law.model = draw % 2 == 1 ? Model::kDoubleDiode : Model::kSingleDiode;
-    at.p.assign(at.law.size(), 0.0);
-    for (int k = 0; k < at.law.size(); ++k) {
-      const double lower = at.law.Lower(k), upper = at.law.Upper(k);
+    const auto between = [&](double lower, double upper) {
       const std::uint32_t corner = random.Index(3);
-      at.p[k] = corner == 0   ? lower
-                : corner == 1 ? upper
-                              : lower + (upper - lower) * random.Uniform();
+      if (corner < 2) return corner == 0 ? lower : upper;
+      return lower + (upper - lower) * random.Uniform();
+    };
+    const CellValues cell = {between(0, 1.2e4), between(-60, 40), between(0.2, 8),
+                             between(0, 3),     between(0, 50),   between(0, 20)};
+    at.p = ParametersOf(cell, readings_, at.law.model);
+    for (const EffectParameter& own : effect().parameters) {
+      at.p.push_back(between(own.lower, own.upper));
     }
     LawWorkspace workspace;
     std::vector<double> current(readings_.points.size());

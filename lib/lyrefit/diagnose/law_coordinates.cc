@@ -1,0 +1,122 @@
+#include "lyrefit/diagnose/law_coordinates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/estimate/refine/model.h"
+#include "lyrefit/model/device.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kIs = SaturationCurrentIndex(0), kN = IdealityIndex(0);
+constexpr int kSecondIs = SaturationCurrentIndex(1);
+
+// In the order of device.h. The photocurrent refers to 1000 W/m2: its bound admits curves down to
+// 0.1 W/m2.
+constexpr ParameterRange kBaseBounds[] = {{0, 1.2e4}, {-60, 40}, {0.2, 8}, {0, 3},
+                                          {0, 50},    {0, 20},   {0.2, 8}};
+constexpr ParameterRange kTempcoBounds = {-0.01, 0.01}, kBandgapBounds = {0.3, 2.5};
+
+ParameterRange BoundsOf(const Law& law, int coordinate) {
+  if (const EffectParameter* own = law.EffectParameterAt(coordinate)) {
+    return {own->lower, own->upper};
+  }
+  if (law.free_bandgap && coordinate == law.BandgapAt()) return kBandgapBounds;
+  if (law.free_tempco && coordinate == law.TempcoAt()) return kTempcoBounds;
+  return kBaseBounds[coordinate];
+}
+
+}  // namespace
+
+LawCoordinates::LawCoordinates(const Law& law, const Readings& readings)
+    : law_(law),
+      readings_(readings),
+      second_(law.model == Model::kDoubleDiode),
+      ampere_(readings.scale.current_A),
+      ohm_(readings.scale.resistance_ohm()),
+      pivot_(readings.pivot_voltage / ThermalVoltage(readings.reference_temperature_K)),
+      second_A_(readings.scale.saturation_2_unit * ampere_) {}
+
+double LawCoordinates::Lower(int coordinate) const { return BoundsOf(law_, coordinate).low; }
+double LawCoordinates::Upper(int coordinate) const { return BoundsOf(law_, coordinate).high; }
+
+std::vector<double> LawCoordinates::Of(const std::vector<double>& p) const {
+  std::vector<double> theta = p;
+  const double exponent = pivot_ / p[kN];
+  theta[kIph] = p[kIph] / ampere_;
+  theta[kIs] = std::log(p[kIs] / ampere_) + exponent + std::log1p(-std::exp(-exponent));
+  theta[kRs] = p[kRs] / ohm_;
+  theta[kRsh] = ohm_ / p[kRsh];
+  if (second_) theta[kSecondIs] = p[kSecondIs] / second_A_;
+  if (law_.free_tempco && p[kIph] > 0) theta[law_.TempcoAt()] /= p[kIph];
+  return theta;
+}
+
+void LawCoordinates::ToParameters(const double* theta, double least_conductance, double* p) const {
+  const double exponent = pivot_ / theta[kN];
+  p[kIph] = theta[kIph] * ampere_;
+  // exp(theta) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
+  p[kIs] = ampere_ * std::exp(theta[kIs] - exponent) / -std::expm1(-exponent);
+  p[kRs] = theta[kRs] * ohm_;
+  p[kRsh] = ohm_ / std::max(theta[kRsh], least_conductance);
+  if (second_) p[kSecondIs] = theta[kSecondIs] * second_A_;
+  if (law_.free_tempco) p[law_.TempcoAt()] = theta[law_.TempcoAt()] * p[kIph];
+}
+
+std::vector<double> LawCoordinates::Parameters(const std::vector<double>& theta) const {
+  std::vector<double> p = theta;
+  ToParameters(theta.data(), 0, p.data());
+  return p;
+}
+
+// Calls `add(parameter, coordinate, derivative)` for the parameters of the base that are not their
+// own coordinates. The derivative of a parameter by its own coordinate comes last.
+template <class Add>
+void LawCoordinates::ForSlopes(const double* theta, const double* p, Add add) const {
+  const double exponent = pivot_ / p[kN];
+  add(kIph, kIph, ampere_);
+  add(kIs, kN, p[kIs] * exponent / (p[kN] * -std::expm1(-exponent)));
+  add(kIs, kIs, p[kIs]);
+  add(kRs, kRs, ohm_);
+  add(kRsh, kRsh, -p[kRsh] * p[kRsh] / ohm_);
+  if (second_) add(kSecondIs, kSecondIs, second_A_);
+  if (!law_.free_tempco) return;
+  const int at = law_.TempcoAt();
+  add(at, kIph, theta[at] * ampere_);
+  add(at, at, p[kIph]);
+}
+
+bool LawCoordinates::Evaluate(const double* theta, LawWorkspace* workspace, double* current,
+                              double* jacobian, const std::vector<char>* fixed) const {
+  // The derivative by an infinite Rsh is 0 and does not show that by the conductance.
+  const double least_conductance = jacobian != nullptr ? kPerfectConductance : 0;
+  std::array<double, kMostParameters> p;
+  std::copy(theta, theta + law_.size(), p.begin());
+  ToParameters(theta, least_conductance, p.data());
+  if (!EvaluateLaw(law_, readings_, p.data(), workspace, current, jacobian, fixed)) return false;
+  if (jacobian == nullptr) return true;
+  const int size = law_.size();
+  Eigen::Map<RowMatrix> rows(jacobian, static_cast<int>(readings_.points.size()), size);
+  ForSlopes(theta, p.data(), [&](int parameter, int coordinate, double slope) {
+    if (parameter == coordinate) {
+      rows.col(parameter) *= slope;
+    } else {
+      rows.col(coordinate) += slope * rows.col(parameter);
+    }
+  });
+  return true;
+}
+
+Eigen::MatrixXd LawCoordinates::Slopes(const std::vector<double>& theta) const {
+  const std::vector<double> p = Parameters(theta);
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(law_.size(), law_.size());
+  ForSlopes(theta.data(), p.data(), [&](int parameter, int coordinate, double slope) {
+    slopes(parameter, coordinate) = slope;
+  });
+  return slopes;
+}
+
+}  // namespace lyrefit

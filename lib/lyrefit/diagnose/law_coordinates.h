@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lyrefit/model/law.h"
+#include "lyrefit/model/reading.h"
+
+namespace lyrefit {
+
+// Coordinates in which a law is fitted, one for each parameter and at its position. They are of
+// order 1, and none depends strongly on another:
+//   Iph      in current scales
+//   Is1      ln of the first diode's current at the pivot voltage, in current scales; in contrast
+//            to ln Is1, almost uncorrelated with n1
+//   Rs, Rsh  resistance and conductance, in units of ReadingScale::resistance_ohm; 0: no shunt
+//   Is2      the second diode's current at the pivot voltage, in current scales
+//   alpha    relative to Iph, 1/K
+// n1, n2, EgRef and the parameters of effects are their own coordinates.
+class LawCoordinates {
+ public:
+  // References to `law` and `readings` are kept.
+  LawCoordinates(const Law& law, const Readings& readings);
+
+  // Of all parameters or of those of the base, and back.
+  std::vector<double> Of(const std::vector<double>& p) const;
+  std::vector<double> Parameters(const std::vector<double>& theta) const;
+  double Lower(int coordinate) const;
+  double Upper(int coordinate) const;
+
+  // EvaluateLaw with derivatives by the coordinates.
+  bool Evaluate(const double* theta, LawWorkspace* workspace, double* current, double* jacobian,
+                const std::vector<char>* fixed = nullptr) const;
+
+  // Derivatives of the parameters by the coordinates. Infinite for Rsh without a shunt.
+  Eigen::MatrixXd Slopes(const std::vector<double>& theta) const;
+
+ private:
+  // Sets the parameters of the base that are not their own coordinates.
+  void ToParameters(const double* theta, double least_conductance, double* p) const;
+  template <class Add>
+  void ForSlopes(const double* theta, const double* p, Add add) const;
+
+  const Law& law_;
+  const Readings& readings_;
+  bool second_;
+  double ampere_;
+  double ohm_;
+  double pivot_;     // pivot voltage in thermal voltages
+  double second_A_;  // saturation current of a second diode that carries one scale there
+};
+
+}  // namespace lyrefit

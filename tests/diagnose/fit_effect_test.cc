@@ -28,8 +28,9 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
     const bool always_there =
         id == "shading" || id == "clip" || id == "weak_cell" || id == "scatter";
     EXPECT_TRUE(always_there || fit.sum <= base.sum * (1 + 1e-6)) << id;
-    const LeastSquaresProblem bounded = BoundedProblem(*made.weighted.readings, fit.law);
-    const auto theta = LawCoordinates(fit.law, *made.weighted.readings).Of(fit.p);
+    const LawCoordinates coordinates(fit.law, *made.weighted.readings);
+    const LeastSquaresProblem bounded = coordinates.Problem();
+    const std::vector<double> theta = coordinates.Of(fit.p);
     for (int k = 0; k < fit.law.size(); ++k) {
       EXPECT_GE(theta[k], bounded.lower[k]) << id;
       EXPECT_LE(theta[k], bounded.upper[k]) << id;

@@ -98,8 +98,9 @@ bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, con
 }
 
 // All rows: readings already measured, further readings, then the unknowns.
-bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, const double* values,
-                   LawWorkspace* workspace, double* residuals, double* jacobian) {
+bool EvaluateJoint(const Joint& joint, const LawCoordinates& coordinates, const Law& law,
+                   const double* values, LawWorkspace* workspace, double* residuals,
+                   double* jacobian) {
   const int size = law.size(), unknown = static_cast<int>(joint.unknown.size());
   const int count = static_cast<int>(joint.readings.points.size());
   const std::vector<double> theta(values, values + size + unknown);
@@ -107,8 +108,8 @@ bool EvaluateJoint(const Joint& joint, const Readings& old, const Law& law, cons
   if (jacobian != nullptr) rows.setZero(count, size + unknown);
   RowMatrix slopes(joint.taken, size);
   std::vector<double> current(joint.taken);
-  if (!LawCoordinates(law, old).Evaluate(values, workspace, current.data(),
-                                         jacobian != nullptr ? slopes.data() : nullptr)) {
+  if (!coordinates.Evaluate(values, workspace, current.data(),
+                            jacobian != nullptr ? slopes.data() : nullptr)) {
     return false;
   }
   for (int k = 0; k < joint.taken; ++k) {
@@ -203,7 +204,8 @@ FurtherEnd FitJoint(const Joint& joint, const Law& law,
                     const std::vector<std::vector<double>>& starts) {
   Readings old = joint.readings;
   old.points.resize(joint.taken);
-  LeastSquaresProblem problem = BoundedProblem(old, law);
+  const LawCoordinates coordinates(law, old);
+  LeastSquaresProblem problem = coordinates.Problem();
   const int unknown = static_cast<int>(joint.unknown.size());
   const int count = static_cast<int>(joint.readings.points.size());
   problem.residuals = count + unknown;
@@ -212,11 +214,11 @@ FurtherEnd FitJoint(const Joint& joint, const Law& law,
   problem.fixed.resize(law.size() + unknown, 0);
   LawWorkspace workspace;
   problem.evaluate = [&](const double* theta, double* residuals, double* jacobian) {
-    return EvaluateJoint(joint, old, law, theta, &workspace, residuals, jacobian);
+    return EvaluateJoint(joint, coordinates, law, theta, &workspace, residuals, jacobian);
   };
   LeastSquaresEnd best;
   for (const std::vector<double>& p : starts) {
-    std::vector<double> start = LawCoordinates(law, old).Of(p);
+    std::vector<double> start = coordinates.Of(p);
     start.resize(law.size() + unknown, 0.0);
     LeastSquaresOptions options = UpTo(40, 1e-6);
     if (best.usable) options.cutoff = best.sum_of_squares;

@@ -31,6 +31,12 @@ ParameterRange BoundsOf(const Law& law, int coordinate) {
 
 }  // namespace
 
+bool IsFixed(const Readings& readings, const Law& law, int parameter) {
+  if (parameter == kIph && readings.traits.only_dark) return true;
+  const bool second = law.model == Model::kDoubleDiode && parameter == IdealityIndex(1);
+  return second || law.Searched(parameter);
+}
+
 LawCoordinates::LawCoordinates(const Law& law, const Readings& readings)
     : law_(law),
       readings_(readings),
@@ -40,8 +46,17 @@ LawCoordinates::LawCoordinates(const Law& law, const Readings& readings)
       pivot_(readings.pivot_voltage / ThermalVoltage(readings.reference_temperature_K)),
       second_A_(readings.scale.saturation_2_unit * ampere_) {}
 
-double LawCoordinates::Lower(int coordinate) const { return BoundsOf(law_, coordinate).low; }
-double LawCoordinates::Upper(int coordinate) const { return BoundsOf(law_, coordinate).high; }
+LeastSquaresProblem LawCoordinates::Problem() const {
+  LeastSquaresProblem problem;
+  problem.residuals = static_cast<int>(readings_.points.size());
+  for (int k = 0; k < law_.size(); ++k) {
+    const ParameterRange bounds = BoundsOf(law_, k);
+    problem.lower.push_back(bounds.low);
+    problem.upper.push_back(bounds.high);
+    problem.fixed.push_back(IsFixed(readings_, law_, k) ? 1 : 0);
+  }
+  return problem;
+}
 
 std::vector<double> LawCoordinates::Of(const std::vector<double>& p) const {
   std::vector<double> theta = p;
@@ -55,20 +70,20 @@ std::vector<double> LawCoordinates::Of(const std::vector<double>& p) const {
   return theta;
 }
 
-void LawCoordinates::ToParameters(const double* theta, double least_conductance, double* p) const {
+void LawCoordinates::SetParameters(const double* theta, double* p) const {
   const double exponent = pivot_ / theta[kN];
   p[kIph] = theta[kIph] * ampere_;
   // exp(theta) / (exp(x) - 1), without overflow where the cells are too few for the voltage.
   p[kIs] = ampere_ * std::exp(theta[kIs] - exponent) / -std::expm1(-exponent);
   p[kRs] = theta[kRs] * ohm_;
-  p[kRsh] = ohm_ / std::max(theta[kRsh], least_conductance);
+  p[kRsh] = ohm_ / theta[kRsh];
   if (second_) p[kSecondIs] = theta[kSecondIs] * second_A_;
   if (law_.free_tempco) p[law_.TempcoAt()] = theta[law_.TempcoAt()] * p[kIph];
 }
 
 std::vector<double> LawCoordinates::Parameters(const std::vector<double>& theta) const {
   std::vector<double> p = theta;
-  ToParameters(theta.data(), 0, p.data());
+  SetParameters(theta.data(), p.data());
   return p;
 }
 
@@ -91,11 +106,11 @@ void LawCoordinates::ForSlopes(const double* theta, const double* p, Add add) co
 
 bool LawCoordinates::Evaluate(const double* theta, LawWorkspace* workspace, double* current,
                               double* jacobian, const std::vector<char>* fixed) const {
-  // The derivative by an infinite Rsh is 0 and does not show that by the conductance.
-  const double least_conductance = jacobian != nullptr ? kPerfectConductance : 0;
   std::array<double, kMostParameters> p;
   std::copy(theta, theta + law_.size(), p.begin());
-  ToParameters(theta, least_conductance, p.data());
+  SetParameters(theta, p.data());
+  // The derivative by an infinite Rsh would not show that by the conductance.
+  p[kRsh] = std::min(p[kRsh], ohm_ / kPerfectConductance);
   if (!EvaluateLaw(law_, readings_, p.data(), workspace, current, jacobian, fixed)) return false;
   if (jacobian == nullptr) return true;
   const int size = law_.size();

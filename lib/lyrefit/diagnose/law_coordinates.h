@@ -3,10 +3,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lyrefit/estimate/refine/least_squares.h"
 #include "lyrefit/model/law.h"
 #include "lyrefit/model/reading.h"
 
 namespace lyrefit {
+
+// Whether fits keep a parameter fixed.
+bool IsFixed(const Readings& readings, const Law& law, int parameter);
 
 // Coordinates in which a law is fitted, one for each parameter and at its position. They are of
 // order 1, and none depends strongly on another:
@@ -25,8 +29,9 @@ class LawCoordinates {
   // Of all parameters or of those of the base, and back.
   std::vector<double> Of(const std::vector<double>& p) const;
   std::vector<double> Parameters(const std::vector<double>& theta) const;
-  double Lower(int coordinate) const;
-  double Upper(int coordinate) const;
+
+  // Bounds and fixed coordinates of a fit to the readings, without its evaluation.
+  LeastSquaresProblem Problem() const;
 
   // EvaluateLaw with derivatives by the coordinates.
   bool Evaluate(const double* theta, LawWorkspace* workspace, double* current, double* jacobian,
@@ -37,7 +42,7 @@ class LawCoordinates {
 
  private:
   // Sets the parameters of the base that are not their own coordinates.
-  void ToParameters(const double* theta, double least_conductance, double* p) const;
+  void SetParameters(const double* theta, double* p) const;
   template <class Add>
   void ForSlopes(const double* theta, const double* p, Add add) const;
 

@@ -20,10 +20,11 @@ Box SearchBox(const Selection& selection, const LawCoordinates& coordinates) {
     box.lower.push_back(0);
     box.upper.push_back(1);
   }
+  const LeastSquaresProblem problem = coordinates.Problem();
   for (int k = static_cast<int>(box.lower.size()); k < law.size(); ++k) {
-    const bool fixed = IsFixed(*selection.weighted.readings, law, k);
-    box.lower.push_back(fixed ? theta[k] : coordinates.Lower(k));
-    box.upper.push_back(fixed ? theta[k] + 1e-12 : coordinates.Upper(k));
+    const bool fixed = problem.fixed[k] != 0;
+    box.lower.push_back(fixed ? theta[k] : problem.lower[k]);
+    box.upper.push_back(fixed ? theta[k] + 1e-12 : problem.upper[k]);
   }
   return box;
 }

@@ -9,24 +9,6 @@
 #include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
-bool IsFixed(const Readings& readings, const Law& law, int parameter) {
-  if (parameter == kIph && readings.traits.only_dark) return true;
-  if (parameter == IdealityIndex(1) && law.model == Model::kDoubleDiode) return true;
-  return law.Searched(parameter);
-}
-
-LeastSquaresProblem BoundedProblem(const Readings& readings, const Law& law) {
-  LeastSquaresProblem problem;
-  problem.residuals = static_cast<int>(readings.points.size());
-  const LawCoordinates coordinates(law, readings);
-  for (int k = 0; k < law.size(); ++k) {
-    problem.lower.push_back(coordinates.Lower(k));
-    problem.upper.push_back(coordinates.Upper(k));
-    problem.fixed.push_back(IsFixed(readings, law, k) ? 1 : 0);
-  }
-  return problem;
-}
-
 ErrorModel ErrorsOf(const WeightedData& weighted) {
   const std::vector<Reading>& points = weighted.readings->points;
   ErrorModel errors;
@@ -92,10 +74,9 @@ bool EvaluateWhitened(const WeightedData& weighted, const LawCoordinates& law,
   return true;
 }
 
-LeastSquaresProblem MakeProblem(const WeightedData& weighted, const Law& law,
-                                const LawCoordinates& coordinates, LawWorkspace* workspace,
-                                std::vector<double>* current) {
-  LeastSquaresProblem problem = BoundedProblem(*weighted.readings, law);
+LeastSquaresProblem MakeProblem(const WeightedData& weighted, const LawCoordinates& coordinates,
+                                LawWorkspace* workspace, std::vector<double>* current) {
+  LeastSquaresProblem problem = coordinates.Problem();
   current->resize(problem.residuals);
   problem.evaluate = [&weighted, &coordinates, fixed = problem.fixed, workspace, current](
                          const double* theta, double* residuals, double* jacobian) {
@@ -145,8 +126,7 @@ LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<do
   fit.law = law;
   LawWorkspace workspace;
   const LawCoordinates coordinates(law, *weighted.readings);
-  const LeastSquaresProblem problem =
-      MakeProblem(weighted, law, coordinates, &workspace, &fit.current);
+  const LeastSquaresProblem problem = MakeProblem(weighted, coordinates, &workspace, &fit.current);
   LeastSquaresOptions watched = options;
   watched.stop = weighted.progress.stop();
   const LeastSquaresEnd end = SolveLeastSquares(problem, coordinates.Of(start), watched);
@@ -174,8 +154,7 @@ Linearized Linearize(const WeightedData& weighted, const LawFit& fit) {
   WeightedData unwatched = weighted;  // a fit found before a stop request is still described
   unwatched.progress = {};
   const LawCoordinates coordinates(fit.law, *weighted.readings);
-  const LeastSquaresProblem problem =
-      MakeProblem(unwatched, fit.law, coordinates, &workspace, &current);
+  const LeastSquaresProblem problem = MakeProblem(unwatched, coordinates, &workspace, &current);
   const std::vector<double> theta = coordinates.Of(fit.p);
   Linearized linear;
   linear.residual.resize(count);

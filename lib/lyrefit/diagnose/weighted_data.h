@@ -31,12 +31,6 @@ struct WeightedData {
   int count() const;  // number of used readings
 };
 
-// Whether fits keep a parameter fixed.
-bool IsFixed(const Readings& readings, const Law& law, int parameter);
-
-// A problem over the coordinates of a law (law_coordinates.h), without its evaluation.
-LeastSquaresProblem BoundedProblem(const Readings& readings, const Law& law);
-
 // Error model of the readings.
 ErrorModel ErrorsOf(const WeightedData& weighted);
 
@@ -56,7 +50,7 @@ struct LawFit {
 // Of the first diode.
 inline double Ideality(const LawFit& fit) { return fit.p[IdealityIndex(0)]; }
 
-// Least squares in all parameters of `law` that IsFixed() leaves free, from the parameters `start`.
+// Least squares in all parameters of `law` that IsFixed (law_coordinates.h) leaves free, from the parameters `start`.
 LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 

@@ -292,24 +292,25 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
   const std::vector<double> errors = StandardErrors(Linearize(weighted, after));
   const double sd = std::sqrt(NoiseVariance(weighted, after));
   std::vector<ParameterShift> shifts;
-  const auto add = [&](int k, const char* symbol, const char* name, const char* unit) {
+  const std::vector<ParameterInfo> infos = after.law.BaseInfos();
+  const auto add = [&](int k) {
     const double error = std::isfinite(after.p[k]) ? errors[k] * sd : kUnknown;
-    shifts.push_back({symbol, name, unit, before.p[k], after.p[k], error});
+    shifts.push_back(
+        {infos[k].symbol, infos[k].name, infos[k].unit, before.p[k], after.p[k], error});
   };
-  add(kIph, "Iph", "photocurrent", "A");
+  add(kIph);
   if (readings.traits.single && !readings.traits.only_dark) {
     ParameterShift& shift = shifts.back();
     for (double* value : {&shift.before, &shift.after, &shift.standard_error}) {
       *value *= readings.points.front().irradiance;
     }
   }
-  add(SaturationCurrentIndex(0), "Is1", "saturation_current", "A");
+  add(SaturationCurrentIndex(0));
   shifts.back().standard_error = kUnknown;
-  add(IdealityIndex(0), "n1", "n", "");
-  add(kRs, "Rs", "resistance_series", "ohm");
-  if (after.law.free_tempco) add(after.law.TempcoAt(), "alpha", "alpha_sc", "A/K");
-  if (after.law.free_bandgap) add(after.law.BandgapAt(), "Eg", "EgRef", "eV");
-  add(kRsh, "Rsh", "resistance_shunt", "ohm");
+  add(IdealityIndex(0));
+  add(kRs);
+  for (int k = after.law.TempcoAt(); k < after.law.base_size(); ++k) add(k);
+  add(kRsh);
   if (!readings.traits.only_dark) {
     const PowerAndError now = DevicePowerAndError(weighted, after);
     shifts.push_back({"Pmax", "max_power", "W", DevicePower(weighted, before),

@@ -15,20 +15,6 @@
 namespace lyrefit {
 namespace {
 
-struct Row {
-  const char* symbol;
-  const char* name;
-  const char* unit;
-  const char* doc;
-  bool positive = true;
-};
-
-constexpr Row kBaseRows[] = {{"Iph", "photocurrent", "A", "photocurrent"},
-                             {"Is1", "saturation_current", "A", "saturation current"},
-                             {"n1", "n", "", "ideality, per cell"},
-                             {"Rs", "resistance_series", "ohm", "series resistance"},
-                             {"Rsh", "resistance_shunt", "ohm", "shunt resistance"}};
-
 // Values in reporting units, in the order of the report.
 std::vector<double> Reported(const WeightedData& weighted, const Law& law,
                              const std::vector<double>& p) {
@@ -47,35 +33,11 @@ std::vector<double> Reported(const WeightedData& weighted, const Law& law,
   return values;
 }
 
-// Standard errors of the base parameters in these rows; NaN if not available.
-std::vector<double> StandardErrorsOf(const Selection& selection, const std::vector<Row>& rows) {
-  std::vector<double> errors(rows.size(), kUnknown);
-  for (const ParameterShift& shift : DescribeShifts(selection)) {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (shift.symbol == rows[k].symbol) errors[k] = shift.standard_error;
-    }
-  }
-  return errors;
-}
-
-// Report rows of the base parameters.
-std::vector<Row> BaseRows(const Law& law) {
-  std::vector<Row> rows(std::begin(kBaseRows), std::end(kBaseRows));
-  if (law.model == Model::kDoubleDiode) {
-    rows.push_back({"Is2", "saturation_current_2", "A", "saturation current of the second diode"});
-    rows.push_back({"n2", "n_2", "", "ideality of the second diode"});
-  }
-  if (law.free_tempco) {
-    rows.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc", false});
-  }
-  if (law.free_bandgap) rows.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
-  return rows;
-}
-
-void AddInterval(const Row& row, double error, double t, Estimate* estimate) {
+void AddInterval(double error, double t, Estimate* estimate) {
   if (!(error > 0 && std::isfinite(error))) return;
+  const bool positive = estimate->info.symbol != "alpha";
   const ParameterRange range = SymmetricRange(ParameterKind::kPlain, estimate->refined, error, t,
-                                              {row.positive ? 0 : -kInfinity, kInfinity});
+                                              {positive ? 0 : -kInfinity, kInfinity});
   estimate->standard_error = error;
   estimate->low_95 = range.low;
   estimate->high_95 = range.high;
@@ -118,15 +80,17 @@ void AddEstimates(const Selection& selection, const std::vector<double>& searche
     estimates[k].refined = refined[k];
     if (!searched.empty()) estimates[k].searched = searched[k];
   }
-  const std::vector<Row> rows = BaseRows(law);
-  const std::vector<double> errors = StandardErrorsOf(selection, rows);
+  const std::vector<ParameterInfo> infos = law.BaseInfos();
+  const std::vector<ParameterShift> shifts = DescribeShifts(selection);
   const double t = StudentT95(Degrees(selection.weighted, law));
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    estimates[k].info = {rows[k].symbol, rows[k].name, rows[k].unit, rows[k].doc};
-    estimates[k].fixed = std::string(rows[k].symbol) == "n2";
-    AddInterval(rows[k], errors[k], t, &estimates[k]);
+  for (std::size_t k = 0; k < infos.size(); ++k) {
+    estimates[k].info = {infos[k].symbol, infos[k].name, infos[k].unit, infos[k].doc};
+    estimates[k].fixed = infos[k].symbol == "n2";
+    for (const ParameterShift& shift : shifts) {
+      if (shift.symbol == infos[k].symbol) AddInterval(shift.standard_error, t, &estimates[k]);
+    }
   }
-  std::size_t first = rows.size();
+  std::size_t first = infos.size();
   for (std::size_t e = 0; e < law.effects.size(); ++e) {
     AddEffectEstimates(selection, static_cast<int>(e), first, &estimates);
     first += law.effects[e]->size();
@@ -166,14 +130,16 @@ void AddHeld(const Selection& selection, FitReport* report) {
     report->refined.insert(report->refined.begin() + at, value);
     report->searched.insert(report->searched.begin() + at, value);
   };
-  const int first = 3 + 2 * static_cast<int>(law.model);
+  Law free = law;
+  free.free_tempco = free.free_bandgap = true;
+  const std::vector<ParameterInfo> infos = free.BaseInfos();
   if (!law.free_tempco) {
-    insert(first, {"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"},
+    insert(free.TempcoAt(), infos[free.TempcoAt()],
            readings.isc_tempco_per_K * selection.extended.p[kIph] +
                readings.isc_tempco_scales_per_K * readings.scale.current_A);
   }
   if (!law.free_bandgap) {
-    insert(first + 1, {"Eg", "EgRef", "eV", "band gap at the reference"}, readings.bandgap_eV);
+    insert(free.BandgapAt(), infos[free.BandgapAt()], readings.bandgap_eV);
   }
 }
 

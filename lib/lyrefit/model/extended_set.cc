@@ -73,8 +73,7 @@ Expected<Device> ExtendSet(const Device& base, Law law, const CurveSet& set, dou
   device_effects.law.effects.clear();
   device_effects.set = std::make_shared<const CurveSet>(set);
   Device device = base;
-  device.parameters.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"});
-  device.parameters.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
+  device.parameters = device_effects.law.BaseInfos();
   return AddEffects(device, std::move(device_effects), uses, force);
 }
 

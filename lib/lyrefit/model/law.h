@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/effect.h"
+#include "lyrefit/model/parameter.h"
 #include "lyrefit/model/reading.h"
 #include "lyrefit/model/string_layout.h"
 #include "lyrefit/model/translation.h"
@@ -41,7 +42,8 @@ struct Law {
   // Position of alpha among the parameters, if free.
   int TempcoAt() const { return 3 + 2 * static_cast<int>(model); }
   int BandgapAt() const { return TempcoAt() + (free_tempco ? 1 : 0); }  // EgRef, if free
-  // Number of parameters of the base.
+  // Parameters of the base, and their number.
+  std::vector<ParameterInfo> BaseInfos() const;
   int base_size() const { return BandgapAt() + (free_bandgap ? 1 : 0); }
   // Number of all parameters.
   int size() const;

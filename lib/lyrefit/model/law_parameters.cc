@@ -2,9 +2,17 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/model/device.h"
 #include "lyrefit/model/law.h"
 
 namespace lyrefit {
+
+std::vector<ParameterInfo> Law::BaseInfos() const {
+  std::vector<ParameterInfo> infos = MakeDevice(model, {}).parameters;
+  if (free_tempco) infos.push_back({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc"});
+  if (free_bandgap) infos.push_back({"Eg", "EgRef", "eV", "band gap at the reference"});
+  return infos;
+}
 
 int Law::size() const {
   int size = base_size();

@@ -306,7 +306,7 @@ std::vector<ParameterShift> DescribeShifts(const Selection& selection) {
     }
   }
   add(SaturationCurrentIndex(0));
-  shifts.back().standard_error = kUnknown;
+  shifts.back().standard_error = kUnknown;  // it spreads over decades, not evenly about its value
   add(IdealityIndex(0));
   add(kRs);
   for (int k = after.law.TempcoAt(); k < after.law.base_size(); ++k) add(k);

@@ -87,7 +87,7 @@ TEST(MeanSquare, OfThePortableKernelHasTheseBits) {
   EXPECT_EQ(MeanSquare(device, Objective::kMeasuredCurrent, kParameters.data(), set, portable),
             0x1.85bb030dd7078p+0);
   EXPECT_EQ(MeanSquare(device, Objective::kSolvedCurrent, kParameters.data(), set, portable),
-            0x1.0274242939f15p-1);
+            0x1.0274242939f0fp-1);
 }
 
 TEST(MeanSquare, StaysFiniteFarOutsideTheBox) {

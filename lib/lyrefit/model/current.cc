@@ -8,14 +8,14 @@
 namespace lyrefit {
 
 OperatingPoint SolveOperatingPoint(const Device& device, const double* p, double voltage_V) {
-  PreparedDevice prepared;
-  PrepareDevice(device.terms.data(), static_cast<int>(device.terms.size()),
-                device.resistance_series, device.module_thermal_voltage_V, p, &prepared);
+  const PreparedDevice prepared = Prepare(device, p);
   const double limit = JunctionVoltageLimit(prepared, voltage_V);
   OperatingPoint point;
   point.junction_voltage_V = voltage_V + prepared.rs * prepared.largest_current;
   SolveTogether<1>(prepared, limit, &voltage_V, &point.junction_voltage_V, &point.current_A);
-  point.conductance_S = PreparedCurrent(prepared, Dual<1>(point.junction_voltage_V, 0)).v[0];
+  BentCurrent<double> bent;
+  PreparedBent<1>(prepared, &point.junction_voltage_V, &bent);
+  point.conductance_S = bent.slope;
   return point;
 }
 

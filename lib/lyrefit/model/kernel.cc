@@ -45,6 +45,8 @@ std::vector<Kernel> FindKernels() {
   return kernels;
 }
 
+}  // namespace
+
 PreparedDevice Prepare(const Device& device, const double* p) {
   PreparedDevice prepared;
   const int count = static_cast<int>(device.terms.size());
@@ -53,8 +55,6 @@ PreparedDevice Prepare(const Device& device, const double* p) {
                 device.module_thermal_voltage_V, p, &prepared);
   return prepared;
 }
-
-}  // namespace
 
 PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                       const std::vector<double>& weights) {

@@ -26,6 +26,9 @@ struct PointSet {
 PointSet MakePointSet(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                       const std::vector<double>& weights = {});
 
+// The voltage-independent part of a device without effects at parameters `p`.
+PreparedDevice Prepare(const Device& device, const double* p);
+
 // The inner loops, compiled once per instruction set from one source. They use no fused
 // multiply-add and a fixed order of summation, so all kernels give the same bits for the same
 // input.
@@ -35,9 +38,14 @@ struct Kernel {
   double (*measured_mean_square)(const PreparedDevice&, const PointSet&);
   // Mean of weight x (I(V) - I)^2, A^2. `diode_limit`: JunctionVoltageLimit at the largest voltage.
   double (*solved_mean_square)(const PreparedDevice&, const PointSet&, double diode_limit);
-  // Writes I(V) of every point to `current`, which has as many blocks as the set.
+  // Writes I(V) of every point to `current`, which has as many blocks as the set. The set's
+  // currents are its starts.
   void (*solve_currents)(const PreparedDevice&, const PointSet&, double diode_limit,
                          Block* current);
+  // Writes the sum of terms F(V + `rs` I) at the currents I and its derivatives to `rows`, which
+  // are as many blocks as the set each: F, dF/dVd, then dF/da and dF/db of each term.
+  void (*explicit_currents)(const PreparedTerm<double>* terms, int count, double rs,
+                            const PointSet&, const Block* current, Block* rows);
 };
 
 // Every kernel this processor can run, slowest ("portable") first.

@@ -85,18 +85,50 @@ static double SolvedMeanSquare(const PreparedDevice& d, const PointSet& points,
 static void SolveCurrents(const PreparedDevice& d, const PointSet& points, double diode_limit,
                           Block* current) {
   const Block* voltage = points.voltage_V.data();
+  const Block* measured = points.current_A.data();
   OverBlocks(points, [&](auto count, int first) {
     Pack v[count.value], junction[count.value], solved[count.value];
     for (int k = 0; k < count.value; ++k) {
       v[k] = Load(voltage[first + k]);
-      junction[k] = v[k] + Pack(d.rs * d.largest_current);
+      junction[k] = v[k] + Load(measured[first + k]) * d.rs;
     }
     SolveTogether<count.value>(d, diode_limit, v, junction, solved);
     for (int k = 0; k < count.value; ++k) Store(solved[k], &current[first + k]);
   });
 }
 
+static void ExplicitCurrents(const PreparedTerm<double>* terms, int count, double rs,
+                             const PointSet& points, const Block* current, Block* rows) {
+  using Sloped = Dual<3, Pack>;  // by the two numbers of a term and the junction voltage
+  const Block* voltage = points.voltage_V.data();
+  const int length = static_cast<int>(points.voltage_V.size());
+  OverBlocks(points, [&](auto blocks, int first) {
+    Pack vd[blocks.value], sum[blocks.value], slope[blocks.value];
+    for (int k = 0; k < blocks.value; ++k) {
+      vd[k] = Load(voltage[first + k]) + Load(current[first + k]) * rs;
+      sum[k] = slope[k] = Pack(0.0);
+    }
+    for (int t = 0; t < count; ++t) {
+      const PreparedTerm<Sloped> term = {terms[t].kind, Sloped(Pack(terms[t].a), 0),
+                                         Sloped(Pack(terms[t].b), 1)};
+      Block* by_a = rows + (2 + 2 * t) * length + first;
+      for (int k = 0; k < blocks.value; ++k) {
+        const Sloped part = TermCurrent(term, Sloped(vd[k], 2));
+        sum[k] = sum[k] + part.a;
+        slope[k] = slope[k] + part.v[2];
+        Store(part.v[0], &by_a[k]);
+        Store(part.v[1], &by_a[length + k]);
+      }
+    }
+    for (int k = 0; k < blocks.value; ++k) {
+      Store(sum[k], &rows[first + k]);
+      Store(slope[k], &rows[length + first + k]);
+    }
+  });
+}
+
 extern const Kernel kKernel;
-const Kernel kKernel = {LYREFIT_KERNEL_NAME, MeasuredMeanSquare, SolvedMeanSquare, SolveCurrents};
+const Kernel kKernel = {LYREFIT_KERNEL_NAME, MeasuredMeanSquare, SolvedMeanSquare, SolveCurrents,
+                        ExplicitCurrents};
 
 }  // namespace lyrefit::LYREFIT_KERNEL

@@ -47,14 +47,6 @@ inline void PrepareDevice(const Term* terms, int count, int rs, double module_th
   }
 }
 
-// F(Vd), the sum of the terms at junction voltage `vd`, in ampere.
-template <class T>
-T PreparedCurrent(const PreparedDevice& d, const T& vd) {
-  T current = TermCurrent(d.terms[0], vd);
-  for (int t = 1; t < d.count; ++t) current = current + TermCurrent(d.terms[t], vd);
-  return current;
-}
-
 // Junction voltage at which the recombination current alone drops `reach` over Rs: b - Rs a /
 // reach, below the pole at b. Near the pole the term is replaced by its tangent, and so is this
 // limit.
@@ -87,23 +79,56 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
   return limit;
 }
 
-// Solves g(Vd) = Vd - V - Rs F(Vd) = 0 at `kCount` voltages and gives the currents there. F falls
-// and is concave in Vd, so g rises and is convex. From any start one Newton step lands at or right
-// of the root, and from there Newton's method falls monotonically on it. A limit keeps the first
-// step finite. Convergence is quadratic with constant 1 / (2 n Ns Vt). Iteration stops when the
-// error after the last step is below rounding. All roots step together until the last one
-// converges: a step is a long chain of dependent operations, and the processor overlaps several
-// chains. The current is read from the flatter of the two curves that cross at the root: F itself,
-// or (Vd - V) / Rs. `junction` holds the starts on entry and the junction voltages on return.
+// A current and its first two derivatives by the junction voltage.
+template <class T>
+struct BentCurrent {
+  T value, slope, bend;
+};
+
+// F(Vd), the sum of the terms in ampere, at `kCount` junction voltages. Terms are the outer loop:
+// each is a long chain of dependent operations, and the processor overlaps those of all voltages.
+template <int kCount, class T>
+[[gnu::always_inline]] inline void PreparedBent(const PreparedDevice& d, const T* vd,
+                                                BentCurrent<T>* f) {
+  for (int k = 0; k < kCount; ++k) f[k] = {T(0.0), T(0.0), T(0.0)};
+  for (int t = 0; t < d.count; ++t) {
+    const PreparedTerm<double> term = d.terms[t];
+    const auto add = [&](int k, const Dual<1, T>& part, const T& bend_per_slope) {
+      f[k].value = f[k].value + part.a;
+      f[k].slope = f[k].slope + part.v[0];
+      f[k].bend = f[k].bend + part.v[0] * bend_per_slope;
+    };
+    if (__builtin_expect(term.kind == TermKind::kRecombination, 0)) {
+      const double closest = term.b * kClosestToPole;
+      for (int k = 0; k < kCount; ++k) {
+        const T gap = T(term.b) - vd[k];
+        const T bend = Choose(T(closest) < gap, T(2.0) / Larger(gap, T(closest)), T(0.0));
+        add(k, RecombinationCurrent(term, Dual<1, T>(vd[k], 0)), bend);
+      }
+      continue;
+    }
+    const T bend(term.kind == TermKind::kDiode ? term.b : 0.0);
+    for (int k = 0; k < kCount; ++k) add(k, UsualTermCurrent(term, Dual<1, T>(vd[k], 0)), bend);
+  }
+}
+
+// Solves g(Vd) = Vd - V - Rs F(Vd) = 0 at `kCount` voltages and gives the currents there, by
+// Halley's method. F falls and is concave in Vd, so g rises and is convex. From the left a step is
+// at most Newton's, which lands at or right of the root; from the right it is one to two of
+// Newton's. A limit keeps the first step finite. Convergence is cubic with constant 1 / (12 (n Ns
+// Vt)^2). Iteration stops when the error after the last step is below rounding. All roots step
+// together until the last one converges. The current is read from the flatter of the two curves
+// that cross at the root: F itself, or (Vd - V) / Rs. `junction` holds the starts on entry and the
+// junction voltages on return.
 template <int kCount, class T>
 void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage, T* junction,
                    T* current) {
   constexpr int kMaxIterations = 100;
   const double rs = d.rs;
-  const double small_step = 2e-8 / d.steepest;
+  const double small_step = 2e-5 / d.steepest;
   const double divider = 1.0 / (1.0 + rs * d.shunt_conductance);
   T limit[kCount];
-  T slope[kCount];
+  BentCurrent<T> f[kCount];
   for (int k = 0; k < kCount; ++k) {
     const T raw = Smaller((voltage[k] + T(rs * d.largest_current)) * divider, T(diode_limit));
     limit[k] = raw + (Magnitude(raw) + Magnitude(voltage[k])) * 1e-13;
@@ -111,14 +136,17 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     T excess = T(-1.0);  // excess of the longest step over rounding
+    PreparedBent<kCount>(d, junction, f);
     for (int k = 0; k < kCount; ++k) {
       const T x = junction[k];
-      const Dual<1, T> f = PreparedCurrent(d, Dual<1, T>(x, 0));
-      const T next = Smaller(x - (x - voltage[k] - f.a * rs) / (T(1.0) - f.v[0] * rs), limit[k]);
+      const T g = x - voltage[k] - f[k].value * rs;
+      const T slope = T(1.0) - f[k].slope * rs;
+      const T square = slope * slope;
+      const T bend = Smaller(g * f[k].bend * (-0.5 * rs), square * 0.5);
+      const T next = Smaller(x - g * slope / (square - bend), limit[k]);
       const T step = next - x;
       junction[k] = next;
-      current[k] = f.a + f.v[0] * step;
-      slope[k] = f.v[0];
+      current[k] = f[k].value + (f[k].slope + f[k].bend * step * 0.5) * step;
       excess = Larger(excess, Magnitude(step) - Magnitude(next) * 1e-15);
     }
     if (All(excess < T(small_step))) break;
@@ -126,7 +154,7 @@ void SolveTogether(const PreparedDevice& d, double diode_limit, const T* voltage
   if (!(rs > 0)) return;
   for (int k = 0; k < kCount; ++k) {
     current[k] =
-        Choose(slope[k] * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs), current[k]);
+        Choose(f[k].slope * rs < T(-1.0), (junction[k] - voltage[k]) * (1.0 / rs), current[k]);
   }
 }
 

@@ -38,7 +38,7 @@ template <class S>
 struct PreparedTerm {
   TermKind kind;
   S a;  // photocurrent, saturation current, conductance, or Iph d2mutau
-  S b;  // 1 / (n Ns Vt) of a diode, NsVbi of the recombination
+  S b;  // 1 / (n Ns Vt) of a diode, NsVbi of the recombination, else 0
 };
 
 // Largest exponent, far outside any real device. With it even the square of a current, or of its
@@ -69,6 +69,7 @@ inline void PrepareTerm(const Term& term, const S* p, double module_thermal_volt
                         PreparedTerm<S>* prepared) {
   const S& first = p[term.parameter[0]];
   prepared->kind = term.kind;
+  prepared->b = S(0.0);
   switch (term.kind) {
     case TermKind::kPhotocurrent:
       prepared->a = first;

@@ -22,12 +22,11 @@ TEST(ModelCurrents, HaveTheSlopesOfCentralDifferencesByEveryParameter) {
   measured = SolveCurrents(device, p.data(), unmeasured);
   for (double& current : measured) current += 0.01;
   const PointSet set = MakePointSet(voltage, measured);
-  const CurveView points{voltage, measured, set};
   const std::size_t count = p.size();
   for (const Objective objective : {Objective::kMeasuredCurrent, Objective::kSolvedCurrent}) {
     const auto currents = [&](const std::vector<double>& at, double* slopes) {
       std::vector<double> current(voltage.size());
-      ModelCurrents(device, objective, at.data(), points, FastestKernel(), current.data(), slopes);
+      ModelCurrents(device, objective, at.data(), set, FastestKernel(), current.data(), slopes);
       return current;
     };
     std::vector<double> slopes(voltage.size() * count);

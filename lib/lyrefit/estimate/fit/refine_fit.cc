@@ -42,8 +42,7 @@ struct WeightedEnd {
 std::vector<double> WeightedResiduals(const RefineProblem& problem, const RefineEnd& end,
                                       const std::vector<double>& weights) {
   std::vector<double> residual(weights.size());
-  ModelCurrents(problem.device, problem.objective, end.p.data(),
-                {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel,
+  ModelCurrents(problem.device, problem.objective, end.p.data(), problem.points, *problem.kernel,
                 residual.data(), nullptr);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     residual[k] = (residual[k] - problem.current_A[k]) * std::sqrt(weights[k]);

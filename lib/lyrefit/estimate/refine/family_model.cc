@@ -135,9 +135,8 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
   const int points = static_cast<int>(curve.voltage_V.size());
   const Device& own_device = DeviceOf(problem_, block);
   RowMatrix by_device(sloped ? points : 0, own_device.size());
-  ModelCurrents(own_device, problem_.objective, device.data(),
-                {curve.voltage_V, curve.current_A, points_[block]}, FastestKernel(), residuals,
-                sloped ? by_device.data() : nullptr);
+  ModelCurrents(own_device, problem_.objective, device.data(), points_[block], FastestKernel(),
+                residuals, sloped ? by_device.data() : nullptr);
   if (!std::isfinite(residuals[0])) return false;
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(curve.weight[k]);

@@ -4,8 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/estimate/refine/model_current.h"
+
 namespace lyrefit {
 namespace {
+
+Eigen::VectorXd Misfit(const LinearPart& linear) {
+  Eigen::VectorXd misfit = -linear.target;
+  for (int j = 0; j < linear.x.size(); ++j) misfit += linear.x[j] * linear.columns.col(j);
+  return misfit;
+}
 
 // The normal equations square the condition number of the columns. One step of iterative refinement
 // with the true residual restores the digits.
@@ -13,7 +21,7 @@ void SharpenFree(const SmallVector& lower, const SmallVector& upper, LinearPart*
   const int count = static_cast<int>(linear->free.size());
   SmallMatrix gram(count, count);
   SmallVector pull(count);
-  const Eigen::VectorXd residual = linear->columns * linear->x - linear->target;
+  const Eigen::VectorXd residual = Misfit(*linear);
   for (int a = 0; a < count; ++a) {
     pull[a] = linear->columns.col(linear->free[a]).dot(residual);
     for (int b = 0; b < count; ++b) gram(a, b) = linear->gram(linear->free[a], linear->free[b]);
@@ -31,24 +39,34 @@ void SharpenFree(const SmallVector& lower, const SmallVector& upper, LinearPart*
 LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<double>& weights,
                              double rs, const std::vector<double>& idealities) {
   const int points = static_cast<int>(problem.voltage_V.size());
-  const int count = 2 + static_cast<int>(idealities.size());
-  LinearPart linear;
-  linear.columns.resize(points, count);
-  linear.target.resize(points);
-  Eigen::VectorXd root(points);
-  for (int k = 0; k < points; ++k) {
-    const double vd = problem.voltage_V[k] + rs * problem.current_A[k];
-    linear.columns(k, 0) = 1;
-    linear.columns(k, 1) = -vd;
-    for (int j = 2; j < count; ++j) {
-      const double exponent = vd / (idealities[j - 2] * problem.device.module_thermal_voltage_V);
-      linear.columns(k, j) = DiodeCurrent(1.0, 1.0, exponent);
-    }
-    root[k] = std::sqrt(weights[k]);
-    linear.target[k] = root[k] * problem.current_A[k];
+  const int count = static_cast<int>(idealities.size());
+  const std::size_t length = problem.points.voltage_V.size();
+  thread_local std::vector<PreparedTerm<double>> diodes;
+  diodes.clear();
+  for (const double n : idealities) {
+    diodes.push_back({TermKind::kDiode, 1.0, 1 / (n * problem.device.module_thermal_voltage_V)});
   }
-  linear.scale = linear.columns.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-300);
-  linear.columns = root.asDiagonal() * linear.columns * linear.scale.cwiseInverse().asDiagonal();
+  Block* const rows = ScratchBlocks((2 + 2 * count) * length);
+  problem.kernel->explicit_currents(diodes.data(), count, rs, problem.points,
+                                    problem.points.current_A.data(), rows);
+  const auto measured = [&](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), points);
+  };
+  LinearPart linear;
+  linear.vd = measured(problem.voltage_V) + rs * measured(problem.current_A);
+  linear.root = measured(weights).cwiseSqrt();
+  linear.target = linear.root.cwiseProduct(measured(problem.current_A));
+  linear.columns.resize(points, 2 + count);
+  linear.scale.resize(2 + count);
+  const auto set = [&](int j, const auto& column) {
+    linear.scale[j] = std::max(column.cwiseAbs().maxCoeff(), 1e-300);
+    linear.columns.col(j) = column.cwiseProduct(linear.root) / linear.scale[j];
+  };
+  set(0, Eigen::VectorXd::Ones(points));
+  set(1, -linear.vd);
+  for (int j = 0; j < count; ++j) {
+    set(2 + j, Eigen::Map<const Eigen::VectorXd>(rows[(2 + 2 * j) * length].lane, points));
+  }
   return linear;
 }
 
@@ -74,15 +92,21 @@ LinearPart SolveLinearPart(const RefineProblem& problem, const std::vector<doubl
   LinearPart linear = MakeLinearColumns(problem, weights, rs, idealities);
   SmallVector lower, upper;
   LinearBounds(problem, linear.scale, &lower, &upper);
-  linear.gram.noalias() = linear.columns.transpose() * linear.columns;
-  linear.x =
-      SolveBoundedLinear(linear.gram, linear.columns.transpose() * linear.target, lower, upper);
-  const int count = static_cast<int>(linear.x.size());
+  const int count = static_cast<int>(lower.size());
+  linear.gram.resize(count, count);
+  SmallVector atb(count);
+  for (int j = 0; j < count; ++j) {
+    atb[j] = linear.columns.col(j).dot(linear.target);
+    for (int i = 0; i <= j; ++i) {
+      linear.gram(i, j) = linear.gram(j, i) = linear.columns.col(i).dot(linear.columns.col(j));
+    }
+  }
+  linear.x = SolveBoundedLinear(linear.gram, atb, lower, upper);
   for (int j = 0; j < count; ++j) {
     if (linear.x[j] > lower[j] && linear.x[j] < upper[j]) linear.free.push_back(j);
   }
   if (!linear.free.empty()) SharpenFree(lower, upper, &linear);
-  linear.residual = linear.columns * linear.x - linear.target;
+  linear.residual = Misfit(linear);
   return linear;
 }
 

@@ -12,6 +12,8 @@ namespace lyrefit {
 // (Iph - G Vd - sum Is (exp(Vd / (n Ns Vt)) - 1) - I)^2 within the bounds of Iph, G = 1/Rsh and Is.
 // Columns are scaled to a largest entry of 1 and multiplied by sqrt(weight).
 struct LinearPart {
+  Eigen::VectorXd vd;        // junction voltage
+  Eigen::VectorXd root;      // sqrt(weight)
   Eigen::MatrixXd columns;   // points x (2 + diodes): Iph, G, then the diodes
   Eigen::VectorXd target;    // sqrt(weight) x measured current
   Eigen::VectorXd scale;     // natural value = x / scale

@@ -1,48 +1,42 @@
 #include "lyrefit/estimate/refine/model_current.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/solve.h"
 
 namespace lyrefit {
 namespace {
 
-// Derivatives by three variables: those of a term's two prepared numbers by its at most three
-// parameters, and those of its current by these numbers and the junction voltage.
+// Derivatives of a term's two prepared numbers by its at most three parameters.
 using OfThree = Dual<3>;
 
-struct Sloped {
-  Term term;
-  PreparedTerm<OfThree> of_numbers;
-  OfThree a, b;  // the prepared numbers as functions of the term's parameters
-};
-
-std::vector<Sloped> PrepareTerms(const Device& device, const double* p) {
-  std::vector<Sloped> sloped;
-  for (const Term& term : device.terms) {
-    OfThree own[3];
-    Term in_own{term.kind, {-1, -1, -1}};
-    for (int k = 0; k < 3; ++k) {
-      if (term.parameter[k] < 0) continue;
-      own[k] = OfThree(p[term.parameter[k]], k);
-      in_own.parameter[k] = k;
-    }
-    PreparedTerm<OfThree> prepared{};
-    PrepareTerm(in_own, own, device.module_thermal_voltage_V, &prepared);
-    sloped.push_back({term,
-                      {term.kind, OfThree(prepared.a.a, 0), OfThree(prepared.b.a, 1)},
-                      prepared.a,
-                      prepared.b});
+PreparedTerm<OfThree> DifferentiateTerm(const Device& device, const Term& term, const double* p) {
+  OfThree own[3];
+  Term in_own{term.kind, {-1, -1, -1}};
+  for (int k = 0; k < 3; ++k) {
+    if (term.parameter[k] < 0) continue;
+    own[k] = OfThree(p[term.parameter[k]], k);
+    in_own.parameter[k] = k;
   }
-  return sloped;
+  PreparedTerm<OfThree> prepared;
+  PrepareTerm(in_own, own, device.module_thermal_voltage_V, &prepared);
+  return prepared;
 }
 
 }  // namespace
 
+Block* ScratchBlocks(std::size_t size) {
+  thread_local std::vector<Block> blocks;
+  if (blocks.size() < size) blocks.resize(size);
+  return blocks.data();
+}
+
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurveView& points, const Kernel& kernel, double* current, double* slopes,
+                   const PointSet& points, const Kernel& kernel, double* current, double* slopes,
                    const std::vector<char>* fixed, LawWorkspace* kept) {
   const bool measured = objective == Objective::kMeasuredCurrent;
   if (device.effects != nullptr) {
@@ -51,33 +45,41 @@ void ModelCurrents(const Device& device, Objective objective, const double* p,
     }
     return;
   }
-  const std::vector<double> at =
-      measured ? points.current_A : SolveCurrents(device, p, points.set, kernel);
-  std::copy(at.begin(), at.end(), current);
-  if (!measured && slopes == nullptr) return;
-  const std::vector<Sloped> terms = PrepareTerms(device, p);
-  const int count = device.size();
-  const double rs = p[device.resistance_series];
-  std::vector<double> unused(count);
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const OfThree vd(points.voltage_V[k] + at[k] * rs, 2);
-    double* row = slopes != nullptr ? slopes + k * count : unused.data();
-    std::fill(row, row + count, 0.0);
-    double explicit_current = 0, conductance = 0;
-    for (const Sloped& sloped : terms) {
-      const OfThree part = TermCurrent(sloped.of_numbers, vd);
-      explicit_current += part.a;
-      conductance += part.v[2];
-      for (int i = 0; i < 3 && sloped.term.parameter[i] >= 0; ++i) {
-        row[sloped.term.parameter[i]] += part.v[0] * sloped.a.v[i] + part.v[1] * sloped.b.v[i];
+  const int size = points.size, count = device.size();
+  const PreparedDevice prepared = Prepare(device, p);
+  const std::size_t length = points.voltage_V.size();
+  Block* const solved = ScratchBlocks((3 + 2 * prepared.count) * length);
+  Block* const rows = solved + length;
+  if (!measured) {
+    kernel.solve_currents(prepared, points,
+                          JunctionVoltageLimit(prepared, points.largest_voltage_V), solved);
+    std::memcpy(current, solved, size * sizeof(double));
+    if (slopes == nullptr) return;
+  }
+  const Block* const at = measured ? points.current_A.data() : solved;
+  kernel.explicit_currents(prepared.terms, prepared.count, prepared.rs, points, at, rows);
+  if (measured) std::memcpy(current, rows, size * sizeof(double));
+  if (slopes == nullptr) return;
+  const double* const currents = at->lane;
+  const double* const conductance = rows[length].lane;
+  std::fill(slopes, slopes + static_cast<std::ptrdiff_t>(size) * count, 0.0);
+  for (int t = 0; t < prepared.count; ++t) {
+    const Term& term = device.terms[t];
+    const PreparedTerm<OfThree> number = DifferentiateTerm(device, term, p);
+    const double* const by_a = rows[(2 + 2 * t) * length].lane;
+    const double* const by_b = rows[(3 + 2 * t) * length].lane;
+    for (int i = 0; i < 3 && term.parameter[i] >= 0; ++i) {
+      double* to = slopes + term.parameter[i];
+      for (int k = 0; k < size; ++k, to += count) {
+        *to += by_a[k] * number.a.v[i] + by_b[k] * number.b.v[i];
       }
     }
-    row[device.resistance_series] += conductance * at[k];
-    if (measured) {
-      current[k] = explicit_current;
-      continue;
-    }
-    const double factor = 1 / (1 - rs * conductance);
+  }
+  for (int k = 0; k < size; ++k) {
+    double* const row = slopes + static_cast<std::ptrdiff_t>(k) * count;
+    row[device.resistance_series] += conductance[k] * currents[k];
+    if (measured) continue;
+    const double factor = 1 / (1 - prepared.rs * conductance[k]);
     for (int i = 0; i < count; ++i) row[i] *= factor;
   }
 }

@@ -8,12 +8,8 @@
 
 namespace lyrefit {
 
-// Points of a curve, as measured and in the kernels' layout.
-struct CurveView {
-  const std::vector<double>& voltage_V;
-  const std::vector<double>& current_A;
-  const PointSet& set;
-};
+// Memory of this thread for blocks. The next call reuses it.
+Block* ScratchBlocks(std::size_t size);
 
 // Model currents of an objective at every point: the explicit right-hand side at the measured
 // current, or the solved current. `slopes`, if not null: derivatives by the device's parameters,
@@ -22,7 +18,7 @@ struct CurveView {
 // less exact. NaN if an equation with effects cannot be evaluated. Such an equation skips the
 // derivatives by `fixed` parameters (1), which are then 0, and may reuse a workspace.
 void ModelCurrents(const Device& device, Objective objective, const double* p,
-                   const CurveView& points, const Kernel& kernel, double* current, double* slopes,
+                   const PointSet& points, const Kernel& kernel, double* current, double* slopes,
                    const std::vector<char>* fixed = nullptr, LawWorkspace* kept = nullptr);
 
 }  // namespace lyrefit

@@ -51,9 +51,9 @@ void Residuals(const RefineProblem& problem, const double* p, double* residuals,
                LawWorkspace* kept) {
   const int points = static_cast<int>(problem.voltage_V.size()), count = problem.device.size();
   std::vector<char> fixed;
-  for (int i = 0; slopes != nullptr && i < count; ++i) fixed.push_back(problem.fixed(i) ? 1 : 0);
-  ModelCurrents(problem.device, problem.objective, p,
-                {problem.voltage_V, problem.current_A, problem.points}, *problem.kernel, residuals,
+  const bool skips = slopes != nullptr && problem.device.effects != nullptr;
+  for (int i = 0; skips && i < count; ++i) fixed.push_back(problem.fixed(i) ? 1 : 0);
+  ModelCurrents(problem.device, problem.objective, p, problem.points, *problem.kernel, residuals,
                 slopes, &fixed, kept);
   for (int k = 0; k < points; ++k) {
     const double root = std::sqrt(problem.weights[k]);

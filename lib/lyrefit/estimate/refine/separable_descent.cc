@@ -3,11 +3,9 @@
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/base/dual.h"
 #include "lyrefit/estimate/refine/linear_part.h"
+#include "lyrefit/estimate/refine/model_current.h"
 #include "lyrefit/estimate/refine/separable.h"
-#include "lyrefit/model/solve.h"
-#include "lyrefit/model/term.h"
 
 namespace lyrefit {
 namespace {
@@ -50,11 +48,14 @@ class Descent {
 
   // Weights that make the measured-current residual equal to the solved one to first order.
   void WeighForSolvedCurrent() {
-    const std::vector<double> p = Parameters();
+    const PreparedDevice prepared = Prepare(problem_.device, Parameters().data());
+    const PointSet& points = problem_.points;
+    const std::size_t length = points.voltage_V.size();
+    Block* const rows = ScratchBlocks((2 + 2 * prepared.count) * length);
+    problem_.kernel->explicit_currents(prepared.terms, prepared.count, prepared.rs, points,
+                                       points.current_A.data(), rows);
     for (std::size_t k = 0; k < weights_.size(); ++k) {
-      const double vd = problem_.voltage_V[k] + p[kRs] * problem_.current_A[k];
-      const double slope = JunctionCurrent(problem_.device, p.data(), Dual<1>(vd, 0)).v[0];
-      const double factor = 1 / (1 - p[kRs] * slope);
+      const double factor = 1 / (1 - prepared.rs * rows[length].lane[k]);
       weights_[k] = problem_.weights[k] * factor * factor;
     }
     linear_ = Solve(theta_);
@@ -75,32 +76,29 @@ class Descent {
   // Derivative of the residual with respect to theta, the free linear unknowns projected out.
   Eigen::MatrixXd Jacobian() const {
     const int points = static_cast<int>(linear_.residual.size());
-    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(points, theta_.size());
     const double vt = problem_.device.module_thermal_voltage_V;
     const double r0 = problem_.resistance_scale();
-    for (int k = 0; k < points; ++k) {
-      const double current = problem_.current_A[k];
-      const double vd = problem_.voltage_V[k] + Rs(theta_) * current;
-      const double root = std::sqrt(weights_[k]);
-      j(k, 0) = -root * linear_.x[1] / linear_.scale[1] * current * r0;
-      for (int d = 1; d < theta_.size(); ++d) {
-        const Dual<1> diode = DiodeCurrent(1.0, 1.0, Dual<1>(vd * theta_[d] / vt, 0));
-        const double slope = -root * linear_.x[1 + d] / linear_.scale[1 + d] * diode.v[0] / vt;
-        j(k, 0) -= slope * theta_[d] * current * r0;
-        j(k, d) = -slope * vd;
-      }
+    const Eigen::Map<const Eigen::VectorXd> current(problem_.current_A.data(), points);
+    Eigen::MatrixXd j(points, theta_.size());
+    j.col(0) = (-r0 * linear_.x[1] / linear_.scale[1]) * linear_.target;
+    for (int d = 1; d < theta_.size(); ++d) {
+      // A column is 1 - exp(Vd / (n Ns Vt)), scaled.
+      const double x = linear_.x[1 + d] / vt;
+      j.col(d) = (x / linear_.scale[1 + d]) * linear_.root - x * linear_.columns.col(1 + d);
+      j.col(0) -= (theta_[d] * r0) * j.col(d).cwiseProduct(current);
+      j.col(d) = -j.col(d).cwiseProduct(linear_.vd);
     }
     const int free = static_cast<int>(linear_.free.size());
-    Eigen::MatrixXd a(points, free);
-    SmallMatrix gram(free, free);
+    if (free == 0) return j;
+    SmallMatrix gram(free, free), inner(free, static_cast<int>(theta_.size()));
     for (int c = 0; c < free; ++c) {
-      a.col(c) = linear_.columns.col(linear_.free[c]);
+      const auto column = linear_.columns.col(linear_.free[c]);
       for (int r = 0; r < free; ++r) gram(r, c) = linear_.gram(linear_.free[r], linear_.free[c]);
+      for (int i = 0; i < j.cols(); ++i) inner(c, i) = column.dot(j.col(i));
     }
-    if (free > 0) {
-      const SmallMatrix inner = TransposedTimes(a, j);
-      const Eigen::MatrixXd step = gram.ldlt().solve(inner);
-      j -= Times(a, step);
+    const SmallMatrix step = gram.ldlt().solve(inner);
+    for (int i = 0; i < j.cols(); ++i) {
+      for (int c = 0; c < free; ++c) j.col(i) -= step(c, i) * linear_.columns.col(linear_.free[c]);
     }
     return j;
   }

@@ -75,14 +75,15 @@ double RestrictedFromProducts(double* products, int columns, LogSum log_determin
   return -0.5 * (log_determinant.Total() + std::max(at(last, last), 0.0));
 }
 
-// The restricted log-likelihood of MakeErrorModel(shape, sizes), in one pass over the readings: the
-// columns are whitened and multiplied row by row.
+// The restricted log-likelihood of MakeErrorModel(shape, sizes). The readings are whitened one after
+// the other, then multiplied column by column.
 double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const RowMatrix& rows) {
   const int columns = static_cast<int>(rows.cols());
   std::vector<double> buffer(columns * (2 + columns), 0.0);
   double* const state = buffer.data();  // prediction of the path
   double* const white = state + columns;
   double* const products = white + columns;
+  Eigen::MatrixXd whitened(rows.rows(), columns);
   const double per_length = 1 / sizes.length;
   PathFilter filter;
   LogSum logs;
@@ -101,9 +102,10 @@ double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const Row
     const FilterStep step = filter.Next(own, path, kept);
     logs.Add(step.total);
     step.Whiten(columns, rows.data() + k * columns, state, white);
-    for (int i = 0; i < columns; ++i) {
-      for (int j = 0; j <= i; ++j) products[i * columns + j] += white[i] * white[j];
-    }
+    for (int i = 0; i < columns; ++i) whitened(static_cast<Eigen::Index>(k), i) = white[i];
+  }
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j <= i; ++j) products[i * columns + j] = whitened.col(i).dot(whitened.col(j));
   }
   return RestrictedFromProducts(products, columns, logs);
 }

@@ -152,8 +152,8 @@ std::vector<double> SolveCurrents(const Device& device, const double* p,
                                   const std::vector<double>& voltage_V, const Kernel& kernel) {
   if (voltage_V.empty()) return {};
   if (device.effects != nullptr) return ExtendedCurrents(device, p, voltage_V);
-  const std::vector<double> no_current(voltage_V.size(), 0.0);
-  return SolveCurrents(device, p, MakePointSet(voltage_V, no_current), kernel);
+  const std::vector<double> start(voltage_V.size(), Prepare(device, p).largest_current);
+  return SolveCurrents(device, p, MakePointSet(voltage_V, start), kernel);
 }
 
 }  // namespace lyrefit

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
@@ -60,8 +61,10 @@ double UnderTheirErrors(const RefinedFit& refined, const RefineProblem& wide, co
   RefineProblem within = beyond;
   within.lower = fit.problem.lower;
   within.upper = fit.problem.upper;
-  const double bound = Refine(within, refined.end.p, how).mean_square;
-  return PValue(beyond, bound, Refine(beyond, free.p, how).mean_square, extra, spare);
+  const RefineEnd bound = Refine(within, refined.end.p, how);
+  const double lowest =
+      std::min(Refine(beyond, free.p, how).mean_square, Refine(beyond, bound.p, how).mean_square);
+  return PValue(beyond, bound.mean_square, lowest, extra, spare);
 }
 
 }  // namespace
@@ -75,7 +78,11 @@ std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& prog
   const RefineProblem wide = WithRoom(refined.problem, at_bound, fit.steepest_n);
   RefineOptions how;
   how.stop = progress.stop();
-  const RefineEnd free = Refine(wide, end.p, how);
+  RefineEnd free = Refine(wide, end.p, how);
+  if (!free.converged) {  // it may creep
+    RefineEnd other = RefineFrom(wide, end.p, how);
+    if (other.mean_square < free.mean_square) free = std::move(other);
+  }
   const int extra = static_cast<int>(at_bound.size());
   const int spare = fit.readings() - fit.free_parameters;
   double p = PValue(wide, end.mean_square, free.mean_square, extra, spare);

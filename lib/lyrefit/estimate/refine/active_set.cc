@@ -102,6 +102,7 @@ class ActiveSet {
       p[i] = bound;
     }
     if (!outside) return;
+    now_.converged = false;
     Clamp();
     Measure();
   }

@@ -12,24 +12,7 @@ namespace {
 constexpr int kBriefly = 12;         // iterations that suffice for most refits
 constexpr int kMaxIterations = 200;  // of the other refits
 constexpr int kMaxRounds = 10;
-constexpr double kHopeless = 10;   // of t; no exchange of diodes is tried above it
-constexpr double kInside = 0.994;  // of the rise at the end; no exchange is tried below it
-
-// Exchanges the diode of parameter i and diode d, if both have the same bounds.
-bool TradePlaces(const RefineProblem& problem, int i, int d, std::vector<double>* p) {
-  const ParameterKind kind = problem.device.parameters[i].kind;
-  const bool saturation = kind == ParameterKind::kSaturation;
-  if (!saturation && kind != ParameterKind::kIdeality) return false;
-  const int own = saturation ? i : i - 1;
-  const int other = SaturationCurrentIndex(d);
-  if (own == other) return false;
-  for (const int k : {0, 1}) {
-    if (problem.lower[own + k] != problem.lower[other + k]) return false;
-    if (problem.upper[own + k] != problem.upper[other + k]) return false;
-    std::swap((*p)[own + k], (*p)[other + k]);
-  }
-  return true;
-}
+constexpr double kInside = 0.994;  // of the rise at the end; a point below it is inside
 
 // The refits of the profile of one parameter of one curve.
 class CurveRefits {
@@ -37,10 +20,8 @@ class CurveRefits {
   CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
               const StopToken& stop)
       : i_(query.parameter), best_(best), held_(problem), model_(held_) {
-    const double rise = query.t * query.t * query.variance / model_.shape().points;
-    outside_ = best.mean_square + kInside * rise;
-    if (Kind() == ParameterKind::kSaturation)
-      hopeless_ = best.mean_square + kHopeless * kHopeless * rise;
+    outside_ =
+        best.mean_square + kInside * query.t * query.t * query.variance / model_.shape().points;
     how_.small = true;
     how_.let_in = false;  // the separable descents add diodes
     how_.max_iterations = how_.first_iterations = kMaxIterations;
@@ -63,11 +44,9 @@ class CurveRefits {
     // counts as outside, since the diodes may have exchanged roles there.
     const bool further = end.converged ? end.mean_square > outside_ && OfDiode()
                                        : end.mean_square > target && (OfDiode() || !(target > 0));
-    if (further) TakeIfLower(RefineFrom(held_, from.p, how_), &end);
-    if (end.mean_square > outside_ && end.mean_square < hopeless_) {
-      for (std::vector<double>& traded : Traded(value)) {
-        TakeIfLower(RefineModel(model_, {std::move(traded), {}}, how_), &end);
-      }
+    if (further) {
+      RefineEnd other = RefineFrom(held_, from.p, how_);
+      if (other.mean_square < end.mean_square) end = std::move(other);
     }
     end.stopped = how_.stop.requested();
     return end;
@@ -79,7 +58,7 @@ class CurveRefits {
     RefineOptions reach = how_;
     reach.cutoff = target;
     reach.let_in = true;
-    std::vector<std::vector<double>> starts = Traded(value);
+    std::vector<std::vector<double>> starts;
     for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
       starts.push_back(std::move(grid.p));
     }
@@ -95,13 +74,9 @@ class CurveRefits {
   }
 
  private:
-  ParameterKind Kind() const { return held_.device.parameters[i_].kind; }
   bool OfDiode() const {
-    return Kind() == ParameterKind::kSaturation || Kind() == ParameterKind::kIdeality;
-  }
-
-  static void TakeIfLower(RefineEnd other, RefineEnd* end) {
-    if (other.mean_square < end->mean_square) *end = std::move(other);
+    const ParameterKind kind = held_.device.parameters[i_].kind;
+    return kind == ParameterKind::kSaturation || kind == ParameterKind::kIdeality;
   }
 
   void Ask(double value, double target, double tolerance) {
@@ -111,24 +86,11 @@ class CurveRefits {
     how_.function_tolerance = how_.first_tolerance = tolerance;
   }
 
-  // The optima with the parameter's diode and another one exchanged.
-  std::vector<std::vector<double>> Traded(double value) const {
-    std::vector<std::vector<double>> all;
-    for (int d = 0; d < DiodeCount(held_.device); ++d) {
-      std::vector<double> traded = best_.p;
-      if (!TradePlaces(held_, i_, d, &traded)) continue;
-      traded[i_] = value;
-      all.push_back(std::move(traded));
-    }
-    return all;
-  }
-
   const int i_;
   const RefineEnd& best_;
   RefineProblem held_;
   CurveModel model_;
   double outside_ = 0;  // mean square of a point outside the interval
-  double hopeless_ = HUGE_VAL;
   RefineOptions how_;
 };
 

@@ -65,7 +65,7 @@ LinearPart MakeLinearColumns(const RefineProblem& problem, const std::vector<dou
   set(0, Eigen::VectorXd::Ones(points));
   set(1, -linear.vd);
   for (int j = 0; j < count; ++j) {
-    set(2 + j, Eigen::Map<const Eigen::VectorXd>(rows[(2 + 2 * j) * length].lane, points));
+    set(2 + j, Eigen::Map<const Eigen::VectorXd>(NumbersOf(rows + (2 + 2 * j) * length), points));
   }
   return linear;
 }

@@ -60,14 +60,14 @@ void ModelCurrents(const Device& device, Objective objective, const double* p,
   kernel.explicit_currents(prepared.terms, prepared.count, prepared.rs, points, at, rows);
   if (measured) std::memcpy(current, rows, size * sizeof(double));
   if (slopes == nullptr) return;
-  const double* const currents = at->lane;
-  const double* const conductance = rows[length].lane;
+  const double* const currents = NumbersOf(at);
+  const double* const conductance = NumbersOf(rows + length);
   std::fill(slopes, slopes + static_cast<std::ptrdiff_t>(size) * count, 0.0);
   for (int t = 0; t < prepared.count; ++t) {
     const Term& term = device.terms[t];
     const PreparedTerm<OfThree> number = DifferentiateTerm(device, term, p);
-    const double* const by_a = rows[(2 + 2 * t) * length].lane;
-    const double* const by_b = rows[(3 + 2 * t) * length].lane;
+    const double* const by_a = NumbersOf(rows + (2 + 2 * t) * length);
+    const double* const by_b = NumbersOf(rows + (3 + 2 * t) * length);
     for (int i = 0; i < 3 && term.parameter[i] >= 0; ++i) {
       double* to = slopes + term.parameter[i];
       for (int k = 0; k < size; ++k, to += count) {

@@ -11,6 +11,11 @@ namespace lyrefit {
 // Memory of this thread for blocks. The next call reuses it.
 Block* ScratchBlocks(std::size_t size);
 
+// The numbers of consecutive blocks, one after the other.
+inline const double* NumbersOf(const Block* blocks) {
+  return reinterpret_cast<const double*>(blocks);
+}
+
 // Model currents of an objective at every point: the explicit right-hand side at the measured
 // current, or the solved current. `slopes`, if not null: derivatives by the device's parameters,
 // row by row. Those of the solved current are those of the right-hand side at the root divided by 1

@@ -54,8 +54,9 @@ class Descent {
     Block* const rows = ScratchBlocks((2 + 2 * prepared.count) * length);
     problem_.kernel->explicit_currents(prepared.terms, prepared.count, prepared.rs, points,
                                        points.current_A.data(), rows);
+    const double* const slope = NumbersOf(rows + length);
     for (std::size_t k = 0; k < weights_.size(); ++k) {
-      const double factor = 1 / (1 - prepared.rs * rows[length].lane[k]);
+      const double factor = 1 / (1 - prepared.rs * slope[k]);
       weights_[k] = problem_.weights[k] * factor * factor;
     }
     linear_ = Solve(theta_);

@@ -18,6 +18,7 @@
 #include "lyrefit/certify/solved_relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/estimate/fit/order_alike.h"
 
 namespace lyrefit {
 namespace {
@@ -241,12 +242,23 @@ class ModelSearch {
   void From(const Mixture& mixture) {
     const CertifyOptions& options = proof_.options;
     const double rs = std::max({proof_.limits.rs_cut, proof_.rs_reached, mixture.rs});
-    const ModelRanges ranges = RangesOfModel(options, diodes_, std::min(options.rs_upper_ohm, rs),
-                                             proof_.data.reference_voltage_V);
+    const ModelRanges ranges = RangesUpTo(std::min(options.rs_upper_ohm, rs));
     const RefineProblem problem = ModelProblem(proof_.curve, device_, ranges, options.objective);
     FindUpperBound(problem, ranges, proof_.data, mixture, &best_);
   }
-  const std::vector<double>& p() const { return best_.p; }
+  // The best parameters, with interchangeable diodes in the order of a fit's.
+  std::vector<double> OrderedP() const {
+    std::vector<ParameterBounds> bounds(device_.size(), {0, 0});
+    const std::vector<DiodeRanges> ranges = RangesUpTo(proof_.options.rs_upper_ohm).diodes;
+    for (std::size_t d = 0; d < ranges.size(); ++d) {
+      const int diode = static_cast<int>(d);
+      bounds[IdealityIndex(diode)] = {ranges[d].n_lower, ranges[d].n_upper};
+      bounds[SaturationCurrentIndex(diode)] = {ranges[d].is_lower_A, ranges[d].is_upper_A};
+    }
+    std::vector<double> p = best_.p;
+    OrderAlike(device_, bounds, &p, nullptr);
+    return p;
+  }
   double mean_square() const { return best_.mean_square; }
   double Half() const { return proof_.Half(std::sqrt(best_.mean_square)); }
   Mixture AsMixture() const {
@@ -256,6 +268,10 @@ class ModelSearch {
   }
 
  private:
+  ModelRanges RangesUpTo(double rs_ohm) const {
+    return RangesOfModel(proof_.options, diodes_, rs_ohm, proof_.data.reference_voltage_V);
+  }
+
   static Device DeviceOf(const Proof& proof, Model model) {
     return MakeDevice(model, proof.curve.conditions, proof.options.constants);
   }
@@ -288,8 +304,8 @@ ModelCertificate CertifyModel(Model model, const BranchEnd& floor, Proof* shared
     if (end.best.primal < best.Half() * (1 - 1e-9)) best.From(end.best);
   }
   shared->upper_bound.push_back(best.AsMixture());
-  certificate.parameters = best.p();
-  certificate.rmse_A = proof.options.rigorous ? SafeModelRmse(proof, diodes, best.p())
+  certificate.parameters = best.OrderedP();
+  certificate.rmse_A = proof.options.rigorous ? SafeModelRmse(proof, diodes, certificate.parameters)
                                               : std::sqrt(best.mean_square());
   certificate.lower_bound_A = std::min(proof.RmseBelow(lower), certificate.rmse_A);
   certificate.gap = Gap(proof, certificate.rmse_A, certificate.lower_bound_A);

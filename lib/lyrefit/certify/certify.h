@@ -51,7 +51,8 @@ struct Floor {
 // Shockley's equation without the clip.
 struct ModelCertificate {
   Model model = Model::kSingleDiode;
-  std::vector<double> parameters;  // lowest found, in the device's order
+  // The lowest found, in the device's order; diodes of equal ranges by rising n.
+  std::vector<double> parameters;
   double rmse_A = 0;
   double lower_bound_A = 0;
   double gap = 0;           // (rmse - lower bound) / rmse

@@ -82,7 +82,9 @@ inline double JunctionVoltageLimit(const PreparedDevice& d, double voltage_V) {
 // A current and its first two derivatives by the junction voltage.
 template <class T>
 struct BentCurrent {
-  T value, slope, bend;
+  T value;  // A
+  T slope;  // first derivative, A/V
+  T bend;   // second derivative, A/V^2
 };
 
 // F(Vd), the sum of the terms in ampere, at `kCount` junction voltages. Terms are the outer loop:

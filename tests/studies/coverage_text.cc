@@ -16,7 +16,7 @@ std::string PercentText(double share, int digits = 1) {
 
 std::string Promise(const ParameterCoverage& p, bool any_fit) {
   constexpr double kPromised = 0.95;
-  if (p.counted == 0) return p.fitted == 0 && any_fit ? "held" : "-";
+  if (p.counted == 0) return p.fitted == 0 && any_fit ? "fixed" : "-";
   if (p.high_95 < kPromised) return "too narrow";
   return p.low_95 > kPromised ? "too wide" : "as promised";
 }

@@ -106,10 +106,9 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
   }
   if (held_out.folds < 2) return "not measured on readings that were not fitted";
   const std::string parts = held_out.by_sweeps ? "whole sweeps" : "readings";
-  std::string sentence =
-      held_out.gained()
-          ? "the gain holds on " + parts + " that were not fitted"
-          : "no gain on " + parts + " that were not fitted: within its standard error";
+  std::string sentence = held_out.gained() ? "the gain holds on " + parts + " that were not fitted"
+                                           : "no gain on " + parts +
+                                                 " that were not fitted: within its standard error";
   if (!field || held_out.by_sweeps) return sentence;
   return sentence +
          "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "

@@ -50,7 +50,8 @@ struct LawFit {
 // Of the first diode.
 inline double Ideality(const LawFit& fit) { return fit.p[IdealityIndex(0)]; }
 
-// Least squares in all parameters of `law` that IsFixed (law_coordinates.h) leaves free, from the parameters `start`.
+// Least squares in all parameters of `law` that IsFixed (law_coordinates.h) leaves free, from the
+// parameters `start`.
 LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<double>& start,
               const LeastSquaresOptions& options = {});
 

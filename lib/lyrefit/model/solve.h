@@ -109,8 +109,9 @@ template <int kCount, class T>
       }
       continue;
     }
-    const T bend(term.kind == TermKind::kDiode ? term.b : 0.0);
-    for (int k = 0; k < kCount; ++k) add(k, UsualTermCurrent(term, Dual<1, T>(vd[k], 0)), bend);
+    for (int k = 0; k < kCount; ++k) {
+      add(k, UsualTermCurrent(term, Dual<1, T>(vd[k], 0)), UsualBend(term, vd[k]));
+    }
   }
 }
 

@@ -15,8 +15,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 // same code serves double, automatic differentiation (a dual number for S, T or both) and eight
 // points at a time (T = a kernel's pack). `exp` and `Smaller` are found by the namespace of T.
 //
-// To add a term: one TermKind, one line in PrepareTerm and one in TermCurrent. A finite Vd must not
-// lead to NaN for any parameters inside their bounds.
+// To add a term: one TermKind, one line in PrepareTerm, in UsualTermCurrent and in UsualBend. A
+// finite Vd must not lead to NaN for any parameters inside their bounds.
 enum class TermKind {
   kPhotocurrent,  // {Iph}      I = Iph
   kDiode,         // {Is, n}    I = -Is (exp(Vd / (n Ns Vt)) - 1)                    Shockley
@@ -117,6 +117,21 @@ template <class S, class T>
       return DiodeCurrent(term.a, term.b, vd);
     case TermKind::kShunt:
       return -(vd * term.a);
+    case TermKind::kRecombination:
+      break;
+  }
+  return T(0.0);
+}
+
+// d2I/dVd2 over dI/dVd of the same terms at `vd`, in 1/V. Solvers stop where their next error is
+// below rounding, which holds only with the right value.
+template <class S, class T>
+[[gnu::always_inline]] inline T UsualBend(const PreparedTerm<S>& term, const T& /*vd*/) {
+  switch (term.kind) {
+    case TermKind::kDiode:
+      return T(term.b);
+    case TermKind::kPhotocurrent:
+    case TermKind::kShunt:
     case TermKind::kRecombination:
       break;
   }

@@ -14,8 +14,6 @@ namespace {
 // An effect whose signature stays below this many noise deviations, even at its bound, is not
 // testable.
 constexpr double kDetectable = 4.7;
-// Directions of one effect with a larger cosine count as one.
-constexpr double kAlike = 0.97;
 
 bool IsTwoSided(const Effect& effect) {
   if (effect.parameters.empty()) return true;
@@ -112,14 +110,12 @@ double Headroom(const Effect& effect, const Probe& probe) {
   return used > 0 ? std::max(upper, lower) / used : 1;
 }
 
-CandidateEffect Prepare(const WeightedData& weighted, const Linearized& linear,
-                        const Effect& effect, const Signature& signature) {
-  CandidateEffect candidate;
-  candidate.score.effect = &effect;
-  candidate.two_sided = IsTwoSided(effect);
+Score ScoreProbes(const WeightedData& weighted, const Linearized& linear, const Effect& effect,
+                  const Signature& signature) {
+  Score score;
+  const bool two_sided = IsTwoSided(effect);
   const std::vector<Probe> probes =
       effect.probes != nullptr ? effect.probes(weighted.readings->traits) : std::vector<Probe>();
-  std::vector<Eigen::VectorXd> kept;
   for (const Raw& raw : RawSignatures(weighted, effect, signature)) {
     Eigen::VectorXd rest = raw.signature;
     TakeOut(linear.basis, &rest);
@@ -127,70 +123,49 @@ CandidateEffect Prepare(const WeightedData& weighted, const Linearized& linear,
     direction.probe = raw.probe;
     direction.norm = rest.norm();
     direction.kept = direction.norm / raw.signature.norm();
-    candidate.score.kept = std::max(candidate.score.kept, direction.kept);
+    score.kept = std::max(score.kept, direction.kept);
     const bool wave = raw.probe < 0;
     if (!(direction.kept > (wave ? 1e-2 : 1e-7))) continue;
     if (!wave && direction.norm * Headroom(effect, probes[raw.probe]) < kDetectable) continue;
-    const Eigen::VectorXd unit = rest / direction.norm;
-    direction.score = -unit.dot(linear.residual);
-    candidate.score.directions.push_back(direction);
-    kept.push_back(unit);
+    direction.score = -rest.dot(linear.residual) / direction.norm;
+    score.directions.push_back(direction);
   }
-  candidate.score.testable = !kept.empty();
-  if (kept.empty()) {
-    candidate.score.why_not =
+  score.testable = !score.directions.empty();
+  if (!score.testable) {
+    score.why_not =
         "the base model absorbs it: no strength within its bounds would show in these data";
-    return candidate;
+    return score;
   }
-  // The null statistics use one direction of each set of nearly equal ones. The score uses them
-  // all, sorted.
-  std::vector<int> order(kept.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
-  const auto size = [&](int k) {
-    const double s = candidate.score.directions[k].score;
-    return candidate.two_sided ? std::fabs(s) : s;
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size(a) > size(b); });
-  std::vector<int> distinct;
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    bool alike = false;
-    for (const int other : distinct) {
-      const double cosine = kept[k].dot(kept[other]);
-      alike = alike || (candidate.two_sided ? std::fabs(cosine) : cosine) > kAlike;
-    }
-    if (!alike) distinct.push_back(static_cast<int>(k));
-  }
-  candidate.directions.resize(linear.residual.size(), static_cast<int>(distinct.size()));
-  for (std::size_t k = 0; k < distinct.size(); ++k) {
-    candidate.directions.col(static_cast<int>(k)) = kept[distinct[k]].cast<float>();
-  }
-  std::vector<Direction> sorted;
-  sorted.reserve(order.size());
-  for (const int k : order) sorted.push_back(candidate.score.directions[k]);
-  candidate.score.directions = sorted;
-  return candidate;
+  const auto size = [&](const Direction& d) { return two_sided ? std::fabs(d.score) : d.score; };
+  std::stable_sort(score.directions.begin(), score.directions.end(),
+                   [&](const Direction& a, const Direction& b) { return size(a) > size(b); });
+  return score;
 }
 
-CandidateEffect PrepareOutliers(const WeightedData& weighted, const Linearized& linear,
-                                const Effect& effect) {
-  CandidateEffect candidate;
-  candidate.score.effect = &effect;
-  candidate.two_sided = true;
-  candidate.score.testable = true;
-  candidate.score.kept = 1;
+Score ScoreSingleReadings(const WeightedData& weighted, const Linearized& linear) {
+  Score score;
+  score.testable = true;
+  score.kept = 1;
   Direction best;
   for (int k = 0; k < linear.residual.size(); ++k) {
     if (weighted.used[k] == 0) continue;
     const double room = 1 - linear.basis.row(k).squaredNorm();
     if (room < 1e-6) continue;
-    const double score = std::fabs(linear.residual[k]) / std::sqrt(room);
-    if (score > best.score) {
-      best = {-1, 1, 1, score};
-      candidate.score.outlier = k;
+    const double size = std::fabs(linear.residual[k]) / std::sqrt(room);
+    if (size > best.score) {
+      best = {-1, 1, 1, size};
+      score.outlier = k;
     }
   }
-  candidate.score.directions = {best};
-  return candidate;
+  score.directions = {best};
+  return score;
+}
+
+// F(1, degrees - 1) statistic of a score, whose square is the reduction of the sum of squares
+// `sum`. `least_variance`: lower limit of the noise variance.
+double Statistic(double score, double sum, int degrees, double least_variance) {
+  const double rest = std::max(sum - score * score, 1e-12 * sum);
+  return score * score / std::max(rest / (degrees - 1), least_variance);
 }
 
 }  // namespace
@@ -212,32 +187,35 @@ std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, con
   return signature;
 }
 
-Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
-                    const std::vector<const Effect*>& effects, Signatures* known) {
+std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
+                                const std::vector<const Effect*>& effects, Signatures* known) {
   const std::shared_ptr<const Signature> signature = FindSignature(weighted, fit, effects, known);
-  Prepared prepared;
-  prepared.linear = Linearize(weighted, fit);
-  prepared.degrees = weighted.count() - static_cast<int>(prepared.linear.basis.cols());
-  const double sum = prepared.linear.residual.squaredNorm();
+  const Linearized linear = Linearize(weighted, fit);
+  const int degrees = weighted.count() - static_cast<int>(linear.basis.cols());
+  const double sum = linear.residual.squaredNorm();
+  std::vector<Score> scores;
   for (const Effect* effect : effects) {
     if (weighted.progress.Stopped()) break;
     const bool single = effect->found_by == FoundBy::kSingleReading;
-    CandidateEffect candidate = single ? PrepareOutliers(weighted, prepared.linear, *effect)
-                                       : Prepare(weighted, prepared.linear, *effect, *signature);
-    if (prepared.degrees < 3) candidate.score.testable = false;
-    if (candidate.score.testable) {
-      const double best = candidate.score.directions.front().score;
-      const double size = candidate.two_sided ? std::fabs(best) : std::max(best, 0.0);
-      candidate.score.statistic = Statistic(size, sum, prepared.degrees, weighted.least_variance);
+    Score score = single ? ScoreSingleReadings(weighted, linear)
+                         : ScoreProbes(weighted, linear, *effect, *signature);
+    score.effect = effect;
+    if (degrees < 3) score.testable = false;
+    if (score.testable) {
+      const double best = score.directions.front().score;
+      const double size = single || IsTwoSided(*effect) ? std::fabs(best) : std::max(best, 0.0);
+      score.statistic = Statistic(size, sum, degrees, weighted.least_variance);
     }
-    prepared.candidates.push_back(std::move(candidate));
+    scores.push_back(std::move(score));
   }
-  return prepared;
+  return scores;
 }
 
-double Statistic(double score, double sum, int degrees, double least_variance) {
-  const double rest = std::max(sum - score * score, 1e-12 * sum);
-  return score * score / std::max(rest / (degrees - 1), least_variance);
+const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by) {
+  const auto at = std::find_if(scores.begin(), scores.end(), [&](const Score& score) {
+    return score.effect->found_by == found_by;
+  });
+  return at == scores.end() ? nullptr : &*at;
 }
 
 }  // namespace lyrefit

@@ -19,33 +19,15 @@ struct Direction {
   double score = 0;  // minus its dot product with the residual; positive: helps
 };
 
-// Score of an effect on the residuals of a law.
+// Score of an effect on the residuals of a law: an estimate of what a fit would gain.
 struct Score {
   const Effect* effect = nullptr;
   bool testable = false;
   std::string why_not;
   std::vector<Direction> directions;  // best first
-  double statistic = 0;               // F(1, dof - 1) of the best direction
-  double p_value = 1;                 // corrected for all its directions (null statistics)
-  double corrected_p = 1;             // corrected for the whole catalogue
-  double charge = 0;                  // penalty: 2 ln of its effective number of directions
-  double catalogue = 1;               // effective number of independent effects in the list
+  double statistic = 0;               // F(1, degrees - 1) of the best direction
   double kept = 0;                    // largest `kept` of its directions
   int outlier = -1;                   // if found by single readings: the one furthest off
-};
-
-// An effect on weighted data: its score before calibration, and its directions for null statistics.
-struct CandidateEffect {
-  Score score;
-  bool two_sided = false;
-  Eigen::MatrixXf directions;  // unit columns, nearly equal ones merged; empty for single readings
-};
-
-// All candidates of a law.
-struct Prepared {
-  Linearized linear;
-  int degrees = 0;  // degrees of freedom: readings minus parameters of the law
-  std::vector<CandidateEffect> candidates;
 };
 
 // Changes of a fitted law's currents by the probes of effects, not whitened. Each matrix has one
@@ -63,13 +45,13 @@ std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, con
                                                const std::vector<const Effect*>& effects,
                                                Signatures* known);
 
-// Scores every effect of `effects` on the residuals of `fit`, without p-values. Depending on the
-// effect, the score uses its probes, smooth waves along each monotone stretch, or single readings.
-Prepared PrepareAll(const WeightedData& weighted, const LawFit& fit,
-                    const std::vector<const Effect*>& effects, Signatures* known);
+// Scores every effect of `effects` on the residuals of `fit`, by its probes, by smooth waves along
+// each monotone stretch, or by single readings.
+std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
+                                const std::vector<const Effect*>& effects, Signatures* known);
 
-// F(1, degrees - 1) statistic of a score, whose square is the reduction of the sum of squares
-// `sum`. `least_variance`: lower limit of the noise variance.
-double Statistic(double score, double sum, int degrees, double least_variance);
+// The first score whose effect has this FoundBy value; at most one effect has a value other than a
+// fit's. Null if there is none.
+const Score* FindScore(const std::vector<Score>& scores, FoundBy found_by);
 
 }  // namespace lyrefit

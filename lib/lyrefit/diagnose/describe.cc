@@ -8,7 +8,6 @@
 
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/effect_size.h"
-#include "lyrefit/diagnose/equivalents.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/effects/catalogue.h"
@@ -82,14 +81,14 @@ std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fi
 
 }  // namespace
 
-Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) {
+Cause MakeCause(const Effect& effect, const char* evidence, double probability) {
   Cause cause;
   cause.id = effect.id;
   cause.title = effect.title;
   cause.sentence = effect.sentence;
   cause.acts = effect.acts;
   cause.evidence = evidence;
-  cause.corrected_p = corrected_p;
+  cause.corrected_p = 1 - probability;
   return cause;
 }
 
@@ -174,7 +173,7 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
     }
     const auto error = held_out.effects_A.find(trial.effect);
     if (error != held_out.effects_A.end()) trial.held_out_rmse_A = error->second;
-    for (const FittedCandidate& fitted : selection.trials) {
+    for (const FittedCandidate& fitted : selection.trials.candidates) {
       if (fitted.score.effect != effect) continue;
       trial.kept = fitted.score.kept;
       if (!fitted.score.testable) {
@@ -182,8 +181,7 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
         continue;
       }
       trial.tried = true;
-      trial.p_value = fitted.score.p_value;
-      trial.corrected_p = fitted.score.corrected_p;
+      trial.corrected_p = 1 - fitted.probability;
       trial.misfit = std::sqrt(std::max(fitted.statistic, fitted.score.statistic));
       if (!fitted.fit.usable) continue;
       trial.rmse_A = RmseOf(weighted, fitted.fit.current);
@@ -218,16 +216,16 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
 }
 
 std::vector<Cause> DescribeBelow(const Selection& selection) {
+  constexpr double kNotable = 0.05;
   std::vector<Cause> causes;
-  for (const FittedCandidate& fitted : selection.below) {
-    if (!fitted.fit.usable) continue;
+  for (const FittedCandidate& fitted : selection.below.candidates) {
     const Effect& effect = *fitted.score.effect;
     if (!causes.empty()) {
-      if (fitted.Charged() < selection.below.front().Charged() - kEquivalenceWidth) continue;
-      causes.front().equivalents.push_back(effect.id);
+      const double best = selection.below.candidates.front().probability;
+      if (fitted.probability >= kNotable * best) causes.front().equivalents.push_back(effect.id);
       continue;
     }
-    Cause cause = MakeCause(effect, "fit", fitted.corrected_p);
+    Cause cause = MakeCause(effect, "fit", fitted.probability);
     DescribeSize(selection.weighted, fitted.fit,
                  static_cast<int>(fitted.fit.law.effects.size()) - 1, selection.extended, &cause);
     cause.in_words.clear();  // too small to act on
@@ -246,8 +244,8 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     const ChosenCause& chosen = selection.causes[c];
     const Effect& effect = *chosen.effect;
     const bool by_values = chosen.in_values;
-    Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.corrected_p);
-    DescribeSize(weighted, selection.extended, static_cast<int>(c), selection.without[c], &cause);
+    Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.probability);
+    DescribeSize(weighted, selection.extended, static_cast<int>(c), chosen.others.none.fit, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
       cause.equivalents.push_back(fitted->score.effect->id);
       AddSeparation(effect, &cause.separate_by);
@@ -275,7 +273,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     causes.push_back(std::move(cause));
   }
   if (!selection.outliers.empty()) {
-    Cause cause = MakeCause(*FindEffect("outliers"), "fit", selection.outlier_p);
+    Cause cause = MakeCause(*FindEffect("outliers"), "fit", 1);
     cause.points = PointsIn(at.first, selection.outliers);
     std::sort(cause.points.begin(), cause.points.end());
     cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +

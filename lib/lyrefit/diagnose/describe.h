@@ -22,7 +22,7 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
                                   const HeldOutErrors& held_out, const DiagnoseOptions& options);
 
 // A cause without size and place. `evidence`: "fit" or "values".
-Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p);
+Cause MakeCause(const Effect& effect, const char* evidence, double probability);
 
 // The causes found, their equivalents and the readings at which they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,

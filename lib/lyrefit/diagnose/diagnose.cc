@@ -22,6 +22,7 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
+#include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/effects/catalogue.h"
 
@@ -146,7 +147,7 @@ std::vector<std::string> FindWarnings(const Selection& selection, const Measurem
                        " readings at ends of a sweep, where its voltage stood still, are left out "
                        "beside what depends on its rate");
   }
-  if (selection.unknown_p < level && !selection.unknown) {
+  if (selection.incomplete > 0.5 && !selection.causes.empty()) {
     warnings.emplace_back("structure remains in the residuals that no further cause explains");
   }
   if (selection.noise.lit.constant < 1e-6 && selection.noise.lit.relative < 1e-6) {
@@ -196,15 +197,28 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions
   return prepared;
 }
 
+// Departure of a device from a law with the right causes: that of modules without a fault, or as
+// stated.
+JudgeOptions JudgeOptionsOf(const Measurement& measurement) {
+  constexpr double kUsualWidth = 0.6;
+  JudgeOptions judge;
+  if (!measurement.has_path()) return judge;
+  if (measurement.errors.kind == ErrorKind::kStated) {
+    judge.departure = measurement.errors.sizes.path;
+    return judge;
+  }
+  judge.departure = UsualErrors(1, 1).center.path;
+  judge.departure_width = kUsualWidth;
+  return judge;
+}
+
 SelectOptions MakeSelectOptions(const PreparedDiagnosis& prepared,
                                 const ProgressReporter& progress) {
   const DiagnoseOptions& options = prepared.options;
   const Readings& readings = prepared.measurement.readings;
   SelectOptions select;
-  select.level = options.level;
-  select.draws = options.draws;
+  select.judge = JudgeOptionsOf(prepared.measurement);
   select.largest_causes = options.largest_causes;
-  select.seed = options.seed;
   select.floors = {options.floor_current, options.floor_power};
   select.base = StartingLaw(readings, options.base);
   select.candidates = Candidates(prepared.known, readings.traits, options);
@@ -234,7 +248,7 @@ SelectedCauses SelectPrepared(const PreparedDiagnosis& prepared, const ProgressR
   selected.candidates = select.candidates;
   Selection& found = selected.found;
   if (!found.base.usable) return selected;
-  FindFittedCandidates(select, &found);
+  FindAlternatives(select, &found);
   selected.at = is_long ? AtItsReadings(found, averaged, measurement) : AtItsReadings(found);
   if (prepared.options.held_out && !progress.Stopped()) {
     selected.held_out =

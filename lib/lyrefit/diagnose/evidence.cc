@@ -256,7 +256,7 @@ bool LacksAGroup(const DataTraits& traits, double n) {
 Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   const Effect& effect = *FindEffect("bypass_short");
   const int groups = traits.substrings;
-  Cause cause = MakeCause(effect, metadata.evidence.c_str(), metadata.corrected_p);
+  Cause cause = MakeCause(effect, metadata.evidence.c_str(), 1 - metadata.corrected_p);
   cause.equivalents = {metadata.id};
   cause.separate_by = {effect.separate_by, metadata.separate_by.front()};
   cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},

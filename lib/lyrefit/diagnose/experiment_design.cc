@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/diagnose/equivalents.h"
 
 namespace lyrefit {
 namespace {
@@ -163,16 +162,16 @@ PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double 
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   const ChosenCause* first = nullptr;
   for (const ChosenCause& cause : selection.causes) {
-    if (EquivalentsOf(cause).empty() || OwnFittedCandidate(cause) == nullptr) continue;
-    if (first == nullptr || cause.corrected_p < first->corrected_p) first = &cause;
+    if (EquivalentsOf(cause).empty() || OwnCandidate(cause) == nullptr) continue;
+    if (first == nullptr || cause.probability > first->probability) first = &cause;
   }
   std::vector<PlanCandidate> candidates;
   if (first == nullptr) return candidates;
   const auto add = [&](const FittedCandidate& fitted) {
     candidates.push_back(MakeCandidate(*selection.weighted.readings, fitted.fit,
-                                       fitted.score.charge + fitted.freedom));
+                                       -2 * fitted.log_posterior - fitted.fit.sum));
   };
-  add(*OwnFittedCandidate(*first));
+  add(*OwnCandidate(*first));
   for (const FittedCandidate* fitted : EquivalentsOf(*first)) {
     if (candidates.size() < kMostCandidates) add(*fitted);
   }

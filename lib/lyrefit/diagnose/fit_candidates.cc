@@ -1,10 +1,9 @@
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/rank_causes.h"
 #include "lyrefit/diagnose/selection_state.h"
-#include "lyrefit/diagnose/weigh_candidates.h"
 
 namespace lyrefit {
 namespace {
@@ -39,99 +38,120 @@ void FitFromHint(const SelectionState& now, const Effect& effect, LawFit* fit) {
   if (end.usable && (!fit->usable || end.sum < fit->sum)) *fit = std::move(end);
 }
 
-LawFit FitCandidate(const SelectionState& now, const Score& score, bool briefly) {
+LawFit FitCandidate(const SelectionState& now, const Score& score) {
   LawFit fit;
   if (const LawFit* met = FindMet(now, *score.effect)) fit = FitOnwards(now.weighted, *met);
   if (!fit.usable) {
-    const Effort effort = briefly                  ? Effort::kForTheRecord
-                          : now.options.in_passing ? Effort::kInPassing
-                                                   : Effort::kFull;
-    fit = FitEffect(now.weighted, now.fit, score, effort);
+    fit = FitEffect(now.weighted, now.fit, score,
+                    now.options.repeats ? Effort::kInPassing : Effort::kFull);
   }
   FitFromHint(now, *score.effect, &fit);
   return fit;
 }
 
-// Sets statistic, penalty and p-value of each candidate, in units of the smallest noise variance of
-// all fits.
-void JudgeCandidates(const SelectionState& now, std::vector<FittedCandidate>* fitted_candidates) {
-  double variance = NoiseVariance(now.weighted, now.fit);
-  for (const FittedCandidate& fitted : *fitted_candidates) {
-    variance = std::min(variance, NoiseVariance(now.weighted, fitted.fit));
+// Statistic below which no fit is tried: a cause that is more probable than none gains more.
+constexpr double kLeastStatistic = 4;
+// Effects whose linear score is below this part of the best one cannot become the best by a fit.
+constexpr double kHopelessPart = 0.1;
+
+// Statistic of effect number `most` among those that can be fitted, best first. 0 if `most` is 0 or
+// there are no more than that.
+double LeastOfTheBest(const std::vector<Score>& scores, int most) {
+  std::vector<double> statistics;
+  for (const Score& score : scores) {
+    if (score.testable && score.effect->probes != nullptr) statistics.push_back(score.statistic);
   }
-  for (FittedCandidate& fitted : *fitted_candidates) {
-    const Law& law = fitted.fit.law;
-    fitted.statistic = (now.fit.sum - fitted.fit.sum) / variance;
-    fitted.freedom = FreedomOf(now.weighted, law);
-    fitted.corrected_p = CorrectedP(fitted.score, fitted.statistic, Degrees(now.weighted, law),
-                                    now.calibration->calibration);
+  const auto count = static_cast<std::size_t>(most);
+  if (most == 0 || statistics.size() <= count) return 0;
+  std::sort(statistics.begin(), statistics.end(), std::greater<double>());
+  return statistics[count - 1];
+}
+
+double HopelessStatistic(const std::vector<Score>& scores, int most) {
+  double best = 0;
+  for (const Score& score : scores) {
+    if (score.testable) best = std::max(best, score.statistic);
   }
-  PutBestFirst(fitted_candidates);
+  return std::max({kLeastStatistic, kHopelessPart * best, LeastOfTheBest(scores, most)});
 }
 
 }  // namespace
 
-std::vector<FittedCandidate> FitCandidates(const SelectionState& now,
-                                           const std::vector<Score>& scores, bool all,
-                                           bool is_there) {
-  std::vector<FittedCandidate> fitted_candidates;
+Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& scores) {
+  Hypotheses hypotheses;
+  hypotheses.none.fit = now.fit;
+  const double hopeless = HopelessStatistic(scores, now.options.most_fitted_candidates);
   const double floor = now.options.floors.current;
-  const double hopeless = std::max(HopelessStatistic(scores),
-                                   LeastOfTheBest(scores, now.options.most_fitted_candidates));
-  // No candidate can exceed the floor if the present lack of fit does not.
-  const bool may_matter = floor > 0 && MissedBy(now.weighted, now.fit) > floor;
-  const bool astray = may_matter || LeadsAstray(now.weighted, now.fit);
-  const bool single = now.measurement.readings.traits.single;
+  // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
+  // spoil the scores.
+  const bool by_shape = now.measurement.readings.traits.single &&
+                        ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) ||
+                         LeadsAstray(now.weighted, now.fit));
   ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
   for (const Score& score : scores) {
     ReporterOf(now).Count();
-    // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
-    // spoil the scores.
-    const bool by_shape = astray && is_there && score.effect->starts != nullptr && single;
-    const bool fits = by_shape || (score.testable && (all || score.statistic >= hopeless) &&
-                                   score.effect->probes != nullptr);
-    if (!fits || now.weighted.progress.Stopped()) continue;
-    const bool briefly = !by_shape && (!is_there || score.statistic < hopeless);
-    LawFit fit = FitCandidate(now, score, briefly);
-    if (fit.usable) fitted_candidates.push_back({score, std::move(fit), 0});
+    if (now.weighted.progress.Stopped()) break;
+    if (score.effect->probes == nullptr) continue;
+    const bool fits = (by_shape && score.effect->starts != nullptr) ||
+                      (score.testable && score.statistic >= hopeless);
+    if (!fits) continue;
+    LawFit fit = FitCandidate(now, score);
+    if (fit.usable) hypotheses.candidates.push_back({score, std::move(fit)});
   }
-  JudgeCandidates(now, &fitted_candidates);
-  return fitted_candidates;
+  Judge(now.weighted, now.base, now.options.judge, &hypotheses);
+  return hypotheses;
 }
 
-void FindFittedCandidates(const SelectOptions& options, Selection* selection) {
+const FittedCandidate* OwnCandidate(const ChosenCause& cause) {
+  for (const FittedCandidate& candidate : cause.others.candidates) {
+    if (candidate.score.effect == cause.effect) return &candidate;
+  }
+  return nullptr;
+}
+
+std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
+  constexpr double kNotable = 0.05;
+  std::vector<const FittedCandidate*> equivalents;
+  for (const FittedCandidate& candidate : cause.others.candidates) {
+    const bool own = candidate.score.effect == cause.effect;
+    if (!own && candidate.probability >= kNotable * cause.probability) {
+      equivalents.push_back(&candidate);
+    }
+  }
+  return equivalents;
+}
+
+void FindAlternatives(const SelectOptions& options, Selection* selection) {
   const WeightedData& weighted = selection->weighted;
   const LawFit& extended = selection->extended;
   for (std::size_t c = 0; c < selection->causes.size(); ++c) {
     ChosenCause& cause = selection->causes[c];
     options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size()));
-    selection->without.push_back(FitWithout(weighted, extended, static_cast<int>(c)));
-    const LawFit& without = selection->without.back();
+    Hypotheses& place = cause.others;
+    place.none.fit = FitWithout(weighted, extended, static_cast<int>(c));
+    const LawFit& without = place.none.fit;
     if (!without.usable || options.progress.Stopped() || cause.in_values) continue;
     std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
     open.erase(std::remove_if(open.begin(), open.end(),
                               [](const Effect* effect) { return effect->probes == nullptr; }),
                open.end());
-    const double variance = NoiseVariance(weighted, extended);
-    const std::vector<Score> scores = JudgeScores(
-        PrepareAll(weighted, without, open, &selection->signatures), *selection->calibration);
-    const double hopeless = HopelessStatistic(scores);
+    const std::vector<Score> scores =
+        ScoreEffects(weighted, without, open, &selection->signatures);
+    const double hopeless = HopelessStatistic(scores, 0);
     for (const Score& score : scores) {
       options.progress.Count();
-      if (!score.testable) continue;
       if (options.progress.Stopped()) break;
       const bool own = score.effect == cause.effect;
-      if (score.statistic < hopeless && !own) continue;
-      FittedCandidate fitted{score, FitEffect(weighted, without, score), 0};
-      if (!fitted.fit.usable) continue;
-      const double sum = own ? std::min(fitted.fit.sum, extended.sum) : fitted.fit.sum;
-      fitted.statistic = (without.sum - sum) / variance;
-      fitted.freedom = FreedomOf(weighted, fitted.fit.law);
-      const bool possible = own || HasPossibleSize(*weighted.readings, without, fitted);
-      if (options.floors.Any() && !possible) continue;
-      cause.fitted_candidates.push_back(std::move(fitted));
+      const bool by_shape = score.effect->starts != nullptr &&
+                            weighted.readings->traits.single && cause.effect->groups;
+      if (!own && !by_shape && (!score.testable || score.statistic < hopeless)) continue;
+      LawFit fit = own ? extended : FitEffect(weighted, without, score);
+      if (fit.usable) place.candidates.push_back({score, std::move(fit)});
     }
-    PutBestFirst(&cause.fitted_candidates);
+    Judge(weighted, selection->base, options.judge, &place);
+    for (const FittedCandidate& candidate : place.candidates) {
+      if (candidate.score.effect == cause.effect) cause.probability = candidate.probability;
+    }
   }
 }
 

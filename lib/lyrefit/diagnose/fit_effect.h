@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {

@@ -1,13 +1,71 @@
 #include "lyrefit/diagnose/fitted_candidate.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "lyrefit/diagnose/priors.h"
 
 namespace lyrefit {
 
-void PutBestFirst(std::vector<FittedCandidate>* fitted_candidates) {
-  std::stable_sort(
-      fitted_candidates->begin(), fitted_candidates->end(),
-      [](const FittedCandidate& a, const FittedCandidate& b) { return a.Charged() > b.Charged(); });
+std::vector<FittedCandidate>::const_iterator MostProbable(
+    const std::vector<FittedCandidate>& candidates) {
+  return std::max_element(candidates.begin(), candidates.end(),
+                          [](const FittedCandidate& a, const FittedCandidate& b) {
+                            return a.LogComplete() < b.LogComplete();
+                          });
+}
+
+LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
+                       const JudgeOptions& options, const LawFit& fit) {
+  constexpr double kPartOfCauses = 0.05, kUsualWidth = 0.6;
+  DeparturePrior departure{options.departure, options.departure_width};
+  const bool stated = options.departure > 0 && options.departure_width == 0;
+  if (!fit.law.effects.empty() && !stated) {
+    const double size = LackOfFit(weighted, base, fit.current);
+    departure.center = std::hypot(options.departure, kPartOfCauses * size);
+    departure.width = kUsualWidth;
+  }
+  return FindLogEvidence(weighted, fit, departure);
+}
+
+double LogPriorOdds(const Effect& effect, const JudgeOptions& options) {
+  const double prior = PriorOf(effect.id, options.priors);
+  return std::log(prior / (1 - prior));
+}
+
+double LogTotal(const LogEvidence& evidence) {
+  return LogSum(evidence.complete + std::log1p(-kUnknownPrior),
+                evidence.incomplete + std::log(kUnknownPrior));
+}
+
+double IncompleteProbability(const LogEvidence& evidence) {
+  return std::exp(evidence.incomplete + std::log(kUnknownPrior) - LogTotal(evidence));
+}
+
+void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions& options,
+           Hypotheses* hypotheses) {
+  FittedCandidate& none = hypotheses->none;
+  std::vector<FittedCandidate>& candidates = hypotheses->candidates;
+  const double variance = NoiseVariance(weighted, none.fit);
+  none.evidence = EvidenceOf(weighted, base, options, none.fit);
+  none.log_posterior = LogTotal(none.evidence);
+  double total = none.log_posterior;
+  for (FittedCandidate& candidate : candidates) {
+    candidate.log_prior = LogPriorOdds(*candidate.score.effect, options);
+    candidate.evidence = EvidenceOf(weighted, base, options, candidate.fit);
+    candidate.log_posterior = LogTotal(candidate.evidence) + candidate.log_prior;
+    candidate.statistic = (none.fit.sum - candidate.fit.sum) /
+                          std::min(variance, NoiseVariance(weighted, candidate.fit));
+    total = LogSum(total, candidate.log_posterior);
+  }
+  none.probability = std::exp(none.log_posterior - total);
+  for (FittedCandidate& candidate : candidates) {
+    candidate.probability = std::exp(candidate.log_posterior - total);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const FittedCandidate& a, const FittedCandidate& b) {
+                     return a.log_posterior > b.log_posterior;
+                   });
 }
 
 std::vector<const Effect*> RoomFor(const Law& law, const std::vector<const Effect*>& effects) {

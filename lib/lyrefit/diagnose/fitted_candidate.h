@@ -1,27 +1,65 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/candidate.h"
+#include "lyrefit/diagnose/log_evidence.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
-// An effect fitted together with the other effects of a law.
+// A hypothesis: a law with one effect more than another law, fitted, or that law itself.
 struct FittedCandidate {
   Score score;
   LawFit fit;
-  double statistic = 0;    // reduction of the sum of squares, in units of the noise variance
-  double freedom = 0;      // penalty for freed parameters beyond those of its probes
-  double corrected_p = 1;  // of the statistic, corrected for the whole catalogue
-  // Lack of fit of its law, root mean square in fractions of Isc. NaN: not computed.
-  double left = kUnknown;
-  double Charged() const { return statistic - score.charge - freedom; }
+  double statistic = 0;  // reduction of the sum of squares, in units of the noise variance
+  LogEvidence evidence;
+  double log_prior = 0;              // ln of the prior odds of its effect
+  double log_posterior = -HUGE_VAL;  // ln of prior times marginal likelihood, up to a constant
+  double probability = 0;            // among the hypotheses compared
+
+  // As log_posterior, if nothing unknown acts as well. An unknown departure bends to everything,
+  // so that causes are looked for as if there were none.
+  double LogComplete() const { return evidence.complete + log_prior; }
 };
 
-// Sorts by the penalised statistic (Charged), largest first. The sort is stable.
-void PutBestFirst(std::vector<FittedCandidate>* fitted_candidates);
+// Hypotheses on one place of a law: that nothing belongs there, or one of the candidates.
+struct Hypotheses {
+  FittedCandidate none;                     // `score` is empty
+  std::vector<FittedCandidate> candidates;  // most probable first
+};
+
+// The candidate with the largest LogComplete.
+std::vector<FittedCandidate>::const_iterator MostProbable(
+    const std::vector<FittedCandidate>& candidates);
+
+// What the probabilities depend on beside the readings.
+struct JudgeOptions {
+  double departure = 0;        // usual departure of devices from a right law, in scales; 0: none
+  double departure_width = 0;  // see DeparturePrior
+  std::map<std::string, double> priors;  // of causes, in place of the table's (priors.h)
+};
+
+// Sets evidence and probability of every hypothesis and sorts the candidates. `base`: the fit
+// without any cause.
+void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions& options,
+           Hypotheses* hypotheses);
+
+// Evidence of a law. Its causes are described to a fraction of their size only, so that large ones
+// leave a larger departure.
+LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
+                       const JudgeOptions& options, const LawFit& fit);
+
+// ln of the prior odds of a cause.
+double LogPriorOdds(const Effect& effect, const JudgeOptions& options);
+
+// ln of the evidence whether or not something unknown acts as well.
+double LogTotal(const LogEvidence& evidence);
+// Probability that something unknown acts beside the causes of a law.
+double IncompleteProbability(const LogEvidence& evidence);
 
 // The effects of `effects` that can be added to a law.
 std::vector<const Effect*> RoomFor(const Law& law, const std::vector<const Effect*>& effects);

@@ -81,14 +81,12 @@ std::vector<int> SweepOfEach(const Readings& readings) {
 // Options for repeating the selection on a subset of the readings.
 SelectOptions Repeated(const SelectOptions& options, const Selection& selection) {
   SelectOptions inner = options;
-  inner.trials = false;
+  inner.repeats = true;
   inner.most_fitted_candidates = kFittedCandidates;
-  inner.in_passing = true;
   inner.hint = selection.extended;
-  inner.met = &selection.trials;
+  inner.met = &selection.trials.candidates;
   inner.base = selection.base.law;
   inner.start = selection.base.p;
-  inner.calibration = selection.calibration;
   inner.signatures = selection.signatures;
   return inner;
 }
@@ -108,7 +106,7 @@ Fold MissOf(const std::vector<int>& held_out, const std::vector<char>& used,
   WeightedData weighted = selection.base_weighted;
   for (std::size_t k = 0; k < used.size(); ++k)
     weighted.used[k] = weighted.used[k] != 0 ? used[k] : 0;
-  for (const FittedCandidate& fitted : selection.trials) {
+  for (const FittedCandidate& fitted : selection.trials.candidates) {
     Squares squares;
     if (fitted.fit.usable) {
       const LawFit fit = FitLaw(weighted, fitted.fit.law, fitted.fit.p, kNearby);
@@ -186,7 +184,7 @@ HeldOutErrors MeasureHeldOut(const Measurement& measurement, const SelectOptions
     results[f] = MissOf(held_out, used, measurement, options, selection);
   });
   if (options.progress.Stopped()) return {};
-  return Summarise(results, readings, selection.trials);
+  return Summarise(results, readings, selection.trials.candidates);
 }
 
 }  // namespace lyrefit

@@ -7,9 +7,7 @@
 
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/fit_effect.h"
-#include "lyrefit/diagnose/rank_causes.h"
 #include "lyrefit/diagnose/selection_state.h"
-#include "lyrefit/diagnose/weigh_candidates.h"
 #include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
@@ -17,8 +15,7 @@ namespace {
 
 SelectionState BeginSelection(const Measurement& measurement, const std::vector<char>& used,
                               double correlation, const SelectOptions& options) {
-  SelectionState now{measurement, options, options.calibration, options.signatures, {}, {}, {},
-                     {},          {}};
+  SelectionState now{measurement, options, options.signatures, {}, {}, {}, {}, {}, {}};
   now.weighted.readings = std::make_shared<const Readings>(measurement.readings);
   now.weighted.sigma.assign(measurement.readings.points.size(), 1e-3);
   now.weighted.used = used;
@@ -50,7 +47,7 @@ bool SettleBase(SelectionState* now, Selection* selection) {
   if (now->options.start.empty()) law = ChooseLaw(now->weighted, law);
   FitBaseLaw(law, now);
   if (now->weighted.progress.Stopped()) now->fit = selection->base;
-  selection->base = now->fit;
+  now->base = selection->base = now->fit;
   selection->base_weighted = now->weighted;
   return true;
 }
@@ -67,48 +64,34 @@ void AddClip(SelectionState* now) {
   start.push_back(values.clip_level > 0 ? values.clip_level : kNoUpperLimit);
   start.push_back(values.limited ? values.lower_limit : kNoLowerLimit);
   now->fit = FitLaw(now->weighted, law, start);
-  now->causes.push_back({clip, 0, {}, {}, true});
+  now->causes.push_back({clip, {}, true});
   SettleNoise(now);
 }
 
-void FindCalibration(const Prepared& prepared, SelectionState* now) {
-  if (now->calibration != nullptr) return;
-  const bool voltage = now->noise.lit.voltage > 0 || now->noise.dark.voltage > 0;
-  const NoiseEstimator noise(now->measurement, now->weighted.used,
-                             voltage ? VoltageNoise::kAlways : VoltageNoise::kNever);
-  now->calibration = std::make_shared<const ScoreCalibration>(
-      CalibrateScores(now->weighted, prepared, &noise, now->options.draws, now->options.seed));
-}
-
-// Whether a later cause explains a sufficient part of the first cause's statistic. Otherwise it may
-// only correct an error of the first cause's model. Used without floors.
-bool ExplainsEnough(const SelectionState& now, const FittedCandidate& fitted) {
-  constexpr double kLaterPart = 0.02, kGenericPart = 0.05;
-  const bool generic = IsGeneric(*now.weighted.readings, *fitted.score.effect);
-  return fitted.statistic >= (generic ? kGenericPart : kLaterPart) * now.first_gain;
-}
-
-// Whether the misfit of the base model is so large that scores on its residuals are meaningless.
-bool IsRuined(const SelectionState& now) {
-  constexpr double kMisfit = 0.01;
-  if (!now.measurement.has_path()) return false;
-  return MissedBy(now.weighted, now.fit) > kMisfit;
-}
-
-// Sets the level of this step. Returns whether any score passes it.
-bool IsAnythingThere(const std::vector<Score>& scores, int step, SelectionState* now) {
-  double smallest = 1;
-  for (const Score& score : scores) {
-    if (score.testable) smallest = std::min(smallest, score.corrected_p);
+// Frees the shape parameters of a momentary effect if the law is then more probable.
+void FreeShape(const Effect& effect, SelectionState* now) {
+  const LawFit& fit = now->fit;
+  Law law = fit.law;
+  for (int k = 0; k < effect.size(); ++k) {
+    if (effect.parameters[k].fixed_by_default) law.freed.emplace_back(&effect, k);
   }
-  const bool later = !now->causes.empty() || !now->wrong.readings.empty();
-  now->level = now->options.level * (later ? kLaterLevel : 1);
-  return smallest < now->level || (step == 0 && IsRuined(*now));
+  if (law.freed.size() == fit.law.freed.size()) return;
+  LawFit freed = FitLaw(now->weighted, law, fit.p);
+  if (!freed.usable) return;
+  const JudgeOptions& judge = now->options.judge;
+  const double before = LogTotal(EvidenceOf(now->weighted, now->base, judge, fit));
+  const double after = LogTotal(EvidenceOf(now->weighted, now->base, judge, freed));
+  if (!(after > before)) return;
+  now->fit = std::move(freed);
+  SettleNoise(now);
 }
 
-double UnknownP(const std::vector<Score>& scores) {
-  const Score* unknown = FindScore(scores, FoundBy::kWaves);
-  return unknown != nullptr && unknown->testable ? unknown->corrected_p : 1;
+void Accept(const FittedCandidate& candidate, SelectionState* now) {
+  const Effect& effect = *candidate.score.effect;
+  now->fit = candidate.fit;
+  now->causes.push_back({&effect, candidate.score});
+  SettleNoise(now);
+  if (effect.momentary) FreeShape(effect, now);
 }
 
 // Adds effects that were scored but not fitted.
@@ -121,118 +104,79 @@ void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* 
   }
 }
 
-bool LeaveOut(const std::vector<Score>& scores,
-              const std::vector<FittedCandidate>& fitted_candidates, SelectionState* now) {
-  const bool left_out = LeaveOutFurthest(scores, fitted_candidates, now->level, &now->weighted,
-                                         &now->fit, &now->wrong);
-  if (left_out) SettleNoise(now);
-  return left_out;
+// Whether a candidate is large enough to be named.
+bool IsWorthAName(const SelectionState& now, const FittedCandidate& candidate) {
+  if (!now.options.floors.Any()) return true;
+  const int last = static_cast<int>(candidate.fit.law.effects.size()) - 1;
+  return ExceedsFloors(
+      SizeOf(now.weighted, candidate.fit, last, MakeWithout(now.weighted, now.fit)),
+      now.options.floors);
 }
 
-// Keeps the fitted candidates that are large enough to be named. False if none of them is.
-bool KeepWorthy(SelectionState* now, Selection* selection,
-                std::vector<FittedCandidate>* fitted_candidates) {
-  const bool first = now->causes.empty();
-  if (now->options.floors.Any()) {
-    selection->below.clear();
-    *fitted_candidates = Weigh(*now, *fitted_candidates, &selection->below);
-    if (fitted_candidates->empty()) return false;
-    if (first) {
-      const double taken =
-          LackOfFit(now->weighted, now->fit, fitted_candidates->front().fit.current);
-      now->first_misfit = std::pow(taken, 2);
+// Drops the last causes, or all, if the law is more probable without them. Only now it counts that
+// something unknown may act in their place.
+void DropTheUnlikely(SelectionState* now) {
+  const auto& judge = now->options.judge;
+  const std::size_t first = now->causes.empty() || !now->causes.front().in_values ? 0 : 1;
+  LawFit fit = now->fit, best = fit;
+  std::size_t kept = now->causes.size();
+  double highest = -HUGE_VAL;
+  for (std::size_t count = now->causes.size();; --count) {
+    double value = LogTotal(EvidenceOf(now->weighted, now->base, judge, fit));
+    for (std::size_t c = first; c < count; ++c) value += LogPriorOdds(*now->causes[c].effect, judge);
+    if (value > highest) {
+      highest = value;
+      best = fit;
+      kept = count;
     }
-    return true;
+    if (count <= first || now->weighted.progress.Stopped()) break;
+    fit = FitWithout(now->weighted, fit, static_cast<int>(count) - 1);
+    if (!fit.usable) break;
   }
-  if (fitted_candidates->empty()) return true;
-  if (first) now->first_gain = fitted_candidates->front().statistic;
-  return ExplainsEnough(*now, fitted_candidates->front());
-}
-
-// Frees the shape parameters of a momentary effect if the improvement exceeds their penalty.
-void FreeShape(const Effect& effect, SelectionState* now) {
-  const LawFit& fit = now->fit;
-  Law law = fit.law;
-  for (int k = 0; k < effect.size(); ++k) {
-    if (effect.parameters[k].fixed_by_default) law.freed.emplace_back(&effect, k);
-  }
-  if (law.freed.size() == fit.law.freed.size()) return;
-  LawFit freed = FitLaw(now->weighted, law, fit.p);
-  const double paid = FreedomOf(now->weighted, law) - FreedomOf(now->weighted, fit.law);
-  if (!freed.usable) return;
-  if (!(freed.sum + paid * NoiseVariance(now->weighted, freed) < fit.sum)) return;
-  now->fit = std::move(freed);
+  if (kept == now->causes.size()) return;
+  now->fit = std::move(best);
+  now->causes.resize(kept);
   SettleNoise(now);
 }
 
-bool Accept(const FittedCandidate& fitted, SelectionState* now) {
-  const Effect& effect = *fitted.score.effect;
-  const bool floors = now->options.floors.Any();
-  double p = fitted.corrected_p;
-  const bool proven = floors && now->causes.empty() && effect.where == Where::kSweep &&
-                      LightMoved(*now->weighted.readings);
-  if (proven) p = 0;
-  if (!(p < now->level)) return false;
-  now->fit = fitted.fit;
-  now->causes.push_back({&effect, p, fitted.score, {}});
-  SettleNoise(now);
-  if (floors && effect.momentary) FreeShape(effect, now);
-  return true;
-}
-
-void Extend(Prepared prepared, SelectionState* now, Selection* selection) {
-  const SelectOptions& options = now->options;
-  const int most = options.largest_causes + static_cast<int>(now->causes.size());
+void Extend(SelectionState* now, Selection* selection) {
+  const int most = now->options.largest_causes + static_cast<int>(now->causes.size());
   std::set<std::set<const Effect*>> seen;
-  std::vector<FittedCandidate> fitted_candidates;  // of a previous step that left out a reading
-  for (int step = 0;; ++step) {
-    if (step > 0) prepared = PrepareOpen(now);
-    const std::vector<Score> scores = JudgeScores(prepared, *now->calibration);
+  for (bool first = true;; first = false) {
+    const std::vector<Score> scores = ScoreOpen(now);
     if (now->weighted.progress.Stopped()) return;
-    selection->unknown_p = UnknownP(scores);
-    const bool is_there = IsAnythingThere(scores, step, now);
-    if (step == 0 && options.trials) {
-      selection->trials = fitted_candidates = FitCandidates(*now, scores, true, is_there);
-      AddUntried(scores, &selection->trials);
+    Hypotheses step = FitCandidates(*now, scores);
+    if (first) {
+      selection->trials = step;
+      selection->none = step.none.probability;
+      AddUntried(scores, &selection->trials.candidates);
     }
-    if (!is_there) return;
-    if (static_cast<int>(now->causes.size()) >= most) return;
-    // Candidates fitted in the previous step are reused if another reading stands out by far:
-    // causes gain little when one reading is left out.
-    const bool left = step > 0 && !fitted_candidates.empty();
-    if (left && StandsOut(scores) && LeaveOut(scores, fitted_candidates, now)) continue;
-    if (step > 0 || !options.trials) fitted_candidates = FitCandidates(*now, scores);
     if (now->weighted.progress.Stopped()) return;
-    if (LeaveOut(scores, fitted_candidates, now)) continue;
-    if (!KeepWorthy(now, selection, &fitted_candidates)) return;
-    if (fitted_candidates.empty() || !Accept(fitted_candidates.front(), now)) {
-      selection->unknown =
-          now->causes.empty() && now->wrong.readings.empty() && selection->unknown_p < now->level;
+    if (LeaveOutFurthest(scores, step, &now->weighted, &now->fit, &now->wrong)) {
+      SettleNoise(now);
+      continue;
+    }
+    if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
+    const FittedCandidate& best = *MostProbable(step.candidates);
+    if (!(best.LogComplete() > step.none.LogComplete())) return;
+    if (!IsWorthAName(*now, best)) {
+      selection->below = std::move(step);
       return;
     }
-    selection->below.clear();  // they refer to the previous model
+    Accept(best, now);
     SwapCauses(now);
-    Prune(now);
     if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);
     const std::vector<const Effect*>& effects = now->fit.law.effects;
     const std::set<const Effect*> present(effects.begin(), effects.end());
     if (!seen.insert(present).second) return;  // a set of causes recurred: stop
-    fitted_candidates.clear();
   }
 }
 
 }  // namespace
 
-Prepared PrepareOpen(SelectionState* now) {
+std::vector<Score> ScoreOpen(SelectionState* now) {
   const std::vector<const Effect*> open = RoomFor(now->fit.law, now->options.candidates);
-  return PrepareAll(now->weighted, now->fit, open, &now->signatures);
-}
-
-std::vector<FittedCandidate> Weigh(const SelectionState& now,
-                                   const std::vector<FittedCandidate>& all,
-                                   std::vector<FittedCandidate>* below) {
-  const Weights weights{now.options.floors, now.level, now.first_misfit};
-  return WeighCandidates(now.weighted, now.fit, all, weights, below);
+  return ScoreEffects(now->weighted, now->fit, open, &now->signatures);
 }
 
 Selection SelectCauses(const Measurement& measurement, const std::vector<char>& used,
@@ -241,17 +185,16 @@ Selection SelectCauses(const Measurement& measurement, const std::vector<char>& 
   Selection selection;
   if (!SettleBase(&now, &selection)) return selection;
   if (measurement.values.HasLimits()) AddClip(&now);
-  Prepared prepared = PrepareOpen(&now);
-  FindCalibration(prepared, &now);
-  Extend(std::move(prepared), &now, &selection);
+  Extend(&now, &selection);
+  DropTheUnlikely(&now);
+  selection.incomplete =
+      IncompleteProbability(EvidenceOf(now.weighted, now.base, options.judge, now.fit));
   selection.extended = std::move(now.fit);
   selection.causes = std::move(now.causes);
   selection.outliers = std::move(now.wrong.readings);
   selection.at_rest = std::move(now.wrong.at_rest);
-  selection.outlier_p = now.wrong.p;
   selection.weighted = std::move(now.weighted);
   selection.noise = std::move(now.noise);
-  selection.calibration = std::move(now.calibration);
   selection.signatures = std::move(now.signatures);
   return selection;
 }

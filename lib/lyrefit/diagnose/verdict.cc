@@ -8,14 +8,13 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/diagnose/weigh_candidates.h"
 #include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
 
 Cause QuantisationCause(const Effect& effect, const Measurement& measurement) {
-  Cause cause = MakeCause(effect, "values", 0);
+  Cause cause = MakeCause(effect, "values", 1);
   const Grids& grids = measurement.values.grids;
   const double step =
       (grids.lit > 0 ? grids.lit : grids.dark) * measurement.readings.scale.current_A;
@@ -33,16 +32,16 @@ bool HasMaterialBins(const Measurement& measurement, const Noise& noise, double 
 }
 
 Cause BinsCause(const Effect& effect, const Measurement& measurement) {
-  Cause cause = MakeCause(effect, "values", 0);
+  Cause cause = MakeCause(effect, "values", 1);
   const double bin = measurement.values.voltage_bin * measurement.readings.scale.cells;
   cause.strength = {{"b", "bin", "V", bin, bin, bin, false}};
   cause.sentence += "; " + StrengthText(cause.strength.front());
   return cause;
 }
 
-Cause UnknownCause(const Selection& selection, double whiteness_after) {
+Cause UnknownCause(const Selection& selection) {
   const Effect& effect = *FindEffect("unknown_structure");
-  Cause cause = MakeCause(effect, "fit", std::min(selection.unknown_p, whiteness_after));
+  Cause cause = MakeCause(effect, "fit", selection.incomplete);
   cause.separate_by = {effect.separate_by};
   return cause;
 }
@@ -130,7 +129,7 @@ Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
 // Whether the residuals of the extended model are certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
   constexpr double kCertain = 1e-3;
-  return selection.unknown_p < kCertain || whiteness_after < kCertain ||
+  return selection.incomplete > 0.5 || whiteness_after < kCertain ||
          selection.weighted.correlation >= 0.5;
 }
 
@@ -164,11 +163,11 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     }
   }
   constexpr double kNeverNoise = 1e-6;
-  const bool unknown = exceeds && (selection.unknown || whiteness_after < kNeverNoise);
+  const bool unknown = exceeds && (selection.incomplete > 0.5 || whiteness_after < kNeverNoise);
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {
     verdict.unexplained = true;
-    verdict.causes.push_back(UnknownCause(selection, whiteness_after));
+    verdict.causes.push_back(UnknownCause(selection));
   }
   verdict.found = !verdict.causes.empty();
   if (verdict.found && exceeds && Remains(selection, whiteness_after)) verdict.unexplained = true;

@@ -276,6 +276,12 @@ double LackOfFit(const WeightedData& weighted, const LawFit& fit,
   return off.norm() / std::sqrt(std::max(weighted.count(), 1));
 }
 
+double MissedBy(const WeightedData& weighted, const LawFit& fit) {
+  std::vector<double> currents;
+  for (const Reading& r : weighted.readings->points) currents.push_back(r.current);
+  return LackOfFit(weighted, fit, currents);
+}
+
 double FindPath(const WeightedData& weighted, const LawFit& fit) {
   constexpr double kLargest = 4e-3;  // of Isc; a larger departure is a cause
   constexpr int kSteps = 12;

@@ -96,6 +96,9 @@ Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
 double LackOfFit(const WeightedData& weighted, const LawFit& fit,
                  const Eigen::MatrixXd& plain_basis, const std::vector<double>& currents);
 
+// Lack of fit of a fit to its readings.
+double MissedBy(const WeightedData& weighted, const LawFit& fit);
+
 // Number of free parameters of a law on these data.
 int FreeCount(const WeightedData& weighted, const Law& law);
 

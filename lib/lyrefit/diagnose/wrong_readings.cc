@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/priors.h"
 
 namespace lyrefit {
 namespace {
@@ -50,45 +50,40 @@ bool StandsStill(const WeightedData& weighted, const LawFit& fit, int reading) {
          std::fabs(current - points[reading].current) < kPlausible * weighted.sigma[reading];
 }
 
-}  // namespace
-
-bool StandsOut(const std::vector<Score>& scores) {
-  constexpr double kByFar = 2;  // times the best statistic of any effect
-  const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
-  if (furthest == nullptr) return false;
-  return std::all_of(scores.begin(), scores.end(), [&](const Score& score) {
-    const bool other = score.testable && score.effect->probes != nullptr;
-    return !other || furthest->statistic > kByFar * score.statistic;
-  });
+// ln of the posterior odds that the furthest reading is wrong, against no cause: its statistic, less
+// what it takes to select it among all readings and its size among all sizes.
+double LogOdds(const WeightedData& weighted, const LawFit& fit, const Score& furthest) {
+  constexpr double kRange = 1;  // of a wrong reading, in scales
+  const double degrees = Degrees(weighted, fit.law);
+  return 0.5 * degrees * std::log1p(furthest.statistic / degrees) - std::log(weighted.count()) +
+         std::log(std::sqrt(2 * M_PI) * weighted.sigma[furthest.outlier] / kRange) +
+         std::log(kWrongReadingPrior);
 }
 
-bool LeaveOutFurthest(const std::vector<Score>& scores,
-                      const std::vector<FittedCandidate>& fitted_candidates, double level,
+}  // namespace
+
+bool LeaveOutFurthest(const std::vector<Score>& scores, const Hypotheses& step,
                       WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
   constexpr double kMostOfAll = 0.05;
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
   if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return false;
-  if (!(furthest->corrected_p < level)) return false;
+  const double odds = LogOdds(*weighted, *fit, *furthest);
+  if (!(odds > 0)) return false;
   const double most = std::max(1.0, kMostOfAll * static_cast<double>(weighted->used.size()));
   if (static_cast<double>(wrong->readings.size()) >= most) return false;
+  if (!step.candidates.empty()) {
+    const FittedCandidate& best = *MostProbable(step.candidates);
+    const bool beaten = step.none.LogComplete() + odds < best.LogComplete();
+    const bool alone = best.score.effect->momentary && IsAlone(*weighted, *fit, furthest->outlier);
+    if (beaten && !alone) return false;
+  }
   WeightedData without = *weighted;
   without.used[furthest->outlier] = 0;
   LawFit rest = FitLaw(without, fit->law, fit->p);
   if (!rest.usable || weighted->progress.Stopped()) return false;
-  if (!fitted_candidates.empty()) {
-    const FittedCandidate& best = fitted_candidates.front();
-    const double gain = (fit->sum - rest.sum) / NoiseVariance(*weighted, best.fit);
-    const bool beaten = gain - furthest->charge < best.Charged();
-    const bool alone = best.score.effect->momentary && IsAlone(*weighted, *fit, furthest->outlier);
-    if (beaten && !alone) return false;
-  }
   weighted->used[furthest->outlier] = 0;
-  if (StandsStill(*weighted, rest, furthest->outlier)) {
-    wrong->at_rest.push_back(furthest->outlier);
-  } else {
-    wrong->readings.push_back(furthest->outlier);
-    wrong->p = std::min(wrong->p, furthest->corrected_p);
-  }
+  (StandsStill(*weighted, rest, furthest->outlier) ? wrong->at_rest : wrong->readings)
+      .push_back(furthest->outlier);
   *fit = std::move(rest);
   return true;
 }

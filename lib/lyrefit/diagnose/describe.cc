@@ -88,6 +88,9 @@ Cause MakeCause(const Effect& effect, const char* evidence, double corrected_p) 
   cause.title = effect.title;
   cause.sentence = effect.sentence;
   cause.acts = effect.acts;
+  cause.group = GroupOf(effect);
+  cause.action = effect.action;
+  cause.fact_sheet = effect.fact_sheet;
   cause.evidence = evidence;
   cause.corrected_p = corrected_p;
   return cause;

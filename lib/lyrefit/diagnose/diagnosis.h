@@ -122,6 +122,9 @@ struct Cause {
   bool at_least = false;              // that power is a lower limit: only low_95 is known
   double probability = kUnknown;      // that this cause, and no alternative, stands in its place
   std::vector<Alternative> alternatives;  // above 0.5 %, most probable first
+  std::string group;                      // "device", "wiring", "sweep", "instrument", "unknown"
+  std::string action;                     // the next thing to do about it
+  std::string fact_sheet;                 // of IEA-PVPS T13-30:2025; may be empty
   std::vector<std::string> equivalents;   // ids of effects that these data cannot separate from it
   std::vector<std::string> separate_by;   // measurements that would separate them
   std::vector<CauseParameter> strength;   // its parameters with intervals

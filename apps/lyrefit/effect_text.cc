@@ -72,10 +72,14 @@ Expected<std::string> ExplainEffect(const std::string& id) {
   Section law;
   AddField("equation", effect.equation, &law);
   AddField("reference", effect.reference, &law);
-  AddField("where", fmt::format("{}; {}", ToText(effect.where), effect.acts), &law);
+  AddField("where", fmt::format("{}; {}", GroupOf(effect), effect.acts), &law);
   AddField("data needed", effect.needs, &law);
   AddField("confused with", ConfusedText(effect), &law);
   AddField("to tell", effect.separate_by, &law);
+  AddField("to do", effect.action, &law);
+  if (*effect.fact_sheet != '\0') {
+    AddField("fact sheet", fmt::format("{} of IEA-PVPS T13-30:2025", effect.fact_sheet), &law);
+  }
   if (effect.probes == nullptr) {
     AddField("found", "by looking at values and residuals, not by a fit of its own", &law);
   }
@@ -84,13 +88,20 @@ Expected<std::string> ExplainEffect(const std::string& id) {
 }
 
 std::string EffectList() {
-  block::Table table = {"lll", {{"effect", "title", "where"}}};
+  block::Table table = {"llll", {{"effect", "title", "of the", "fact sheet"}}};
+  block::Table actions = {"lw", {{"effect", "to do"}}};
   for (const Effect* effect : Catalogue()) {
-    table.rows.push_back({effect->id, effect->title, ToText(effect->where)});
+    table.rows.push_back({effect->id, effect->title, GroupOf(*effect), effect->fact_sheet});
+    actions.rows.push_back({effect->id, effect->action});
   }
   Document document;
   AddTable(std::move(table), &document.head);
-  AddSentence("lyrefit diagnose --explain EFFECT says more of one.", &document.head);
+  AddSentence(
+      "lyrefit diagnose --explain EFFECT says more of one. Fact sheets: IEA-PVPS T13-30:2025.",
+      &document.head);
+  Section to_do;
+  AddTable(std::move(actions), &to_do);
+  AddSections({to_do}, &document);
   return DrawText(document);
 }
 

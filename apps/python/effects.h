@@ -17,7 +17,7 @@ namespace lyrefit::python {
 class OwnEffect {
  public:
   struct Texts {
-    std::string id, title, equation, sentence, needs, acts, separate_by, reference;
+    std::string id, title, equation, sentence, needs, acts, separate_by, reference, action;
     struct OfParameter {
       std::string symbol, name, unit, doc;
     };

@@ -119,6 +119,9 @@ py::list CatalogueOf() {
     row["id"] = effect->id;
     row["title"] = effect->title;
     row["where"] = ToText(effect->where);
+    row["group"] = GroupOf(*effect);
+    row["action"] = effect->action;
+    row["fact_sheet"] = effect->fact_sheet;
     row["equation"] = effect->equation;
     row["sentence"] = effect->sentence;
     row["needs"] = effect->needs;

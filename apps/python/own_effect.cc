@@ -197,7 +197,7 @@ class EffectMaker {
         {"title", &texts_.title},         {"equation", &texts_.equation},
         {"sentence", &texts_.sentence},   {"needs", &texts_.needs},
         {"acts", &texts_.acts},           {"separate_by", &texts_.separate_by},
-        {"reference", &texts_.reference},
+        {"reference", &texts_.reference}, {"action", &texts_.action},
     };
     for (const auto& [name, text] : all) {
       if (const auto value = keywords_.Take(name)) *text = TextOf(name, *value);
@@ -320,6 +320,7 @@ OwnEffect::OwnEffect(Texts texts, Effect effect, std::shared_ptr<Fault> fault)
   effect_.needs = texts_.needs.c_str();
   effect_.acts = texts_.acts.c_str();
   effect_.separate_by = texts_.separate_by.c_str();
+  effect_.action = texts_.action.c_str();
   for (std::size_t k = 0; k < texts_.parameters.size(); ++k) {
     EffectParameter& parameter = effect_.parameters[k];
     parameter.symbol = texts_.parameters[k].symbol.c_str();

@@ -195,7 +195,7 @@ TEST(DiagnoseVerb, WritesTheCausesAsATable) {
   EXPECT_THAT(result.out, ::testing::HasSubstr("\nshaded_module,shading,partial shading,yes,0.00"));
   const AppResult clean =
       RunApp("diagnose '" + DataFolder("rtc_france") + "' --effects clip --no-held-out --csv -");
-  EXPECT_THAT(clean.out, ::testing::HasSubstr("\nrtc_france,,,no,,,,,,,,,,"));
+  EXPECT_THAT(clean.out, ::testing::HasSubstr("\nrtc_france,,,no,,,,,,,,,,,,,"));
 }
 
 TEST(DiagnoseVerb, EchoesItsBaseItsEffectsAndThatNothingIsHeldOut) {

@@ -131,7 +131,13 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
     }
     return most;
   }();
-  EXPECT_NEAR(cause.recoverable_power_W, done.healthy_W - measured_W, 0.02 * done.healthy_W);
+  const Sized& recoverable = cause.recoverable_power_W;
+  EXPECT_NEAR(recoverable.value, done.healthy_W - measured_W, 0.02 * done.healthy_W);
+  EXPECT_LT(recoverable.low_95, done.healthy_W - measured_W);
+  EXPECT_GT(recoverable.high_95, done.healthy_W - measured_W);
+  EXPECT_LT(recoverable.high_95 - recoverable.low_95, 0.02 * done.healthy_W);
+  EXPECT_FALSE(cause.at_least);
+  EXPECT_EQ(d.verdict.recoverable_power_W.value, recoverable.value);  // of the only cause
   EXPECT_GT(cause.current_effect.low_95, 0.01);
   // The interval covers the usual scatter between sorted cells, 1 %.
   EXPECT_GT(cause.strength[0].high_95 - cause.strength[0].low_95, 0.01);

@@ -45,12 +45,19 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
            "verdict",         "gain",     "evidence",      "trials",      "non_default_options",
            "assumptions",     "warnings", "interrupted",   "usable",      "seconds",
            "curves",          "points"}));
-  EXPECT_EQ(Keys(j["verdict"]), (Set{"found", "unexplained", "sentence", "causes", "below_floor",
-                                     "lack_of_fit", "cannot_be_excluded"}));
-  EXPECT_EQ(Keys(j["verdict"]["causes"][0]),
-            (Set{"id", "title", "sentence", "equivalents", "separate_by", "parameters",
-                 "corrected_p", "evidence", "acts", "points", "in_words", "current_effect",
-                 "power_effect", "recoverable_power_W"}));
+  EXPECT_EQ(Keys(j["verdict"]),
+            (Set{"found", "unexplained", "sentence", "causes", "below_floor", "lack_of_fit",
+                 "probability_none", "recoverable_power_W", "cannot_be_excluded"}));
+  EXPECT_EQ(Keys(j["verdict"]["causes"][0]), (Set{"id",           "title",
+                                                  "sentence",     "equivalents",
+                                                  "separate_by",  "parameters",
+                                                  "corrected_p",  "evidence",
+                                                  "acts",         "points",
+                                                  "in_words",     "current_effect",
+                                                  "power_effect", "recoverable_power_W",
+                                                  "at_least",     "probability",
+                                                  "alternatives", "group",
+                                                  "action",       "fact_sheet"}));
   EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
             (Set{"id", "biases", "sentence", "separate_by"}));
   EXPECT_EQ(Keys(j["trials"][0]),

@@ -32,7 +32,11 @@ std::vector<ResultColumn> DiagnoseColumns() {
        "of the readings from the model beyond noise, root mean square in percent of Isc"},
       {"power_effect_percent", "%", kNumber,
        "of the cause on Pmax: what the model gets wrong without it, in percent"},
-      {"recoverable_power_W", "W", kNumber, "what the device would give more without the cause"},
+      {"recoverable_power_W", "W", kNumber,
+       "what the device would give more without the cause; empty where only a lower limit is "
+       "known"},
+      {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
+      {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
       {"corrected_p", "", kNumber, "p-value of the cause, the whole catalogue counted"},
       {"verdict", "", kText, "the diagnosis in one sentence"},
       {"warnings", "", kText, "in plain words, with '; ' between them"},
@@ -60,7 +64,9 @@ std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
           verdict.unexplained,
           NumberCell(100 * verdict.lack_of_fit.value),
           NumberCell(100 * cause.power_effect.value),
-          NumberCell(cause.recoverable_power_W),
+          NumberCell(cause.recoverable_power_W.value),
+          NumberCell(cause.recoverable_power_W.low_95),
+          NumberCell(cause.recoverable_power_W.high_95),
           NumberCell(cause.corrected_p),
           TextCell(verdict.sentence),
           ListCell(diagnosis.warnings, "; ")};

@@ -59,7 +59,10 @@ std::vector<ResultColumn> FieldColumns() {
            {"equivalents", "", kText, "ids that these readings cannot tell from it"},
            {"separate_by", "", kText, "measurements that would, with '; ' between them"},
            {"recoverable_power_W", "W", kNumber,
-            "what the string would give more without the cause, in the light of the sweep"},
+            "what the string would give more without the cause, in the light of the sweep; empty "
+            "where only a lower limit is known"},
+           {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
+           {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
            {"below_rating_W", "W", kNumber, "rated power less the power at standard conditions"},
            {"causes", "", kText, "ids of all causes, the most certain first"},
            {"verdict", "", kText, "the diagnosis in one sentence"},
@@ -107,7 +110,9 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   cells.push_back(TextCell(cause.sentence));
   cells.push_back(ListCell(cause.equivalents));
   cells.push_back(ListCell(cause.separate_by, "; "));
-  cells.push_back(NumberCell(cause.recoverable_power_W));
+  cells.push_back(NumberCell(cause.recoverable_power_W.value));
+  cells.push_back(NumberCell(cause.recoverable_power_W.low_95));
+  cells.push_back(NumberCell(cause.recoverable_power_W.high_95));
   cells.push_back(NumberCell(test.rated_W - test.standard_W));
   cells.push_back(ListCell(report.causes));
   cells.push_back(TextCell(report.verdict));

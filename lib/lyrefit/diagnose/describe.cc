@@ -87,6 +87,9 @@ Cause MakeCause(const Effect& effect, const char* evidence, double probability) 
   cause.title = effect.title;
   cause.sentence = effect.sentence;
   cause.acts = effect.acts;
+  cause.group = GroupOf(effect);
+  cause.action = effect.action;
+  cause.fact_sheet = effect.fact_sheet;
   cause.evidence = evidence;
   cause.corrected_p = 1 - probability;
   return cause;
@@ -197,6 +200,11 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
   return trials;
 }
 
+// A power to be gained, with an interval that does not go below 0.
+Sized Recoverable(const PowerGain& gain) {
+  return {gain.power_W, std::max(gain.power_W - gain.half_W, 0.0), gain.power_W + gain.half_W};
+}
+
 // Fills sizes and their meaning. `without`: the fit without effect `index`.
 void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
                   const LawFit& without, Cause* cause) {
@@ -208,7 +216,7 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
   cause->current_effect = {size.current, std::max(size.current - half, 0.0), size.current + half};
   cause->power_effect = {size.power, size.power - size.power_error, size.power + size.power_error};
   if (size.recoverable > 0) {
-    cause->recoverable_power_W = size.recoverable * DevicePower(weighted, with);
+    cause->recoverable_power_W = Recoverable(GainWithout(weighted, with, index));
     cause->in_words.push_back(fmt::format("without it Pmax would be {:.4g} W, {:+.1f} %",
                                           (1 + size.recoverable) * DevicePower(weighted, with),
                                           100 * size.recoverable));
@@ -229,7 +237,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     DescribeSize(selection.weighted, fitted.fit,
                  static_cast<int>(fitted.fit.law.effects.size()) - 1, selection.extended, &cause);
     cause.in_words.clear();  // too small to act on
-    cause.recoverable_power_W = kUnknown;
+    cause.recoverable_power_W = {};
     cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));
   }
@@ -281,6 +289,27 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     causes.push_back(std::move(cause));
   }
   return causes;
+}
+
+void DescribeRecoverable(const Selection& selection, Verdict* verdict) {
+  // A smaller n beside named causes means that the model lacks part of them: its brightest cells
+  // are darker than the device's would be.
+  constexpr double kIncomplete = 0.8;
+  const LawFit& fit = selection.extended;
+  const std::vector<Cause>& causes = verdict->causes;
+  if (std::none_of(causes.begin(), causes.end(), [](const Cause& cause) {
+        return std::isfinite(cause.recoverable_power_W.value);
+      })) {
+    return;
+  }
+  verdict->recoverable_power_W = Recoverable(GainWithoutEffects(selection.weighted, fit));
+  if (Ideality(fit) >= kIncomplete) return;
+  const auto limit = [](Sized* power) { *power = {kUnknown, power->low_95, kUnknown}; };
+  limit(&verdict->recoverable_power_W);
+  for (Cause& cause : verdict->causes) {
+    cause.at_least = std::isfinite(cause.recoverable_power_W.value);
+    if (cause.at_least) limit(&cause.recoverable_power_W);
+  }
 }
 
 std::vector<ParameterShift> DescribeShifts(const Selection& selection) {

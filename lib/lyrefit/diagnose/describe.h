@@ -28,6 +28,10 @@ Cause MakeCause(const Effect& effect, const char* evidence, double probability);
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
                                   const ValueFindings& values);
 
+// Fills what the device would give more without the causes, all together, and whether that is a
+// lower limit. The causes are described.
+void DescribeRecoverable(const Selection& selection, Verdict* verdict);
+
 // Significant effects that are too small to be named: the best one, with its equivalents.
 std::vector<Cause> DescribeBelow(const Selection& selection);
 

@@ -309,6 +309,7 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.evidence = FindEvidence(prepared, selected);
   diagnosis.verdict = Decide(measurement, found, selected.at, prepared.options,
                              diagnosis.evidence.whiteness_after_p_value);
+  DescribeRecoverable(found, &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);
   diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());

@@ -103,15 +103,28 @@ struct Sized {
   double high_95 = kUnknown;
 };
 
+// A hypothesis that could stand in the place of a cause.
+struct Alternative {
+  std::string id;  // of an effect; "none": no cause; "unknown_structure": none of the known
+  std::string title;
+  double probability = kUnknown;
+};
+
 // An effect that explains a deviation of the data from the base model.
 struct Cause {
   std::string id;
   std::string title;
-  std::string sentence;                   // for a technician, with size
-  std::vector<std::string> in_words;      // meaning here: light in %, heat of a hot cell in W
-  Sized current_effect;                   // on the curve, root mean square, fraction of Isc
-  Sized power_effect;                     // relative error of Pmax of a model without the effect
-  double recoverable_power_W = kUnknown;  // additional Pmax of the device without the effect
+  std::string sentence;               // for a technician, with size
+  std::vector<std::string> in_words;  // meaning here: light in %, heat of a hot cell in W
+  Sized current_effect;               // on the curve, root mean square, fraction of Isc
+  Sized power_effect;                 // relative error of Pmax of a model without the effect
+  Sized recoverable_power_W;          // additional Pmax of the device without the effect
+  bool at_least = false;              // that power is a lower limit: only low_95 is known
+  double probability = kUnknown;      // that this cause, and no alternative, stands in its place
+  std::vector<Alternative> alternatives;  // above 0.5 %, most probable first
+  std::string group;                      // "device", "wiring", "sweep", "instrument", "unknown"
+  std::string action;                     // the next thing to do about it
+  std::string fact_sheet;                 // of IEA-PVPS T13-30:2025; may be empty
   std::vector<std::string> equivalents;   // ids of effects that these data cannot separate from it
   std::vector<std::string> separate_by;   // measurements that would separate them
   std::vector<CauseParameter> strength;   // its parameters with intervals
@@ -138,7 +151,9 @@ struct Verdict {
   std::vector<Cause> causes;  // smallest corrected p-value first
   // Significant effects that are too small to act on.
   std::vector<Cause> below_floor;
-  Sized lack_of_fit;  // of the base model beyond noise, rms in fractions of Isc
+  Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc
+  double probability_none = kUnknown;  // that no cause acts
+  Sized recoverable_power_W;           // additional Pmax of the device without all causes
   std::vector<CannotBeExcluded> cannot_be_excluded;  // effects that the data cannot show
   std::string sentence;
 };

@@ -16,7 +16,9 @@ struct DeviceTerms {
   std::vector<int> of;
 };
 
-DeviceTerms DeviceTermsOf(const LawFit& fit) {
+// `keep`: whether an effect of the device, by its number, is among the terms.
+template <class Keep>
+DeviceTerms DeviceTermsOf(const LawFit& fit, Keep keep) {
   DeviceTerms terms;
   terms.law = fit.law;
   terms.law.effects.clear();
@@ -27,12 +29,16 @@ DeviceTerms DeviceTermsOf(const LawFit& fit) {
     }
   };
   take(0, fit.law.base_size());
-  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
-    if (fit.law.effects[e]->where != Where::kDevice) continue;
+  for (int e = 0; e < static_cast<int>(fit.law.effects.size()); ++e) {
+    if (fit.law.effects[e]->where != Where::kDevice || !keep(e)) continue;
     terms.law.effects.push_back(fit.law.effects[e]);
-    take(fit.law.Offset(static_cast<int>(e)), fit.law.effects[e]->size());
+    take(fit.law.Offset(e), fit.law.effects[e]->size());
   }
   return terms;
+}
+
+DeviceTerms DeviceTermsOf(const LawFit& fit) {
+  return DeviceTermsOf(fit, [](int) { return true; });
 }
 
 // Readings without points, and a reading at the conditions of the brightest light.
@@ -90,10 +96,11 @@ double InWatts(const WeightedData& weighted, const PowerPoint& peak) {
   return peak.power * scale.cells * scale.current_A;
 }
 
-// Relative standard error of the maximum power.
-double ErrorOf(const WeightedData& weighted, const LawFit& fit, Bare bare, const DeviceTerms& terms,
-               const PowerPoint& peak) {
-  if (!(peak.power > 0)) return kUnknown;
+// Derivative of the maximum power by all coordinates of the fit, in its unit. Empty if the law
+// cannot be evaluated.
+std::vector<double> SlopesOfPower(const LawFit& fit, Bare bare, const DeviceTerms& terms,
+                                  const PowerPoint& peak) {
+  if (!(peak.power > 0)) return {};
   // To first order the power at its peak changes as the current at that voltage.
   bare.at.voltage = peak.voltage;
   bare.grid.points = {bare.at};
@@ -102,12 +109,37 @@ double ErrorOf(const WeightedData& weighted, const LawFit& fit, Bare bare, const
   std::vector<double> derivative(terms.p.size());
   const LawCoordinates coordinates(terms.law, bare.grid);
   const std::vector<double> theta = coordinates.Of(terms.p);
-  if (!coordinates.Evaluate(theta.data(), &workspace, &current, derivative.data())) {
-    return kUnknown;
-  }
+  if (!coordinates.Evaluate(theta.data(), &workspace, &current, derivative.data())) return {};
   std::vector<double> by(fit.p.size(), 0.0);
-  for (std::size_t k = 0; k < terms.of.size(); ++k) by[terms.of[k]] = derivative[k] / current;
+  for (std::size_t k = 0; k < terms.of.size(); ++k) {
+    by[terms.of[k]] = derivative[k] * peak.power / current;
+  }
+  return by;
+}
+
+// Standard error of a value with this derivative by all coordinates of the fit.
+double ErrorBy(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& by) {
+  if (by.empty()) return kUnknown;
   return StandardError(Linearize(weighted, fit), by) * std::sqrt(NoiseVariance(weighted, fit));
+}
+
+// Relative standard error of the maximum power.
+double ErrorOf(const WeightedData& weighted, const LawFit& fit, const Bare& bare,
+               const DeviceTerms& terms, const PowerPoint& peak) {
+  return ErrorBy(weighted, fit, SlopesOfPower(fit, bare, terms, peak)) / peak.power;
+}
+
+// Gain of the device with the `rest` of its terms.
+PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTerms& rest) {
+  const DeviceTerms terms = DeviceTermsOf(fit);
+  const Bare bare = BareReadings(*weighted.readings);
+  const PowerPoint now = FindPowerPoint(bare, terms), then = FindPowerPoint(bare, rest);
+  std::vector<double> by = SlopesOfPower(fit, bare, rest, then);
+  const std::vector<double> by_now = SlopesOfPower(fit, bare, terms, now);
+  if (by.empty() || by_now.empty()) return {};
+  for (std::size_t k = 0; k < by.size(); ++k) by[k] -= by_now[k];
+  const PowerPoint unit = {0, kNormal95 * (ErrorBy(weighted, fit, by) + weighted.path * now.power)};
+  return {InWatts(weighted, then) - InWatts(weighted, now), InWatts(weighted, unit)};
 }
 
 }  // namespace
@@ -121,6 +153,14 @@ PowerAndError DevicePowerAndError(const WeightedData& weighted, const LawFit& fi
   const Bare bare = BareReadings(*weighted.readings);
   const PowerPoint peak = FindPowerPoint(bare, terms);
   return {InWatts(weighted, peak), ErrorOf(weighted, fit, bare, terms, peak)};
+}
+
+PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index) {
+  return GainTo(weighted, fit, DeviceTermsOf(fit, [index](int e) { return e != index; }));
+}
+
+PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit) {
+  return GainTo(weighted, fit, DeviceTermsOf(fit, [](int) { return false; }));
 }
 
 LawFit TakenOut(const LawFit& fit, int index) {

@@ -27,6 +27,16 @@ struct PowerAndError {
 };
 PowerAndError DevicePowerAndError(const WeightedData& weighted, const LawFit& fit);
 
+// Additional maximum power of the device without some of its effects, in W, and half of its 95 %
+// interval. The interval includes the parameter uncertainty and the rough path at the peak.
+struct PowerGain {
+  double power_W = kUnknown;
+  double half_W = kUnknown;
+};
+// Of the device without effect number `index`, or without all of its device effects.
+PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index);
+PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit);
+
 // The fit with effect number `index` removed from its law, or with all effects removed. Remaining
 // parameters, sum and currents are copied unchanged, without a new fit.
 LawFit TakenOut(const LawFit& fit, int index);

@@ -324,6 +324,8 @@ struct Effect {
   const char* acts = "";                    // region of the curve where it shows
   std::vector<const char*> confused_with;   // ids, most similar first
   const char* separate_by = "";             // measurement that separates it from them
+  const char* action = "";                  // the next thing to do about it
+  const char* fact_sheet = "";              // of IEA-PVPS T13-30:2025, "PVFS 1-19"; may be empty
   std::vector<EffectParameter> parameters;  // the first is the strength, by default
   // Sets of parameters that can be exchanged without changing a curve (cell groups). Reports sort
   // the sets by the first parameter of each.
@@ -353,6 +355,7 @@ struct Effect {
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.
   bool groups = false;
+  bool is_wiring = false;  // of the device: of its junction box, connectors or leads
   bool momentary = false;  // short compared with the sweep: it can imitate any outlier
   int diode = 0;           // number of the diode it adds; a base with that many diodes includes it
 
@@ -369,6 +372,10 @@ struct Effect {
     return conditions || cell || ChangesJunction() || ChangesSeries() || instrument;
   }
 };
+
+// What an effect belongs to, in one word for reports: "device", "wiring", "sweep", "instrument", or
+// "unknown".
+std::string GroupOf(const Effect& effect);
 
 // Whether two different effects are incompatible in one law: both divide the cells into groups.
 inline bool Exclude(const Effect& a, const Effect& b) { return a.groups && b.groups; }

@@ -93,8 +93,9 @@ std::string StrengthText(const Cause& cause) {
 std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
   return CsvLine({CsvField(name), CsvField(cause.id), CsvField(cause.title), YesNo(named),
                   SizedFields(cause.current_effect), SizedFields(cause.power_effect),
-                  CsvField(cause.corrected_p), CsvField(StrengthText(cause)),
-                  CsvField(JoinWith(cause.equivalents, " ")), CsvField(cause.sentence)});
+                  SizedFields(cause.recoverable_power_W), CsvField(cause.corrected_p),
+                  CsvField(StrengthText(cause)), CsvField(JoinWith(cause.equivalents, " ")),
+                  CsvField(cause.sentence)});
 }
 
 // Whether the text is a number of digits, signs, point and exponent.
@@ -185,15 +186,16 @@ std::string CausesCsv(const std::vector<std::string>& names,
                       const std::vector<Diagnosis>& diagnoses) {
   std::string csv =
       "measurement,cause,title,named,current_effect,current_effect_low_95,current_effect_high_95,"
-      "power_effect,power_effect_low_95,power_effect_high_95,corrected_p,strength,equivalents,"
+      "power_effect,power_effect_low_95,power_effect_high_95,recoverable_power_W,"
+      "recoverable_power_W_low_95,recoverable_power_W_high_95,corrected_p,strength,equivalents,"
       "sentence\n";
   for (std::size_t i = 0; i < diagnoses.size(); ++i) {
     const Verdict& verdict = diagnoses[i].verdict;
     for (const Cause& cause : verdict.causes) csv += CauseLine(names[i], cause, true);
     for (const Cause& cause : verdict.below_floor) csv += CauseLine(names[i], cause, false);
     if (!verdict.causes.empty() || !verdict.below_floor.empty()) continue;
-    csv += CsvLine(
-        {CsvField(names[i]), "", "", "no", ",,", ",,", "", "", "", CsvField(verdict.sentence)});
+    csv += CsvLine({CsvField(names[i]), "", "", "no", ",,", ",,", ",,", "", "", "",
+                    CsvField(verdict.sentence)});
   }
   return csv;
 }

@@ -5,6 +5,7 @@ namespace lyrefit {
 
 LYREFIT_JSON_FIELDS(Finding, id, sentence, points)
 LYREFIT_JSON_FIELDS(Sized, value, low_95, high_95)
+LYREFIT_JSON_FIELDS(Alternative, id, title, probability)
 LYREFIT_JSON_FIELDS(CannotBeExcluded, id, biases, sentence, separate_by)
 LYREFIT_JSON_FIELDS(ReferenceRow, symbol, name, unit, now, expected, low_95, high_95, z,
                     corrected_p, power, differs)
@@ -75,6 +76,12 @@ void to_json(Json& j, const Cause& cause) {
        {"current_effect", cause.current_effect},
        {"power_effect", cause.power_effect},
        {"recoverable_power_W", cause.recoverable_power_W},
+       {"at_least", cause.at_least},
+       {"probability", cause.probability},
+       {"alternatives", cause.alternatives},
+       {"group", cause.group},
+       {"action", cause.action},
+       {"fact_sheet", cause.fact_sheet},
        {"equivalents", cause.equivalents},
        {"separate_by", cause.separate_by},
        {"parameters", CauseParametersJson(cause.id, cause.strength)},
@@ -85,7 +92,7 @@ void to_json(Json& j, const Cause& cause) {
 }
 
 LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, lack_of_fit,
-                    cannot_be_excluded)
+                    probability_none, recoverable_power_W, cannot_be_excluded)
 
 void to_json(Json& j, const ParameterShift& shift) {
   j = ParameterInfo{shift.symbol, shift.name, shift.unit, ""};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -33,7 +34,7 @@ class CatalogueTest : public ::testing::TestWithParam<const Effect*> {
 
 TEST_P(CatalogueTest, SaysAllThatReportsAsk) {
   const Effect& e = effect();
-  for (const char* text : {e.id, e.title, e.equation, e.sentence, e.needs, e.acts}) {
+  for (const char* text : {e.id, e.title, e.equation, e.sentence, e.needs, e.acts, e.action}) {
     ASSERT_NE(text, nullptr);
     EXPECT_STRNE(text, "");
   }
@@ -43,6 +44,13 @@ TEST_P(CatalogueTest, SaysAllThatReportsAsk) {
   EXPECT_STRNE(e.separate_by, "");
   EXPECT_EQ(e.where == Where::kNowhere, IsUnknown());
   ASSERT_NE(e.why_not, nullptr);
+  const std::string sheet = e.fact_sheet;
+  EXPECT_TRUE(sheet.empty() || std::regex_match(sheet, std::regex("PVFS [1-4]-[1-9][0-9]?")));
+}
+
+TEST_P(CatalogueTest, BelongsToOneGroup) {
+  const std::set<std::string> known = {"device", "wiring", "sweep", "instrument"};
+  EXPECT_EQ(known.count(GroupOf(effect())), IsUnknown() ? 0 : 1) << GroupOf(effect());
 }
 
 TEST_P(CatalogueTest, IsFoundByItsId) {

@@ -15,6 +15,7 @@ Effect Bandgap() {
   e.acts = "open-circuit voltage against temperature";
   e.confused_with = {"temp_offset", "voltage_offset", "temp_gradient"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
+  e.action = "check the technology and the thermometer";
   e.parameters = {
       Parameter("c", "bandgap_error", "true minus stated").Unit("eV").Between(-0.5, 0.5)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

@@ -17,6 +17,8 @@ Effect Breakdown() {
   e.acts = "at the most negative voltages";
   e.confused_with = {"nonohmic_shunt"};
   e.separate_by = "reverse bias closer to breakdown, or another irradiance";
+  e.action = "look at the module with a thermal camera while one cell is shaded";
+  e.fact_sheet = "PVFS 1-19";
   // Internal units: current at the most negative reading, and that voltage as a fraction of Vbr.
   e.parameters = {
       Parameter("a", "breakdown_factor", "conductance of a cell at 0 V")

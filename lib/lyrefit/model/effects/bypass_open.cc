@@ -22,6 +22,9 @@ Effect BypassOpen() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"mismatch", "weak_cell", "scatter"};
   e.separate_by = "cover one substring after the other: a good diode leaves a step";
+  e.action = "open the junction box and test the bypass diodes";
+  e.fact_sheet = "PVFS 1-15";
+  e.is_wiring = true;
   e.parameters = {
       Parameter("d", "light_deficit", "part of the light that the substring misses")
           .Between(0, 0.999)

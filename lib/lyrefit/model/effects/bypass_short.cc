@@ -15,6 +15,9 @@ Effect BypassShort() {
   e.acts = "at open circuit: the share of a substring is missing";
   e.confused_with = {"temperature_or_cells"};
   e.separate_by = "open-circuit voltage in the dark of the junction box, substring by substring";
+  e.action = "open the junction box and test the bypass diodes";
+  e.fact_sheet = "PVFS 1-15";
+  e.is_wiring = true;
   e.found_by = FoundBy::kValues;
   e.why_not = NeedsModule;
   return e;

@@ -18,6 +18,7 @@ Effect Capacitance() {
   e.confused_with = {"timing_skew", "irr_step"};
   e.separate_by =
       "two sweep speeds: this current is in proportion to the speed; a turn at another voltage";
+  e.action = "repeat the sweep five times slower";
   e.parameters = {
       Parameter("C0", "capacitance", "of the whole device")
           .Unit("F")

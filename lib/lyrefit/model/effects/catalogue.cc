@@ -32,6 +32,11 @@ const std::vector<const Effect*>& Catalogue() {
   return catalogue;
 }
 
+std::string GroupOf(const Effect& effect) {
+  if (effect.is_wiring) return "wiring";
+  return effect.where == Where::kConditions ? "instrument" : ToText(effect.where);
+}
+
 const Effect* FindEffect(const std::string& id) {
   for (const Effect* effect : Catalogue()) {
     if (id == effect->id) return effect;

@@ -18,6 +18,7 @@ Effect Clip() {
   e.acts = "at the largest or smallest currents, or at the largest voltages";
   e.confused_with = {"transient", "collection"};
   e.separate_by = "repeat with a larger range or compliance";
+  e.action = "repeat the sweep with a larger range or compliance";
   e.parameters = {
       Parameter("Ic", "limit", "largest current that is recorded")
           .Unit("A")

@@ -15,6 +15,7 @@ Effect CurrentOffset() {
   e.acts = "everywhere alike";
   e.confused_with = {"sensor_offset", "voltage_offset"};
   e.separate_by = "a reading with open leads; a dark curve; the sensor covered";
+  e.action = "zero the current with open leads and measure again";
   e.parameters = {Parameter("c", "current_offset", "what the instrument adds")
                       .Unit("A")
                       .Between(-0.1, 0.1)

@@ -16,6 +16,7 @@ Effect Drift() {
   e.acts = "everywhere that light counts, in the order of time";
   e.confused_with = {"temp_drift", "irr_step", "collection"};
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
+  e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {Parameter("d", "relative_change", "change of the light over the measurement")
                       .Between(-0.5, 0.5)};
   e.conditions = [](const auto* p, const auto& reading, auto* conditions) {

@@ -17,6 +17,7 @@ Effect IrradianceStep() {
   e.separate_by =
       "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
       "the module";
+  e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
       Parameter("s", "relative_step", "jump of the light").Between(-0.5, 0.5),
       Parameter("x0", "step_time", "when, -1/2 .. 1/2 over the measurement")

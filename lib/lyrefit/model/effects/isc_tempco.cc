@@ -15,6 +15,7 @@ Effect IscTemperatureCoefficient() {
   e.acts = "short-circuit current against temperature";
   e.confused_with = {"sensor_nonlin"};
   e.separate_by = "a measurement of the coefficient at constant light";
+  e.action = "check the temperature coefficient of Isc that was stated";
   e.parameters = {Parameter("c", "tempco_error", "true minus stated, relative")
                       .Unit("1/K")
                       .Between(-0.01, 0.01)};

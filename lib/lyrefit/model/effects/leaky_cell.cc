@@ -17,6 +17,9 @@ Effect LeakyCell() {
   e.acts = "before the knee";
   e.confused_with = {"weak_cell", "mismatch", "nonohmic_shunt"};
   e.separate_by = "a second irradiance: a leak does not follow the light; a thermal image";
+  e.action =
+      "look at the module with a thermal camera: the leaking cell is warmer or colder than the "
+      "others";
   e.parameters = {
       Parameter("g", "leak", "conductance of the cell beside that of the others")
           .Unit("S")

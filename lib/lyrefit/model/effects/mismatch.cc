@@ -15,6 +15,7 @@ Effect Mismatch() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"shading", "transient", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or an electroluminescence image";
+  e.action = "take an electroluminescence image and look for the dark cells";
   e.parameters = {
       Parameter("d", "current_deficit", "part of the current that the weaker cells miss")
           .Between(0, 0.9),

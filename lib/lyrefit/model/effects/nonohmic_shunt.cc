@@ -17,6 +17,7 @@ Effect NonohmicShunt() {
   e.acts = "where |V| is large, also in reverse";
   e.confused_with = {"collection", "breakdown", "second_diode"};
   e.separate_by = "a dark curve or points in reverse bias: this part does not scale with light";
+  e.action = "take a dark curve, then look at the module with a thermal camera for a leaking spot";
   // Internal units: the strength is the current at the largest voltage of the readings.
   e.parameters = {
       Parameter("k", "shunt_strength", "current at 1 V of a cell")

@@ -15,6 +15,7 @@ Effect Outliers() {
   e.acts = "at single readings";
   e.confused_with = {"transient"};
   e.separate_by = "repeat the sweep";
+  e.action = "repeat the sweep";
   e.found_by = FoundBy::kSingleReading;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

@@ -15,6 +15,7 @@ Effect Quantisation() {
   e.acts = "everywhere: values lie on a grid";
   e.confused_with = {};
   e.separate_by = "a smaller range or a finer instrument";
+  e.action = "repeat the sweep in a smaller range of the current";
   e.found_by = FoundBy::kValues;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

@@ -17,6 +17,7 @@ Effect RangeSwitch() {
   e.acts = "at all currents below one current, in sweeps up and down alike";
   e.confused_with = {"irr_step", "shading", "transient"};
   e.separate_by = "repeat the sweep in one fixed range, or read a resistor in both ranges";
+  e.action = "repeat the sweep in one fixed range";
   e.parameters = {
       Parameter("g", "relative_gain", "of the range of small currents over the other")
           .Between(-0.2, 0.2),

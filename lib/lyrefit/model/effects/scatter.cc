@@ -140,6 +140,8 @@ Effect Scatter() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"mismatch", "weak_cell", "distributed_rs"};
   e.separate_by = "an electroluminescence image";
+  e.action = "clean the module and measure again";
+  e.fact_sheet = "PVFS 1-20";
   e.parameters = ScatterParameters();
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;

@@ -15,6 +15,7 @@ Effect SensorNonlinearity() {
   e.acts = "short-circuit current against irradiance is bent";
   e.confused_with = {"sensor_offset", "current_offset"};
   e.separate_by = "a second sensor; two-lamp linearity test";
+  e.action = "have the irradiance sensor calibrated";
   e.parameters = {
       Parameter("c", "nonlinearity", "relative error per 1000 W/m2").Between(-0.4, 0.4)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

@@ -15,6 +15,7 @@ Effect SensorOffset() {
   e.acts = "short-circuit current against irradiance misses the origin";
   e.confused_with = {"current_offset", "voltage_offset", "sensor_nonlin"};
   e.separate_by = "the sensor covered; a dark curve";
+  e.action = "cover the irradiance sensor and zero it";
   e.parameters = {Parameter("c", "irradiance_offset", "true minus shown")
                       .Unit("W/m2")
                       .Between(-0.1, 0.1)

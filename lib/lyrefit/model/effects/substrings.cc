@@ -207,6 +207,8 @@ Effect Substrings() {
   e.acts = "at steps of the current, at fixed voltages";
   e.confused_with = {"shading", "irr_step"};
   e.separate_by = "repeat the sweep: shading stays at the same voltages, a cloud does not";
+  e.action = "look for shade, snow or dirt on the darker parts and clear it";
+  e.fact_sheet = "PVFS 3-3";
   e.parameters = SubstringParameters();
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
   e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };

@@ -15,6 +15,7 @@ Effect TemperatureDrift() {
   e.acts = "near open circuit, in the order of time";
   e.confused_with = {"drift", "timing_skew", "capacitance"};
   e.separate_by = "a sweep up and down; a shorter sweep";
+  e.action = "repeat the sweep faster, after the module has settled in the light";
   e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
                       .Unit("K")
                       .Between(-30, 30)};

@@ -16,6 +16,7 @@ Effect TemperatureGradient() {
   e.acts = "open-circuit voltage at high irradiance";
   e.confused_with = {"second_diode", "back_contact", "bandgap"};
   e.separate_by = "flashes of different length; a thermometer on the cell; a dark curve";
+  e.action = "fix a thermometer to the back of a cell in the middle of the module";
   e.parameters = {
       Parameter("c", "temperature_gradient", "warmer at 1000 W/m2").Unit("K").Between(-5, 25)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

@@ -15,6 +15,7 @@ Effect TemperatureOffset() {
   e.acts = "open-circuit voltage against temperature";
   e.confused_with = {"bandgap", "voltage_offset", "second_diode"};
   e.separate_by = "a second thermometer on the cell; four temperatures or more";
+  e.action = "fix a second thermometer to the back of a cell and compare";
   e.parameters = {
       Parameter("c", "temperature_offset", "true minus shown").Unit("K").Between(-25, 25)};
   e.conditions = [](const auto* p, const auto&, auto* conditions) {

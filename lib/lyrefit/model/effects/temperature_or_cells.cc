@@ -17,6 +17,7 @@ Effect TemperatureOrCells() {
   e.acts = "everywhere near open circuit";
   e.confused_with = {"temp_offset"};
   e.separate_by = "count the cells; a thermometer on the cell";
+  e.action = "count the cells, and read the temperature at the back of a cell";
   e.found_by = FoundBy::kValues;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

@@ -15,6 +15,7 @@ Effect TimingSkew() {
   e.acts = "between the sweeps up and down, where the curve is steep";
   e.confused_with = {"capacitance", "temp_drift"};
   e.separate_by = "two sweep speeds and two irradiances; a resistor in the place of the device";
+  e.action = "repeat the sweep five times slower";
   e.parameters = {Parameter("ts", "skew", "from the reading of the current to that of the voltage")
                       .Unit("s")
                       .Between(-0.05, 0.05)

@@ -20,6 +20,7 @@ Effect Transient() {
   e.acts = "around one moment, in the order of time";
   e.confused_with = {"shading", "back_contact", "rs_current", "nonohmic_shunt"};
   e.separate_by = "repeat the sweep; a reference cell beside the module";
+  e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
       Parameter("a", "relative_depth", "how much light was missing").Between(-0.8, 0.8),
       Parameter("c", "centre", "when, -1/2 .. 1/2 over the measurement")

@@ -15,6 +15,7 @@ Effect UnknownStructure() {
   e.acts = "see the residuals";
   e.confused_with = {};
   e.separate_by = "repeat the measurement, up and down, and compare the residuals";
+  e.action = "repeat the sweep, up and down, and look at the module with a thermal camera";
   e.found_by = FoundBy::kWaves;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

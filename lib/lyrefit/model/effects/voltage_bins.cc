@@ -15,6 +15,7 @@ Effect VoltageBins() {
   e.acts = "where the curve is steep: a bin times the slope";
   e.confused_with = {"quantisation"};
   e.separate_by = "a smaller range of the voltage or a finer instrument";
+  e.action = "repeat the sweep in a smaller range of the voltage";
   e.found_by = FoundBy::kValues;
   e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
   return e;

@@ -16,6 +16,7 @@ Effect VoltageOffset() {
   e.confused_with = {"current_offset", "bandgap", "temp_offset"};
   e.separate_by =
       "a reading with shorted leads; a dark curve through the origin at high resolution";
+  e.action = "zero the voltage with shorted leads and measure again";
   e.parameters = {Parameter("c", "voltage_offset", "what the instrument adds, whole device")
                       .Unit("V")
                       .Between(-0.1, 0.1)

@@ -102,6 +102,8 @@ Effect WeakCell() {
   e.acts = "between short circuit and the knee";
   e.confused_with = {"mismatch", "shading", "nonohmic_shunt"};
   e.separate_by = "cover one cell after the other, or a thermal image under load";
+  e.action = "look at the module with a thermal camera: one cell is covered, dark or broken";
+  e.fact_sheet = "PVFS 1-19";
   e.parameters = WeakCellParameters();
   e.cell = [](const auto* p, auto* cell) {
     SetOddCells(p[kCells], p[kDeficit], p[kLeak], p[kSideBySide], cell);

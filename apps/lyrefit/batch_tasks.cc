@@ -11,7 +11,7 @@ namespace {
 // Options of the diagnosis that a row can report: without the gain on held-out readings and without
 // a plan.
 const std::vector<std::string> kDiagnoseRows = {
-    "base", "effects", "level", "floor-current", "floor-power", "draws", "largest-causes"};
+    "base", "effects", "probability", "priors", "floor-current", "floor-power", "largest-causes"};
 
 // Flags declared by AddSharedTaskFlags and by the options of a batch.
 bool IsShared(const std::string& flag) {

@@ -37,7 +37,7 @@ std::vector<ResultColumn> DiagnoseColumns() {
        "known"},
       {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
       {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
-      {"corrected_p", "", kNumber, "p-value of the cause, the whole catalogue counted"},
+      {"probability", "", kNumber, "that this cause acts, not one like it and not none"},
       {"verdict", "", kText, "the diagnosis in one sentence"},
       {"warnings", "", kText, "in plain words, with '; ' between them"},
   };
@@ -67,7 +67,7 @@ std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
           NumberCell(cause.recoverable_power_W.value),
           NumberCell(cause.recoverable_power_W.low_95),
           NumberCell(cause.recoverable_power_W.high_95),
-          NumberCell(cause.corrected_p),
+          NumberCell(cause.probability),
           TextCell(verdict.sentence),
           ListCell(diagnosis.warnings, "; ")};
 }

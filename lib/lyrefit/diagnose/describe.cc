@@ -52,6 +52,28 @@ void AddSeparation(const Effect& effect, std::vector<std::string>* separate_by) 
   }
 }
 
+// What else may stand in the place of a cause, with its probability.
+void AddAlternatives(const ChosenCause& chosen, Cause* cause) {
+  constexpr double kLeast = 0.005;
+  for (const FittedCandidate& other : chosen.others.candidates) {
+    if (other.score.effect == chosen.effect || other.probability < kLeast) continue;
+    cause->alternatives.push_back(
+        {other.score.effect->id, other.score.effect->title, other.probability});
+  }
+  const FittedCandidate& none = chosen.others.none;
+  const double unknown = none.probability * IncompleteProbability(none.evidence);
+  if (none.probability - unknown >= kLeast) {
+    cause->alternatives.push_back({"none", "no cause", none.probability - unknown});
+  }
+  if (unknown >= kLeast) {
+    const Effect& effect = *FindEffect("unknown_structure");
+    cause->alternatives.push_back({effect.id, effect.title, unknown});
+  }
+  std::stable_sort(
+      cause->alternatives.begin(), cause->alternatives.end(),
+      [](const Alternative& a, const Alternative& b) { return a.probability > b.probability; });
+}
+
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
   std::string text = effect.sentence;
   for (std::size_t k = 0; k < cause.strength.size(); ++k) {
@@ -91,7 +113,7 @@ Cause MakeCause(const Effect& effect, const char* evidence, double probability) 
   cause.action = effect.action;
   cause.fact_sheet = effect.fact_sheet;
   cause.evidence = evidence;
-  cause.corrected_p = 1 - probability;
+  cause.probability = probability;
   return cause;
 }
 
@@ -184,7 +206,10 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
         continue;
       }
       trial.tried = true;
-      trial.corrected_p = 1 - fitted.probability;
+      if (fitted.fit.usable) {
+        trial.log_evidence = LogTotal(fitted.evidence) - LogTotal(selection.trials.none.evidence);
+        trial.probability = fitted.probability;
+      }
       trial.misfit = std::sqrt(std::max(fitted.statistic, fitted.score.statistic));
       if (!fitted.fit.usable) continue;
       trial.rmse_A = RmseOf(weighted, fitted.fit.current);
@@ -254,6 +279,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     const bool by_values = chosen.in_values;
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.probability);
     DescribeSize(weighted, selection.extended, static_cast<int>(c), chosen.others.none.fit, &cause);
+    AddAlternatives(chosen, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
       cause.equivalents.push_back(fitted->score.effect->id);
       AddSeparation(effect, &cause.separate_by);

@@ -22,8 +22,8 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
-#include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
@@ -134,7 +134,7 @@ Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOut
 }
 
 std::vector<std::string> FindWarnings(const Selection& selection, const Measurement& measurement,
-                                      const std::vector<std::string>& doubts, double level) {
+                                      const std::vector<std::string>& doubts) {
   std::vector<std::string> warnings = doubts;
   warnings.insert(warnings.end(), measurement.warnings.begin(), measurement.warnings.end());
   if (selection.weighted.correlation > 0) {
@@ -199,9 +199,10 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions
 
 // Departure of a device from a law with the right causes: that of modules without a fault, or as
 // stated.
-JudgeOptions JudgeOptionsOf(const Measurement& measurement) {
+JudgeOptions JudgeOptionsOf(const Measurement& measurement, const CausePriors& priors) {
   constexpr double kUsualWidth = 0.6;
   JudgeOptions judge;
+  judge.priors = priors;
   if (!measurement.has_path()) return judge;
   if (measurement.errors.kind == ErrorKind::kStated) {
     judge.departure = measurement.errors.sizes.path;
@@ -217,7 +218,8 @@ SelectOptions MakeSelectOptions(const PreparedDiagnosis& prepared,
   const DiagnoseOptions& options = prepared.options;
   const Readings& readings = prepared.measurement.readings;
   SelectOptions select;
-  select.judge = JudgeOptionsOf(prepared.measurement);
+  select.judge = JudgeOptionsOf(prepared.measurement, options.priors);
+  select.probability = options.probability;
   select.largest_causes = options.largest_causes;
   select.floors = {options.floor_current, options.floor_power};
   select.base = StartingLaw(readings, options.base);
@@ -290,7 +292,7 @@ Diagnosis BeginDiagnosis(const PreparedDiagnosis& prepared) {
   diagnosis.source = set.source.empty() ? set.curves.front().source : set.source;
   diagnosis.base = ToText(options.base);
   diagnosis.seed = options.seed;
-  diagnosis.level = options.level;
+  diagnosis.probability = options.probability;
   diagnosis.floor_current = options.floor_current;
   diagnosis.floor_power = options.floor_power;
   diagnosis.cells_in_series = prepared.measurement.readings.scale.cells;
@@ -315,7 +317,7 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());
   diagnosis.curves = DescribeCurves(prepared.set, measurement.readings);
   diagnosis.points = DescribePoints(prepared.set, measurement, selected.at);
-  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts, diagnosis.level);
+  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts);
   return diagnosis;
 }
 

@@ -8,6 +8,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/diagnose/priors.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/model/device.h"
 
@@ -17,7 +18,9 @@ struct Effect;  // model/effect.h
 
 // Which causes are tried, at which significance, and which additional results are computed.
 struct DiagnoseOptions {
-  double level = 0.05;               // family-wise error rate over the whole catalogue
+  double level = 0.05;               // false-alarm rate of a comparison with reference sweeps
+  double probability = 0.8;          // smallest probability at which a cause is named
+  CausePriors priors;                // how common causes are
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
   std::vector<std::string> effects;  // ids to try; empty: all that the data can show
   // Tried in addition to the catalogue. Ids must differ from the catalogue's. The pointers must
@@ -33,7 +36,6 @@ struct DiagnoseOptions {
   // apart.
   double floor_current = 0.0025;
   double floor_power = 0.005;
-  int draws = 2000;        // number of simulated null statistics
   int largest_causes = 4;  // largest number of named causes
   bool held_out = true;    // measure the gain on readings that were not fitted
   int folds = 10;
@@ -47,6 +49,7 @@ struct DiagnoseOptions {
 inline DiagnoseOptions LaboratoryOptions() {
   DiagnoseOptions options;
   options.noise = ErrorSpec();
+  options.priors = {{}, true, "alike"};
   options.floor_current = options.floor_power = 0;
   return options;
 }
@@ -77,15 +80,20 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      OptionTrait::kNone, ": all that the data can show"},
     {"own-effects", "", "effects of one's own", OptionText<DiagnoseOptions>{nullptr, OwnEffectIds},
      OptionTrait::kNoFlag},
-    {"level", "", "rate of false alarms over the whole catalogue", &DiagnoseOptions::level, 1e-6,
-     0.5},
-    {"seed", "", "seed of the simulated null curves and of the search", &DiagnoseOptions::seed, 0,
+    {"probability", "P", "smallest probability at which a cause is named",
+     &DiagnoseOptions::probability, 0.5, 0.999},
+    {"priors", "NAME|FILE",
+     "how common causes are: table, for the field; alike, all equally; or a JSON file like "
+     "{\"shading\": 0.1}",
+     PriorsOption<&DiagnoseOptions::priors>()},
+    {"level", "", "rate of false alarms in a comparison with reference sweeps",
+     &DiagnoseOptions::level, 1e-6, 0.5},
+    {"seed", "", "seed of the search and of the plan", &DiagnoseOptions::seed, 0,
      1.8446744073709552e19},
     {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",
      &DiagnoseOptions::floor_current, 0, 1},
     {"floor-power", "", "smallest effect that is named, in parts of Pmax",
      &DiagnoseOptions::floor_power, 0, 1},
-    {"draws", "", "simulated null curves that set the level", &DiagnoseOptions::draws, 200, 1e6},
     {"largest-causes", "", "most causes that are named", &DiagnoseOptions::largest_causes, 1, 8},
     {"folds", "", "parts that are left out in turn to measure the gain", &DiagnoseOptions::folds, 2,
      100},

@@ -84,12 +84,13 @@ struct CauseParameter {
 struct Trial {
   std::string effect;  // its id
   std::string title;
-  bool tried = false;             // false: not tried, see why_not
-  std::string why_not;            // reason if it was not tried
-  double rmse_A = kUnknown;       // base model with this one effect
-  double misfit = kUnknown;       // norm of the reduction of the residuals, in noise deviations
-  double p_value = kUnknown;      // corrected for all of the effect's probes
-  double corrected_p = kUnknown;  // corrected for the whole catalogue
+  bool tried = false;        // false: not tried, see why_not
+  std::string why_not;       // reason if it was not tried
+  double rmse_A = kUnknown;  // base model with this one effect
+  double misfit = kUnknown;  // norm of the reduction of the residuals, in noise deviations
+  // ln of the marginal likelihood of the base model with this effect over that without it.
+  double log_evidence = kUnknown;
+  double probability = kUnknown;  // of this effect as the only cause, among none and all effects
   double delta_aicc = kUnknown;   // with the effect minus without; negative is better
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // fraction of the effect's signature that the base model cannot absorb
@@ -128,7 +129,6 @@ struct Cause {
   std::vector<std::string> equivalents;   // ids of effects that these data cannot separate from it
   std::vector<std::string> separate_by;   // measurements that would separate them
   std::vector<CauseParameter> strength;   // its parameters with intervals
-  double corrected_p = kUnknown;          // p-value, corrected for the whole catalogue
   std::string evidence;                   // "fit" or "values"
   std::string acts;                       // region of the curve in which it acts, as text
   std::vector<int> points;                // where it acts most: positions in Diagnosis::points
@@ -148,7 +148,7 @@ struct Verdict {
   // Structure is present that no known cause fits. Without a named cause: the base model misses the
   // data by more than it misses modules without a fault.
   bool unexplained = false;
-  std::vector<Cause> causes;  // smallest corrected p-value first
+  std::vector<Cause> causes;  // most probable first
   // Significant effects that are too small to act on.
   std::vector<Cause> below_floor;
   Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc
@@ -191,7 +191,7 @@ struct Diagnosis {
   std::string base;           // "sd" or "dd"
   std::string base_sentence;  // assumptions of the base model
   std::uint64_t seed = 0;
-  double level = 0.05;       // significance level: a cause has a smaller corrected p-value
+  double probability = 0.8;  // smallest probability at which a cause is named
   double floor_current = 0;  // smallest effect that is named, rms in fractions of Isc
   double floor_power = 0;    // or in fractions of Pmax
   int cells_in_series = 1;

@@ -223,9 +223,9 @@ Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
 
 namespace {
 
-Cause Metadata(const char* evidence, double p) {
+Cause Metadata(const char* evidence, double probability) {
   const Effect& effect = *FindEffect("temperature_or_cells");
-  Cause cause = MakeCause(effect, evidence, p);
+  Cause cause = MakeCause(effect, evidence, probability);
   cause.separate_by = {effect.separate_by};
   return cause;
 }
@@ -234,7 +234,7 @@ Cause Metadata(const char* evidence, double p) {
 Cause WrongCells(const Selection& selection) {
   const DataTraits& traits = selection.weighted.readings->traits;
   const double cells = traits.cells * Ideality(selection.extended);
-  Cause cause = Metadata("values", 0);
+  Cause cause = Metadata("values", 1);
   cause.strength = {{"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
   cause.sentence = fmt::format(
       "{} stated cells would each give {:.3g} V, more than a junction can; {:.0f} to {:.0f} cells "
@@ -256,7 +256,7 @@ bool LacksAGroup(const DataTraits& traits, double n) {
 Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   const Effect& effect = *FindEffect("bypass_short");
   const int groups = traits.substrings;
-  Cause cause = MakeCause(effect, metadata.evidence.c_str(), 1 - metadata.corrected_p);
+  Cause cause = MakeCause(effect, metadata.evidence.c_str(), metadata.probability);
   cause.equivalents = {metadata.id};
   cause.separate_by = {effect.separate_by, metadata.separate_by.front()};
   cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},
@@ -289,7 +289,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
   if (!(p < kSure)) return {};
-  Cause cause = Metadata("fit", p);
+  Cause cause = Metadata("fit", 1 - p);
   // The data determine n Ns T only. A plausible range of n gives ranges of T and of Ns.
   const double kelvin = readings.reference_temperature_K * n;
   const double cells = readings.scale.cells * n;

@@ -135,15 +135,14 @@ void FindAlternatives(const SelectOptions& options, Selection* selection) {
     open.erase(std::remove_if(open.begin(), open.end(),
                               [](const Effect* effect) { return effect->probes == nullptr; }),
                open.end());
-    const std::vector<Score> scores =
-        ScoreEffects(weighted, without, open, &selection->signatures);
+    const std::vector<Score> scores = ScoreEffects(weighted, without, open, &selection->signatures);
     const double hopeless = HopelessStatistic(scores, 0);
     for (const Score& score : scores) {
       options.progress.Count();
       if (options.progress.Stopped()) break;
       const bool own = score.effect == cause.effect;
-      const bool by_shape = score.effect->starts != nullptr &&
-                            weighted.readings->traits.single && cause.effect->groups;
+      const bool by_shape = score.effect->starts != nullptr && weighted.readings->traits.single &&
+                            cause.effect->groups;
       if (!own && !by_shape && (!score.testable || score.statistic < hopeless)) continue;
       LawFit fit = own ? extended : FitEffect(weighted, without, score);
       if (fit.usable) place.candidates.push_back({score, std::move(fit)});

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/diagnose/priors.h"
-
 namespace lyrefit {
 
 std::vector<FittedCandidate>::const_iterator MostProbable(
@@ -29,7 +27,7 @@ LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
 }
 
 double LogPriorOdds(const Effect& effect, const JudgeOptions& options) {
-  const double prior = PriorOf(effect.id, options.priors);
+  const double prior = options.priors.Of(effect.id);
   return std::log(prior / (1 - prior));
 }
 

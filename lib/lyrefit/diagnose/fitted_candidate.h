@@ -1,12 +1,11 @@
 #pragma once
 
-#include <map>
-#include <string>
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/log_evidence.h"
+#include "lyrefit/diagnose/priors.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
@@ -40,7 +39,7 @@ std::vector<FittedCandidate>::const_iterator MostProbable(
 struct JudgeOptions {
   double departure = 0;        // usual departure of devices from a right law, in scales; 0: none
   double departure_width = 0;  // see DeparturePrior
-  std::map<std::string, double> priors;  // of causes, in place of the table's (priors.h)
+  CausePriors priors;
 };
 
 // Sets evidence and probability of every hypothesis and sorts the candidates. `base`: the fit

@@ -118,8 +118,7 @@ Linear LinearOf(const WeightedData& weighted, const LawFit& fit) {
     for (const int k : *list) {
       linear.rows.col(column++) = jacobian.col(k);
       const EffectParameter* own = fit.law.EffectParameterAt(k);
-      linear.prior.push_back(own != nullptr ? EffectPrior(*own)
-                                            : BasePrior(fit.law, k, theta[k]));
+      linear.prior.push_back(own != nullptr ? EffectPrior(*own) : BasePrior(fit.law, k, theta[k]));
     }
   }
   linear.rows.col(column) = residual;
@@ -135,8 +134,8 @@ double LogInside(double gradient, double curvature, double range) {
   const double root = std::sqrt(2 * curvature);
   if (!(root > 0)) return std::log(range);
   const double z = gradient / root;
-  const double scaled = z < kLarge ? std::exp(z * z) * std::erfc(z)
-                                   : (1 - 0.5 / (z * z)) / (z * std::sqrt(M_PI));
+  const double scaled =
+      z < kLarge ? std::exp(z * z) * std::erfc(z) : (1 - 0.5 / (z * z)) / (z * std::sqrt(M_PI));
   return std::min(std::log(std::sqrt(M_PI) / root * scaled), std::log(range));
 }
 
@@ -203,8 +202,8 @@ LogEvidence FindLogEvidence(const WeightedData& weighted, const LawFit& fit,
     if (weighted.correlation > 0) return evidence;
   }
   double best = -HUGE_VAL;
-  const int incomplete_sizes = kSizes - static_cast<int>(std::ceil(
-                                            std::log(kLeastIncomplete / kLeast) / kRatio));
+  const int incomplete_sizes =
+      kSizes - static_cast<int>(std::ceil(std::log(kLeastIncomplete / kLeast) / kRatio));
   for (int k = 0; k < kSizes; ++k) {
     own.path = kLeast * std::exp(kRatio * k);
     const bool large = own.path >= kLeastIncomplete;
@@ -215,8 +214,8 @@ LogEvidence FindLogEvidence(const WeightedData& weighted, const LawFit& fit,
     }
     if (departure.width == 0) continue;
     const double off = std::log(own.path / departure.center) / departure.width;
-    const double weighed = value - 0.5 * off * off - 0.5 * kLog2Pi +
-                           std::log(kRatio / departure.width);
+    const double weighed =
+        value - 0.5 * off * off - 0.5 * kLog2Pi + std::log(kRatio / departure.width);
     evidence.complete = LogSum(evidence.complete, weighed);
     if (weighed > best) {
       best = weighed;

@@ -1,36 +1,88 @@
 #include "lyrefit/diagnose/priors.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/curve/json_text.h"
+#include "lyrefit/model/effects/catalogue.h"
+
 namespace lyrefit {
 
-const std::vector<CausePrior>& DefaultPriors() {
+const std::vector<CausePrior>& PriorTable() {
   static const char* const kShade = "soiling, snow and shade: most frequent in field sweeps";
   static const char* const kFault = "IEA PVPS T13-01:2014, section 5: failures per module";
   static const char* const kCell = "not rare in cells, seldom above the floors";
   static const char* const kSky = "moving clouds: a few in a hundred sweeps of 0.1 to 30 s";
   static const char* const kTracer = "properties of tracers, per instrument";
   static const std::vector<CausePrior> table = {
-      {"second_diode", 0.05, kCell},   {"nonohmic_shunt", 0.03, kCell},
-      {"breakdown", 0.02, kCell},      {"collection", 0.02, kCell},
-      {"photoshunt", 0.02, kCell},     {"back_contact", 0.02, kCell},
-      {"rs_current", 0.01, kCell},     {"distributed_rs", 0.02, kCell},
-      {"shading", 0.03, kShade},       {"substrings", 0.03, kShade},
-      {"weak_cell", 0.03, kFault},     {"mismatch", 0.02, kFault},
-      {"leaky_cell", 0.01, kFault},    {"scatter", 0.02, kFault},
-      {"bypass_short", 0.01, kFault},  {"bypass_open", 0.005, kFault},
-      {"irr_step", 0.02, kSky},        {"transient", 0.02, kSky},
-      {"drift", 0.01, kSky},           {"temp_drift", 0.003, kSky},
-      {"capacitance", 0.03, kTracer},  {"timing_skew", 0.02, kTracer},
-      {"range_switch", 0.005, kTracer}, {"clip", 0.005, kTracer},
+      {"second_diode", 0.05, kCell},
+      {"nonohmic_shunt", 0.03, kCell},
+      {"breakdown", 0.02, kCell},
+      {"collection", 0.02, kCell},
+      {"photoshunt", 0.02, kCell},
+      {"back_contact", 0.02, kCell},
+      {"rs_current", 0.01, kCell},
+      {"distributed_rs", 0.02, kCell},
+      {"shading", 0.03, kShade},
+      {"substrings", 0.03, kShade},
+      {"weak_cell", 0.03, kFault},
+      {"mismatch", 0.02, kFault},
+      {"leaky_cell", 0.01, kFault},
+      {"scatter", 0.02, kFault},
+      {"bypass_short", 0.01, kFault},
+      {"bypass_open", 0.005, kFault},
+      {"irr_step", 0.02, kSky},
+      {"transient", 0.02, kSky},
+      {"drift", 0.01, kSky},
+      {"temp_drift", 0.003, kSky},
+      {"capacitance", 0.03, kTracer},
+      {"timing_skew", 0.02, kTracer},
+      {"range_switch", 0.005, kTracer},
+      {"clip", 0.005, kTracer},
   };
   return table;
 }
 
-double PriorOf(const std::string& id, const std::map<std::string, double>& own) {
-  if (const auto at = own.find(id); at != own.end()) return at->second;
-  for (const CausePrior& prior : DefaultPriors()) {
+double CausePriors::Of(const std::string& id) const {
+  if (const auto at = given.find(id); at != given.end()) return at->second;
+  if (alike) return kOtherPrior;
+  for (const CausePrior& prior : PriorTable()) {
     if (id == prior.id) return prior.probability;
   }
   return kOtherPrior;
+}
+
+Expected<CausePriors> ReadPriors(const std::string& path) {
+  constexpr std::uintmax_t kLargestFile = 1U << 16;
+  constexpr char kLike[] = R"({"shading": 0.1, "second_diode": 0.01})";
+  TRY(const auto text, ReadTextFile(path, kLargestFile));
+  const auto json = ParseJson(text, path);
+  if (!json) return tl::unexpected(json.error());
+  if (!json->is_object()) {
+    return Fail(fmt::format("expected probabilities of causes as an object like {}", kLike), path,
+                1, 1);
+  }
+  const JsonFields fields(*json, text, path);
+  CausePriors priors;
+  priors.name = path;
+  for (const auto& [id, value] : json->items()) {
+    if (FindEffect(id) == nullptr) return fields.Refuse(id, "the id of an effect");
+    const auto number = fields.Number({id.c_str()});
+    if (!number) return tl::unexpected(number.error());
+    if (!*number || !(**number > 0 && **number < 1)) {
+      return fields.Refuse(id, "a probability above 0 and below 1");
+    }
+    priors.given[id] = **number;
+  }
+  return priors;
+}
+
+Expected<CausePriors> PriorsNamed(const std::string& name) {
+  if (name == "table" || name == "alike") return CausePriors{{}, name == "alike", name};
+  return ReadPriors(name);
 }
 
 }  // namespace lyrefit

@@ -2,9 +2,14 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-namespace lyrefit {
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
 
 // How often a cause is in a sweep at a size that matters, and on what the number rests.
 struct CausePrior {
@@ -13,18 +18,46 @@ struct CausePrior {
   const char* source;
 };
 
-// The default table. Orders of magnitude: a factor of three changes few verdicts, since the
-// evidence of a fault above the floors is usually larger by far.
-const std::vector<CausePrior>& DefaultPriors();
+// The table for sweeps of the field. Orders of magnitude: the evidence of a fault above the floors
+// is usually larger by far, so that a factor of three changes few verdicts.
+const std::vector<CausePrior>& PriorTable();
 
-// Of a cause that is in no table, such as an effect of one's own.
-constexpr double kOtherPrior = 0.02;
-// That something is there which no effect of the catalogue describes.
-constexpr double kUnknownPrior = 0.003;
-// That a given sweep contains a wrong reading.
-constexpr double kWrongReadingPrior = 0.05;
+// Prior probabilities of causes.
+struct CausePriors {
+  std::map<std::string, double> given;  // replace those of the table
+  bool alike = false;                   // no table: all other causes are equally probable
+  std::string name = "table";           // "table", "alike" or the name of the file
 
-// Prior probability of a cause: from `own`, else from the table.
-double PriorOf(const std::string& id, const std::map<std::string, double>& own);
+  double Of(const std::string& id) const;
+};
+
+// Of a cause that is in no table, such as an effect of one's own, and of all with `alike`.
+inline constexpr double kOtherPrior = 0.03;
+// That something acts which no effect of the catalogue describes.
+inline constexpr double kUnknownPrior = 0.003;
+// That a sweep contains a wrong reading.
+inline constexpr double kWrongReadingPrior = 0.05;
+
+// Reads a file like {"shading": 0.1, "second_diode": 0.01}, whose values replace those of the
+// table. Errors, with file, line and column: an id that is no effect, a number outside (0, 1).
+Expected<CausePriors> ReadPriors(const std::string& path);
+
+// Priors by name ("table" or "alike"), or from a file of ReadPriors().
+Expected<CausePriors> PriorsNamed(const std::string& name);
+
+// Option for priors, by name or file: see base/option.h.
+template <auto Member>
+constexpr auto PriorsOption() {
+  using Options = ClassOf<Member>;
+  return OptionText<Options>{
+      [](const std::string& text, Options* options) -> Expected<void> {
+        Expected<CausePriors> priors = PriorsNamed(text);
+        if (!priors) return tl::unexpected<Error>(priors.error());
+        options->*Member = std::move(*priors);
+        return {};
+      },
+      [](const Options& options) -> std::vector<std::string> { return {(options.*Member).name}; },
+      nullptr, false};
+}
 
 }  // namespace lyrefit

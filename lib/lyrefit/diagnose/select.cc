@@ -123,7 +123,8 @@ void DropTheUnlikely(SelectionState* now) {
   double highest = -HUGE_VAL;
   for (std::size_t count = now->causes.size();; --count) {
     double value = LogTotal(EvidenceOf(now->weighted, now->base, judge, fit));
-    for (std::size_t c = first; c < count; ++c) value += LogPriorOdds(*now->causes[c].effect, judge);
+    for (std::size_t c = first; c < count; ++c)
+      value += LogPriorOdds(*now->causes[c].effect, judge);
     if (value > highest) {
       highest = value;
       best = fit;
@@ -141,6 +142,7 @@ void DropTheUnlikely(SelectionState* now) {
 
 void Extend(SelectionState* now, Selection* selection) {
   const int most = now->options.largest_causes + static_cast<int>(now->causes.size());
+  const double least = std::log(now->options.probability / (1 - now->options.probability));
   std::set<std::set<const Effect*>> seen;
   for (bool first = true;; first = false) {
     const std::vector<Score> scores = ScoreOpen(now);
@@ -158,7 +160,7 @@ void Extend(SelectionState* now, Selection* selection) {
     }
     if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
     const FittedCandidate& best = *MostProbable(step.candidates);
-    if (!(best.LogComplete() > step.none.LogComplete())) return;
+    if (!(best.LogComplete() > step.none.LogComplete() + least)) return;
     if (!IsWorthAName(*now, best)) {
       selection->below = std::move(step);
       return;

@@ -13,7 +13,8 @@ namespace lyrefit {
 
 struct SelectOptions {
   JudgeOptions judge;
-  Signatures signatures;  // computed by the selection that this one repeats
+  double probability = 0.8;  // a cause is added if it is at least as probable, against none
+  Signatures signatures;     // computed by the selection that this one repeats
   int largest_causes = 4;
   Floors floors;
   Law base;                        // initial variant of the base law

@@ -27,8 +27,7 @@ bool SwapOne(int c, SelectionState* now) {
   constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
   const double none = place.none.LogComplete();
   const auto best = MostProbable(place.candidates);
-  const bool replaced = best != place.candidates.end() &&
-                        best->score.effect != chosen[c].effect &&
+  const bool replaced = best != place.candidates.end() && best->score.effect != chosen[c].effect &&
                         best->LogComplete() > std::max(kept, none) + kClearly;
   if (!replaced && none < kept) return keep();
   if (replaced) {

@@ -148,7 +148,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     verdict.causes.push_back(BinsCause(bins, measurement));
   }
   std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.corrected_p < b.corrected_p; });
+                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
   verdict.below_floor = DescribeBelow(selection);
   verdict.lack_of_fit = LeftBy(selection.base_weighted, selection.base);
   const Sized left = LeftBy(selection.weighted, selection.extended);
@@ -170,6 +170,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     verdict.causes.push_back(UnknownCause(selection));
   }
   verdict.found = !verdict.causes.empty();
+  verdict.probability_none = selection.none;
   if (verdict.found && exceeds && Remains(selection, whiteness_after)) verdict.unexplained = true;
   const Floors floors{options.floor_current, options.floor_power};
   if (!verdict.found && MissesTooMuch(verdict, floors)) verdict.unexplained = true;

@@ -93,7 +93,7 @@ std::string StrengthText(const Cause& cause) {
 std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
   return CsvLine({CsvField(name), CsvField(cause.id), CsvField(cause.title), YesNo(named),
                   SizedFields(cause.current_effect), SizedFields(cause.power_effect),
-                  SizedFields(cause.recoverable_power_W), CsvField(cause.corrected_p),
+                  SizedFields(cause.recoverable_power_W), CsvField(cause.probability),
                   CsvField(StrengthText(cause)), CsvField(JoinWith(cause.equivalents, " ")),
                   CsvField(cause.sentence)});
 }
@@ -187,7 +187,7 @@ std::string CausesCsv(const std::vector<std::string>& names,
   std::string csv =
       "measurement,cause,title,named,current_effect,current_effect_low_95,current_effect_high_95,"
       "power_effect,power_effect_low_95,power_effect_high_95,recoverable_power_W,"
-      "recoverable_power_W_low_95,recoverable_power_W_high_95,corrected_p,strength,equivalents,"
+      "recoverable_power_W_low_95,recoverable_power_W_high_95,probability,strength,equivalents,"
       "sentence\n";
   for (std::size_t i = 0; i < diagnoses.size(); ++i) {
     const Verdict& verdict = diagnoses[i].verdict;

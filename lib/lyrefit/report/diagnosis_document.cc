@@ -40,8 +40,7 @@ std::string ConditionsText(const Diagnosis& diagnosis) {
 
 // Conditions for a cause to be named.
 std::string NamedText(const Diagnosis& diagnosis) {
-  std::string text =
-      fmt::format("certain at {:g} % over the whole catalogue", 100 * diagnosis.level);
+  std::string text = fmt::format("more probable than {:g} %", 100 * diagnosis.probability);
   if (diagnosis.floor_current > 0) {
     text += fmt::format(", and above {:g} % of Isc (rms over the curve) or {:g} % of Pmax",
                         100 * diagnosis.floor_current, 100 * diagnosis.floor_power);
@@ -82,11 +81,14 @@ std::string SizeText(const CauseParameter& parameter) {
   return text + (parameter.at_bound ? ", at its bound" : "");
 }
 
-std::string CertaintyText(const Cause& cause, double level) {
-  std::string p =
-      fmt::format("corrected p = {}, to be below {:g}", Significant(cause.corrected_p, 2), level);
-  if (cause.evidence != "values") return p;
-  return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);
+// "97 %"
+std::string WholePercent(double part) {
+  return std::isfinite(part) ? fmt::format("{:.0f} %", 100 * part) : "-";
+}
+
+std::string CertaintyText(const Cause& cause) {
+  if (cause.evidence == "values") return "seen in the values themselves";
+  return "probability " + WholePercent(cause.probability);
 }
 
 // "0.86 % (0.80 .. 0.92)"
@@ -126,7 +128,7 @@ Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::
   for (std::size_t i = 0; i < cause.strength.size(); ++i) {
     AddField(i == 0 ? "size" : "", SizeText(cause.strength[i]), &section);
   }
-  AddField("certainty", CertaintyText(cause, diagnosis.level), &section);
+  AddField("certainty", CertaintyText(cause), &section);
   if (!cause.acts.empty()) AddField("acts", cause.acts, &section);
   std::vector<std::string> others;
   for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
@@ -161,11 +163,6 @@ std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
     sections.push_back(CauseSection(diagnosis, cause, "Present, not material"));
   }
   return sections;
-}
-
-// "97 %"
-std::string WholePercent(double part) {
-  return std::isfinite(part) ? fmt::format("{:.0f} %", 100 * part) : "-";
 }
 
 // The next measurements that would separate the causes.
@@ -277,7 +274,7 @@ Section RunSection(const Diagnosis& diagnosis) {
   return section;
 }
 
-// "irr_step d -0.0190 (corrected p 2.0e-07) or drift"
+// "irr_step d -0.0190 (98 %) or drift"
 std::string BriefCause(const Cause& cause) {
   std::string text = cause.id;
   if (!cause.strength.empty()) {
@@ -285,7 +282,7 @@ std::string BriefCause(const Cause& cause) {
     text += fmt::format(" {} {}{}{}", first.symbol, Significant(first.value, 3),
                         first.unit.empty() ? "" : " ", first.unit);
   }
-  text += fmt::format(" (corrected p {})", Significant(cause.corrected_p, 2));
+  text += fmt::format(" ({})", WholePercent(cause.probability));
   for (const std::string& id : cause.equivalents) text += " or " + id;
   return text;
 }

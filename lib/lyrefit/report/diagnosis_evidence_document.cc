@@ -73,8 +73,8 @@ std::vector<std::string> TrialRow(const Diagnosis& diagnosis, const Trial& trial
   return {trial.effect + (IsCause(diagnosis, trial.effect) ? " <-" : ""),
           Scientific(trial.rmse_A, 3),
           Significant(trial.misfit, 3),
-          Significant(trial.p_value, 2),
-          Significant(trial.corrected_p, 2),
+          Significant(trial.log_evidence, 3),
+          Significant(trial.probability, 2),
           Significant(trial.delta_aicc, 3),
           Scientific(trial.held_out_rmse_A, 3),
           Significant(trial.kept, 2)};

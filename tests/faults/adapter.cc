@@ -45,11 +45,11 @@ lyrefit::CurveSet ToSet(const Measurement& from, int number) {
 
 }  // namespace
 
-Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
+Answer Ask(const Measurement& measurement, int number, double probability, std::uint64_t seed,
            bool second_diode, Mode mode) {
   lyrefit::DiagnoseOptions options =
       mode == Mode::kLaboratory ? lyrefit::LaboratoryOptions() : lyrefit::DiagnoseOptions();
-  options.level = level;
+  options.probability = probability;
   options.seed = seed;
   options.held_out = false;
   options.threads = 1;
@@ -64,7 +64,7 @@ Answer Ask(const Measurement& measurement, int number, double level, std::uint64
     return answer;
   }
   for (const lyrefit::Cause& cause : diagnosis->verdict.causes) {
-    Claim claim{cause.id, cause.equivalents, cause.corrected_p, cause.evidence == "values", {}};
+    Claim claim{cause.id, cause.equivalents, cause.probability, cause.evidence == "values", {}};
     for (const lyrefit::CauseParameter& parameter : cause.strength) {
       claim.strengths.push_back({parameter.symbol, parameter.unit, parameter.value,
                                  parameter.low_95, parameter.high_95, parameter.name});

@@ -20,7 +20,7 @@ struct Strength {
 struct Claim {
   std::string id;
   std::vector<std::string> equivalents;
-  double corrected_p = 1;
+  double probability = 1;
   bool by_values = false;
   std::vector<Strength> strengths;
 };
@@ -37,7 +37,7 @@ enum class Mode { kLaboratory, kField };
 
 // Runs the diagnosis under test on the readings. It gets no information on the hidden effects.
 // `second_diode`: the base model is the double-diode model.
-Answer Ask(const Measurement& measurement, int number, double level, std::uint64_t seed,
+Answer Ask(const Measurement& measurement, int number, double probability, std::uint64_t seed,
            bool second_diode = false, Mode mode = Mode::kLaboratory);
 
 }  // namespace faults

@@ -66,7 +66,7 @@ std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Injectio
     const std::optional<Case> made = MakeCase(request);
     if (!made) return;
     runs[i] = {true, *made,
-               Ask(made->measurement, i, options.level, request.seed, false, ModeOf(options))};
+               Ask(made->measurement, i, options.probability, request.seed, false, ModeOf(options))};
   });
   return runs;
 }
@@ -85,7 +85,7 @@ namespace {
 
 constexpr const char* kUsage =
     "fault_study MODE [--kind fwd|rev|updown|dark|famG|famGT|all] [--effect ID|all] [--cases N]\n"
-    "             [--level P] [--seed N] [--threads N] [--csv FILE]\n"
+    "             [--probability P] [--seed N] [--threads N] [--csv FILE]\n"
     "             [--rows FILE] [--number I]\n"
     "MODE: silence, power, pairs, confusion, size, show\n"
     "fault_study field [--effect KIND|all] [--cases N] [--misfit-above PERCENT] [--rows FILE]\n"
@@ -99,7 +99,7 @@ bool Read(int argc, char** argv, StudyOptions* options) {
       {"--effect", [&](const char* text) { options->effect = text; }},
       {"--cases", [&](const char* text) { options->cases = std::atoi(text); }},
       {"--asked", [&](const char* text) { options->asked = text; }},
-      {"--level", [&](const char* text) { options->level = std::atof(text); }},
+      {"--probability", [&](const char* text) { options->probability = std::atof(text); }},
       {"--seed", [&](const char* text) { options->seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { options->threads = std::atoi(text); }},
       {"--rows", [&](const char* text) { options->rows = text; }},

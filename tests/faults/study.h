@@ -19,7 +19,7 @@ struct StudyOptions {
   std::string rows;  // file of all cases; empty: none
   int cases = 0;     // 0: default of the mode
   int number = 0;    // index of the case to show
-  double level = 0.05;
+  double probability = 0.8;
   std::uint64_t seed = 1;
   std::string asked;  // "laboratory" or "field"; empty: that of the simulator
   int threads = 0;    // 0: one per processor
@@ -31,7 +31,7 @@ struct StudyOptions {
 
 Mode ModeOf(const StudyOptions& options);
 
-// False-alarm rates on cases without an effect, by kind of data and noise, at `level` and at 0.01.
+// False-alarm rates on cases without an effect, by kind of data and noise, at `probability` and at 0.99.
 int StudySilence(const StudyOptions& options);
 // Detection and identification rates by kind of data, effect and misfit.
 int StudyPower(const StudyOptions& options);

@@ -58,7 +58,7 @@ int StudyPairs(const StudyOptions& options) {
       const std::optional<Case> made = MakePair(kind, seed);
       if (!made) return;
       runs[i] = {true, *made,
-                 Ask(made->measurement, i, options.level, seed, false, ModeOf(options))};
+                 Ask(made->measurement, i, options.probability, seed, false, ModeOf(options))};
     });
     int made = 0, named[3] = {}, claims = 0;
     double seconds = 0;

@@ -15,7 +15,7 @@ struct Quiet {
 
 struct Alarms {
   int cases = 0;
-  int loose = 0;   // alarms at the requested level
+  int loose = 0;   // alarms at the requested probability
   int strict = 0;  // alarms at 0.01, or from parameter values
   int failed = 0;
   double seconds = 0;
@@ -23,7 +23,7 @@ struct Alarms {
   std::map<std::string, int> absorbed;  // absorbed effects in the cases with an alarm
 };
 
-bool Strict(const Claim& claim) { return claim.by_values || claim.corrected_p < 0.01; }
+bool Strict(const Claim& claim) { return claim.by_values || claim.probability > 0.99; }
 
 void Count(const Quiet& run, Alarms* alarms) {
   ++alarms->cases;
@@ -65,7 +65,7 @@ int StudySilence(const StudyOptions& options) {
     ForEach(cases, options.threads, [&](int i) {
       runs[i].with_fault = NullFor(options, kind, i);
       runs[i].answer =
-          Ask(runs[i].with_fault.measurement, i, options.level, SeedOf(options.seed, i),
+          Ask(runs[i].with_fault.measurement, i, options.probability, SeedOf(options.seed, i),
               runs[i].with_fault.second_diode, ModeOf(options));
     });
     Alarms independent;

@@ -306,6 +306,9 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     }
     causes.push_back(std::move(cause));
   }
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) {
+    return a.current_effect.value > b.current_effect.value;  // false where it is unknown
+  });
   if (!selection.outliers.empty()) {
     Cause cause = MakeCause(*FindEffect("outliers"), "fit", 1);
     cause.points = PointsIn(at.first, selection.outliers);

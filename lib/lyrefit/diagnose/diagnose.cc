@@ -250,7 +250,7 @@ SelectedCauses SelectPrepared(const PreparedDiagnosis& prepared, const ProgressR
   selected.candidates = select.candidates;
   Selection& found = selected.found;
   if (!found.base.usable) return selected;
-  FindAlternatives(select, &found);
+  FindAlternatives(seen, select, &found);
   selected.at = is_long ? AtItsReadings(found, averaged, measurement) : AtItsReadings(found);
   if (prepared.options.held_out && !progress.Stopped()) {
     selected.held_out =

@@ -148,7 +148,7 @@ struct Verdict {
   // Structure is present that no known cause fits. Without a named cause: the base model misses the
   // data by more than it misses modules without a fault.
   bool unexplained = false;
-  std::vector<Cause> causes;  // most probable first
+  std::vector<Cause> causes;  // largest effect on the curve first
   // Significant effects that are too small to act on.
   std::vector<Cause> below_floor;
   Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc

@@ -121,36 +121,75 @@ std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
   return equivalents;
 }
 
-void FindAlternatives(const SelectOptions& options, Selection* selection) {
+namespace {
+
+// The hypotheses in the place of cause number `c`.
+Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   const WeightedData& weighted = selection->weighted;
-  const LawFit& extended = selection->extended;
-  for (std::size_t c = 0; c < selection->causes.size(); ++c) {
-    ChosenCause& cause = selection->causes[c];
-    options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size()));
-    Hypotheses& place = cause.others;
-    place.none.fit = FitWithout(weighted, extended, static_cast<int>(c));
-    const LawFit& without = place.none.fit;
-    if (!without.usable || options.progress.Stopped() || cause.in_values) continue;
-    std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
-    open.erase(std::remove_if(open.begin(), open.end(),
-                              [](const Effect* effect) { return effect->probes == nullptr; }),
-               open.end());
-    const std::vector<Score> scores = ScoreEffects(weighted, without, open, &selection->signatures);
-    const double hopeless = HopelessStatistic(scores, 0);
-    for (const Score& score : scores) {
-      options.progress.Count();
-      if (options.progress.Stopped()) break;
-      const bool own = score.effect == cause.effect;
-      const bool by_shape = score.effect->starts != nullptr && weighted.readings->traits.single &&
-                            cause.effect->groups;
-      if (!own && !by_shape && (!score.testable || score.statistic < hopeless)) continue;
-      LawFit fit = own ? extended : FitEffect(weighted, without, score);
-      if (fit.usable) place.candidates.push_back({score, std::move(fit)});
+  const Effect* own = selection->causes[c].effect;
+  Hypotheses place;
+  place.none.fit = FitWithout(weighted, selection->extended, c);
+  const LawFit& without = place.none.fit;
+  if (!without.usable || options.progress.Stopped()) return place;
+  std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
+  open.erase(std::remove_if(open.begin(), open.end(),
+                            [](const Effect* effect) { return effect->probes == nullptr; }),
+             open.end());
+  const std::vector<Score> scores = ScoreEffects(weighted, without, open, &selection->signatures);
+  const double hopeless = HopelessStatistic(scores, 0);
+  for (const Score& score : scores) {
+    options.progress.Count();
+    if (options.progress.Stopped()) break;
+    const bool by_shape = score.effect->starts != nullptr && own->groups &&
+                          weighted.readings->traits.single;
+    const bool fits = by_shape || (score.testable && score.statistic >= hopeless);
+    if (score.effect != own && !fits) continue;
+    LawFit fit = score.effect == own ? selection->extended : FitEffect(weighted, without, score);
+    if (fit.usable) place.candidates.push_back({score, std::move(fit)});
+  }
+  Judge(weighted, selection->base, options.judge, &place);
+  return place;
+}
+
+// Puts another effect in the place of cause number `c`.
+void Replace(const Measurement& measurement, const FittedCandidate& better, int c,
+             Selection* selection) {
+  selection->causes.erase(selection->causes.begin() + c);
+  selection->causes.push_back({better.score.effect, better.score});
+  selection->extended = better.fit;
+  selection->noise = SettleNoise(measurement, &selection->weighted, &selection->extended);
+}
+
+}  // namespace
+
+void FindAlternatives(const Measurement& measurement, const SelectOptions& options,
+                      Selection* selection) {
+  constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
+  int replacements = 2;
+  const int count = static_cast<int>(selection->causes.size());
+  options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size()) * count);
+  for (int c = 0; c < count;) {
+    if (selection->causes[c].in_values) {
+      ++c;
+      continue;
     }
-    Judge(weighted, selection->base, options.judge, &place);
-    for (const FittedCandidate& candidate : place.candidates) {
-      if (candidate.score.effect == cause.effect) cause.probability = candidate.probability;
+    Hypotheses place = FitPlace(options, c, selection);
+    if (options.progress.Stopped()) return;
+    const auto own = std::find_if(
+        place.candidates.begin(), place.candidates.end(), [&](const FittedCandidate& candidate) {
+          return candidate.score.effect == selection->causes[c].effect;
+        });
+    const bool better = own != place.candidates.end() && own != place.candidates.begin() &&
+                        place.candidates.front().log_posterior > own->log_posterior + kClearly;
+    if (better && replacements > 0) {
+      --replacements;
+      Replace(measurement, place.candidates.front(), c, selection);
+      c = 0;
+      continue;
     }
+    ChosenCause& cause = selection->causes[c++];
+    if (own != place.candidates.end()) cause.probability = own->probability;
+    cause.others = std::move(place);
   }
 }
 

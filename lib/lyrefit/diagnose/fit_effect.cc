@@ -68,7 +68,7 @@ double Paid(const WeightedData& weighted, const LawFit& fit) {
 }
 
 // Whether the last effect of a fit stays off the bounds at which it would imitate another effect.
-bool IsItself(const Effect& effect, const LawFit& fit) {
+bool IsItself(const Effect& effect, const LawFit& fit, const DataTraits& traits) {
   const std::size_t first = fit.p.size() - effect.parameters.size();
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const EffectParameter& parameter = effect.parameters[k];
@@ -77,7 +77,7 @@ bool IsItself(const Effect& effect, const LawFit& fit) {
     if (parameter.above_lower && value < parameter.lower + slack) return false;
     if (parameter.below_upper && value > parameter.upper - slack) return false;
   }
-  return true;
+  return effect.imitates == nullptr || !effect.imitates(fit.p.data() + first, traits);
 }
 
 // Whether the root mean square misfit of the used readings exceeds `part` of Isc.
@@ -136,7 +136,7 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     if (!end.usable) return;
     at->value = Paid(data, end);
     at->fit = std::move(end);
-    if (!last || !IsItself(effect, at->fit)) return;
+    if (!last || !IsItself(effect, at->fit, readings.traits)) return;
     if (!best->usable || at->value < Paid(weighted, *best)) *best = at->fit;
   };
   Multistart<ShapeEnd> run;
@@ -230,13 +230,13 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
   if (effort == Effort::kFull) DescendInProbes(weighted, effect, probes, &best);
   LawFit end = effort == Effort::kForTheRecord ? std::move(best)
                                                : FitLaw(weighted, best.law, best.p, kForRanking);
-  if (!end.usable || !IsItself(effect, end)) return {};
+  if (!end.usable || !IsItself(effect, end, weighted.readings->traits)) return {};
   return end;
 }
 
 LawFit FitOnwards(const WeightedData& weighted, const LawFit& met) {
   LawFit end = FitLaw(weighted, met.law, met.p, kForRanking);
-  if (!end.usable || !IsItself(*met.law.effects.back(), end)) return {};
+  if (!end.usable || !IsItself(*met.law.effects.back(), end, weighted.readings->traits)) return {};
   return end;
 }
 

@@ -15,7 +15,7 @@ std::vector<FittedCandidate>::const_iterator MostProbable(
 
 LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
                        const JudgeOptions& options, const LawFit& fit) {
-  constexpr double kPartOfCauses = 0.05, kUsualWidth = 0.6;
+  constexpr double kPartOfCauses = 0.1, kUsualWidth = 0.6;
   DeparturePrior departure{options.departure, options.departure_width};
   const bool stated = options.departure > 0 && options.departure_width == 0;
   if (!fit.law.effects.empty() && !stated) {

@@ -52,11 +52,16 @@ Prior BasePrior(const Law& law, int k, double value) {
   return {0, 1e-2, HUGE_VAL};  // the same in every law
 }
 
-// Uniform between the bounds. A parameter without finite bounds belongs to every law compared.
-Prior EffectPrior(const EffectParameter& parameter) {
+// About the neutral value where a usual size is known, else uniform between the bounds. A parameter without finite bounds belongs to every law compared.
+Prior EffectPrior(const EffectParameter& parameter, double value) {
   constexpr double kUnbounded = 1e3;
   const double range = parameter.upper - parameter.lower;
   if (!(range < kUnbounded)) return {0, 1e-6, HUGE_VAL};
+  if (parameter.usual > 0) {
+    const bool two_sided = parameter.lower < parameter.neutral;
+    const double log_density = LogStudent3(value - parameter.neutral, parameter.usual);
+    return {log_density + (two_sided ? 0 : std::log(2.0)), 12 / (range * range), range};
+  }
   return {-std::log(range), 12 / (range * range), range};
 }
 
@@ -118,7 +123,7 @@ Linear LinearOf(const WeightedData& weighted, const LawFit& fit) {
     for (const int k : *list) {
       linear.rows.col(column++) = jacobian.col(k);
       const EffectParameter* own = fit.law.EffectParameterAt(k);
-      linear.prior.push_back(own != nullptr ? EffectPrior(*own) : BasePrior(fit.law, k, theta[k]));
+      linear.prior.push_back(own != nullptr ? EffectPrior(*own, theta[k]) : BasePrior(fit.law, k, theta[k]));
     }
   }
   linear.rows.col(column) = residual;

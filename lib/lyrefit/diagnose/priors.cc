@@ -16,6 +16,7 @@ const std::vector<CausePrior>& PriorTable() {
   static const char* const kFault = "IEA PVPS T13-01:2014, section 5: failures per module";
   static const char* const kCell = "not rare in cells, seldom above the floors";
   static const char* const kSky = "moving clouds: a few in a hundred sweeps of 0.1 to 30 s";
+  static const char* const kPair = "28 of 44 real pairs of sweeps of thin films";
   static const char* const kTracer = "properties of tracers, per instrument";
   static const std::vector<CausePrior> table = {
       {"second_diode", 0.05, kCell},
@@ -38,10 +39,11 @@ const std::vector<CausePrior>& PriorTable() {
       {"transient", 0.02, kSky},
       {"drift", 0.01, kSky},
       {"temp_drift", 0.003, kSky},
+      {"hysteresis", 0.1, kPair},
       {"capacitance", 0.03, kTracer},
       {"timing_skew", 0.02, kTracer},
       {"range_switch", 0.005, kTracer},
-      {"clip", 0.005, kTracer},
+      {"clip", 0.002, kTracer},
   };
   return table;
 }

@@ -73,6 +73,8 @@ std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause);
 const FittedCandidate* OwnCandidate(const ChosenCause& cause);
 
 // Fills `others` and `probability` of every cause: nothing or any effect that could take its place.
-void FindAlternatives(const SelectOptions& options, Selection* selection);
+// One that is more probable there under the final noise replaces it.
+void FindAlternatives(const Measurement& measurement, const SelectOptions& options,
+                      Selection* selection);
 
 }  // namespace lyrefit

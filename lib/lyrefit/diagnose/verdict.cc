@@ -147,8 +147,6 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   if (IsWanted(bins, options) && HasMaterialBins(measurement, at.noise, options.floor_current)) {
     verdict.causes.push_back(BinsCause(bins, measurement));
   }
-  std::stable_sort(verdict.causes.begin(), verdict.causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
   verdict.below_floor = DescribeBelow(selection);
   verdict.lack_of_fit = LeftBy(selection.base_weighted, selection.base);
   const Sized left = LeftBy(selection.weighted, selection.extended);

@@ -231,6 +231,9 @@ struct EffectParameter {
   // Standard deviation among sound modules or substrings, from production. The curve of one module
   // cannot reduce it. 0: none.
   double scatter = 0;
+  // Usual size, as the scale of a prior with heavy tails about `neutral`. 0: all values between the
+  // bounds are equally probable.
+  double usual = 0;
   // A fit that ends at such a bound is rejected: there the effect imitates another one.
   bool below_upper = false;
   bool above_lower = false;
@@ -264,6 +267,8 @@ struct EffectParameter {
   constexpr EffectParameter& FixedByDefault() { return fixed_by_default = true, *this; }
   // Sets `scatter`.
   constexpr EffectParameter& Scatter(double deviation) { return scatter = deviation, *this; }
+  // Sets `usual`.
+  constexpr EffectParameter& Usual(double size) { return usual = size, *this; }
   // Set `below_upper` or `above_lower`: a fit at that bound is rejected.
   constexpr EffectParameter& BelowUpper() { return below_upper = true, *this; }
   constexpr EffectParameter& AboveLower() { return above_lower = true, *this; }
@@ -347,6 +352,9 @@ struct Effect {
   // that was requested by name; empty in a diagnosis.
   std::vector<ShapeStart> (*starts)(const CurveShape&, const DataTraits&,
                                     const std::vector<ParameterBounds>& asked) = nullptr;
+  // Whether the effect imitates another cause at these parameters, so that a fit which ends there is
+  // rejected. Null: nowhere but at the bounds that its parameters name.
+  bool (*imitates)(const double* p, const DataTraits&) = nullptr;
   // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
   // covered and only the other groups generate. The effect begins in the first group. Returns false
   // if the effect vanishes. Null: the effect is the same in all cells.

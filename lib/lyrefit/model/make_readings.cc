@@ -159,6 +159,23 @@ double OpenCircuit(const std::vector<Reading>& points, int curve) {
   return found;
 }
 
+// Turns between two long stretches of one curve; short stretches are noise of the voltage.
+void SetTurns(Readings* readings) {
+  constexpr int kLong = 7;
+  const std::vector<Reading>& points = readings->points;
+  std::vector<double>& turns = readings->traits.turns;
+  turns.clear();
+  std::size_t before = 0;  // length of the stretch before
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+    while (last < points.size() && points[last].segment == points[first].segment) ++last;
+    const bool same = first > 0 && points[first].curve == points[first - 1].curve;
+    if (same && before >= kLong && last - first >= kLong) {
+      turns.push_back(0.5 * (points[first - 1].x + points[first].x));
+    }
+    before = last - first;
+  }
+}
+
 void SetScales(Readings* readings) {
   double scale = 0, largest = 0, rates = 0;
   for (const Reading& r : readings->points) {
@@ -212,6 +229,7 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     }
     traits.up_down = traits.up_down || segments.size() > 1;
   }
+  SetTurns(readings);
   SetStepTimes(readings);
   SetRangeCurrents(readings);
 }
@@ -282,11 +300,17 @@ Expected<void> CheckSizes(const IvCurve& curve) {
 }  // namespace
 
 void SetStepTimes(Readings* readings) {
+  constexpr double kNear = 0.05;
   readings->traits.step_times.clear();
   if (!readings->traits.single) return;
   const std::vector<Reading>& points = readings->points;
+  const std::vector<double>& turns = readings->traits.turns;
   for (std::size_t k = 1; k + 2 < points.size(); ++k) {
-    readings->traits.step_times.push_back(0.5 * (points[k].x + points[k + 1].x));
+    const double x = 0.5 * (points[k].x + points[k + 1].x);
+    // A step at the turn is the difference of the directions.
+    const bool at_turn =
+        std::any_of(turns.begin(), turns.end(), [x](double t) { return std::fabs(x - t) < kNear; });
+    if (!at_turn) readings->traits.step_times.push_back(x);
   }
 }
 

@@ -65,6 +65,7 @@ struct DataTraits {
   double open_circuit = 0;     // estimate of Voc per cell; 0: no estimate
   double thermal_voltage = 0;  // k T / q at the reference
   int readings = 0;
+  std::vector<double> turns;       // x at which a sweep up and down turns
   std::vector<double> step_times;  // x of possible irradiance steps, between two readings
   // Possible ends of a measuring range: currents between two readings of a sweep, in current
   // scales.

@@ -19,6 +19,7 @@ Effect BackContact() {
   e.parameters = {Parameter("1/Ib", "barrier", "inverse saturation current of the barrier")
                       .Unit("1/A")
                       .Between(0, 60)
+                      .Usual(5)
                       .CurrentPower(-1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {
     constexpr double kSmallest = 1e-2;  // below it the tangent replaces the logarithm

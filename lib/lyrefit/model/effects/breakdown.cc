@@ -24,6 +24,7 @@ Effect Breakdown() {
       Parameter("a", "breakdown_factor", "conductance of a cell at 0 V")
           .Unit("S")
           .Between(0, 3)
+          .Usual(0.05)
           .CurrentPower(1)
           .Convert([](const double* p, const ReadingScale& scale) {
             return std::pow(1 - p[1], 3.4) / scale.reach_V;

@@ -23,12 +23,14 @@ Effect Capacitance() {
       Parameter("C0", "capacitance", "of the whole device")
           .Unit("F")
           .Between(0, 0.3)
+          .Usual(0.02)
           .CurrentPower(1)
           .CellsPower(-1)
           .RatePower(-1),
       Parameter("tau", "lifetime", "diffusion capacitance over the conductance of the diode")
           .Unit("s")
           .Between(0, 0.3)
+          .Usual(0.02)
           .RatePower(-1),
   };
   e.instrument = [](const auto* p, const auto& reading, auto* solved) {

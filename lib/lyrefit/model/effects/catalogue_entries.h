@@ -26,6 +26,7 @@ namespace lyrefit {
   ENTRY(IrradianceStep)            \
   ENTRY(Transient)                 \
   ENTRY(TemperatureDrift)          \
+  ENTRY(Hysteresis)                \
   ENTRY(Capacitance)               \
   ENTRY(TimingSkew)                \
   ENTRY(Clip)                      \

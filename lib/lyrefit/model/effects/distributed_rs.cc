@@ -25,6 +25,7 @@ Effect DistributedRs() {
   e.parameters = {Parameter("Rlat", "resistance_lateral", "between the halves of the cells")
                       .Unit("ohm")
                       .Between(0, 2)
+                      .Usual(0.1)
                       .CurrentPower(-1)
                       .CellsPower(1)};
   e.cell = [](const auto* p, auto* cell) {

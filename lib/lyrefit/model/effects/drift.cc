@@ -18,7 +18,8 @@ Effect Drift() {
   e.separate_by = "a sweep up and down, or a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {Parameter("d", "relative_change", "change of the light over the measurement")
-                      .Between(-0.5, 0.5)};
+                      .Between(-0.5, 0.5)
+                      .Usual(0.03)};
   e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
     conditions->irradiance = conditions->irradiance * (1.0 + p[0] * reading.x);
   };

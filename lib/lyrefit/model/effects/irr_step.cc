@@ -19,7 +19,7 @@ Effect IrradianceStep() {
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
-      Parameter("s", "relative_step", "jump of the light").Between(-0.5, 0.5),
+      Parameter("s", "relative_step", "jump of the light").Between(-0.5, 0.5).Usual(0.05),
       Parameter("x0", "step_time", "when, -1/2 .. 1/2 over the measurement")
           .Between(-0.5, 0.5)
           .Searched(),

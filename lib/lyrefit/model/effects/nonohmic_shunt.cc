@@ -23,6 +23,7 @@ Effect NonohmicShunt() {
       Parameter("k", "shunt_strength", "current at 1 V of a cell")
           .Unit("A/V^m")
           .Between(0, 3)
+          .Usual(0.05)
           .CurrentPower(1)
           .Convert([](const double* p, const ReadingScale& scale) {
             return std::pow(scale.reach_V, -p[1]);

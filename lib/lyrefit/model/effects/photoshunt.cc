@@ -26,6 +26,7 @@ Effect Photoshunt() {
       Parameter("Gph", "photoconductance", "conductance that 1000 W/m2 adds")
           .Unit("S")
           .Between(0, 3)
+          .Usual(0.05)
           .CurrentPower(1)
           .CellsPower(-1),
       Parameter("law", "law", "0 linear, 1 exponential").Between(0, 1).Searched(),

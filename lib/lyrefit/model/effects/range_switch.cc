@@ -20,7 +20,8 @@ Effect RangeSwitch() {
   e.action = "repeat the sweep in one fixed range";
   e.parameters = {
       Parameter("g", "relative_gain", "of the range of small currents over the other")
-          .Between(-0.2, 0.2),
+          .Between(-0.2, 0.2)
+          .Usual(0.01),
       Parameter("Ir", "range_end", "current at which the range changes")
           .Unit("A")
           .Between(0.02, 0.98)

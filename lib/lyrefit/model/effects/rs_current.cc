@@ -21,6 +21,7 @@ Effect RsCurrent() {
   e.parameters = {Parameter("Rs1", "resistance_per_current", "change of Rs with current")
                       .Unit("ohm/A")
                       .Between(-0.2, 0.2)
+                      .Usual(0.01)
                       .CurrentPower(-2)
                       .CellsPower(1)};
   e.series = [](const auto* p, const auto& cell, const auto& current) {

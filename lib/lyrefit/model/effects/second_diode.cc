@@ -20,6 +20,7 @@ Effect SecondDiode() {
       Parameter("Is2", "saturation_current_2", "saturation current of the diode with n = 2")
           .Unit("A")
           .Between(0, 3)
+          .Usual(0.1)
           .CurrentPower(1)
           .Convert(
               [](const double*, const ReadingScale& scale) { return scale.saturation_2_unit; })};

@@ -19,6 +19,7 @@ Effect TimingSkew() {
   e.parameters = {Parameter("ts", "skew", "from the reading of the current to that of the voltage")
                       .Unit("s")
                       .Between(-0.05, 0.05)
+                      .Usual(0.003)
                       .RatePower(-1)};
   e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
     conditions->voltage = conditions->voltage - p[0] * reading.rate;

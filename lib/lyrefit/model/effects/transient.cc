@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/needs.h"
 
@@ -22,7 +25,7 @@ Effect Transient() {
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
-      Parameter("a", "relative_depth", "how much light was missing").Between(-0.8, 0.8),
+      Parameter("a", "relative_depth", "how much light was missing").Between(-0.8, 0.8).Usual(0.05),
       Parameter("c", "centre", "when, -1/2 .. 1/2 over the measurement")
           .Between(-0.45, 0.45)
           .AboveLower()
@@ -48,6 +51,11 @@ Effect Transient() {
     conditions->irradiance = conditions->irradiance * (1.0 - p[0] * exp(-0.5 * power));
   };
   e.momentary = true;
+  // A dip at the turn of a sweep up and down is the difference of the directions.
+  e.imitates = [](const double* p, const DataTraits& traits) {
+    return std::any_of(traits.turns.begin(), traits.turns.end(),
+                       [p](double turn) { return std::fabs(p[1] - turn) < 2 * p[2]; });
+  };
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

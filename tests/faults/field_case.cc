@@ -10,7 +10,7 @@ namespace {
 constexpr int kDraws = 60;
 
 const Fault* Called(const std::string& kind) {
-  for (const auto* faults : {&DeviceFaults(), &SweepFaults()}) {
+  for (const auto* faults : {&DeviceFaults(), &CellFaults(), &SweepFaults()}) {
     for (const Fault& fault : *faults) {
       if (kind == fault.name) return &fault;
     }
@@ -53,7 +53,7 @@ Uniformity UniformityOf(const std::string& kind) {
 
 std::vector<std::string> Kinds() {
   std::vector<std::string> kinds = {"clean_sd", "clean_dd", "clean_module"};
-  for (const auto* faults : {&DeviceFaults(), &SweepFaults()}) {
+  for (const auto* faults : {&DeviceFaults(), &CellFaults(), &SweepFaults()}) {
     for (const Fault& fault : *faults) kinds.push_back(fault.name);
   }
   return kinds;

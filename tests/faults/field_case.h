@@ -28,6 +28,7 @@ struct Fault {
   void (*apply)(Random* random, Rig* rig, Truth* truth);
 };
 const std::vector<Fault>& DeviceFaults();
+const std::vector<Fault>& CellFaults();
 const std::vector<Fault>& SweepFaults();
 
 struct Case {

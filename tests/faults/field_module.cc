@@ -67,6 +67,7 @@ Sampled CurveOfShort(double ohm, double largest) {
 Sampled CurveOfGroup(const Group& group, double largest) {
   std::vector<Sampled> parts;
   for (const auto& chain : group.chains) {
+    if (group.broken) continue;
     parts.push_back(CurveOfChain(chain, largest / static_cast<double>(group.chains.size())));
   }
   if (group.bypass == Bypass::kWorks) parts.push_back(CurveOfDiode(group.diode, largest));

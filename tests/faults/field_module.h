@@ -21,6 +21,7 @@ struct Group {
   BypassDiode diode;
   Bypass bypass = Bypass::kWorks;
   double short_ohm = 3e-3;
+  bool broken = false;  // no chain carries current
 };
 
 // Groups in series.

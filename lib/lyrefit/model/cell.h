@@ -91,6 +91,7 @@ void CellUnder(const EvaluationContext<S>& context, const OperatingConditions<S>
   const DataTraits& traits = context.readings.traits;
   cell->cells = traits.cells;
   cell->substring_cells = cell->cells / SubstringsOf(traits);
+  cell->bypass_ideality = S(kUsualBypassIdeality);
 }
 
 // Sets the fields that depend on the irradiance: photocurrent and shunt conductance. CellUnder must
@@ -127,7 +128,7 @@ void LayOut(const StringLayout& layout, double current_scale_A, Cell<S>* cell) {
   }
   for (int p = 0; p < cell->substrings; ++p) cell->substring[p] = layout.substrings[p];
   cell->bypass = S(layout.bypass_voltage_V);
-  cell->bypass_ideality = layout.bypass_ideality;
+  cell->bypass_ideality = S(layout.bypass_ideality);
   cell->reverse = layout.reverse;
   cell->reverse_strength = S(layout.reverse_strength);
   cell->reverse_voltage = S(layout.reverse_voltage_V);
@@ -245,7 +246,7 @@ inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Ce
 // `reverse`: reverse voltage per cell, in V.
 template <class S>
 Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
-  const S inverse = (1 / cell.bypass_ideality) / cell.thermal_voltage;
+  const S inverse = 1.0 / (cell.bypass_ideality * cell.thermal_voltage);
   const S start = exp(-(cell.bypass * inverse));
   return exp(Cut(Tangent<S>((reverse * cells - cell.bypass) * inverse))) - start;
 }

@@ -77,6 +77,7 @@ enum class ReverseLaw {
 // modules a substring is two parallel chains of half the current each: its groups form one chain,
 // and the one group with `beside` set forms the other.
 constexpr int kMostGroups = 8;
+constexpr double kUsualBypassIdeality = 1.2;
 template <class S>
 struct CellGroup {
   S share;              // fraction of all cells of the device
@@ -114,7 +115,7 @@ struct Cell {
   CellGroup<S>* group = nullptr;     // kMostGroups entries
   Substring substring[kMostGroups];  // the first `substrings` are valid
   S bypass;                          // voltage of a bypass diode at one current scale, V
-  double bypass_ideality = 1.2;      // of the bypass diode
+  S bypass_ideality;                 // of the bypass diode
   ReverseLaw reverse = ReverseLaw::kShunt;
   S reverse_strength;  // Bishop's a
   S reverse_voltage;   // -Vbr of Bishop's law or A of the soft law, V, above 0

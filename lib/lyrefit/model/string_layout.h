@@ -23,9 +23,9 @@ struct StringLayout {
   std::vector<Cells> groups;          // at most kMostGroups
   std::vector<Substring> substrings;  // at most kMostGroups
   int cells_in_series = 1;
-  int strings = 1;                // in parallel, of equal cell numbers
-  double bypass_voltage_V = 0.5;  // at the current scale, which is about Isc
-  double bypass_ideality = 1.2;   // towards 0: an ideal diode of constant voltage
+  int strings = 1;                                // in parallel, of equal cell numbers
+  double bypass_voltage_V = 0.5;                  // at the current scale, which is about Isc
+  double bypass_ideality = kUsualBypassIdeality;  // towards 0: an ideal diode of constant voltage
   ReverseLaw reverse = ReverseLaw::kShunt;
   double reverse_strength = 0.1;  // Bishop's a
   double reverse_voltage_V = 15;

@@ -17,11 +17,13 @@ namespace lyrefit {
   ENTRY(Shading)                   \
   ENTRY(Mismatch)                  \
   ENTRY(Substrings)                \
+  ENTRY(CoveredEdge)               \
   ENTRY(WeakCell)                  \
   ENTRY(Scatter)                   \
   ENTRY(LeakyCell)                 \
   ENTRY(BypassOpen)                \
   ENTRY(BypassShort)               \
+  ENTRY(OpenSubstring)             \
   ENTRY(Drift)                     \
   ENTRY(IrradianceStep)            \
   ENTRY(Transient)                 \

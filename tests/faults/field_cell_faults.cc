@@ -1,0 +1,49 @@
+// Faults of single cells and of parts of every group, and groups that give nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "faults/field_case.h"
+
+namespace faults::field {
+namespace {
+
+double Share(const Module& module) { return 1.0 / static_cast<double>(module.groups.size()); }
+
+// Snow or dirt on the lower edge: some cells of every group are dim, and a few more or fewer from
+// group to group. In a half-cut module the edge is that of one half.
+void CoveredEdge(Random* random, Rig* rig, Truth* truth) {
+  double brightest = 0;
+  const int usual = 1 + random->Index(5);
+  for (Group& group : rig->module.groups) {
+    const double light = random->Uniform(0.25, 0.8);
+    auto& chain = group.chains[0];
+    const int most = static_cast<int>(chain.size()) - 1;
+    const int cells = std::clamp(usual + random->Index(3) - 1, 1, most);
+    for (int c = 0; c < cells; ++c) chain[c].photocurrent *= light;
+    const double chains = static_cast<double>(group.chains.size());
+    const double left = (light + chains - 1) / chains;
+    truth->figures.push_back({"light", left});
+    truth->figures.push_back({"share", Share(rig->module)});
+    brightest = std::max(brightest, left);
+  }
+  truth->accepted = {"covered_edge", "substrings", "shading"};
+}
+
+// A broken ribbon: no cell of the group carries current, so that its diode carries all.
+void OpenGroup(Random* random, Rig* rig, Truth* truth) {
+  auto& groups = rig->module.groups;
+  const int count = groups.size() > 2 && random->Chance(0.25) ? 2 : 1;
+  for (int g = 0; g < count; ++g) groups[g].broken = true;
+  truth->accepted = {"open_substring", "bypass_short", "temperature_or_cells"};
+  truth->figures = {{"share", count * Share(rig->module)}};
+}
+
+}  // namespace
+
+const std::vector<Fault>& CellFaults() {
+  static const std::vector<Fault> kFaults = {{"covered_edge", CoveredEdge},
+                                             {"open_group", OpenGroup}};
+  return kFaults;
+}
+
+}  // namespace faults::field

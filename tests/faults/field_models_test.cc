@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "diagnose/synthetic_data.h"
+#include "faults/field_case.h"
+#include "lyrefit/diagnose/fit_effect.h"
+
+// Fits of one effect to exact curves from the simulator of modules, whose cells follow other laws
+// than those of the effects and differ among each other. A figure is a misfit in % of Isc.
+namespace faults::field {
+namespace {
+
+const Fault& FaultCalled(const std::string& kind) {
+  for (const auto* faults : {&DeviceFaults(), &CellFaults(), &SweepFaults()}) {
+    for (const Fault& fault : *faults) {
+      if (kind == fault.name) return fault;
+    }
+  }
+  ADD_FAILURE() << kind;
+  return DeviceFaults().front();
+}
+
+// A curve without noise, departure or rounding.
+struct ExactCurve {
+  lyrefit::SyntheticData data;
+  double isc = 1;
+};
+
+ExactCurve CurveWith(const std::string& kind, int seed) {
+  Random random(seed);
+  const Drawn drawn = DrawModule(Uniformity::kEveryCellItsOwn, &random);
+  Rig rig;
+  rig.module = drawn.module;
+  Truth truth;
+  FaultCalled(kind).apply(&random, &rig, &truth);
+  const bool up_and_down = rig.tracer.up_and_down;
+  rig.tracer = {};
+  rig.tracer.up_and_down = up_and_down;
+  Lit lit(rig.module);
+  const Readings exact = Exact(rig, &lit);
+  lyrefit::IvCurve curve;
+  curve.name = kind;
+  curve.as_is = true;
+  curve.conditions.cells_in_series = rig.module.CellsInSeries();
+  curve.conditions.cell_temperature_K = drawn.make.kelvin;
+  curve.notes.bypass_diodes = static_cast<int>(rig.module.groups.size());
+  curve.voltage_V = exact.voltage;
+  curve.current_A = exact.current;
+  if (up_and_down) {
+    curve.sweep = exact.sweep;
+    curve.time_s = exact.time;
+  }
+  ExactCurve made;
+  made.isc = ShortCircuit(lit.Whole());
+  made.data = lyrefit::OnTheData(lyrefit::SetOf({curve}), 1e-3 * made.isc);
+  return made;
+}
+
+double Misfit(const ExactCurve& curve, const lyrefit::LawFit& fit) {
+  const lyrefit::Readings& readings = curve.data.measurement.readings;
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    sum += std::pow(fit.current[k] - readings.points[k].current, 2);
+  }
+  return 100 * std::sqrt(sum / static_cast<double>(fit.current.size())) * readings.scale.current_A /
+         curve.isc;
+}
+
+// Misfits of one diode and of one more effect, over several modules.
+struct Misfits {
+  std::vector<double> before, after;
+  double Middle() const { return after[after.size() / 2]; }
+};
+
+Misfits MisfitsOf(const std::string& kind, const char* effect, int modules) {
+  Misfits misfits;
+  for (int seed = 0; seed < modules; ++seed) {
+    const ExactCurve curve = CurveWith(kind, seed);
+    const lyrefit::LawFit base = lyrefit::FitBase(curve.data.weighted, lyrefit::Law());
+    lyrefit::Score score;
+    score.effect = lyrefit::FindEffect(effect);
+    const auto& traits = curve.data.measurement.readings.traits;
+    if (score.effect->WhyNot(traits)) continue;
+    const int probes = static_cast<int>(score.effect->probes(traits).size());
+    for (int k = 0; score.effect->starts == nullptr && k < probes; ++k) {
+      score.directions.push_back({k, 1, 1, 1});
+    }
+    const lyrefit::LawFit fit = lyrefit::FitEffect(curve.data.weighted, base, score);
+    misfits.before.push_back(Misfit(curve, base));
+    misfits.after.push_back(fit.usable ? Misfit(curve, fit) : misfits.before.back());
+  }
+  std::sort(misfits.before.begin(), misfits.before.end());
+  std::sort(misfits.after.begin(), misfits.after.end());
+  return misfits;
+}
+
+TEST(FieldModels, FitEverySubstringPartlyCovered) {
+  const Misfits misfits = MisfitsOf("covered_edge", "covered_edge", 12);
+  EXPECT_GT(misfits.before[6], 2);
+  EXPECT_LT(misfits.Middle(), 0.25);
+  EXPECT_LT(misfits.after[10], 0.6);
+}
+
+TEST(FieldModels, FitSubstringsWithoutCurrent) {
+  const Misfits misfits = MisfitsOf("open_group", "open_substring", 12);
+  EXPECT_GT(misfits.before[0], 1);
+  EXPECT_LT(misfits.Middle(), 0.05);
+  EXPECT_LT(misfits.after.back(), 0.1);
+}
+
+}  // namespace
+}  // namespace faults::field

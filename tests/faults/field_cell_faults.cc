@@ -29,6 +29,24 @@ void CoveredEdge(Random* random, Rig* rig, Truth* truth) {
   truth->accepted = {"covered_edge", "substrings", "shading"};
 }
 
+// Leaves or droppings: two to five single cells with a light each, in one or several groups.
+void DimCells(Random* random, Rig* rig, Truth* truth) {
+  auto& groups = rig->module.groups;
+  const int count = 2 + random->Index(4);
+  const bool together = random->Chance(0.4);
+  int group = random->Index(static_cast<int>(groups.size()));
+  for (int k = 0; k < count; ++k) {
+    if (!together) group = random->Index(static_cast<int>(groups.size()));
+    auto& chain = groups[group].chains[0];
+    Cell& cell = chain[static_cast<std::size_t>(k) * chain.size() / count];
+    const double light = random->Uniform(0.15, 0.9);
+    cell.photocurrent *= light;
+    const double chains = static_cast<double>(groups[group].chains.size());
+    truth->figures.push_back({"light", (light + chains - 1) / chains});
+  }
+  truth->accepted = {"dim_cells", "weak_cell", "substrings", "shading"};
+}
+
 // A broken ribbon: no cell of the group carries current, so that its diode carries all.
 void OpenGroup(Random* random, Rig* rig, Truth* truth) {
   auto& groups = rig->module.groups;
@@ -41,8 +59,8 @@ void OpenGroup(Random* random, Rig* rig, Truth* truth) {
 }  // namespace
 
 const std::vector<Fault>& CellFaults() {
-  static const std::vector<Fault> kFaults = {{"covered_edge", CoveredEdge},
-                                             {"open_group", OpenGroup}};
+  static const std::vector<Fault> kFaults = {
+      {"covered_edge", CoveredEdge}, {"open_group", OpenGroup}, {"dim_cells", DimCells}};
   return kFaults;
 }
 

@@ -111,5 +111,12 @@ TEST(FieldModels, FitSubstringsWithoutCurrent) {
   EXPECT_LT(misfits.after.back(), 0.1);
 }
 
+TEST(FieldModels, FitCellsUnderALightEach) {
+  const Misfits misfits = MisfitsOf("dim_cells", "dim_cells", 16);
+  EXPECT_GT(misfits.before[8], 4);
+  EXPECT_LT(misfits.Middle(), 0.4);
+  EXPECT_LT(misfits.after[13], 0.8);
+}
+
 }  // namespace
 }  // namespace faults::field

@@ -19,6 +19,7 @@ namespace lyrefit {
   ENTRY(Substrings)                \
   ENTRY(CoveredEdge)               \
   ENTRY(WeakCell)                  \
+  ENTRY(DimCells)                  \
   ENTRY(Scatter)                   \
   ENTRY(LeakyCell)                 \
   ENTRY(BypassOpen)                \

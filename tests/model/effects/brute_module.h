@@ -138,7 +138,8 @@ class BruteModule {
 // voltage from 0 to beyond open circuit.
 inline void ExpectBruteCurrents(const char* id, const std::vector<double>& p, int cells,
                                 const std::vector<BruteSubstring>& substrings,
-                                void (*set)(BruteModule*) = nullptr, int stride = 3) {
+                                void (*set)(BruteModule*) = nullptr, int stride = 3,
+                                double tolerance = 1e-7) {
   Readings readings = SyntheticReadings(DataKind::kForward, cells);
   std::vector<Reading> some;
   for (std::size_t k = 1; k < readings.points.size(); k += stride)
@@ -150,7 +151,7 @@ inline void ExpectBruteCurrents(const char* id, const std::vector<double>& p, in
   const std::vector<double> current = Currents(at.law, readings, at.p);
   ASSERT_EQ(current.size(), some.size());
   for (std::size_t k = 0; k < some.size(); ++k) {
-    EXPECT_NEAR(current[k], module.Current(some[k].voltage * cells), 1e-7)
+    EXPECT_NEAR(current[k], module.Current(some[k].voltage * cells), tolerance)
         << "at " << some[k].voltage << " V per cell";
   }
 }

@@ -22,6 +22,7 @@ namespace lyrefit {
   ENTRY(DimCells)                  \
   ENTRY(Scatter)                   \
   ENTRY(LeakyCell)                 \
+  ENTRY(GradedShunt)               \
   ENTRY(BypassOpen)                \
   ENTRY(BypassShort)               \
   ENTRY(OpenSubstring)             \

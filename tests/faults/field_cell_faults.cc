@@ -29,6 +29,49 @@ void CoveredEdge(Random* random, Rig* rig, Truth* truth) {
   truth->accepted = {"covered_edge", "substrings", "shading"};
 }
 
+// Leaves or droppings: two to five single cells with a light each, in one or several groups.
+void DimCells(Random* random, Rig* rig, Truth* truth) {
+  auto& groups = rig->module.groups;
+  const int count = 2 + random->Index(4);
+  const bool together = random->Chance(0.4);
+  int group = random->Index(static_cast<int>(groups.size()));
+  for (int k = 0; k < count; ++k) {
+    if (!together) group = random->Index(static_cast<int>(groups.size()));
+    auto& chain = groups[group].chains[0];
+    Cell& cell = chain[static_cast<std::size_t>(k) * chain.size() / count];
+    const double light = random->Uniform(0.15, 0.9);
+    cell.photocurrent *= light;
+    const double chains = static_cast<double>(groups[group].chains.size());
+    truth->figures.push_back({"light", (light + chains - 1) / chains});
+  }
+  truth->accepted = {"dim_cells", "weak_cell", "substrings", "shading"};
+}
+
+// Potential-induced degradation: the cells leak more towards one end of the string, by a power or
+// an exponential of their place, no two alike, and recombine more.
+void GradedShunt(Random* random, Rig* rig, Truth* truth) {
+  const bool power = random->Chance(0.5);
+  const double steep = power ? random->Uniform(1, 4) : random->Uniform(2, 7);
+  const double most = random->LogUniform(0.1, 3);  // of the photocurrent, at 0.6 V
+  const double cells = rig->module.CellsInSeries();
+  double at = 0, sum = 0;
+  for (Group& group : rig->module.groups) {
+    for (std::size_t c = 0; c < group.chains[0].size(); ++c, ++at) {
+      const double place = (at + 0.5) / cells;
+      const double part = power ? std::pow(place, steep) : std::exp(steep * (place - 1));
+      for (auto& chain : group.chains) {
+        Cell& cell = chain[c];
+        const double leak = most * part * std::exp(0.3 * random->Normal());
+        cell.shunt_S += leak * cell.photocurrent / 0.6;
+        cell.recombination_A *= 1 + 3 * part;
+        sum += leak * cell.photocurrent / 0.6;
+      }
+    }
+  }
+  truth->accepted = {"graded_shunt", "leaky_cell"};
+  truth->figures = {{"leak", sum / cells}};
+}
+
 // A broken ribbon: no cell of the group carries current, so that its diode carries all.
 void OpenGroup(Random* random, Rig* rig, Truth* truth) {
   auto& groups = rig->module.groups;
@@ -42,7 +85,9 @@ void OpenGroup(Random* random, Rig* rig, Truth* truth) {
 
 const std::vector<Fault>& CellFaults() {
   static const std::vector<Fault> kFaults = {{"covered_edge", CoveredEdge},
-                                             {"open_group", OpenGroup}};
+                                             {"open_group", OpenGroup},
+                                             {"dim_cells", DimCells},
+                                             {"graded_shunt", GradedShunt}};
   return kFaults;
 }
 

@@ -111,5 +111,19 @@ TEST(FieldModels, FitSubstringsWithoutCurrent) {
   EXPECT_LT(misfits.after.back(), 0.1);
 }
 
+TEST(FieldModels, FitCellsUnderALightEach) {
+  const Misfits misfits = MisfitsOf("dim_cells", "dim_cells", 16);
+  EXPECT_GT(misfits.before[8], 4);
+  EXPECT_LT(misfits.Middle(), 0.4);
+  EXPECT_LT(misfits.after[13], 0.8);
+}
+
+TEST(FieldModels, FitShuntsThatGrowAlongTheString) {
+  const Misfits misfits = MisfitsOf("graded_shunt", "graded_shunt", 15);
+  EXPECT_GT(misfits.before[7], 0.6);
+  EXPECT_LT(misfits.Middle(), 0.15);
+  EXPECT_LT(misfits.after.back(), 0.4);
+}
+
 }  // namespace
 }  // namespace faults::field

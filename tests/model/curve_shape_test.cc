@@ -53,5 +53,23 @@ TEST(CurveShape, OfDarkReadingsThereIsNone) {
   EXPECT_EQ(ShapeOf(readings).At(0.5), 0);
 }
 
+TEST(Stairs, HaveAPlateauBeforeEveryStep) {
+  const Stairs stairs = StairsOf(ShapeOf(Stepped(61)));
+  ASSERT_EQ(stairs.plateaus.size(), 1U);  // no step follows the second
+  EXPECT_DOUBLE_EQ(stairs.plateaus[0].current, 1);
+  ASSERT_EQ(stairs.steps.size(), 1U);
+  EXPECT_NEAR(stairs.steps[0], 0.5, 0.03);
+  Readings knee = Stepped(61);
+  for (Reading& r : knee.points) {
+    if (r.voltage > 0.54) r.current = 10 * (0.6 - r.voltage);
+  }
+  const Stairs two = StairsOf(ShapeOf(knee));
+  ASSERT_EQ(two.plateaus.size(), 2U);
+  EXPECT_DOUBLE_EQ(two.plateaus[1].current, 0.6);
+  EXPECT_EQ(two.steps.size(), 2U);
+}
+
+TEST(Stairs, AreNoneWithoutReadings) { EXPECT_TRUE(StairsOf(CurveShape()).plateaus.empty()); }
+
 }  // namespace
 }  // namespace lyrefit

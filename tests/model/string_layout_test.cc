@@ -92,8 +92,10 @@ TEST(StringLayoutTest, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_THAT(ErrorOf(R"({"reverse": {"law": "soft", "a": 1}, "strings": [[{"cells": [{}]}]]})"),
               HasSubstr("reverse: there is no \"a\", expected law, A_V, m"));
   std::string many = R"({"strings": [[{"cells": [)";
-  for (int k = 0; k < 9; ++k) many += fmt::format("{}{{\"light\": 0.{}}}", k > 0 ? "," : "", k + 1);
-  EXPECT_THAT(ErrorOf(many + "]}]]}"), HasSubstr("at most 8 kinds of cells"));
+  for (int k = 0; k < 13; ++k) {
+    many += fmt::format("{}{{\"light\": 0.{}}}", k > 0 ? "," : "", k + 11);
+  }
+  EXPECT_THAT(ErrorOf(many + "]}]]}"), HasSubstr("at most 12 kinds of cells"));
 }
 
 // Currents of a device with this layout of cells.

@@ -246,7 +246,7 @@ inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Ce
 // `reverse`: reverse voltage per cell, in V.
 template <class S>
 Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
-  const S inverse = 1.0 / (cell.bypass_ideality * cell.thermal_voltage);
+  const S inverse = (1.0 / cell.bypass_ideality) / cell.thermal_voltage;
   const S start = exp(-(cell.bypass * inverse));
   return exp(Cut(Tangent<S>((reverse * cells - cell.bypass) * inverse))) - start;
 }

@@ -45,6 +45,31 @@ double CurveShape::At(double part) const {
   return current[below] + (at - static_cast<double>(below)) * (current[below + 1] - current[below]);
 }
 
+Stairs StairsOf(const CurveShape& shape) {
+  constexpr int kReach = 3;  // steps to either side over which a slope is taken
+  constexpr double kTwice = 1.5, kLeast = 0.004;  // contrast of a step and its plateau
+  Stairs stairs;
+  if (shape.current.empty()) return stairs;
+  const auto slope = [&](int k) { return shape.current[k - kReach] - shape.current[k + kReach]; };
+  int flattest = kReach, steepest = kReach;
+  bool rising = true;  // the slope is about to rise from a plateau to a step
+  for (int k = kReach; k <= kSteps - kReach; ++k) {
+    if (rising && slope(k) < slope(flattest)) flattest = k;
+    if (!rising && slope(k) > slope(steepest)) steepest = k;
+    if (rising && slope(k) > kTwice * std::max(slope(flattest), 0.0) + kLeast) {
+      stairs.plateaus.push_back({static_cast<double>(flattest) / kSteps, shape.current[flattest]});
+      rising = false;
+      steepest = k;
+    } else if (!rising && kTwice * std::max(slope(k), 0.0) + kLeast < slope(steepest)) {
+      stairs.steps.push_back(static_cast<double>(steepest) / kSteps);
+      rising = true;
+      flattest = k;
+    }
+  }
+  if (!rising) stairs.steps.push_back(static_cast<double>(steepest) / kSteps);
+  return stairs;
+}
+
 CurveShape ShapeOf(const Readings& readings) {
   CurveShape shape;
   Points points;

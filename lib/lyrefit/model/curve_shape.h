@@ -17,6 +17,20 @@ struct CurveShape {
   double At(double part) const;
 };
 
+// A place where a curve is flatter than on either side: a light that limits the current.
+struct Plateau {
+  double place = 0;    // in parts of the open-circuit voltage
+  double current = 0;  // there, in current scales
+};
+
+// The plateaus of a curve, from short circuit on, and the places of the steps after each. The last
+// step is the knee before open circuit. A plateau is half as steep as the steps beside it.
+struct Stairs {
+  std::vector<Plateau> plateaus;
+  std::vector<double> steps;  // in parts of the open-circuit voltage
+};
+Stairs StairsOf(const CurveShape& shape);
+
 // Curve of all lit readings, smoothed by a running median of five, which keeps steps sharp. Empty
 // for fewer than two lit readings.
 CurveShape ShapeOf(const Readings& readings);

@@ -76,7 +76,7 @@ enum class ReverseLaw {
 // bypass diode or none. The cell groups of one substring carry the same current. In half-cut
 // modules a substring is two parallel chains of half the current each: its groups form one chain,
 // and the one group with `beside` set forms the other.
-constexpr int kMostGroups = 8;
+constexpr int kMostGroups = 12;
 constexpr double kUsualBypassIdeality = 1.2;
 template <class S>
 struct CellGroup {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/constants.h"
@@ -43,11 +44,19 @@ class BruteModule {
   }
 
  private:
+  // Ridders' method, which follows exponentials well.
   template <class F>
   static double FallingRoot(const F& f, double low, double high) {
-    for (int k = 0; k < 64; ++k) {
-      const double middle = 0.5 * (low + high);
-      (f(middle) > 0 ? low : high) = middle;
+    double above = f(low), below = f(high);
+    for (int k = 0; k < 80 && high - low > 1e-13 * (1 + std::fabs(low)); ++k) {
+      const double middle = 0.5 * (low + high), value = f(middle);
+      const double x = middle + (middle - low) * value / std::sqrt(value * value - above * below);
+      const double there = f(x);
+      if (value == 0 || there == 0) return value == 0 ? middle : x;
+      for (const auto& [at, found] : {std::pair(middle, value), std::pair(x, there)}) {
+        if (found > 0 && at > low) low = at, above = found;
+        if (found < 0 && at < high) high = at, below = found;
+      }
     }
     return 0.5 * (low + high);
   }
@@ -125,14 +134,16 @@ class BruteModule {
   std::vector<BruteSubstring> substrings_;
 };
 
-// Compares the currents of a law with this effect with those of the module, at some voltages from 0
-// to beyond open circuit.
+// Compares the currents of a law with this effect with those of the module, at every `stride`-th
+// voltage from 0 to beyond open circuit.
 inline void ExpectBruteCurrents(const char* id, const std::vector<double>& p, int cells,
                                 const std::vector<BruteSubstring>& substrings,
-                                void (*set)(BruteModule*) = nullptr, double tolerance = 1e-7) {
+                                void (*set)(BruteModule*) = nullptr, int stride = 3,
+                                double tolerance = 1e-7) {
   Readings readings = SyntheticReadings(DataKind::kForward, cells);
   std::vector<Reading> some;
-  for (std::size_t k = 1; k < readings.points.size(); k += 3) some.push_back(readings.points[k]);
+  for (std::size_t k = 1; k < readings.points.size(); k += stride)
+    some.push_back(readings.points[k]);
   readings.points = some;
   BruteModule module(readings, substrings);
   if (set != nullptr) set(&module);

@@ -19,8 +19,10 @@ namespace lyrefit {
   ENTRY(Substrings)                \
   ENTRY(CoveredEdge)               \
   ENTRY(WeakCell)                  \
+  ENTRY(DimCells)                  \
   ENTRY(Scatter)                   \
   ENTRY(LeakyCell)                 \
+  ENTRY(GradedShunt)               \
   ENTRY(BypassOpen)                \
   ENTRY(BypassShort)               \
   ENTRY(OpenSubstring)             \

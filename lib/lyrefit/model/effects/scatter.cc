@@ -9,6 +9,9 @@
 namespace lyrefit {
 namespace {
 
+// Cell groups of the effect: more take longer and change little.
+constexpr int kScatterGroups = 8;
+
 enum {
   kScatterWidth,
   kScatterSoft,
@@ -24,7 +27,7 @@ enum {
 // and few far below it.
 struct Dimmest {
   int count = 0;
-  std::array<double, kMostGroups> normal{}, lopsided{};
+  std::array<double, kScatterGroups> normal{}, lopsided{};
   double normal_rest = 0, lopsided_rest = 0;
 };
 Dimmest DimmestOf(int cells, int most) {
@@ -45,9 +48,9 @@ Dimmest DimmestOf(int cells, int most) {
 template <class S>
 void SetScatter(const S* p, Cell<S>* cell) {
   const int cells = static_cast<int>(std::lround(cell->cells));
-  const int substrings =
-      std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1, kMostGroups / 2);
-  const Dimmest dimmest = DimmestOf(cells, kMostGroups - substrings);
+  const int substrings = std::clamp(static_cast<int>(std::lround(cells / cell->substring_cells)), 1,
+                                    kScatterGroups / 2);
+  const Dimmest dimmest = DimmestOf(cells, kScatterGroups - substrings);
   const auto light = [&](double normal, double lopsided, const S& beyond) {
     return 1.0 + p[kScatterWidth] * (normal + p[kScatterLopsided] * (lopsided - normal) + beyond);
   };

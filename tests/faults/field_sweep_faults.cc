@@ -83,7 +83,7 @@ void Hysteresis(Random* random, Rig* rig, Truth* truth) {
   const int parts = random->Index(3);
   if (parts != 0) rig->charge.constant = random->LogUniform(1e-3, 2e-2);
   if (parts != 1) rig->charge.diffusion = random->LogUniform(5e-4, 8e-3);
-  truth->accepted = {"capacitance", "timing_skew"};
+  truth->accepted = {"hysteresis", "capacitance", "timing_skew"};
 }
 
 // One sweep cannot distinguish a range switch from a step of the light: both names are accepted.

@@ -52,26 +52,58 @@ void AddSeparation(const Effect& effect, std::vector<std::string>* separate_by) 
   }
 }
 
-// What else may stand in the place of a cause, with its probability.
-void AddAlternatives(const ChosenCause& chosen, Cause* cause) {
+void AddProbability(const std::string& id, const std::string& title, double probability,
+                    std::vector<Alternative>* list) {
+  const auto at = std::find_if(list->begin(), list->end(),
+                               [&](const Alternative& other) { return other.id == id; });
+  if (at == list->end()) {
+    list->push_back({id, title, probability});
+  } else {
+    at->probability += probability;
+  }
+}
+
+void SortAndCut(std::vector<Alternative>* list) {
   constexpr double kLeast = 0.005;
-  for (const FittedCandidate& other : chosen.others.candidates) {
-    if (other.score.effect == chosen.effect || other.probability < kLeast) continue;
-    cause->alternatives.push_back(
-        {other.score.effect->id, other.score.effect->title, other.probability});
-  }
+  list->erase(std::remove_if(list->begin(), list->end(),
+                             [](const Alternative& a) { return a.probability < kLeast; }),
+              list->end());
+  std::stable_sort(list->begin(), list->end(), [](const Alternative& a, const Alternative& b) {
+    return a.probability > b.probability;
+  });
+}
+
+// Probabilities of a cause: of the mechanisms of its finding, and of what else may stand in its
+// place.
+void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
   const FittedCandidate& none = chosen.others.none;
+  if (chosen.others.candidates.empty()) return;
+  cause->probability = 0;
+  for (const FittedCandidate& other : chosen.others.candidates) {
+    const Effect& effect = *other.score.effect;
+    if (effect.Finding() == cause->id) {
+      cause->probability += other.probability;
+      AddProbability(effect.id, effect.title, other.probability, &cause->mechanisms);
+    } else {
+      AddProbability(effect.Finding(), FindEffect(effect.Finding()) != nullptr
+                                           ? FindEffect(effect.Finding())->title
+                                           : effect.title,
+                     other.probability, &cause->alternatives);
+    }
+  }
   const double unknown = none.probability * IncompleteProbability(none.evidence);
-  if (none.probability - unknown >= kLeast) {
-    cause->alternatives.push_back({"none", "no cause", none.probability - unknown});
-  }
-  if (unknown >= kLeast) {
-    const Effect& effect = *FindEffect("unknown_structure");
-    cause->alternatives.push_back({effect.id, effect.title, unknown});
-  }
-  std::stable_sort(
-      cause->alternatives.begin(), cause->alternatives.end(),
-      [](const Alternative& a, const Alternative& b) { return a.probability > b.probability; });
+  const Effect& structure = *FindEffect("unknown_structure");
+  AddProbability("none", "no cause", none.probability - unknown, &cause->alternatives);
+  AddProbability(structure.id, structure.title, unknown, &cause->alternatives);
+  SortAndCut(&cause->alternatives);
+  SortAndCut(&cause->mechanisms);
+}
+
+// Adds an id that the data cannot separate from the cause, once.
+void AddEquivalent(const std::string& id, Cause* cause) {
+  std::vector<std::string>& ids = cause->equivalents;
+  if (id == cause->id || std::find(ids.begin(), ids.end(), id) != ids.end()) return;
+  ids.push_back(id);
 }
 
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
@@ -105,7 +137,8 @@ std::vector<double> AllowedErrors(const WeightedData& weighted, const LawFit& fi
 
 Cause MakeCause(const Effect& effect, const char* evidence, double probability) {
   Cause cause;
-  cause.id = effect.id;
+  cause.id = effect.Finding();
+  cause.effect = effect.id;
   cause.title = effect.title;
   cause.sentence = effect.sentence;
   cause.acts = effect.acts;
@@ -255,7 +288,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     const Effect& effect = *fitted.score.effect;
     if (!causes.empty()) {
       const double best = selection.below.candidates.front().probability;
-      if (fitted.probability >= kNotable * best) causes.front().equivalents.push_back(effect.id);
+      if (fitted.probability >= kNotable * best) AddEquivalent(effect.Finding(), &causes.front());
       continue;
     }
     Cause cause = MakeCause(effect, "fit", fitted.probability);
@@ -279,9 +312,11 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     const bool by_values = chosen.in_values;
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.probability);
     DescribeSize(weighted, selection.extended, static_cast<int>(c), chosen.others.none.fit, &cause);
-    AddAlternatives(chosen, &cause);
+    AddProbabilities(chosen, &cause);
+    if (!by_values) AddEquivalent(effect.id, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
-      cause.equivalents.push_back(fitted->score.effect->id);
+      const bool same = fitted->score.effect->Finding() == cause.id;
+      AddEquivalent(same ? fitted->score.effect->id : fitted->score.effect->Finding(), &cause);
       AddSeparation(effect, &cause.separate_by);
       AddSeparation(*fitted->score.effect, &cause.separate_by);
     }

@@ -113,7 +113,8 @@ struct Alternative {
 
 // An effect that explains a deviation of the data from the base model.
 struct Cause {
-  std::string id;
+  std::string id;      // of the finding, which may have several mechanisms
+  std::string effect;  // id of the effect that is fitted: its most probable mechanism
   std::string title;
   std::string sentence;               // for a technician, with size
   std::vector<std::string> in_words;  // meaning here: light in %, heat of a hot cell in W
@@ -121,12 +122,13 @@ struct Cause {
   Sized power_effect;                 // relative error of Pmax of a model without the effect
   Sized recoverable_power_W;          // additional Pmax of the device without the effect
   bool at_least = false;              // that power is a lower limit: only low_95 is known
-  double probability = kUnknown;      // that this cause, and no alternative, stands in its place
+  double probability = kUnknown;      // of the finding, against the alternatives
   std::vector<Alternative> alternatives;  // above 0.5 %, most probable first
+  std::vector<Alternative> mechanisms;    // effects of the same finding, likewise; empty: only one
   std::string group;                      // "device", "wiring", "sweep", "instrument", "unknown"
   std::string action;                     // the next thing to do about it
   std::string fact_sheet;                 // of IEA-PVPS T13-30:2025; may be empty
-  std::vector<std::string> equivalents;   // ids of effects that these data cannot separate from it
+  std::vector<std::string> equivalents;   // ids that these data cannot separate from it, with its mechanisms
   std::vector<std::string> separate_by;   // measurements that would separate them
   std::vector<CauseParameter> strength;   // its parameters with intervals
   std::string evidence;                   // "fit" or "values"

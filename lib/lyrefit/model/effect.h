@@ -322,6 +322,7 @@ struct ShapeStart {
 struct Effect {
   const char* id = "";     // "nonohmic_shunt"
   const char* title = "";  // "non-ohmic shunt"
+  const char* finding = "";  // id under which a diagnosis reports it; empty: its own
   Where where = Where::kDevice;
   const char* equation = "";                // as printed in reports
   const char* reference = "";               // source: DOI or clause
@@ -368,6 +369,8 @@ struct Effect {
   bool momentary = false;  // short compared with the sweep: it can imitate any outlier
   int diode = 0;           // number of the diode it adds; a base with that many diodes includes it
 
+  // Id of what a diagnosis reports.
+  std::string Finding() const { return *finding != '\0' ? finding : id; }
   // Number of parameters.
   int size() const { return static_cast<int>(parameters.size()); }
   // Reason why these data cannot show the effect; empty if they can.

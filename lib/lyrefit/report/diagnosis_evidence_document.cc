@@ -66,7 +66,7 @@ std::string GridText(const Evidence& evidence) {
 bool IsCause(const Diagnosis& diagnosis, const std::string& id) {
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
   return std::any_of(causes.begin(), causes.end(),
-                     [&id](const Cause& cause) { return cause.id == id; });
+                     [&id](const Cause& cause) { return cause.effect == id; });
 }
 
 std::vector<std::string> TrialRow(const Diagnosis& diagnosis, const Trial& trial) {

@@ -70,6 +70,7 @@ void to_json(Json& j, const Trial& trial) {
 
 void to_json(Json& j, const Cause& cause) {
   j = {{"id", cause.id},
+       {"effect", cause.effect},
        {"title", cause.title},
        {"sentence", cause.sentence},
        {"in_words", cause.in_words},
@@ -79,12 +80,13 @@ void to_json(Json& j, const Cause& cause) {
        {"at_least", cause.at_least},
        {"probability", cause.probability},
        {"alternatives", cause.alternatives},
+       {"mechanisms", cause.mechanisms},
        {"group", cause.group},
        {"action", cause.action},
        {"fact_sheet", cause.fact_sheet},
        {"equivalents", cause.equivalents},
        {"separate_by", cause.separate_by},
-       {"parameters", CauseParametersJson(cause.id, cause.strength)},
+       {"parameters", CauseParametersJson(cause.effect, cause.strength)},
        {"evidence", cause.evidence},
        {"acts", cause.acts},
        {"points", cause.points}};

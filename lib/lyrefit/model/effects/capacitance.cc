@@ -7,6 +7,7 @@ Effect Capacitance() {
   Effect e;
   e.id = "capacitance";
   e.title = "capacitive hysteresis";
+  e.finding = "hysteresis";
   e.where = Where::kInstrument;
   e.equation = "I = ... - (C0 + tau gd(Vj)) dVj/dt";
   e.reference = "Friesen and Ossenbrink 1997, Solar Energy Materials and Solar Cells 48, 77";

@@ -139,6 +139,7 @@ Effect DimCells() {
   Effect e;
   e.id = "dim_cells";
   e.title = "cells under a light each";
+  e.finding = "weak_cell";
   e.where = Where::kDevice;
   e.equation =
       "single cells of one or more substrings under light (1 - d_k); in reverse "

@@ -7,6 +7,7 @@ Effect TimingSkew() {
   Effect e;
   e.id = "timing_skew";
   e.title = "voltage and current not read together";
+  e.finding = "hysteresis";
   e.where = Where::kInstrument;
   e.equation = "V -> V - ts dV/dt";
   e.reference = "IEC 60904-1:2020 (simultaneous readings)";

@@ -121,10 +121,10 @@ TEST_F(BatchCommand, SumsUpAndKnowsItsExitCodes) {
 TEST_F(BatchCommand, DiagnosesWithItsOwnFlags) {
   const std::string few = folder_.Write("few.jsonl", ManyRows(3));
   const AppResult done =
-      RunApp("batch '" + few + "' --task diagnose --draws 200 --out '" + folder_.Path("out") + "'");
+      RunApp("batch '" + few + "' --task diagnose --out '" + folder_.Path("out") + "'");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(FileText(folder_.Path("out") + "/results.csv"), HasSubstr(",cause,cause_title,"));
-  EXPECT_EQ(RunApp("batch '" + few + "' --task diagnose --force --draws 200 --quiet --out '" +
+  EXPECT_EQ(RunApp("batch '" + few + "' --task diagnose --force --quiet --out '" +
                    folder_.Path("out") + "'")
                 .exit_code,
             0);

@@ -21,7 +21,7 @@ using ::testing::StartsWith;
 
 const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
 // Options of a short run, for tests in which the result does not matter.
-const std::string kQuick = "--effects nonohmic_shunt --draws 200 --no-held-out ";
+const std::string kQuick = "--effects nonohmic_shunt --no-held-out ";
 
 TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
   ExpectRefusals("", {
@@ -90,7 +90,7 @@ TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
   SKIP_IF_SANITIZED();
   const std::string laboratory =
       "diagnose '" + DataFolder("pwp201") +
-      "' --noise white --floor-current 0 --floor-power 0 --draws 200 --no-held-out "
+      "' --noise white --floor-current 0 --floor-power 0 --no-held-out "
       "--effects shading,mismatch,transient ";
   const AppResult result = RunApp(laboratory + "--plan");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -161,7 +161,7 @@ TEST(DiagnoseVerb, ExtendsTheModelByItsCauses) {
   const TempFolder folder;
   std::ofstream(folder.Path("step.csv")) << CurveWithAStep();
   const std::string verb = "diagnose '" + folder.Path("step.csv") +
-                           "' --temperature-C 25 --effects irr_step --draws 200 --no-held-out ";
+                           "' --temperature-C 25 --effects irr_step --no-held-out ";
   const json fit = json::parse(RunApp(verb + "--extend -").out, nullptr, false);
   ASSERT_TRUE(fit.is_object());
   const std::string parameters = fit["parameters"].dump();

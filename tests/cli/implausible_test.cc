@@ -27,7 +27,7 @@ constexpr const char* kVerbs[] = {"fit", "diagnose", "certify", "compare"};
 // Arguments of a short run of each verb.
 std::string Quick(const std::string& verb) {
   if (verb == "fit") return "fit --intervals none ";
-  if (verb == "diagnose") return "diagnose --no-held-out --draws 200 ";
+  if (verb == "diagnose") return "diagnose --no-held-out ";
   if (verb == "certify") return "certify --models sd --effort 200 ";
   return "compare --models sd --algorithms mlo --runs 2 ";
 }

@@ -69,7 +69,6 @@ TEST(AverageTest, ALongCleanCurveIsCleanAndItsNoiseThatOfItsReadings) {
 
 TEST(AverageTest, HeldOutErrorsAreThoseOfReadings) {
   DiagnoseOptions options;
-  options.draws = 400;
   options.folds = 3;
   const auto d = Diagnose(SyntheticCurve(Long()), options);
   ASSERT_TRUE(d.has_value());

@@ -174,7 +174,6 @@ TEST(ChooseBaseTest, AShuntThatMerelyGrowsWithLightIsFound) {
     }
   }
   DiagnoseOptions options;
-  options.draws = 400;
   options.held_out = false;
   const auto d = Diagnose(set, options);
   ASSERT_TRUE(d.has_value());

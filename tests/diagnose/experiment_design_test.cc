@@ -8,7 +8,6 @@
 #include <string>
 
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/diagnose/equivalents.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {
@@ -16,25 +15,25 @@ namespace {
 
 using ::testing::IsEmpty;
 
-FittedCandidate FittedCandidateOf(const char* id, double statistic) {
+FittedCandidate FittedCandidateOf(const char* id, double probability) {
   FittedCandidate fitted;
   fitted.score.effect = FindEffect(id);
-  fitted.score.charge = 2;
-  fitted.statistic = statistic;
+  fitted.probability = probability;
   return fitted;
 }
 
-TEST(EquivalentsTest, AreThoseWithinTheWidthOfTheCause) {
+TEST(EquivalentsTest, HaveATwentiethOfTheProbability) {
   ChosenCause cause;
   cause.effect = FindEffect("drift");
-  cause.fitted_candidates = {FittedCandidateOf("shading", 52), FittedCandidateOf("drift", 50),
-                             FittedCandidateOf("clip", 45), FittedCandidateOf("transient", 43)};
+  cause.probability = 0.4;
+  cause.others.candidates = {FittedCandidateOf("shading", 0.5), FittedCandidateOf("drift", 0.4),
+                             FittedCandidateOf("clip", 0.05), FittedCandidateOf("transient", 0.01)};
   const auto equivalents = EquivalentsOf(cause);
   ASSERT_EQ(equivalents.size(), 2U);
   EXPECT_STREQ(equivalents[0]->score.effect->id, "shading");
   EXPECT_STREQ(equivalents[1]->score.effect->id, "clip");
-  EXPECT_EQ(OwnFittedCandidate(cause), &cause.fitted_candidates[1]);
-  cause.in_values = true;
+  EXPECT_EQ(OwnCandidate(cause), &cause.others.candidates[1]);
+  cause.others = {};
   EXPECT_THAT(EquivalentsOf(cause), IsEmpty());
 }
 
@@ -43,7 +42,6 @@ DiagnoseOptions QuickWith(const std::vector<std::string>& effects) {
   options.noise = ErrorSpec();
   options.floor_current = options.floor_power = 0;
   options.held_out = false;
-  options.draws = 300;
   options.effects = effects;
   options.plan = true;
   return options;

@@ -17,7 +17,8 @@ TEST(FitEffectTest, NeverDoesWorseThanTheLawItExtends) {
   const LawFit base = FitBase(made.weighted, Law());
   const auto candidates = Showable(made.measurement.readings.traits);
   int fitted = 0;
-  for (const Score& score : ScoreEffects(made.weighted, base, candidates, 200, 1)) {
+  Signatures signatures;
+  for (const Score& score : ScoreEffects(made.weighted, base, candidates, &signatures)) {
     if (!score.testable || score.effect->probes == nullptr) continue;
     // Effects with shares, limits or a reverse law that is tried out have no parameter value
     // without an effect. Readings in reverse also respond to a bypass diode where no cell is weak.
@@ -45,8 +46,9 @@ TEST(FitEffectTest, FindsADipAndTakesItOutAgain) {
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
   const SyntheticData made = OnTheData(curve);
   const LawFit base = FitBase(made.weighted, Law());
+  Signatures signatures;
   const std::vector<Score> scores =
-      ScoreEffects(made.weighted, base, {FindEffect("transient")}, 200, 1);
+      ScoreEffects(made.weighted, base, {FindEffect("transient")}, &signatures);
   const LawFit fit = FitEffect(made.weighted, base, scores.front());
   ASSERT_TRUE(fit.usable);
   EXPECT_LT(fit.sum, 0.5 * base.sum);
@@ -62,8 +64,9 @@ TEST(FitEffectTest, GoesOnFromWhereItEnded) {
   for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
   SyntheticData made = OnTheData(curve);
   const LawFit base = FitBase(made.weighted, Law());
+  Signatures signatures;
   const std::vector<Score> scores =
-      ScoreEffects(made.weighted, base, {FindEffect("transient")}, 200, 1);
+      ScoreEffects(made.weighted, base, {FindEffect("transient")}, &signatures);
   const LawFit met = FitEffect(made.weighted, base, scores.front());
   for (std::size_t k = 0; k < made.weighted.used.size(); k += 10) made.weighted.used[k] = 0;
   const LawFit fit = FitOnwards(made.weighted, met);

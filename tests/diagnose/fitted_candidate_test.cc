@@ -3,31 +3,89 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lyrefit/model/effects/catalogue.h"
+#include <cmath>
+
+#include "synthetic_data.h"
 
 namespace lyrefit {
 namespace {
 
 using ::testing::Contains;
-using ::testing::ElementsAre;
 using ::testing::Not;
 
-FittedCandidate Of(double statistic, double charge, double freedom, int place) {
-  FittedCandidate fitted;
-  fitted.statistic = statistic;
-  fitted.score.charge = charge;
-  fitted.score.outlier = place;
-  fitted.freedom = freedom;
-  return fitted;
+constexpr double kField = 1.2e-3;
+
+// The law of `base` with one more effect, fitted from a probe.
+FittedCandidate With(const SyntheticData& made, const LawFit& base, const char* id) {
+  FittedCandidate candidate;
+  candidate.score.effect = FindEffect(id);
+  Law law = base.law;
+  law.effects = {candidate.score.effect};
+  std::vector<double> start = base.p;
+  const Probe probe = candidate.score.effect->probes(made.measurement.readings.traits)[10];
+  start.insert(start.end(), probe.begin(), probe.end());
+  candidate.fit = FitLaw(made.weighted, law, start);
+  return candidate;
 }
 
-TEST(FittedCandidateTest, WhatIsPaidCountsAndEqualsKeepTheirOrder) {
-  std::vector<FittedCandidate> fitted_candidates = {Of(10, 4, 0, 0), Of(30, 2, 25, 1),
-                                                    Of(9, 3, 0, 2), Of(8, 0, 0, 3)};
-  PutBestFirst(&fitted_candidates);
-  std::vector<int> order;
-  for (const FittedCandidate& fitted : fitted_candidates) order.push_back(fitted.score.outlier);
-  EXPECT_THAT(order, ElementsAre(3, 0, 2, 1));
+Hypotheses Judged(const IvCurve& curve, const JudgeOptions& options) {
+  const SyntheticData made = OnTheData(curve);
+  Hypotheses hypotheses;
+  hypotheses.none.fit = FitBase(made.weighted, Law());
+  hypotheses.candidates = {With(made, hypotheses.none.fit, "transient"),
+                           With(made, hypotheses.none.fit, "irr_step")};
+  Judge(made.weighted, hypotheses.none.fit, options, &hypotheses);
+  return hypotheses;
+}
+
+double Sum(const Hypotheses& hypotheses) {
+  double sum = hypotheses.none.probability;
+  for (const FittedCandidate& candidate : hypotheses.candidates) sum += candidate.probability;
+  return sum;
+}
+
+IvCurve WithStep(double step_A) {
+  IvCurve curve = SyntheticCurve({});
+  const double place = SyntheticData(OnTheData(curve)).measurement.readings.traits.step_times[10];
+  const SyntheticData made = OnTheData(curve);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (made.measurement.readings.points[k].x > place) curve.current_A[k] += step_A;
+  }
+  return curve;
+}
+
+TEST(JudgeTest, ProbabilitiesAddUpToOneAndFollowTheData) {
+  const JudgeOptions laboratory;
+  const Hypotheses nothing = Judged(WithStep(0), laboratory);
+  EXPECT_NEAR(Sum(nothing), 1, 1e-12);
+  EXPECT_GT(nothing.none.probability, 0.9);
+  const Hypotheses step = Judged(WithStep(0.08), laboratory);
+  EXPECT_NEAR(Sum(step), 1, 1e-12);
+  EXPECT_STREQ(step.candidates.front().score.effect->id, "irr_step");
+  EXPECT_GT(step.candidates.front().probability, 0.99);
+}
+
+// What modules without a fault do as well does not count.
+TEST(JudgeTest, ADepartureOfTheDeviceMakesSmallCausesLessProbable) {
+  JudgeOptions field;
+  field.departure = kField;
+  field.departure_width = 0.35;
+  const double step_A = 0.02;
+  EXPECT_GT(Judged(WithStep(step_A), field).none.probability,
+            Judged(WithStep(step_A), {}).none.probability);
+}
+
+TEST(JudgeTest, PriorsWeighInOdds) {
+  JudgeOptions rare, usual;
+  rare.priors.given = {{"irr_step", 1e-3}};
+  usual.priors.given = {{"irr_step", 0.5}};
+  const auto odds = [](const JudgeOptions& options) {
+    const Hypotheses judged = Judged(WithStep(0.02), options);
+    const auto& candidates = judged.candidates;
+    const std::size_t step = candidates[0].score.effect == FindEffect("irr_step") ? 0 : 1;
+    return std::log(candidates[step].probability / judged.none.probability);
+  };
+  EXPECT_NEAR(odds(usual) - odds(rare), std::log(0.999 / 0.001), 1e-6);
 }
 
 TEST(FittedCandidateTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {

@@ -75,7 +75,6 @@ TEST(MeasureHeldOutTest, SeesTheGainOfWhatIsThere) {
   const SyntheticData made = OnTheData(curve);
   const Measurement& measurement = made.measurement;
   SelectOptions options;
-  options.draws = 300;
   options.candidates = {FindEffect("irr_step"), FindEffect("outliers")};
   const std::vector<char> used(measurement.readings.points.size(), 1);
   const Selection selection = SelectCauses(measurement, used, 0, options);

@@ -20,7 +20,6 @@ using ::testing::HasSubstr;
 Diagnosis DiagnoseOutlier(CurveSet set) {
   for (IvCurve& curve : set.curves) curve.as_is = true;
   DiagnoseOptions options;
-  options.draws = 200;
   options.folds = 3;
   auto diagnosis = Diagnose(set, options);
   EXPECT_TRUE(diagnosis.has_value()) << diagnosis.error().message;
@@ -30,8 +29,8 @@ Diagnosis DiagnoseOutlier(CurveSet set) {
     EXPECT_TRUE(std::isfinite(point.before_A) && std::isfinite(point.after_A));
   }
   for (const Cause& cause : diagnosis->verdict.causes) {
-    EXPECT_GE(cause.corrected_p, 0);
-    EXPECT_LE(cause.corrected_p, 1);
+    EXPECT_GE(cause.probability, 0);
+    EXPECT_LE(cause.probability, 1);
     for (const CauseParameter& parameter : cause.strength) {
       EXPECT_TRUE(std::isfinite(parameter.value)) << cause.id << " " << parameter.symbol;
     }

@@ -111,12 +111,23 @@ std::vector<PlanCandidate> FitPair(const Pair& pair, const Synthetic& made) {
   const LawFit base =
       FitBase(made.weighted, StartingLaw(*made.weighted.readings, Model::kSingleDiode));
   std::vector<PlanCandidate> candidates;
-  for (const Score& score : ScoreEffects(
-           made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)}, 300, 1)) {
+  Signatures signatures;
+  Hypotheses pairs;
+  pairs.none.fit = base;
+  for (const Score& score :
+       ScoreEffects(made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)},
+                    &signatures)) {
     if (!score.testable) return {};
-    const LawFit fit = FitEffect(made.weighted, base, score);
+    LawFit fit = FitEffect(made.weighted, base, score);
     if (!fit.usable) return {};
-    candidates.push_back(MakeCandidate(*made.weighted.readings, fit, score.charge));
+    pairs.candidates.push_back({score, std::move(fit)});
+  }
+  JudgeOptions alike;
+  alike.priors.alike = true;
+  Judge(made.weighted, base, alike, &pairs);
+  for (const FittedCandidate& candidate : pairs.candidates) {
+    candidates.push_back(MakeCandidate(*made.weighted.readings, candidate.fit,
+                                       -2 * candidate.log_posterior - candidate.fit.sum));
   }
   if (candidates.front().effect != FindEffect(pair.truth)) std::swap(candidates[0], candidates[1]);
   const double apart =

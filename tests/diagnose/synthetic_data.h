@@ -6,7 +6,7 @@
 
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "lyrefit/diagnose/score.h"
+#include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/weighted_data.h"
 #include "lyrefit/model/effects/catalogue.h"
 #include "model/synthetic_curve.h"
@@ -34,15 +34,6 @@ inline SyntheticData OnTheData(const IvCurve& curve) { return OnTheData(SetOf({c
 // Effects of the catalogue that data with these traits can show.
 inline std::vector<const Effect*> Showable(const DataTraits& traits) {
   return Candidates(Catalogue(), traits, {});
-}
-
-// Scores of the effects, with p-values from linear null_statistics of the same law.
-inline std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
-                                       const std::vector<const Effect*>& effects, int draws,
-                                       std::uint64_t seed) {
-  Signatures signatures;
-  const Prepared prepared = PrepareAll(weighted, fit, effects, &signatures);
-  return JudgeScores(prepared, CalibrateScores(weighted, prepared, nullptr, draws, seed));
 }
 
 }  // namespace lyrefit

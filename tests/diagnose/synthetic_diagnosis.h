@@ -10,10 +10,8 @@
 
 namespace lyrefit {
 
-// Options with few null statistics draws and without held-out fits, for tests in which neither
-// matters.
+// Options without held-out fits, for tests in which they do not matter.
 inline DiagnoseOptions Quick(DiagnoseOptions options = {}) {
-  options.draws = 400;
   options.held_out = false;
   return options;
 }

@@ -200,7 +200,7 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions
 // Departure of a device from a law with the right causes: that of modules without a fault, or as
 // stated.
 JudgeOptions JudgeOptionsOf(const Measurement& measurement, const CausePriors& priors) {
-  constexpr double kUsualWidth = 0.6;
+  constexpr double kUsualWidth = 0.35;
   JudgeOptions judge;
   judge.priors = priors;
   if (!measurement.has_path()) return judge;

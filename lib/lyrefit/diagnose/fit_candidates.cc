@@ -49,6 +49,19 @@ LawFit FitCandidate(const SelectionState& now, const Score& score) {
   return fit;
 }
 
+// An elaborate variant of another effect with cell groups.
+bool IsElaborate(const Effect& effect) { return effect.groups && *effect.finding != '\0'; }
+
+// Whether a candidate describes the readings to within the floor, so that no elaborate one is
+// needed.
+bool IsDescribed(const WeightedData& weighted, const std::vector<FittedCandidate>& candidates,
+                 double floor) {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const FittedCandidate& candidate) {
+    return candidate.fit.law.effects.back()->where == Where::kDevice &&
+           MissedBy(weighted, candidate.fit) < floor;
+  });
+}
+
 // Statistic below which no fit is tried: a cause that is more probable than none gains more.
 constexpr double kLeastStatistic = 4;
 // Effects whose linear score is below this part of the best one cannot become the best by a fit.
@@ -88,16 +101,21 @@ Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& sc
                         ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) ||
                          LeadsAstray(now.weighted, now.fit));
   ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
-  for (const Score& score : scores) {
-    ReporterOf(now).Count();
-    if (now.weighted.progress.Stopped()) break;
-    if (score.effect->probes == nullptr) continue;
-    const bool fits = (by_shape && score.effect->starts != nullptr) ||
-                      (score.testable && score.statistic >= hopeless);
-    if (!fits) continue;
-    LawFit fit = FitCandidate(now, score);
-    if (fit.usable) hypotheses.candidates.push_back({score, std::move(fit)});
-  }
+  const auto try_effects = [&](bool elaborate) {
+    for (const Score& score : scores) {
+      if (IsElaborate(*score.effect) != elaborate) continue;
+      ReporterOf(now).Count();
+      if (now.weighted.progress.Stopped()) break;
+      if (score.effect->probes == nullptr) continue;
+      const bool fits = (by_shape && score.effect->starts != nullptr) ||
+                        (score.testable && score.statistic >= hopeless);
+      if (!fits) continue;
+      LawFit fit = FitCandidate(now, score);
+      if (fit.usable) hypotheses.candidates.push_back({score, std::move(fit)});
+    }
+  };
+  try_effects(false);
+  if (!IsDescribed(now.weighted, hypotheses.candidates, floor)) try_effects(true);
   Judge(now.weighted, now.base, now.options.judge, &hypotheses);
   return hypotheses;
 }
@@ -137,9 +155,12 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
              open.end());
   const std::vector<Score> scores = ScoreEffects(weighted, without, open, &selection->signatures);
   const double hopeless = HopelessStatistic(scores, 0);
+  const bool described = !IsElaborate(*own) && options.floors.current > 0 &&
+                         MissedBy(weighted, selection->extended) < options.floors.current;
   for (const Score& score : scores) {
     options.progress.Count();
     if (options.progress.Stopped()) break;
+    if (described && IsElaborate(*score.effect)) continue;
     const bool by_shape = score.effect->starts != nullptr && own->groups &&
                           weighted.readings->traits.single;
     const bool fits = by_shape || (score.testable && score.statistic >= hopeless);

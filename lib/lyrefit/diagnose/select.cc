@@ -140,6 +140,21 @@ void DropTheUnlikely(SelectionState* now) {
   SettleNoise(now);
 }
 
+// Leaves out wrong readings, one by one, without new fits of the candidates: causes gain little when
+// one reading is left out.
+bool LeaveOutWrong(std::vector<Score> scores, const Hypotheses& step, SelectionState* now) {
+  const Score* single = FindScore(scores, FoundBy::kSingleReading);
+  if (single == nullptr) return false;
+  const Effect* effect = single->effect;
+  bool any = false;
+  while (LeaveOutFurthest(scores, step, &now->weighted, &now->fit, &now->wrong)) {
+    any = true;
+    scores = ScoreEffects(now->weighted, now->fit, {effect}, &now->signatures);
+  }
+  if (any) SettleNoise(now);
+  return any;
+}
+
 void Extend(SelectionState* now, Selection* selection) {
   const int most = now->options.largest_causes + static_cast<int>(now->causes.size());
   const double least = std::log(now->options.probability / (1 - now->options.probability));
@@ -154,10 +169,7 @@ void Extend(SelectionState* now, Selection* selection) {
       AddUntried(scores, &selection->trials.candidates);
     }
     if (now->weighted.progress.Stopped()) return;
-    if (LeaveOutFurthest(scores, step, &now->weighted, &now->fit, &now->wrong)) {
-      SettleNoise(now);
-      continue;
-    }
+    if (LeaveOutWrong(scores, step, now)) continue;
     if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
     const FittedCandidate& best = *MostProbable(step.candidates);
     if (!(best.LogComplete() > step.none.LogComplete() + least)) return;

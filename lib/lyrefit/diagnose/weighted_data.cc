@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/diagnose/law_coordinates.h"
@@ -9,6 +10,23 @@
 #include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
+namespace {
+
+// A device departs from its model alike in both directions of a sweep: the path of a curve runs along
+// the voltage.
+void OrderByVoltage(const std::vector<Reading>& points, double unit, ErrorModel* errors) {
+  std::vector<int>& order = errors->order;
+  order.resize(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    if (points[a].curve != points[b].curve) return points[a].curve < points[b].curve;
+    return points[a].voltage < points[b].voltage;
+  });
+  for (std::size_t k = 0; k < points.size(); ++k) errors->position[k] = points[k].voltage / unit;
+}
+
+}  // namespace
+
 ErrorModel ErrorsOf(const WeightedData& weighted) {
   const std::vector<Reading>& points = weighted.readings->points;
   ErrorModel errors;
@@ -29,6 +47,7 @@ ErrorModel ErrorsOf(const WeightedData& weighted) {
     errors.chain.push_back(neighbours ? r.segment : r.curve);
   }
   if (neighbours) errors.white.assign(points.size(), 0);
+  if (!neighbours && weighted.readings->traits.up_down) OrderByVoltage(points, voltage * weighted.path_length, &errors);
   return errors;
 }
 

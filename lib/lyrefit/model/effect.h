@@ -106,6 +106,7 @@ struct Cell {
   S conductance;        // Gsh, in scales per volt of a cell
   S resistance;         // Rs, in volt of a cell per scale
   S thermal_voltage;    // k T / q, V
+  Pack sweep = Pack(0.0);  // 1 where the voltage rises, -1 where it falls, 0 at rest
   double reach = 1;     // largest |voltage| of the readings, V per cell, where shunts are reported
   double cells = 1;     // in series
   double substring_cells = 1;        // cells that share a bypass diode
@@ -367,6 +368,7 @@ struct Effect {
   bool groups = false;
   bool is_wiring = false;  // of the device: of its junction box, connectors or leads
   bool momentary = false;  // short compared with the sweep: it can imitate any outlier
+  bool by_sweep = false;   // its cell stage depends on Cell::sweep
   int diode = 0;           // number of the diode it adds; a base with that many diodes includes it
 
   // Id of what a diagnosis reports.

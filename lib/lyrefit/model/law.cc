@@ -33,7 +33,9 @@ class CellKeeper {
   CellKeeper(const CellKeeper&) = delete;  // `warm_` and its copies point into this object
   explicit CellKeeper(const EvaluationContext<S>& context) : context_(context) {
     warm_.group = groups_;
-    for (const Effect* effect : context.law.effects) varies_ = varies_ || effect->conditions;
+    for (const Effect* effect : context.law.effects) {
+      varies_ = varies_ || effect->conditions || effect->by_sweep;
+    }
   }
 
   // Updates the cell for `block`; returns whether it changed.
@@ -49,6 +51,8 @@ class CellKeeper {
       warm_conditions_ = conditions_;
     }
     cell_ = warm_;
+    cell_.sweep = Choose(Pack(0.0) < block.rate, Pack(1.0),
+                         Choose(block.rate < Pack(0.0), Pack(-1.0), Pack(0.0)));
     Light(context_, conditions_, &cell_);
     ApplyCellStages(context_, &cell_);
     last_ = block;

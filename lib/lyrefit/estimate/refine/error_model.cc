@@ -23,7 +23,8 @@ double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Re
   PathFilter filter;
   double logs = 0;
   int before = -1;
-  for (int k = 0; k < errors.size(); ++k) {
+  for (int place = 0; place < errors.size(); ++place) {
+    const int k = errors.order.empty() ? place : errors.order[place];
     if (!used.empty() && used[k] == 0) {
       rows.row(k).setZero();
       continue;

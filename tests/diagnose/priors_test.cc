@@ -1,0 +1,60 @@
+#include "lyrefit/diagnose/priors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lyrefit/base/file.h"
+#include "lyrefit/model/effects/catalogue.h"
+#include "temp_folder.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(PriorTableTest, NamesEffectsAndItsSources) {
+  double sum = 0;
+  for (const CausePrior& prior : PriorTable()) {
+    EXPECT_NE(FindEffect(prior.id), nullptr) << prior.id;
+    EXPECT_STRNE(prior.source, "") << prior.id;
+    EXPECT_GT(prior.probability, 0) << prior.id;
+    sum += prior.probability;
+  }
+  EXPECT_LT(sum, 1);
+}
+
+class ReadPriorsTest : public ::testing::Test {
+ protected:
+  Expected<CausePriors> Read(const std::string& text) {
+    const std::string path = folder_.Path("priors.json");
+    EXPECT_TRUE(WriteTextFile(path, text));
+    return PriorsNamed(path);
+  }
+  TempFolder folder_;
+};
+
+TEST_F(ReadPriorsTest, ReplacesThoseOfTheTable) {
+  const auto priors = Read(R"({"shading": 0.25})");
+  ASSERT_TRUE(priors);
+  EXPECT_EQ(priors->Of("shading"), 0.25);
+  EXPECT_EQ(priors->Of("drift"), CausePriors().Of("drift"));
+  EXPECT_EQ(priors->Of("an effect of one's own"), kOtherPrior);
+}
+
+TEST_F(ReadPriorsTest, SaysWhatIsWrongAndWhere) {
+  EXPECT_THAT(Read(R"({"shadow": 0.25})").error().message, HasSubstr("the id of an effect"));
+  EXPECT_THAT(Read(R"({"shading": 1.5})").error().message, HasSubstr("a probability above 0"));
+  EXPECT_THAT(Read("[0.1]").error().message, HasSubstr("as an object like"));
+  EXPECT_FALSE(PriorsNamed(folder_.Path("absent.json")));
+}
+
+TEST(PriorsNamedTest, AlikeGivesAllTheSame) {
+  const auto alike = PriorsNamed("alike");
+  ASSERT_TRUE(alike);
+  EXPECT_EQ(alike->Of("shading"), alike->Of("clip"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -22,6 +22,7 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
+#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/effects/catalogue.h"
 
@@ -106,6 +107,9 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
   }
   if (held_out.folds < 2) return "not measured on readings that were not fitted";
   const std::string parts = held_out.by_sweeps ? "whole sweeps" : "readings";
+  if (held_out.after_A > held_out.before_A) {
+    return "worse on " + parts + " that were not fitted: no gain";
+  }
   std::string sentence = held_out.gained() ? "the gain holds on " + parts + " that were not fitted"
                                            : "no gain on " + parts +
                                                  " that were not fitted: within its standard error";
@@ -132,8 +136,10 @@ Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOut
   return gain;
 }
 
+// `said`: the verdict says that structure remains.
 std::vector<std::string> FindWarnings(const Selection& selection, const Measurement& measurement,
-                                      const std::vector<std::string>& doubts, double level) {
+                                      const std::vector<std::string>& doubts, double level,
+                                      bool said) {
   std::vector<std::string> warnings = doubts;
   warnings.insert(warnings.end(), measurement.warnings.begin(), measurement.warnings.end());
   if (selection.weighted.correlation > 0) {
@@ -146,7 +152,7 @@ std::vector<std::string> FindWarnings(const Selection& selection, const Measurem
                        " readings at ends of a sweep, where its voltage stood still, are left out "
                        "beside what depends on its rate");
   }
-  if (selection.unknown_p < level && !selection.unknown) {
+  if (selection.unknown_p < level && !selection.unknown && !said) {
     warnings.emplace_back("structure remains in the residuals that no further cause explains");
   }
   if (selection.noise.lit.constant < 1e-6 && selection.noise.lit.relative < 1e-6) {
@@ -296,12 +302,15 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.verdict = Decide(measurement, found, selected.at, prepared.options,
                              diagnosis.evidence.whiteness_after_p_value);
   DescribeRecoverable(found, &diagnosis.verdict);
+  const Floors floors = {prepared.options.floor_current, prepared.options.floor_power};
+  DescribeVerdict(found, floors, diagnosis.device_findings, &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);
   diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());
   diagnosis.curves = DescribeCurves(prepared.set, measurement.readings);
   diagnosis.points = DescribePoints(prepared.set, measurement, selected.at);
-  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts, diagnosis.level);
+  const bool said = diagnosis.verdict.found && LeavesTooMuch(diagnosis.verdict, floors);
+  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts, diagnosis.level, said);
   return diagnosis;
 }
 

@@ -17,7 +17,7 @@ constexpr double kLargestShiftPercent = 1000;  // above it a relative difference
 
 // "200 to 1000", "25"
 std::string NoiseSpread(double low, double high) {
-  return high > low ? fmt::format("{:.5g} to {:.5g}", low, high) : fmt::format("{:.5g}", low);
+  return high > low ? fmt::format("{:.4g} to {:.4g}", low, high) : fmt::format("{:.4g}", low);
 }
 
 std::string ConditionsText(const Diagnosis& diagnosis) {
@@ -49,19 +49,25 @@ std::string NamedText(const Diagnosis& diagnosis) {
   return text;
 }
 
+void AddIfAny(const char* name, const std::string& text, Section* section) {
+  if (!text.empty()) AddField(name, text, section);
+}
+
 Section DiagnosisHead(const Diagnosis& diagnosis) {
   Section head = {fmt::format("lyrefit {}: diagnosis of {}", diagnosis.version, diagnosis.name)};
-  AddField(
-      "measured",
-      fmt::format("{}; {}, {}{}", diagnosis.evidence.kind, Plural(diagnosis.curves.size(), "curve"),
-                  Plural(diagnosis.points.size(), "point"),
-                  diagnosis.source.empty() ? "" : fmt::format(" ({})", diagnosis.source)),
-      &head);
-  AddField("conditions", ConditionsText(diagnosis), &head);
-  AddField("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence), &head);
-  AddField("objective", fmt::format("solved-current; seed {}", diagnosis.seed), &head);
-  AddField("named", NamedText(diagnosis), &head);
+  const std::size_t curves = diagnosis.curves.size();
+  AddField("measured",
+           fmt::format("{}; {}{}; {}", diagnosis.evidence.kind,
+                       curves > 1 ? Plural(curves, "curve") + ", " : "",
+                       Plural(diagnosis.points.size(), "point"), ConditionsText(diagnosis)),
+           &head);
+  AddIfAny("assumed", fmt::format("{}", fmt::join(diagnosis.assumptions, "; ")), &head);
   return head;
+}
+
+Section Folded(Section section) {
+  section.folded = true;
+  return section;
 }
 
 std::string WithUnit(const std::string& text, const std::string& unit) {
@@ -69,7 +75,7 @@ std::string WithUnit(const std::string& text, const std::string& unit) {
 }
 
 // "relative step d = -0.0190, 95 %: -0.0212 .. -0.0168"
-std::string SizeText(const CauseParameter& parameter) {
+std::string ParameterText(const CauseParameter& parameter) {
   std::string name = parameter.name;
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string text =
@@ -89,25 +95,20 @@ std::string CertaintyText(const Cause& cause, double level) {
   return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);
 }
 
-// "0.86 % (0.80 .. 0.92)"
-std::string PercentText(const Sized& size) {
-  std::string text = Significant(100 * size.value, 3) + " %";
-  if (std::isfinite(size.low_95)) {
-    text += fmt::format(" ({})", Range(100 * size.low_95, 100 * size.high_95));
+// "0.86 % (0.80 to 0.92)", with two digits of half the interval at most.
+std::string WithInterval(const Sized& size, double factor, const char* unit) {
+  if (!std::isfinite(size.low_95)) {
+    return fmt::format("{} {}", Significant(factor * size.value, 3), unit);
   }
-  return text;
+  const double half = 0.5 * factor * (size.high_95 - size.low_95);
+  const double digits = half > 0 ? std::ceil(-std::log10(half)) : 1;
+  const int places = static_cast<int>(std::clamp(digits, 0.0, 4.0));
+  return fmt::format("{:.{}f} {} ({:.{}f} to {:.{}f})", factor * size.value, places, unit,
+                     factor * size.low_95, places, factor * size.high_95, places);
 }
 
-std::string EffectText(const Cause& cause) {
-  std::string text;
-  if (std::isfinite(cause.current_effect.value)) {
-    text = PercentText(cause.current_effect) + " of Isc, root mean square over the curve";
-  }
-  if (std::isfinite(cause.power_effect.value)) {
-    text += fmt::format("{}{} of Pmax", text.empty() ? "" : "; ", PercentText(cause.power_effect));
-  }
-  return text;
-}
+// "0.86 % (0.80 to 0.92)"
+std::string PercentText(const Sized& size) { return WithInterval(size, 100, "%"); }
 
 // Title and id of an effect: "step of the irradiance (irr_step)".
 std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
@@ -117,28 +118,99 @@ std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
   return id;
 }
 
-Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::string& before) {
-  Section section = {fmt::format("{}: {} ({})", before, cause.title, cause.id)};
-  for (const std::string& words : cause.in_words) AddSentence(FullSentence(words), &section);
-  AddSentence(FullSentence(cause.sentence), &section);
-  const std::string effect = EffectText(cause);
-  if (!effect.empty()) AddField("effect", effect, &section);
-  for (std::size_t i = 0; i < cause.strength.size(); ++i) {
-    AddField(i == 0 ? "size" : "", SizeText(cause.strength[i]), &section);
+// "12 to 18.4 V: from the moment of the step on"
+std::string WhereText(const Diagnosis& diagnosis, const Cause& cause) {
+  double low = kUnknown, high = kUnknown;
+  for (const int k : cause.points) {
+    const double voltage = diagnosis.points[k].voltage_V;
+    low = low <= voltage ? low : voltage;
+    high = high >= voltage ? high : voltage;
   }
-  AddField("certainty", CertaintyText(cause, diagnosis.level), &section);
-  if (!cause.acts.empty()) AddField("acts", cause.acts, &section);
+  if (!std::isfinite(low)) return cause.acts;
+  const int places = high >= 10 ? 1 : high >= 1 ? 2 : 3;
+  const std::string from = fmt::format("{:.{}f}", low, places);
+  const std::string to = fmt::format("{:.{}f}", high, places);
+  return fmt::format("{}{} V{}{}", from == to ? "" : from + " to ", to,
+                     cause.acts.empty() ? "" : ": ", cause.acts);
+}
+
+std::string SizeText(const Cause& cause) {
+  std::vector<std::string> words = cause.in_words;
+  if (words.empty()) words = {cause.sentence};
+  if (std::isfinite(cause.current_effect.value)) {
+    words.push_back(WithInterval(cause.current_effect, 100, "% of Isc") + " over the curve");
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+// Maximum power of the device; NaN if it is not known.
+double MaxPower(const Diagnosis& diagnosis) {
+  for (const ParameterShift& shift : diagnosis.gain.shifts) {
+    if (shift.name == "max_power") return shift.after;
+  }
+  return kUnknown;
+}
+
+// "16.7 W (15.1 to 18.3), 7 % of Pmax"; empty without power to gain.
+std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_least) {
+  if (at_least)
+    return "at least a part of the loss: the brightest cells are not at full light either";
+  if (!std::isfinite(power.value)) return "";
+  std::string text = WithInterval(power, 1, "W");
+  const double all = MaxPower(diagnosis);
+  if (all > 0) text += fmt::format(", {} % of Pmax", Significant(100 * power.value / all, 2));
+  return text;
+}
+
+// What else could stand in the place of a cause: with probabilities if they are known.
+std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
   std::vector<std::string> others;
+  for (const Alternative& other : cause.alternatives) {
+    others.push_back(fmt::format("{} {} %", other.title, Significant(100 * other.probability, 2)));
+  }
+  if (!others.empty()) return fmt::format("{}", fmt::join(others, ", "));
   for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
-  if (!others.empty()) {
-    AddField("or else",
-             fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; ")),
+  if (others.empty()) return "";
+  return fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; "));
+}
+
+// Title of a cause, with its probability if it is known.
+std::string CauseHeading(const Cause& cause, const std::string& before) {
+  std::string text = fmt::format("{}: {} ({}", before, cause.title, cause.id);
+  if (std::isfinite(cause.probability)) {
+    text += fmt::format(", {} %", Significant(100 * cause.probability, 2));
+  }
+  return text + ")";
+}
+
+// What a technician needs of a cause.
+Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::string& before) {
+  Section section = {CauseHeading(cause, before)};
+  AddIfAny("where", WhereText(diagnosis, cause), &section);
+  AddField("size", SizeText(cause), &section);
+  AddIfAny("to gain", PowerText(diagnosis, cause.recoverable_power_W, cause.at_least), &section);
+  const std::string sheet = cause.fact_sheet.empty() ? "" : fmt::format(" ({})", cause.fact_sheet);
+  if (!cause.action.empty()) AddField("to do", cause.action + sheet, &section);
+  AddIfAny("or else", AlternativesText(diagnosis, cause), &section);
+  if (!cause.separate_by.empty()) AddField("to tell", cause.separate_by.front(), &section);
+  return section;
+}
+
+// Parameters and certainty of a cause.
+Section CauseDetails(const Diagnosis& diagnosis, const Cause& cause) {
+  Section section = {fmt::format("Parameters of {} ({})", cause.title, cause.id)};
+  AddSentence(FullSentence(cause.sentence), &section);
+  for (std::size_t i = 0; i < cause.strength.size(); ++i) {
+    AddField(i == 0 ? "parameters" : "", ParameterText(cause.strength[i]), &section);
+  }
+  if (std::isfinite(cause.power_effect.value)) {
+    AddField("without it",
+             fmt::format("error of Pmax of the base model {}", PercentText(cause.power_effect)),
              &section);
   }
-  if (!cause.separate_by.empty()) {
-    AddField("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
-  }
-  return section;
+  AddField("certainty", CertaintyText(cause, diagnosis.level), &section);
+  AddIfAny("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
+  return Folded(section);
 }
 
 }  // namespace
@@ -158,9 +230,43 @@ namespace {
 std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
   std::vector<Section> sections;
   for (const Cause& cause : diagnosis.verdict.below_floor) {
-    sections.push_back(CauseSection(diagnosis, cause, "Present, not material"));
+    sections.push_back(Folded(CauseSection(diagnosis, cause, "Present, not material")));
+    sections.push_back(CauseDetails(diagnosis, cause));
   }
   return sections;
+}
+
+std::vector<Section> DetailSections(const Diagnosis& diagnosis) {
+  std::vector<Section> sections;
+  for (const Cause& cause : diagnosis.verdict.causes) {
+    sections.push_back(CauseDetails(diagnosis, cause));
+  }
+  return sections;
+}
+
+// The whole: power of all causes together, comparison with modules without a fault, parameters out
+// of range, limits of these readings.
+Section WholeSection(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  Section section = {"The device"};
+  const bool at_least = std::any_of(verdict.causes.begin(), verdict.causes.end(),
+                                    [](const Cause& cause) { return cause.at_least; });
+  const auto with_power =
+      std::count_if(verdict.causes.begin(), verdict.causes.end(), [](const Cause& cause) {
+        return std::isfinite(cause.recoverable_power_W.value) || cause.at_least;
+      });
+  if (with_power > 1) {
+    AddIfAny("all to gain", PowerText(diagnosis, verdict.recoverable_power_W, at_least), &section);
+  }
+  AddIfAny("healthy", verdict.comparison, &section);
+  if (verdict.found) {
+    for (const DeviceFinding& finding : diagnosis.device_findings) {
+      AddField(&finding == &diagnosis.device_findings.front() ? "besides" : "",
+               "it " + finding.sentence, &section);
+    }
+    AddIfAny("not shown", verdict.not_shown, &section);
+  }
+  return section;
 }
 
 // "97 %"
@@ -272,9 +378,23 @@ Section ShiftSection(const std::vector<ParameterShift>& shifts) {
 
 Section RunSection(const Diagnosis& diagnosis) {
   Section section = {"How it was found"};
+  AddIfAny("file", diagnosis.source, &section);
+  AddField("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence), &section);
+  AddField("objective", fmt::format("solved-current; seed {}", diagnosis.seed), &section);
+  AddField("named", NamedText(diagnosis), &section);
   AddField("time", Duration(diagnosis.seconds), &section);
   AddField("options", OptionsText(diagnosis.non_default_options), &section);
   return section;
+}
+
+// Warnings that no banner says.
+std::vector<std::string> OtherWarnings(const Diagnosis& diagnosis) {
+  std::vector<std::string> others;
+  for (const std::string& warning : diagnosis.warnings) {
+    const auto& doubts = diagnosis.doubts;
+    if (std::find(doubts.begin(), doubts.end(), warning) == doubts.end()) others.push_back(warning);
+  }
+  return others;
 }
 
 // "irr_step d -0.0190 (corrected p 2.0e-07) or drift"
@@ -301,22 +421,26 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
   AddSections({{"Verdict", {block::Sentence{FullSentence(diagnosis.verdict.sentence)}}}},
               &document);
   AddSections(CauseSections(diagnosis), &document);
-  AddSections({PlanSection(diagnosis)}, &document);
+  AddSections(
+      {WholeSection(diagnosis), PlanSection(diagnosis), WarningSection(OtherWarnings(diagnosis))},
+      &document);
+  AddSections(DetailSections(diagnosis), &document);
   AddSections(BelowSections(diagnosis), &document);
-  AddSections({found ? GainSection(gain) : BaseGainSection(gain),
-               found ? ShiftSection(gain.shifts) : BaseSection(gain.shifts)},
+  AddSections({Folded(found ? GainSection(gain) : BaseGainSection(gain)),
+               Folded(found ? ShiftSection(gain.shifts) : BaseSection(gain.shifts))},
               &document);
-  AddSections(DiagnosisEvidenceSections(diagnosis), &document);
-  AddSections({RunSection(diagnosis), ListSection("Assumed", diagnosis.assumptions),
-               WarningSection(diagnosis.warnings)},
-              &document);
+  for (Section& section : DiagnosisEvidenceSections(diagnosis)) {
+    AddSections({Folded(std::move(section))}, &document);
+  }
+  AddSections({Folded(RunSection(diagnosis))}, &document);
   document.verdict = FullSentence(diagnosis.verdict.sentence);
   AddFigure(FigureBlock(diagnosis), &document.head);
   return document;
 }
 
-std::string DiagnosisText(const Diagnosis& diagnosis) {
-  return DrawText(DiagnosisDocument(diagnosis));
+std::string DiagnosisText(const Diagnosis& diagnosis, Length length) {
+  const Document document = DiagnosisDocument(diagnosis);
+  return DrawText(length == Length::kShort ? WithoutFolds(document) : document);
 }
 
 std::string BriefDiagnosis(const Diagnosis& diagnosis) {

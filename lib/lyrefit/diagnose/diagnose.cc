@@ -14,6 +14,7 @@
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
+#include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/experiment_design.h"
 #include "lyrefit/diagnose/extended_report.h"
@@ -303,6 +304,10 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
                              diagnosis.evidence.whiteness_after_p_value);
   DescribeRecoverable(found, &diagnosis.verdict);
   const Floors floors = {prepared.options.floor_current, prepared.options.floor_power};
+  diagnosis.device_findings = FindDeviceFindings(
+      found,
+      {prepared.set.curves.front().notes.technology, prepared.set.curves.front().irradiance_known},
+      floors.current);
   DescribeVerdict(found, floors, diagnosis.device_findings, &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);

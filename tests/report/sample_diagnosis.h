@@ -106,7 +106,7 @@ inline Diagnosis SampleDiagnosisHead() {
                     "needs sweeps in both directions"),
       SampleUntried("instrument_lag", "lag of the instrument", "needs sweeps in both directions")};
   d.verdict.comparison =
-      "misfit 0.04 % of Isc with the cause, 0.46 % without; healthy modules 0.05 to 0.20 %";
+      "misfit 0.04 % of Isc with the cause, 0.46 without; healthy modules 0.05 to 0.20 %";
   d.verdict.not_shown = "dirt or ageing that all cells share or resistance of the leads";
   d.verdict.cannot_be_excluded = {
       {"lead_resistance", "Rs", "resistance of leads and contacts counts as Rs",
@@ -185,8 +185,8 @@ inline DeviceFinding SampleLeak() {
           {0.031, 0.029, 0.033},
           0.016,
           0.04,
-          "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what modules without a fault do (at most "
-          "1.6 %): -4 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
+          "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what healthy modules do (at most 1.6 %)"
+          ": -4 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
 }
 
 // One sweep with an irradiance step, which was found.

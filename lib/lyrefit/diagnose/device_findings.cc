@@ -124,7 +124,7 @@ std::string Exceeding(const JudgedDevice& device, double ratio, const char* what
   const std::string more = ratio < 1.75   ? "more than"
                            : ratio < 2.25 ? "twice what"
                                           : fmt::format("{:.2g} times what", ratio);
-  return fmt::format("{} {} without a fault {} (at most {})", more, others, what, limit);
+  return fmt::format("{} healthy {} {} (at most {})", more, others, what, limit);
 }
 
 // ": -4 % of Pmax"
@@ -196,21 +196,33 @@ bool ReachesPastKnee(const Readings& readings) {
 }
 
 std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
-                                              double floor) {
+                                              const Floors& floors) {
   constexpr double kSmallestFloor = 0.0025;
   const Readings& readings = *selection.weighted.readings;
   const DataTraits& traits = readings.traits;
   if (traits.only_dark || !traits.single || !ReachesPastKnee(readings)) return {};
-  if (LeftBy(selection.weighted, selection.extended).value > std::max(floor, kSmallestFloor)) {
+  if (LeftBy(selection.weighted, selection.extended).value >
+      std::max(floors.current, kSmallestFloor)) {
     return {};
   }
   const JudgedDevice device = JudgeDevice(selection, kind);
   if (!(device.voltage_V > 0 && device.current_A > 0)) return {};
+  // More than any string of cells gives: the stated irradiance is wrong.
+  constexpr double kMostCurrent_A = 25;
+  const bool light_known =
+      kind.irradiance_known && (device.current_A < kMostCurrent_A || readings.scale.strings > 1);
   std::vector<DeviceFinding> findings;
-  // The part of a shunt in the current is known only where the light is.
-  if (kind.irradiance_known) AddLeak(device, &findings);
+  // Parts of the current and of the voltage under standard light are known only where the light is.
+  if (light_known) AddLeak(device, &findings);
   AddIdeality(device, &findings);
-  AddSeriesResistance(device, &findings);
+  if (light_known) AddSeriesResistance(device, &findings);
+  constexpr double kSmallestLoss = 0.01;  // below it sound modules differ as much
+  const double least = std::max(floors.power, kSmallestLoss);
+  findings.erase(std::remove_if(findings.begin(), findings.end(),
+                                [least](const DeviceFinding& finding) {
+                                  return !(finding.power_loss > least);
+                                }),
+                 findings.end());
   std::stable_sort(
       findings.begin(), findings.end(),
       [](const DeviceFinding& a, const DeviceFinding& b) { return a.power_loss > b.power_loss; });

@@ -18,9 +18,10 @@ struct DeviceKind {
 };
 
 // Leak, ideality and series resistance of the extended model under standard light, where the whole
-// interval lies above what devices without a fault have. Empty if the model misses the readings by
-// more than `floor` (fraction of Isc), or if the sweep ends before its knee.
+// interval lies above what devices without a fault have and the loss of Pmax is material, the
+// largest loss first. Empty if the model misses the readings by more than the floor of the current,
+// or if the sweep ends before its knee.
 std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
-                                              double floor);
+                                              const Floors& floors);
 
 }  // namespace lyrefit

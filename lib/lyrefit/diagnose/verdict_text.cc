@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastReferences = 5e-4, kMostHealthy = 2e-3;
 
 std::string OfIsc(double part) {
-  if (part < 5e-5) return "less than 0.01 % of Isc";
+  if (part < 5e-5) return "below 0.01 % of Isc";
   return fmt::format("{:.2f} % of Isc", 100 * part);
 }
 
@@ -120,7 +120,7 @@ std::string CausesSentence(const Verdict& verdict, const Floors& floors) {
 // How much the model with the causes misses, against modules without a fault.
 std::string ComparisonText(const Verdict& verdict, const Floors& floors) {
   if (!verdict.found || IsNameless(verdict) || !floors.Any()) return "";
-  return fmt::format("misfit {} with the cause{}, {:.2f} % without; healthy modules {}",
+  return fmt::format("misfit {} with the cause{}, {:.2f} without; healthy modules {}",
                      OfIsc(verdict.remaining.value), verdict.causes.size() > 1 ? "s" : "",
                      100 * verdict.lack_of_fit.value, Usual());
 }

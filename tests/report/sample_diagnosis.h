@@ -105,6 +105,8 @@ inline Diagnosis SampleDiagnosisHead() {
       SampleUntried("capacitance", "capacitance of the junction",
                     "needs sweeps in both directions"),
       SampleUntried("instrument_lag", "lag of the instrument", "needs sweeps in both directions")};
+  d.verdict.lack_of_fit = {0.0046, 0.002, 0.0072};
+  d.verdict.remaining = {0.0004, 0.0002, 0.0006};
   d.verdict.comparison =
       "misfit 0.04 % of Isc with the cause, 0.46 without; healthy modules 0.05 to 0.20 %";
   d.verdict.not_shown = "dirt or ageing that all cells share or resistance of the leads";

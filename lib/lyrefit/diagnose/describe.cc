@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/effect_size.h"
@@ -15,13 +14,6 @@
 
 namespace lyrefit {
 namespace {
-
-std::string Short(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 // Readings at which a cause changes the current by more than half of its largest change.
 std::vector<int> WhereItActs(const WeightedData& weighted, const LawFit& with, int index) {
@@ -104,15 +96,6 @@ double RmseOf(const WeightedData& weighted, const std::vector<double>& current) 
     count += reading.weight;
   }
   return weighted.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
-}
-
-std::string StrengthText(const CauseParameter& parameter) {
-  std::string text = parameter.symbol + " = " + Short(parameter.value);
-  if (!parameter.unit.empty()) text += " " + parameter.unit;
-  if (std::isfinite(parameter.low_95)) {
-    text += " (" + Short(parameter.low_95) + " to " + Short(parameter.high_95) + ")";
-  }
-  return text;
 }
 
 std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,

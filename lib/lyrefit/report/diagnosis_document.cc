@@ -397,16 +397,21 @@ std::vector<std::string> OtherWarnings(const Diagnosis& diagnosis) {
   return others;
 }
 
-// "irr_step d -0.0190 (corrected p 2.0e-07) or drift"
+// "shading (86 %), 1 of 3 substrings under 71 % (69 to 73) of the others' light, 17 W to gain (or
+// weak_cell)"
 std::string BriefCause(const Cause& cause) {
   std::string text = cause.id;
-  if (!cause.strength.empty()) {
-    const CauseParameter& first = cause.strength.front();
-    text += fmt::format(" {} {}{}{}", first.symbol, Significant(first.value, 3),
-                        first.unit.empty() ? "" : " ", first.unit);
+  if (std::isfinite(cause.probability)) {
+    text += fmt::format(" ({} %)", Significant(100 * cause.probability, 2));
   }
-  text += fmt::format(" (corrected p {})", Significant(cause.corrected_p, 2));
-  for (const std::string& id : cause.equivalents) text += " or " + id;
+  if (!cause.in_words.empty()) text += ", " + cause.in_words.front();
+  if (std::isfinite(cause.recoverable_power_W.value)) {
+    text += fmt::format(", {} W to gain", Significant(cause.recoverable_power_W.value, 2));
+  }
+  std::vector<std::string> others = cause.equivalents;
+  if (!cause.alternatives.empty()) others.clear();
+  for (const Alternative& other : cause.alternatives) others.push_back(other.id);
+  if (!others.empty()) text += fmt::format(" (or {})", fmt::join(others, ", "));
   return text;
 }
 
@@ -444,17 +449,16 @@ std::string DiagnosisText(const Diagnosis& diagnosis, Length length) {
 }
 
 std::string BriefDiagnosis(const Diagnosis& diagnosis) {
-  const Gain& gain = diagnosis.gain;
+  const Verdict& verdict = diagnosis.verdict;
   std::string text;
-  for (const Cause& cause : diagnosis.verdict.causes) {
-    text += (text.empty() ? "" : "; ") + BriefCause(cause);
+  for (const Cause& cause : verdict.causes) text += (text.empty() ? "" : "; ") + BriefCause(cause);
+  if (text.empty()) {
+    text = FullSentence(verdict.sentence);
+  } else {
+    text += fmt::format("; misfit {:.2f} -> {:.2f} % of Isc", 100 * verdict.lack_of_fit.value,
+                        100 * verdict.remaining.value);
   }
-  if (text.empty()) text = FullSentence(diagnosis.verdict.sentence);
-  text +=
-      fmt::format("{} RMSE {}", text.back() == '.' ? "" : ";", Scientific(gain.rmse_before_A, 4));
-  if (diagnosis.verdict.found) text += " -> " + Scientific(gain.rmse_after_A, 4);
-  text += " A solved-current" +
-          BriefMarks(diagnosis.interrupted, diagnosis.extended.usable, diagnosis.warnings.size());
+  text += BriefMarks(diagnosis.interrupted, diagnosis.extended.usable, diagnosis.warnings.size());
   return diagnosis.name + ": " + text + "\n";
 }
 

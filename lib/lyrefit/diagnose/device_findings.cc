@@ -158,12 +158,18 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
   const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
   if (!IsAbove(n, limit)) return;
   const double loss = LossAgainst(device, index, limit);
+  // Recombination in a junction ends at n = 2.
+  constexpr double kMostOfJunctions = 2;
+  const char* const causes =
+      n.value > kMostOfJunctions && device.of != DeviceClass::kThinFilm
+          ? "more than of any junction: unequal or shunted cells, light that changes, or a number "
+            "of cells not as stated"
+          : "recombination in aged cells, or a temperature or a number of cells not as stated";
   findings->push_back(
       {"ideality", "n", n, limit, loss,
-       fmt::format("has n = {:.3g} ({:.3g} to {:.3g}), {}{}; recombination in aged cells, or a "
-                   "temperature or a number of cells not as stated",
-                   n.value, n.low_95, n.high_95,
-                   Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss))});
+       fmt::format("has n = {:.3g} ({:.3g} to {:.3g}), {}{}; {}", n.value, n.low_95, n.high_95,
+                   Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
+                   causes)});
 }
 
 void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {

@@ -107,7 +107,7 @@ struct Sized {
 struct Alternative {
   std::string id;  // of an effect; "none": no cause; "unknown_structure": none of the known
   std::string title;
-  double probability = kUnknown;
+  double probability = kUnknown;  // those of a cause and of all its alternatives add up to 1
 };
 
 // An effect that explains a deviation of the data from the base model.

@@ -254,7 +254,7 @@ TEST(FieldDiagnosis, WhatIsTooSmallToActOnStandsApart) {
   EXPECT_LT(d.verdict.below_floor.front().current_effect.value, 0.005);
   EXPECT_THAT(d.verdict.sentence, HasSubstr("Nothing to act on"));
   EXPECT_THAT(d.verdict.sentence, HasSubstr("present, but not certainly above"));
-  EXPECT_THAT(d.verdict.sentence, HasSubstr("One sweep cannot show dirt or ageing"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("One sweep cannot show dirt or slight ageing"));
 }
 
 TEST(FieldDiagnosis, SaysHowHotAWeakCellIs) {

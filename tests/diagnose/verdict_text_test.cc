@@ -65,14 +65,15 @@ TEST(DescribeVerdict, SilenceNamesWhatIsNeverShown) {
   const Verdict silent = Told({});
   EXPECT_THAT(silent.sentence, HasSubstr("Nothing to act on"));
   EXPECT_THAT(silent.sentence, HasSubstr("One sweep cannot show " + silent.not_shown));
-  EXPECT_THAT(silent.not_shown, HasSubstr("dirt or ageing that all cells share"));
+  EXPECT_THAT(silent.not_shown, HasSubstr("dirt or slight ageing of all cells alike"));
   EXPECT_EQ(silent.comparison, "");
 }
 
 TEST(DescribeVerdict, SomethingToActOnIsNotCalledNothing) {
-  const DeviceFinding leak = {"leak", "", {}, 0.016, 0.04, "leaks 3 % of Isc at Voc"};
+  const DeviceFinding leak = {"leak", "", {0.031, 0.029, 0.033}, 0.016, 0.04, ""};
   const std::string ill = Told({}, {leak}).sentence;
-  EXPECT_THAT(ill, HasSubstr("it leaks 3 % of Isc at Voc. One sweep cannot show"));
+  EXPECT_THAT(ill,
+              HasSubstr("a leak of 3.1 % of Isc at Voc (-4.0 % of Pmax). One sweep cannot show"));
   EXPECT_THAT(ill, Not(HasSubstr("Nothing to act on")));
   Verdict misses;
   misses.lack_of_fit.value = 0.0056;

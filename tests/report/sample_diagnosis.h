@@ -108,8 +108,8 @@ inline Diagnosis SampleDiagnosisHead() {
   d.verdict.lack_of_fit = {0.0046, 0.002, 0.0072};
   d.verdict.remaining = {0.0004, 0.0002, 0.0006};
   d.verdict.comparison =
-      "misfit 0.04 % of Isc with the cause, 0.46 without; healthy modules 0.05 to 0.20 %";
-  d.verdict.not_shown = "dirt or ageing that all cells share or resistance of the leads";
+      "0.04 % of Isc with the cause, 0.46 without; healthy modules 0.05 to 0.20 %";
+  d.verdict.not_shown = "dirt or slight ageing of all cells alike or resistance of the leads";
   d.verdict.cannot_be_excluded = {
       {"lead_resistance", "Rs", "resistance of leads and contacts counts as Rs",
        "four-wire connection"},
@@ -188,7 +188,7 @@ inline DeviceFinding SampleLeak() {
           0.016,
           0.04,
           "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what healthy modules do (at most 1.6 %)"
-          ": -4 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
+          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
 }
 
 // One sweep with an irradiance step, which was found.

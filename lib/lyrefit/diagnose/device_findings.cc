@@ -128,7 +128,7 @@ std::string Exceeding(const JudgedDevice& device, double ratio, const char* what
 }
 
 // ": -4 % of Pmax"
-std::string LossText(double loss) { return fmt::format(": {:+.2g} % of Pmax", -100 * loss); }
+std::string LossText(double loss) { return fmt::format(": {:+.1f} % of Pmax", -100 * loss); }
 
 void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
   const double resistance = device.fit.p[kRsh];
@@ -145,7 +145,7 @@ void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
           : "a shunt, or collection that depends on the voltage; a dark curve decides";
   findings->push_back(
       {"leak", "Voc/(Rsh Isc)", leak, limit, loss,
-       fmt::format("leaks {:.3g} % ({:.3g} to {:.3g}) of Isc at Voc, {}{}; {}", 100 * leak.value,
+       fmt::format("leaks {:.1f} % ({:.1f} to {:.1f}) of Isc at Voc, {}{}; {}", 100 * leak.value,
                    100 * leak.low_95, 100 * leak.high_95,
                    Exceeding(device, value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),
                    LossText(loss), causes)});
@@ -167,7 +167,7 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
           : "recombination in aged cells, or a temperature or a number of cells not as stated";
   findings->push_back(
       {"ideality", "n", n, limit, loss,
-       fmt::format("has n = {:.3g} ({:.3g} to {:.3g}), {}{}; {}", n.value, n.low_95, n.high_95,
+       fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), {}{}; {}", n.value, n.low_95, n.high_95,
                    Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
                    causes)});
 }
@@ -181,7 +181,7 @@ void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>*
   findings->push_back(
       {"series_resistance", "Rs Isc/Voc", drop, limit, loss,
        fmt::format(
-           "drops {:.3g} % ({:.3g} to {:.3g}) of Voc in its series resistance at Isc, "
+           "drops {:.1f} % ({:.1f} to {:.1f}) of Voc in its series resistance at Isc, "
            "{}{}; corroded contacts, a broken ribbon, connectors or long leads",
            100 * drop.value, 100 * drop.low_95, 100 * drop.high_95,
            Exceeding(device, drop.value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),

@@ -165,7 +165,7 @@ struct Verdict {
   double probability_none = kUnknown;  // that no cause acts
   Sized recoverable_power_W;           // additional Pmax of the device without all causes
   Sized remaining;                     // the same of the extended model
-  std::string comparison;  // of that with modules without a fault; empty if nothing was found
+  std::string comparison;  // of both with modules without a fault; empty if nothing was found
   std::vector<CannotBeExcluded> cannot_be_excluded;  // effects that the data cannot show
   std::string not_shown;                             // the commonest of these in a few words
   std::string sentence;

@@ -56,6 +56,16 @@ std::string BelowText(const Verdict& verdict, const Floors& floors) {
 // "One sweep", "These curves"
 std::string Measured(int curves) { return curves > 1 ? "These curves" : "One sweep"; }
 
+// "a leak of 3.1 % of Isc at Voc (-4 % of Pmax)"
+std::string FindingText(const DeviceFinding& finding) {
+  const double value = finding.value.value;
+  const std::string what =
+      finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
+      : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
+                                 : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+  return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
+}
+
 // Sentence if no cause is named: the lack of fit, effects below the floors, parameters of the
 // device, and what the readings cannot show.
 std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves,
@@ -78,9 +88,9 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors, int cu
         FindEffect("unknown_structure")->separate_by, limits);
   }
   if (!findings.empty()) {
-    std::string text = "No single fault shows, but the device is not as healthy ones are: it ";
+    std::string text = "No single fault shows, but the device is not as healthy ones are: ";
     for (std::size_t k = 0; k < findings.size(); ++k) {
-      text += (k > 0 ? "; it " : "") + findings[k].sentence;
+      text += (k > 0 ? ", " : "") + FindingText(findings[k]);
     }
     return text + (present.empty() ? "" : ". Also " + present) + limits;
   }
@@ -120,7 +130,7 @@ std::string CausesSentence(const Verdict& verdict, const Floors& floors) {
 // How much the model with the causes misses, against modules without a fault.
 std::string ComparisonText(const Verdict& verdict, const Floors& floors) {
   if (!verdict.found || IsNameless(verdict) || !floors.Any()) return "";
-  return fmt::format("misfit {} with the cause{}, {:.2f} without; healthy modules {}",
+  return fmt::format("{} with the cause{}, {:.2f} without; healthy modules {}",
                      OfIsc(verdict.remaining.value), verdict.causes.size() > 1 ? "s" : "",
                      100 * verdict.lack_of_fit.value, Usual());
 }
@@ -153,7 +163,7 @@ bool LeavesTooMuch(const Verdict& verdict, const Floors& floors) {
 
 std::string NotShownBy(const DataTraits& traits) {
   std::vector<std::string> never;
-  if (!traits.only_dark) never.emplace_back("dirt or ageing that all cells share");
+  if (!traits.only_dark) never.emplace_back("dirt or slight ageing of all cells alike");
   never.emplace_back("resistance of the leads");
   if (traits.temperature_levels < 2) never.emplace_back("a wrong temperature");
   if (traits.single && !traits.up_down && !traits.only_dark) {

@@ -18,7 +18,7 @@ bool MissesTooMuch(const Verdict& verdict, const Floors& floors);
 // without a fault.
 bool LeavesTooMuch(const Verdict& verdict, const Floors& floors);
 
-// What readings of this kind never show: "dirt or ageing that all cells share, ..."
+// What readings of this kind never show: "dirt or slight ageing of all cells alike, ..."
 std::string NotShownBy(const DataTraits& traits);
 
 // The conclusion in words: fills `remaining`, `comparison`, `not_shown` and `sentence`. The causes

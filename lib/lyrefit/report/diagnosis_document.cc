@@ -258,14 +258,12 @@ Section WholeSection(const Diagnosis& diagnosis) {
   if (with_power > 1) {
     AddIfAny("all to gain", PowerText(diagnosis, verdict.recoverable_power_W, at_least), &section);
   }
-  AddIfAny("healthy", verdict.comparison, &section);
-  if (verdict.found) {
-    for (const DeviceFinding& finding : diagnosis.device_findings) {
-      AddField(&finding == &diagnosis.device_findings.front() ? "besides" : "",
-               "it " + finding.sentence, &section);
-    }
-    AddIfAny("not shown", verdict.not_shown, &section);
+  AddIfAny("misfit", verdict.comparison, &section);
+  for (const DeviceFinding& finding : diagnosis.device_findings) {
+    const bool first = &finding == &diagnosis.device_findings.front();
+    AddField(first ? "out of range" : "", "it " + finding.sentence, &section);
   }
+  if (verdict.found) AddIfAny("not shown", verdict.not_shown, &section);
   return section;
 }
 

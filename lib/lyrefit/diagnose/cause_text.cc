@@ -140,14 +140,26 @@ std::vector<std::string> OfDrift(const Described& of) {
                       LightChange(of.Of("d")))};
 }
 
+// Three digits without an exponent.
+std::string Plain(double value) {
+  return fmt::format(std::fabs(value) < 999.5 ? "{:.3g}" : "{:.0f}", value);
+}
+
+// "5.02 A", "1.3 mA", "8.2 uA"
+std::string Ampere(double value) {
+  const double size = std::fabs(value);
+  if (size < 1e-3) return Plain(1e6 * value) + " uA";
+  return size < 0.1 ? Plain(1e3 * value) + " mA" : fmt::format("{:.4g} A", value);
+}
+
 // "3.2 K (2.9 to 3.5)"
 std::string WithRange(const Sized& size, const char* unit) {
   const std::string range =
       std::isfinite(size.low_95)
-          ? fmt::format(" ({:.3g} to {:.3g})", std::min(size.low_95, size.high_95),
-                        std::max(size.low_95, size.high_95))
+          ? fmt::format(" ({} to {})", Plain(std::min(size.low_95, size.high_95)),
+                        Plain(std::max(size.low_95, size.high_95)))
           : "";
-  return fmt::format("{:.3g} {}{}", size.value, unit, range);
+  return fmt::format("{} {}{}", Plain(size.value), unit, range);
 }
 
 // Times a factor.
@@ -165,10 +177,9 @@ std::vector<std::string> OfClip(const Described& of) {
   std::vector<std::string> words;
   const Sized most = of.Of("Ic"), least = of.Of("Il");
   const double scale = of.readings().scale.current_A;
-  if (most.value < 1.4 * scale)
-    words.push_back(fmt::format("no current above {:.4g} A", most.value));
+  if (most.value < 1.4 * scale) words.push_back("no current above " + Ampere(most.value));
   if (least.value > -10 * scale) {
-    words.push_back(fmt::format("no current below {:.4g} A", least.value));
+    words.push_back("no current below " + Ampere(least.value));
   }
   return words;
 }
@@ -182,14 +193,23 @@ std::vector<std::string> OfCurrent(const Described& of) {
   if (!EvaluateLaw(rest.law, of.readings(), rest.p.data(), &workspace, without.data(), nullptr)) {
     return {};
   }
-  std::size_t most = 0;
+  // Where the device delivers power, if any reading is there: beyond, currents grow without limit.
   const auto change = [&](std::size_t k) { return of.fit.current[k] - without[k]; };
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    if (std::fabs(change(k)) > std::fabs(change(most))) most = k;
+  const auto delivers = [&](std::size_t k) {
+    return points[k].current > 0 && points[k].voltage > 0;
+  };
+  std::size_t most = points.size();
+  for (const bool anywhere : {false, true}) {
+    if (most < points.size()) break;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (!anywhere && !delivers(k)) continue;
+      if (most == points.size() || std::fabs(change(k)) > std::fabs(change(most))) most = k;
+    }
   }
-  if (!(std::fabs(change(most)) > 0)) return {};
-  return {fmt::format("it {} up to {:.2g} % of Isc, most at {:.4g} V",
-                      change(most) < 0 ? "takes" : "adds", Percent(std::fabs(change(most))),
+  if (most == points.size() || !(std::fabs(change(most)) > 0)) return {};
+  const double percent = Percent(std::fabs(change(most)));
+  return {fmt::format("it {} up to {:.{}f} % of Isc, most at {:.4g} V",
+                      change(most) < 0 ? "takes" : "adds", percent, percent < 10 ? 1 : 0,
                       VoltageOf(of, points[most]))};
 }
 
@@ -316,7 +336,7 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   }
   if (id == "range_switch") {
     const Sized end = of.Of("Ir");
-    return {fmt::format("below {:.3g} A the currents are {} than above", end.value,
+    return {fmt::format("below {} the currents are {} than above", Ampere(end.value),
                         SignedSize(Scaled(of.Of("g"), 100), "%", "larger", "smaller"))};
   }
   if (id == "current_offset") {

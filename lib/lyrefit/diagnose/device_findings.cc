@@ -182,10 +182,13 @@ void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>*
       {"series_resistance", "Rs Isc/Voc", drop, limit, loss,
        fmt::format(
            "drops {:.1f} % ({:.1f} to {:.1f}) of Voc in its series resistance at Isc, "
-           "{}{}; corroded contacts, a broken ribbon, connectors or long leads",
+           "{}{}; {}",
            100 * drop.value, 100 * drop.low_95, 100 * drop.high_95,
            Exceeding(device, drop.value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),
-           LossText(loss))});
+           LossText(loss),
+           device.of == DeviceClass::kSiliconModule
+               ? "corroded contacts, a broken ribbon, connectors or long leads"
+               : "contacts, a resistive layer or leads")});
 }
 
 }  // namespace

@@ -56,9 +56,10 @@ void AddIfAny(const char* name, const std::string& text, Section* section) {
 Section DiagnosisHead(const Diagnosis& diagnosis) {
   Section head = {fmt::format("lyrefit {}: diagnosis of {}", diagnosis.version, diagnosis.name)};
   const std::size_t curves = diagnosis.curves.size();
+  const bool counted = diagnosis.evidence.kind.find("curve") != std::string::npos;
   AddField("measured",
            fmt::format("{}; {}{}; {}", diagnosis.evidence.kind,
-                       curves > 1 ? Plural(curves, "curve") + ", " : "",
+                       curves > 1 && !counted ? Plural(curves, "curve") + ", " : "",
                        Plural(diagnosis.points.size(), "point"), ConditionsText(diagnosis)),
            &head);
   AddIfAny("assumed", fmt::format("{}", fmt::join(diagnosis.assumptions, "; ")), &head);
@@ -93,6 +94,11 @@ std::string CertaintyText(const Cause& cause, double level) {
       fmt::format("corrected p = {}, to be below {:g}", Significant(cause.corrected_p, 2), level);
   if (cause.evidence != "values") return p;
   return "seen in the values themselves" + (std::isnan(cause.corrected_p) ? "" : "; " + p);
+}
+
+// "12 %", "1.4 %"
+std::string ShortPercent(double part) {
+  return fmt::format("{:.{}f} %", 100 * part, std::fabs(part) < 0.0995 ? 1 : 0);
 }
 
 // "0.86 % (0.80 to 0.92)", with two digits of half the interval at most.
@@ -156,9 +162,13 @@ std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_le
   if (at_least)
     return "at least a part of the loss: the brightest cells are not at full light either";
   if (!std::isfinite(power.value)) return "";
-  std::string text = WithInterval(power, 1, "W");
+  // Cells of a laboratory give milliwatts and less.
+  const double size = std::max(std::fabs(power.value), power.high_95);
+  std::string text = size < 1e-3 ? WithInterval(power, 1e6, "uW")
+                     : size < 1  ? WithInterval(power, 1e3, "mW")
+                                 : WithInterval(power, 1, "W");
   const double all = MaxPower(diagnosis);
-  if (all > 0) text += fmt::format(", {} % of Pmax", Significant(100 * power.value / all, 2));
+  if (all > 0) text += ", " + ShortPercent(power.value / all) + " of Pmax";
   return text;
 }
 
@@ -166,7 +176,7 @@ std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_le
 std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
   std::vector<std::string> others;
   for (const Alternative& other : cause.alternatives) {
-    others.push_back(fmt::format("{} {} %", other.title, Significant(100 * other.probability, 2)));
+    others.push_back(other.title + " " + ShortPercent(other.probability));
   }
   if (!others.empty()) return fmt::format("{}", fmt::join(others, ", "));
   for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
@@ -178,7 +188,7 @@ std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
 std::string CauseHeading(const Cause& cause, const std::string& before) {
   std::string text = fmt::format("{}: {} ({}", before, cause.title, cause.id);
   if (std::isfinite(cause.probability)) {
-    text += fmt::format(", {} %", Significant(100 * cause.probability, 2));
+    text += ", " + ShortPercent(cause.probability);
   }
   return text + ")";
 }
@@ -395,16 +405,16 @@ std::vector<std::string> OtherWarnings(const Diagnosis& diagnosis) {
   return others;
 }
 
-// "shading (86 %), 1 of 3 substrings under 71 % (69 to 73) of the others' light, 17 W to gain (or
-// weak_cell)"
-std::string BriefCause(const Cause& cause) {
+// "shading (86 %), 1 of 3 substrings under 71 % (69 to 73) of the others' light, 17 W (15 to 18), 7 %
+// of Pmax to gain (or weak_cell)"
+std::string BriefCause(const Diagnosis& diagnosis, const Cause& cause) {
   std::string text = cause.id;
   if (std::isfinite(cause.probability)) {
-    text += fmt::format(" ({} %)", Significant(100 * cause.probability, 2));
+    text += " (" + ShortPercent(cause.probability) + ")";
   }
   if (!cause.in_words.empty()) text += ", " + cause.in_words.front();
   if (std::isfinite(cause.recoverable_power_W.value)) {
-    text += fmt::format(", {} W to gain", Significant(cause.recoverable_power_W.value, 2));
+    text += ", " + PowerText(diagnosis, cause.recoverable_power_W, false) + " to gain";
   }
   std::vector<std::string> others = cause.equivalents;
   if (!cause.alternatives.empty()) others.clear();
@@ -449,7 +459,8 @@ std::string DiagnosisText(const Diagnosis& diagnosis, Length length) {
 std::string BriefDiagnosis(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   std::string text;
-  for (const Cause& cause : verdict.causes) text += (text.empty() ? "" : "; ") + BriefCause(cause);
+  for (const Cause& cause : verdict.causes)
+    text += (text.empty() ? "" : "; ") + BriefCause(diagnosis, cause);
   if (text.empty()) {
     text = FullSentence(verdict.sentence);
   } else {

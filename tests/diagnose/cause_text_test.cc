@@ -47,6 +47,8 @@ TEST(InWordsTest, OfAnIntervalThatRoundingHidesSaysNothing) {
 }
 
 TEST(InWordsTest, OfInstrumentsSaysTheDirection) {
+  EXPECT_EQ(WordsFor("timing_skew", {-1}, {Reported("ts", -1.5, 0.5)}),
+            "the voltage was read 1500 ms (1000 to 2000) before the current");
   EXPECT_EQ(WordsFor("voltage_offset", {-0.02}, {Reported("c", -0.02, 0.005)}),
             "the instrument reads 20 mV (15 to 25) too little");
   EXPECT_EQ(WordsFor("temp_drift", {2}, {Reported("r", 2, 0.5)}),

@@ -331,8 +331,8 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
     return {SignedSize(of.Of("r"), "K", "warmer", "colder") + " at the end than at the begin"};
   }
   if (id == "timing_skew") {
-    return {"current and voltage were read " + WithRange(Scaled(of.Of("ts"), 1e3), "ms") +
-            " apart"};
+    return {"the voltage was read " +
+            SignedSize(Scaled(of.Of("ts"), 1e3), "ms", "after", "before") + " the current"};
   }
   if (id == "range_switch") {
     const Sized end = of.Of("Ir");

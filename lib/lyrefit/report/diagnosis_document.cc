@@ -140,11 +140,13 @@ std::string WhereText(const Diagnosis& diagnosis, const Cause& cause) {
                      cause.acts.empty() ? "" : ": ", cause.acts);
 }
 
-std::string SizeText(const Cause& cause) {
+// `alone`: the misfit without it is that of the whole diagnosis, and is said there.
+std::string SizeText(const Cause& cause, bool alone) {
   std::vector<std::string> words = cause.in_words;
   if (words.empty()) words = {cause.sentence};
-  if (std::isfinite(cause.current_effect.value)) {
-    words.push_back(WithInterval(cause.current_effect, 100, "% of Isc") + " over the curve");
+  if (!alone && std::isfinite(cause.current_effect.value)) {
+    words.push_back("without it the model misses by " +
+                    WithInterval(cause.current_effect, 100, "% of Isc"));
   }
   return fmt::format("{}", fmt::join(words, "; "));
 }
@@ -197,7 +199,8 @@ std::string CauseHeading(const Cause& cause, const std::string& before) {
 Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::string& before) {
   Section section = {CauseHeading(cause, before)};
   AddIfAny("where", WhereText(diagnosis, cause), &section);
-  AddField("size", SizeText(cause), &section);
+  const bool alone = diagnosis.verdict.causes.size() == 1 && !diagnosis.verdict.comparison.empty();
+  AddField("size", SizeText(cause, alone), &section);
   AddIfAny("to gain", PowerText(diagnosis, cause.recoverable_power_W, cause.at_least), &section);
   const std::string sheet = cause.fact_sheet.empty() ? "" : fmt::format(" ({})", cause.fact_sheet);
   if (!cause.action.empty()) AddField("to do", cause.action + sheet, &section);
@@ -213,11 +216,16 @@ Section CauseDetails(const Diagnosis& diagnosis, const Cause& cause) {
   for (std::size_t i = 0; i < cause.strength.size(); ++i) {
     AddField(i == 0 ? "parameters" : "", ParameterText(cause.strength[i]), &section);
   }
-  if (std::isfinite(cause.power_effect.value)) {
-    AddField("without it",
-             fmt::format("error of Pmax of the base model {}", PercentText(cause.power_effect)),
-             &section);
+  std::vector<std::string> without;
+  if (std::isfinite(cause.current_effect.value)) {
+    without.push_back(
+        fmt::format("misfit {}", WithInterval(cause.current_effect, 100, "% of Isc")));
   }
+  if (std::isfinite(cause.power_effect.value)) {
+    without.push_back(
+        fmt::format("error of Pmax of the base model {}", PercentText(cause.power_effect)));
+  }
+  AddIfAny("without it", fmt::format("{}", fmt::join(without, "; ")), &section);
   AddField("certainty", CertaintyText(cause, diagnosis.level), &section);
   AddIfAny("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
   return Folded(section);

@@ -237,8 +237,9 @@ std::vector<Section> CauseSections(const Diagnosis& diagnosis) {
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
   std::vector<Section> sections;
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    sections.push_back(
-        CauseSection(diagnosis, causes[i], fmt::format("Cause {} of {}", i + 1, causes.size())));
+    const std::string group = causes[i].group.empty() ? "" : fmt::format(" ({})", causes[i].group);
+    sections.push_back(CauseSection(diagnosis, causes[i],
+                                    fmt::format("Cause {} of {}{}", i + 1, causes.size(), group)));
   }
   return sections;
 }

@@ -18,10 +18,10 @@ namespace {
 enum class DeviceClass { kSiliconModule, kSiliconCell, kThinFilm };
 enum class JudgedQuantity { kLeak, kIdeality, kSeriesResistance };
 
-// Largest values of devices without a fault under standard light. Of silicon modules: exceeded by 1
-// of 72 without a fault and by 24 of 30 that were degraded (simulated cell by cell; field.md of the
-// judged curves). Single cells and thin films vary more, and a slope at 0 V may be collection that
-// depends on the voltage (doi:10.1038/ncomms7951), so that their limits are wide.
+// Largest values of devices without a fault under standard light. Of silicon modules simulated cell
+// by cell, 1 of 72 without a fault exceeds one of them, and 24 of 30 that were degraded. Single cells
+// and thin films vary more, and a slope at 0 V may be collection that depends on the voltage, so that
+// their limits are wide.
 struct HealthyLimit {
   JudgedQuantity quantity;
   DeviceClass kind;

@@ -38,8 +38,9 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
     return DrawPage(ReferenceDocument(comparison, diagnosis), ReferenceJson(comparison, diagnosis));
   }));
   return WriteText(verb, [&] {
-    return output.brief ? BriefReference(comparison) + BriefDiagnosis(diagnosis)
-                        : ReferenceText(comparison) + "\n" + DiagnosisText(diagnosis);
+    return output.brief
+               ? BriefReference(comparison) + BriefDiagnosis(diagnosis)
+               : ReferenceText(comparison) + "\n" + DiagnosisText(diagnosis, request.length());
   });
 }
 

@@ -6,6 +6,7 @@
 #include "flags.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/reference.h"
+#include "lyrefit/report/documents.h"
 
 namespace lyrefit {
 
@@ -23,9 +24,11 @@ struct DiagnoseRequest {
   bool list = false;
   std::string explain;
   ReportFlags output;
+  bool whole = false;
   std::string extend_file;
   std::string answers_file;
 
+  Length length() const { return whole ? Length::kWhole : Length::kShort; }
   bool Several() const { return files.size() > 1 && !together; }  // several measurements
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr char kEffectDoc[] =
     "Effect(id, parameters, *, junction=None, series=None, junction_derivatives=None,\n"
     "       series_derivatives=None, probes=None, title=None, equation='', sentence='', needs='',\n"
-    "       acts='', separate_by='', reference='')\n--\n\n"
+    "       acts='', separate_by='', action='', reference='')\n--\n\n"
     "An effect of your own: what the diode model lacks, as functions of arrays.\n\n"
     "It is fitted, simulated and diagnosed like those of the catalogue: ``fit(curve,\n"
     "with_=[effect])``, ``simulate(..., with_=[(effect, {'k': 0.02})])``, ``diagnose(curve,\n"

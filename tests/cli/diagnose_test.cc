@@ -72,6 +72,23 @@ TEST(DiagnoseVerb, PrintsTheDiagnosis) {
   EXPECT_THAT(result.out, HasSubstr("Verdict\n"));
 }
 
+TEST(DiagnoseVerb, SaysAllOnlyWhereItIsAsked) {
+  const std::string brief = RunApp(kVerb + kQuick).out;
+  const std::string whole = RunApp(kVerb + kQuick + "--verbose").out;
+  for (const char* part : {"What the readings show", "Effects tried", "How it was found"}) {
+    EXPECT_THAT(brief, ::testing::Not(HasSubstr(part)));
+    EXPECT_THAT(whole, HasSubstr(part));
+  }
+}
+
+TEST(DiagnoseVerb, ListsWhatToDoAboutEachEffect) {
+  const std::string list = RunApp("diagnose --list").out;
+  EXPECT_THAT(list, HasSubstr("PVFS 1-15"));
+  EXPECT_THAT(list, HasSubstr("wiring"));
+  EXPECT_THAT(list, HasSubstr("open the junction box and test the bypass diodes"));
+  EXPECT_THAT(RunApp("diagnose --explain bypass_open").out, HasSubstr("to do"));
+}
+
 TEST(DiagnoseVerb, WritesEveryFileItIsAskedFor) {
   const TempFolder folder;
   const AppResult result =

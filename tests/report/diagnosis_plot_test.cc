@@ -22,7 +22,7 @@ TEST(PlotDiagnosis, WritesAnSvgWithItsLabels) {
   const TempFolder folder;
   const std::string svg = Svg(SampleDiagnosis(), folder.Path("diagnosis.svg"));
   EXPECT_THAT(svg, HasSubstr("</svg>"));
-  EXPECT_THAT(svg, HasSubstr("sample_module: solved-current RMSE 1.31e-02 A, with the causes"));
+  EXPECT_THAT(svg, HasSubstr("sample_module: misfit 0.46 % of Isc, with the causes 0.04 %"));
   EXPECT_THAT(svg, HasSubstr("Residuals of the sd model"));
   EXPECT_THAT(svg, HasSubstr("Residuals with the causes"));
   EXPECT_THAT(svg, HasSubstr(">step of the irradiance<"));

@@ -40,14 +40,15 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
   EXPECT_EQ(
       Keys(j),
-      (Set{"lyrefit_version", "name",     "source",        "base",        "base_sentence",
-           "objective",       "seed",     "floor_current", "floor_power", "level",
-           "verdict",         "gain",     "evidence",      "trials",      "non_default_options",
-           "assumptions",     "warnings", "interrupted",   "usable",      "seconds",
-           "curves",          "points"}));
+      (Set{"lyrefit_version", "name",     "source",         "base",        "base_sentence",
+           "objective",       "seed",     "floor_current",  "floor_power", "level",
+           "verdict",         "gain",     "evidence",       "trials",      "non_default_options",
+           "assumptions",     "warnings", "interrupted",    "usable",      "seconds",
+           "curves",          "points",   "device_findings"}));
   EXPECT_EQ(Keys(j["verdict"]),
             (Set{"found", "unexplained", "sentence", "causes", "below_floor", "lack_of_fit",
-                 "probability_none", "recoverable_power_W", "cannot_be_excluded"}));
+                 "remaining", "comparison", "not_shown", "probability_none", "recoverable_power_W",
+                 "cannot_be_excluded"}));
   EXPECT_EQ(Keys(j["verdict"]["causes"][0]), (Set{"id",           "title",
                                                   "sentence",     "equivalents",
                                                   "separate_by",  "parameters",
@@ -99,6 +100,26 @@ TEST(DiagnosisJson, TellsTheCauseWithItsInterval) {
   EXPECT_EQ(shift["before"], 0.262);
   EXPECT_EQ(j["points"]["voltage_V"].size(), 60U);
   EXPECT_EQ(Of(j["trials"][0]["parameters"], "k")["unit"], "A/V");
+}
+
+TEST(DiagnosisJson, TellsPowerAndAlternativesAndWhatTheDeviceLacks) {
+  Diagnosis diagnosis = SampleDiagnosis();
+  diagnosis.verdict.causes = {SampleShadingCause()};
+  diagnosis.device_findings = {SampleLeak()};
+  const json j = json::parse(DiagnosisJson(diagnosis));
+  const json& cause = j["verdict"]["causes"][0];
+  EXPECT_EQ(cause["recoverable_power_W"], json::parse(R"({"value": 16.7, "low_95": 15.1,
+                                                          "high_95": 18.3})"));
+  EXPECT_EQ(cause["at_least"], false);
+  EXPECT_EQ(cause["probability"], 0.86);
+  EXPECT_EQ(cause["alternatives"][0], json::parse(R"({"id": "weak_cell", "title": "weak cells",
+                                                      "probability": 0.12})"));
+  EXPECT_EQ(cause["group"], "device");
+  EXPECT_EQ(cause["fact_sheet"], "PVFS 3-3");
+  const json& finding = j["device_findings"][0];
+  EXPECT_EQ(Keys(finding), (Set{"id", "symbol", "value", "low_95", "high_95", "healthy_limit",
+                                "power_loss", "sentence"}));
+  EXPECT_EQ(finding["value"], 0.031);
 }
 
 TEST(DiagnosisJson, WritesNullForWhatIsNotKnown) {

@@ -66,6 +66,16 @@ TEST(DrawPage, SaysTheVerdictOfADiagnosisOnce) {
   ExpectInOrder(html, {"<h2>Verdict</h2>", "<figure id=\"figure-1\"", "Cause 1 of"});
 }
 
+TEST(DrawPage, FoldsTheEvidenceOfADiagnosis) {
+  const Diagnosis diagnosis = SampleDiagnosis();
+  const std::string html = DrawPage(DiagnosisDocument(diagnosis), DiagnosisJson(diagnosis));
+  ExpectInOrder(html, {"Cause 1 of 1", "<dt>to do</dt>", "<details class=\"fold\">",
+                       "<summary><h2>Parameters of", "<summary><h2>What the readings show</h2>",
+                       "Effects tried", "</details>"});
+  EXPECT_EQ(Count(html, "<details class=\"fold\">"), 8);
+  EXPECT_THAT(DrawHtml(DiagnosisDocument(diagnosis)), HasSubstr("<details class=\"fold\">"));
+}
+
 TEST(DrawPage, HoldsTheRecord) {
   const FitReport report = SampleReport();
   const std::string json = JsonReport(report);

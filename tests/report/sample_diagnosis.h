@@ -105,6 +105,11 @@ inline Diagnosis SampleDiagnosisHead() {
       SampleUntried("capacitance", "capacitance of the junction",
                     "needs sweeps in both directions"),
       SampleUntried("instrument_lag", "lag of the instrument", "needs sweeps in both directions")};
+  d.verdict.lack_of_fit = {0.0046, 0.002, 0.0072};
+  d.verdict.remaining = {0.0004, 0.0002, 0.0006};
+  d.verdict.comparison =
+      "0.04 % of Isc with the cause, 0.46 without; healthy modules 0.05 to 0.20 %";
+  d.verdict.not_shown = "dirt or slight ageing of all cells alike or resistance of the leads";
   d.verdict.cannot_be_excluded = {
       {"lead_resistance", "Rs", "resistance of leads and contacts counts as Rs",
        "four-wire connection"},
@@ -134,7 +139,12 @@ inline Cause SampleStepCause() {
   Cause cause;
   cause.id = "irr_step";
   cause.title = "step of the irradiance";
-  cause.sentence = "From 12 V on the light was 1.9 % weaker than before.";
+  cause.sentence = "the light jumped while the curve was taken: a cloud edge, a lamp";
+  cause.in_words = {"from 12 V on the light was 1.9 % (1.7 to 2.1) weaker than before"};
+  cause.current_effect = {0.0046, 0.0041, 0.0051};
+  cause.power_effect = {0.0103, 0.0081, 0.0125};
+  cause.group = "sweep";
+  cause.action = "repeat the sweep under steady light with a reference cell beside the module";
   cause.equivalents = {"drift"};
   cause.separate_by = {"a reference cell read with every point"};
   cause.strength = {{"d", "relative_step", "", -0.019, -0.0212, -0.0168, false},
@@ -143,6 +153,42 @@ inline Cause SampleStepCause() {
   cause.evidence = "fit";
   cause.acts = "from the moment of the step on";
   return cause;
+}
+
+// A shaded substring with the probabilities of what it could be, and its power.
+inline Cause SampleShadingCause() {
+  Cause cause;
+  cause.id = "shading";
+  cause.title = "partial shading";
+  cause.sentence = "part of the module gets less light, and its bypass diodes conduct";
+  cause.in_words = {"1 of 3 substrings under 71 % (69 to 73) of the others' light"};
+  cause.current_effect = {0.062, 0.058, 0.066};
+  cause.power_effect = {0.041, 0.035, 0.047};
+  cause.recoverable_power_W = {16.7, 15.1, 18.3};
+  cause.probability = 0.86;
+  cause.alternatives = {{"weak_cell", "weak cells", 0.12},
+                        {"irr_step", "step of the irradiance", 0.014}};
+  cause.group = "device";
+  cause.action = "look for shade, snow or dirt on the darker part and clear it";
+  cause.fact_sheet = "PVFS 3-3";
+  cause.separate_by = {"repeat the sweep: shading stays at the same voltage",
+                       "a thermal image under load"};
+  cause.strength = {{"d", "light_deficit", "", 0.29, 0.27, 0.31, false},
+                    {"w", "share", "", 1.0 / 3, kUnknown, kUnknown, false}};
+  cause.corrected_p = 4e-9;
+  cause.evidence = "fit";
+  cause.acts = "at a step of the current, at a fixed voltage";
+  return cause;
+}
+
+inline DeviceFinding SampleLeak() {
+  return {"leak",
+          "Voc/(Rsh Isc)",
+          {0.031, 0.029, 0.033},
+          0.016,
+          0.04,
+          "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what healthy modules do (at most 1.6 %)"
+          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
 }
 
 // One sweep with an irradiance step, which was found.
@@ -236,6 +282,7 @@ inline Diagnosis SampleLitAndDark() {
   AddSampleSweep({"lit"}, misfit, &d);
   AddSampleSweep({"dark", 0, 25, true}, misfit, &d);
   d.verdict.sentence = "Something is there, but none of the known causes fits.";
+  d.verdict.comparison.clear();
   for (DiagnosedPoint& point : d.points) point.after_A = point.before_A;
   d.evidence.whiteness_after_p_value = d.evidence.whiteness_p_value;
   d.gain = {};

@@ -23,6 +23,8 @@ std::vector<ResultColumn> DiagnoseColumns() {
       {"cause_sentence", "", kText, "the same for a technician, with its size"},
       {"equivalents", "", kText, "ids that these readings cannot tell from it"},
       {"separate_by", "", kText, "measurements that would, with '; ' between them"},
+      {"action", "", kText, "the next thing to do about it"},
+      {"probability", "", kNumber, "that this cause, and no other, is there"},
       {"causes", "", kText, "ids of all causes, the most certain first"},
       {"below_floor", "", kText, "ids of what is there too but too small to act on"},
       {"unexplained", "", CellType::kTruth,
@@ -37,7 +39,9 @@ std::vector<ResultColumn> DiagnoseColumns() {
        "known"},
       {"recoverable_power_W_low_95", "W", kNumber, "its 95 % interval, or that lower limit"},
       {"recoverable_power_W_high_95", "W", kNumber, "its 95 % interval"},
-      {"probability", "", kNumber, "that this cause acts, not one like it and not none"},
+      {"device_findings", "", kText,
+       "of leak, ideality, series_resistance what lies above healthy devices, the largest loss "
+       "first"},
       {"verdict", "", kText, "the diagnosis in one sentence"},
       {"warnings", "", kText, "in plain words, with '; ' between them"},
   };
@@ -53,12 +57,16 @@ std::vector<std::string> Ids(const std::vector<Cause>& causes) {
 std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
   const Cause cause = verdict.causes.empty() ? Cause() : verdict.causes.front();
+  std::vector<std::string> findings;
+  for (const DeviceFinding& finding : diagnosis.device_findings) findings.push_back(finding.id);
   return {TextCell(cause.id),
           TextCell(cause.title),
           TextCell(AboutOf(cause.id)),
           TextCell(cause.sentence),
           ListCell(cause.equivalents),
           ListCell(cause.separate_by, "; "),
+          TextCell(cause.action),
+          NumberCell(cause.probability),
           ListCell(Ids(verdict.causes)),
           ListCell(Ids(verdict.below_floor)),
           verdict.unexplained,
@@ -67,7 +75,7 @@ std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
           NumberCell(cause.recoverable_power_W.value),
           NumberCell(cause.recoverable_power_W.low_95),
           NumberCell(cause.recoverable_power_W.high_95),
-          NumberCell(cause.probability),
+          ListCell(findings),
           TextCell(verdict.sentence),
           ListCell(diagnosis.warnings, "; ")};
 }

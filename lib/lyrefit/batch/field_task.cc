@@ -58,6 +58,7 @@ std::vector<ResultColumn> FieldColumns() {
            {"cause_sentence", "", kText, "the same for a technician, with its size"},
            {"equivalents", "", kText, "ids that these readings cannot tell from it"},
            {"separate_by", "", kText, "measurements that would, with '; ' between them"},
+           {"action", "", kText, "the next thing to do about it"},
            {"recoverable_power_W", "W", kNumber,
             "what the string would give more without the cause, in the light of the sweep; empty "
             "where only a lower limit is known"},
@@ -110,6 +111,7 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   cells.push_back(TextCell(cause.sentence));
   cells.push_back(ListCell(cause.equivalents));
   cells.push_back(ListCell(cause.separate_by, "; "));
+  cells.push_back(TextCell(cause.action));
   cells.push_back(NumberCell(cause.recoverable_power_W.value));
   cells.push_back(NumberCell(cause.recoverable_power_W.low_95));
   cells.push_back(NumberCell(cause.recoverable_power_W.high_95));

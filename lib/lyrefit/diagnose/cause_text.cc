@@ -7,11 +7,44 @@
 #include <string_view>
 
 #include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/model/law.h"
 
 namespace lyrefit {
 namespace {
 
 double Percent(double part) { return 100 * part; }
+
+// An effect of a fit, with its parameters in the units of Reading and as reported.
+struct Described {
+  const WeightedData& weighted;
+  const LawFit& fit;
+  int index;
+  const double* p;
+  const std::vector<CauseParameter>& strength;
+
+  const Readings& readings() const { return *weighted.readings; }
+  // The reported parameter; unknown values if it is not among them.
+  Sized Of(std::string_view symbol) const {
+    for (const CauseParameter& one : strength) {
+      if (one.symbol == symbol) return {one.value, one.low_95, one.high_95};
+    }
+    return {};
+  }
+};
+
+// "71 % (69 to 73)", without an interval that rounding hides.
+std::string PercentWithRange(const Sized& part, int digits) {
+  const auto text = [digits](double value) { return fmt::format("{:.{}f}", 100 * value, digits); };
+  const std::string value = text(part.value), low = text(part.low_95), high = text(part.high_95);
+  if (!std::isfinite(part.low_95) || low == high) return value + " %";
+  return fmt::format("{} % ({} to {})", value, low, high);
+}
+
+// Light that is left where `factor` times the deficit is missing.
+std::string LightLeft(double deficit, const Sized& reported, double factor = 1) {
+  const double low = 1 - factor * reported.high_95, high = 1 - factor * reported.low_95;
+  return PercentWithRange({1 - factor * deficit, std::max(low, 0.0), std::min(high, 1.0)}, 0);
+}
 
 // "1 of 3 substrings", or "33 % of the cells" if the share is no whole number of substrings.
 std::string Part(const Readings& readings, double share) {
@@ -29,18 +62,19 @@ std::string Covered(double part) {
   return part < 1 ? fmt::format(", on {:.0f} % of its cells", Percent(part)) : "";
 }
 
-std::vector<std::string> OfShading(const Readings& readings, const double* p) {
-  return {fmt::format("{} under {:.0f} % of the others' light{}", Part(readings, p[1]),
-                      Percent(1 - p[0]), Covered(p[3]))};
+std::vector<std::string> OfShading(const Described& of) {
+  return {fmt::format("{} under {} of the others' light{}", Part(of.readings(), of.p[1]),
+                      LightLeft(of.p[0], of.Of("d")), Covered(of.p[3]))};
 }
 
-std::vector<std::string> OfSubstrings(const Readings& readings, const double* p) {
+std::vector<std::string> OfSubstrings(const Described& of) {
   std::vector<std::string> words;
+  const double* p = of.p;
   for (int k = 0; k < 4; ++k) {
     if (!(p[2 * k + 1] > 0)) continue;
-    words.push_back(fmt::format("{} under {:.0f} % of the brightest's light{}",
-                                Part(readings, p[2 * k + 1]), Percent(1 - p[2 * k]),
-                                Covered(p[9])));
+    words.push_back(
+        fmt::format("{} under {} of the brightest's light{}", Part(of.readings(), p[2 * k + 1]),
+                    LightLeft(p[2 * k], of.Of(fmt::format("d{}", k + 1))), Covered(p[9])));
   }
   return words;
 }
@@ -49,19 +83,134 @@ std::vector<std::string> OfSubstrings(const Readings& readings, const double* p)
 // it is that of the cell in its own chain.
 double LightOfWeakCell(const double* p) { return 1 - p[0] * p[8]; }
 
-std::vector<std::string> OfWeakCell(const WeightedData& weighted, const LawFit& fit, int index,
-                                    const double* p) {
+std::vector<std::string> OfWeakCell(const Described& of) {
+  const double* p = of.p;
   const std::string cells =
       p[1] > 1.5 ? fmt::format("{:.0f} cells have", p[1]) : std::string("one cell has");
   std::vector<std::string> words = {
-      fmt::format("{} {:.0f} % of the others' light", cells, Percent(LightOfWeakCell(p)))};
+      fmt::format("{} {} of the others' light", cells, LightLeft(p[0], of.Of("d"), p[8]))};
   if (p[8] > 1) words.push_back("the module's halves stand side by side: the other half goes on");
-  const HotCell hot = FindHotCell(weighted, fit, index);
+  const HotCell hot = FindHotCell(of.weighted, of.fit, of.index);
   if (hot.heat_W > 0) {
     words.push_back(fmt::format("at short circuit it stands at {:.1f} V and turns {:.3g} W to heat",
                                 hot.voltage_V, hot.heat_W));
   }
   return words;
+}
+
+std::vector<std::string> OfBypassOpen(const Described& of) {
+  return {fmt::format("{} under {} of the others' light, and no bypass diode leads around it",
+                      Part(of.readings(), of.p[1]), LightLeft(of.p[0], of.Of("d")))};
+}
+
+double VoltageOf(const Described& of, const Reading& reading) {
+  return reading.voltage * of.readings().scale.cells;
+}
+
+// "14.0 % (13.8 to 14.2) weaker"
+std::string LightChange(const Sized& part) {
+  const bool weaker = part.value < 0;
+  const Sized size = weaker ? Sized{-part.value, -part.high_95, -part.low_95} : part;
+  return PercentWithRange(size, 1) + (weaker ? " weaker" : " stronger");
+}
+
+std::vector<std::string> OfStep(const Described& of) {
+  for (const Reading& reading : of.readings().points) {
+    if (reading.x <= of.p[1]) continue;
+    return {fmt::format("from {:.4g} V on the light was {} than before", VoltageOf(of, reading),
+                        LightChange(of.Of("s")))};
+  }
+  return {};
+}
+
+std::vector<std::string> OfTransient(const Described& of) {
+  const std::vector<Reading>& points = of.readings().points;
+  const auto nearest =
+      std::min_element(points.begin(), points.end(), [&of](const Reading& a, const Reading& b) {
+        return std::fabs(a.x - of.p[1]) < std::fabs(b.x - of.p[1]);
+      });
+  // The depth is a loss.
+  const Sized depth = of.Of("a");
+  return {fmt::format("near {:.4g} V the light was {} for a moment", VoltageOf(of, *nearest),
+                      LightChange({-depth.value, -depth.high_95, -depth.low_95}))};
+}
+
+std::vector<std::string> OfDrift(const Described& of) {
+  return {fmt::format("at the end of the sweep the light was {} than at its begin",
+                      LightChange(of.Of("d")))};
+}
+
+// Three digits without an exponent.
+std::string Plain(double value) {
+  return fmt::format(std::fabs(value) < 999.5 ? "{:.3g}" : "{:.0f}", value);
+}
+
+// "5.02 A", "1.3 mA", "8.2 uA"
+std::string Ampere(double value) {
+  const double size = std::fabs(value);
+  if (size < 1e-3) return Plain(1e6 * value) + " uA";
+  return size < 0.1 ? Plain(1e3 * value) + " mA" : fmt::format("{:.4g} A", value);
+}
+
+// "3.2 K (2.9 to 3.5)"
+std::string WithRange(const Sized& size, const char* unit) {
+  const std::string range =
+      std::isfinite(size.low_95)
+          ? fmt::format(" ({} to {})", Plain(std::min(size.low_95, size.high_95)),
+                        Plain(std::max(size.low_95, size.high_95)))
+          : "";
+  return fmt::format("{} {}{}", Plain(size.value), unit, range);
+}
+
+// Times a factor.
+Sized Scaled(const Sized& size, double factor) {
+  return {factor * size.value, factor * size.low_95, factor * size.high_95};
+}
+
+// A difference as a positive size and one of two words for its sign.
+std::string SignedSize(const Sized& size, const char* unit, const char* above, const char* below) {
+  const bool negative = size.value < 0;
+  return WithRange(Scaled(size, negative ? -1 : 1), unit) + " " + (negative ? below : above);
+}
+
+std::vector<std::string> OfClip(const Described& of) {
+  std::vector<std::string> words;
+  const Sized most = of.Of("Ic"), least = of.Of("Il");
+  const double scale = of.readings().scale.current_A;
+  if (most.value < 1.4 * scale) words.push_back("no current above " + Ampere(most.value));
+  if (least.value > -10 * scale) {
+    words.push_back("no current below " + Ampere(least.value));
+  }
+  return words;
+}
+
+// The largest change of the current by the effect.
+std::vector<std::string> OfCurrent(const Described& of) {
+  const LawFit rest = TakenOut(of.fit, of.index);
+  const std::vector<Reading>& points = of.readings().points;
+  std::vector<double> without(points.size());
+  LawWorkspace workspace;
+  if (!EvaluateLaw(rest.law, of.readings(), rest.p.data(), &workspace, without.data(), nullptr)) {
+    return {};
+  }
+  // Where the device delivers power, if any reading is there: beyond, currents grow without limit.
+  const auto change = [&](std::size_t k) { return of.fit.current[k] - without[k]; };
+  const auto delivers = [&](std::size_t k) {
+    return points[k].current > 0 && points[k].voltage > 0;
+  };
+  std::size_t most = points.size();
+  for (const bool anywhere : {false, true}) {
+    if (most < points.size()) break;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (!anywhere && !delivers(k)) continue;
+      if (most == points.size() || std::fabs(change(k)) > std::fabs(change(most))) most = k;
+    }
+  }
+  if (most == points.size() || !(std::fabs(change(most)) > 0)) return {};
+  const double percent = Percent(std::fabs(change(most)));
+  return {fmt::format("it {} up to {:.{}f} % of Isc, most at {:.4g} V",
+                      change(most) < 0 ? "takes" : "adds", percent, percent < 10 ? 1 : 0,
+                      VoltageOf(of, points[most]))};
 }
 
 // Voltage of a cell without a fault as a function of current, from a table. The voltage falls with
@@ -152,26 +301,70 @@ HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) 
   return hot;
 }
 
-std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index) {
+std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index,
+                                 const std::vector<CauseParameter>& strength) {
   const std::string_view id = fit.law.effects[index]->id;
-  const double* p = fit.p.data() + fit.law.Offset(index);
+  const Described of = {weighted, fit, index, fit.p.data() + fit.law.Offset(index), strength};
+  const double* p = of.p;
   const Readings& readings = *weighted.readings;
-  if (id == "shading") return OfShading(readings, p);
-  if (id == "substrings") return OfSubstrings(readings, p);
-  if (id == "weak_cell") return OfWeakCell(weighted, fit, index, p);
+  if (id == "shading") return OfShading(of);
+  if (id == "substrings") return OfSubstrings(of);
+  if (id == "weak_cell") return OfWeakCell(of);
+  if (id == "bypass_open") return OfBypassOpen(of);
+  if (id == "irr_step") return OfStep(of);
+  if (id == "transient") return OfTransient(of);
+  if (id == "drift") return OfDrift(of);
+  if (id == "clip") return OfClip(of);
   if (id == "mismatch") {
-    return {fmt::format("{:.3g} cells deliver {:.1f} % less than the others",
-                        p[1] * readings.traits.cells, Percent(p[0]))};
+    return {fmt::format("{:.3g} cells deliver {} less than the others",
+                        p[1] * readings.traits.cells, PercentWithRange(of.Of("d"), 1))};
   }
   if (id == "scatter") {
-    return {fmt::format("the light of the cells differs by {:.1f} % (one standard deviation)",
-                        Percent(p[0]))};
+    return {fmt::format("the light of the cells differs by {}, one standard deviation",
+                        PercentWithRange(of.Of("s"), 1))};
   }
   if (id == "leaky_cell") {
-    return {fmt::format("at 0.5 V the leak takes {:.2g} A of the cell",
-                        0.5 * p[0] * readings.scale.current_A)};
+    const std::string each = p[1] > 1.5 ? fmt::format("each of {:.0f} cells", p[1]) : "the cell";
+    return {fmt::format("at 0.5 V {} loses {:.2g} % of Isc", each, Percent(0.5 * p[0]))};
   }
-  return {};
+  if (id == "temp_drift") {
+    return {SignedSize(of.Of("r"), "K", "warmer", "colder") + " at the end than at the begin"};
+  }
+  if (id == "timing_skew") {
+    return {"the voltage was read " +
+            SignedSize(Scaled(of.Of("ts"), 1e3), "ms", "after", "before") + " the current"};
+  }
+  if (id == "range_switch") {
+    const Sized end = of.Of("Ir");
+    return {fmt::format("below {} the currents are {} than above", Ampere(end.value),
+                        SignedSize(Scaled(of.Of("g"), 100), "%", "larger", "smaller"))};
+  }
+  if (id == "current_offset") {
+    return {"the instrument reads " + SignedSize(Scaled(of.Of("c"), 100 / readings.scale.current_A),
+                                                 "% of Isc", "too much", "too little")};
+  }
+  if (id == "voltage_offset") {
+    return {"the instrument reads " +
+            SignedSize(Scaled(of.Of("c"), 1e3), "mV", "too much", "too little")};
+  }
+  if (id == "sensor_offset") {
+    return {"the light is " + SignedSize(of.Of("c"), "W/m2", "more", "less") + " than shown"};
+  }
+  if (id == "sensor_nonlin") {
+    return {"the light is " + SignedSize(Scaled(of.Of("c"), 100), "%", "more", "less") +
+            " than shown for each 1000 W/m2"};
+  }
+  if (id == "temp_offset" || id == "temp_gradient") {
+    return {"the cells are " + SignedSize(of.Of("c"), "K", "warmer", "colder") +
+            (id == "temp_offset" ? " than shown" : " than shown at 1000 W/m2")};
+  }
+  if (id == "isc_tempco") {
+    return {SignedSize(Scaled(of.Of("c"), 100), "%/K", "more", "less") + " than stated"};
+  }
+  if (id == "bandgap") {
+    return {SignedSize(of.Of("c"), "eV", "more", "less") + " than stated"};
+  }
+  return OfCurrent(of);
 }
 
 }  // namespace lyrefit

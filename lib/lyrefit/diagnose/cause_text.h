@@ -3,13 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
 
-// Plain-text meaning of effect number `index` of a fit for a technician: light of substrings in %,
-// voltage and heat of a cell in reverse. Empty for effects whose parameters need no explanation.
-std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index);
+// Size of effect number `index` of a fit for a technician: light of substrings in %, voltage and
+// heat of a cell in reverse, else the largest change of the current. `strength`: its parameters as
+// reported, whose intervals are repeated.
+std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit, int index,
+                                 const std::vector<CauseParameter>& strength);
 
 // A cell in reverse bias while the terminals are shorted.
 struct HotCell {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/effect_size.h"
@@ -14,13 +13,6 @@
 
 namespace lyrefit {
 namespace {
-
-std::string Short(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 // Readings at which a cause changes the current by more than half of its largest change.
 std::vector<int> WhereItActs(const WeightedData& weighted, const LawFit& with, int index) {
@@ -108,9 +100,7 @@ void AddEquivalent(const std::string& id, Cause* cause) {
 
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
   std::string text = effect.sentence;
-  for (std::size_t k = 0; k < cause.strength.size(); ++k) {
-    text += (k == 0 ? "; " : ", ") + StrengthText(cause.strength[k]);
-  }
+  for (const std::string& words : cause.in_words) text += "; " + words;
   return text;
 }
 
@@ -160,15 +150,6 @@ double RmseOf(const WeightedData& weighted, const std::vector<double>& current) 
     count += reading.weight;
   }
   return weighted.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
-}
-
-std::string StrengthText(const CauseParameter& parameter) {
-  std::string text = parameter.symbol + " = " + Short(parameter.value);
-  if (!parameter.unit.empty()) text += " " + parameter.unit;
-  if (std::isfinite(parameter.low_95)) {
-    text += " (" + Short(parameter.low_95) + " to " + Short(parameter.high_95) + ")";
-  }
-  return text;
 }
 
 std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,
@@ -267,7 +248,7 @@ Sized Recoverable(const PowerGain& gain) {
 void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
                   const LawFit& without, Cause* cause) {
   cause->strength = DescribeParameters(weighted, with, index);
-  cause->in_words = InWords(weighted, with, index);
+  cause->in_words = InWords(weighted, with, index, cause->strength);
   if (!without.usable) return;
   const EffectSize size = SizeOf(weighted, with, index, MakeWithout(weighted, without));
   const double half = size.current * size.reach;
@@ -275,9 +256,6 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
   cause->power_effect = {size.power, size.power - size.power_error, size.power + size.power_error};
   if (size.recoverable > 0) {
     cause->recoverable_power_W = Recoverable(GainWithout(weighted, with, index));
-    cause->in_words.push_back(fmt::format("without it Pmax would be {:.4g} W, {:+.1f} %",
-                                          (1 + size.recoverable) * DevicePower(weighted, with),
-                                          100 * size.recoverable));
   }
 }
 
@@ -294,9 +272,9 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     Cause cause = MakeCause(effect, "fit", fitted.probability);
     DescribeSize(selection.weighted, fitted.fit,
                  static_cast<int>(fitted.fit.law.effects.size()) - 1, selection.extended, &cause);
+    cause.sentence = CauseSentence(cause, effect);
     cause.in_words.clear();  // too small to act on
     cause.recoverable_power_W = {};
-    cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));
   }
   return causes;
@@ -328,17 +306,18 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
       if (!values.at_voltage_limit.empty()) {
         const double limit = values.voltage_limit * weighted.readings->scale.cells;
         cause.strength.push_back({"Vc", "voltage_limit", "V", limit, limit, limit, false});
+        cause.in_words.push_back(fmt::format("no voltage above {:.4g} V", limit));
       }
       std::sort(cause.points.begin(), cause.points.end());
     } else {
       cause.points =
           PointsIn(at.first, WhereItActs(weighted, selection.extended, static_cast<int>(c)));
     }
-    cause.sentence = CauseSentence(cause, effect);
     if (by_values) {
-      cause.sentence += "; " + std::to_string(cause.points.size()) +
-                        " readings at that limit, left out of the fit";
+      cause.in_words.push_back(std::to_string(cause.points.size()) +
+                               " readings at that limit, left out of the fit");
     }
+    cause.sentence = CauseSentence(cause, effect);
     causes.push_back(std::move(cause));
   }
   std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) {
@@ -348,8 +327,9 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     Cause cause = MakeCause(*FindEffect("outliers"), "fit", 1);
     cause.points = PointsIn(at.first, selection.outliers);
     std::sort(cause.points.begin(), cause.points.end());
-    cause.sentence += "; " + std::to_string(cause.points.size()) + " of " +
-                      std::to_string(at.weighted.readings->points.size()) + " readings, left out";
+    cause.in_words = {std::to_string(cause.points.size()) + " of " +
+                      std::to_string(at.weighted.readings->points.size()) + " readings, left out"};
+    cause.sentence = CauseSentence(cause, *FindEffect("outliers"));
     causes.push_back(std::move(cause));
   }
   return causes;

@@ -35,9 +35,6 @@ void DescribeRecoverable(const Selection& selection, Verdict* verdict);
 // Significant effects that are too small to be named: the best one, with its equivalents.
 std::vector<Cause> DescribeBelow(const Selection& selection);
 
-// "k = 0.085 A/V^2 (0.08 to 0.09)"
-std::string StrengthText(const CauseParameter& parameter);
-
 // Base parameters and maximum power of the device, with and without the causes.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
 

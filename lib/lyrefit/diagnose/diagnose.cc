@@ -14,6 +14,7 @@
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/describe.h"
+#include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/experiment_design.h"
 #include "lyrefit/diagnose/extended_report.h"
@@ -22,6 +23,7 @@
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
+#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/model/effects/catalogue.h"
@@ -107,6 +109,9 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
   }
   if (held_out.folds < 2) return "not measured on readings that were not fitted";
   const std::string parts = held_out.by_sweeps ? "whole sweeps" : "readings";
+  if (held_out.after_A > held_out.before_A) {
+    return "worse on " + parts + " that were not fitted: no gain";
+  }
   std::string sentence = held_out.gained() ? "the gain holds on " + parts + " that were not fitted"
                                            : "no gain on " + parts +
                                                  " that were not fitted: within its standard error";
@@ -133,8 +138,9 @@ Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOut
   return gain;
 }
 
+// `said`: the verdict says that structure remains.
 std::vector<std::string> FindWarnings(const Selection& selection, const Measurement& measurement,
-                                      const std::vector<std::string>& doubts) {
+                                      const std::vector<std::string>& doubts, bool said) {
   std::vector<std::string> warnings = doubts;
   warnings.insert(warnings.end(), measurement.warnings.begin(), measurement.warnings.end());
   if (selection.weighted.correlation > 0) {
@@ -147,7 +153,7 @@ std::vector<std::string> FindWarnings(const Selection& selection, const Measurem
                        " readings at ends of a sweep, where its voltage stood still, are left out "
                        "beside what depends on its rate");
   }
-  if (selection.incomplete > 0.5 && !selection.causes.empty()) {
+  if (selection.incomplete > 0.5 && !selection.causes.empty() && !said) {
     warnings.emplace_back("structure remains in the residuals that no further cause explains");
   }
   if (selection.noise.lit.constant < 1e-6 && selection.noise.lit.relative < 1e-6) {
@@ -312,12 +318,19 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.verdict = Decide(measurement, found, selected.at, prepared.options,
                              diagnosis.evidence.whiteness_after_p_value);
   DescribeRecoverable(found, &diagnosis.verdict);
+  const Floors floors = {prepared.options.floor_current, prepared.options.floor_power};
+  diagnosis.device_findings = FindDeviceFindings(
+      found,
+      {prepared.set.curves.front().notes.technology, prepared.set.curves.front().irradiance_known},
+      floors);
+  DescribeVerdict(found, floors, diagnosis.device_findings, &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);
   diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());
   diagnosis.curves = DescribeCurves(prepared.set, measurement.readings);
   diagnosis.points = DescribePoints(prepared.set, measurement, selected.at);
-  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts);
+  const bool said = diagnosis.verdict.found && LeavesTooMuch(diagnosis.verdict, floors);
+  diagnosis.warnings = FindWarnings(found, measurement, prepared.doubts, said);
   return diagnosis;
 }
 

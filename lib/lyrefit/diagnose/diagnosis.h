@@ -108,7 +108,7 @@ struct Sized {
 struct Alternative {
   std::string id;  // of an effect; "none": no cause; "unknown_structure": none of the known
   std::string title;
-  double probability = kUnknown;
+  double probability = kUnknown;  // those of a cause and of all its alternatives add up to 1
 };
 
 // An effect that explains a deviation of the data from the base model.
@@ -144,6 +144,16 @@ struct CannotBeExcluded {
   std::string separate_by;
 };
 
+// A parameter of the device outside the range of devices without a fault.
+struct DeviceFinding {
+  std::string id;                   // "leak", "ideality" or "series_resistance"
+  std::string symbol;               // "Voc/(Rsh Isc)"
+  Sized value;                      // under standard light
+  double healthy_limit = kUnknown;  // largest value of devices without a fault
+  double power_loss = kUnknown;     // part of Pmax that the healthy limit would give more
+  std::string sentence;             // without its subject: "leaks 3.1 % ..."
+};
+
 // Conclusion of a diagnosis.
 struct Verdict {
   bool found = false;  // at least one cause is in `causes`
@@ -156,7 +166,10 @@ struct Verdict {
   Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc
   double probability_none = kUnknown;  // that no cause acts
   Sized recoverable_power_W;           // additional Pmax of the device without all causes
+  Sized remaining;                     // the same of the extended model
+  std::string comparison;  // of both with modules without a fault; empty if nothing was found
   std::vector<CannotBeExcluded> cannot_be_excluded;  // effects that the data cannot show
+  std::string not_shown;                             // the commonest of these in a few words
   std::string sentence;
 };
 
@@ -199,11 +212,12 @@ struct Diagnosis {
   int cells_in_series = 1;
   std::vector<DiagnosedCurve> curves;  // in the set's order
   std::vector<DiagnosedPoint> points;
-  Evidence evidence;          // before any cause is tried
-  std::vector<Trial> trials;  // in the order of the catalogue
-  Verdict verdict;            // conclusion
-  Gain gain;                  // improvement by the causes
-  std::optional<Plan> plan;   // if requested
+  Evidence evidence;                           // before any cause is tried
+  std::vector<Trial> trials;                   // in the order of the catalogue
+  Verdict verdict;                             // conclusion
+  std::vector<DeviceFinding> device_findings;  // parameters of the device that are out of range
+  Gain gain;                                   // improvement by the causes
+  std::optional<Plan> plan;                    // if requested
   // The extended model (the base model if nothing was found) as a FitReport. With
   // DiagnoseOptions::extend it is searched and polished. Otherwise only `model`, `estimates`,
   // `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled, and `device` is empty:

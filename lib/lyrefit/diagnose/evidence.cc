@@ -9,6 +9,7 @@
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/describe.h"
+#include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/effects/catalogue.h"
@@ -62,19 +63,48 @@ void AddIrradianceFinding(const Readings& readings, Evidence* evidence) {
        {}});
 }
 
+// What would make n plausible (1 to 1.25), as far as it is possible. The data determine n Ns T only.
+struct Plausible {
+  bool temperature = false;  // a possible temperature does
+  double coldest_C = 0;
+  double warmest_C = 0;
+  int cells = 0;  // a whole number of bypass groups does; 0: none or several do
+};
+
+Plausible PlausibleConditions(const Readings& readings, double n) {
+  constexpr double kColdest_C = -40, kWarmest_C = 110;  // of cells outdoors and in the laboratory
+  constexpr double kMostOfModules = 1.25;
+  Plausible plausible;
+  const double kelvin = readings.reference_temperature_K * n;
+  plausible.coldest_C = std::max(kelvin / kMostOfModules - kZeroCelsius_K, kColdest_C);
+  plausible.warmest_C = std::min(kelvin - kZeroCelsius_K, kWarmest_C);
+  plausible.temperature = plausible.coldest_C < plausible.warmest_C;
+  const double group = static_cast<double>(readings.scale.cells) / SubstringsOf(readings.traits);
+  const double most = std::floor(readings.scale.cells * n / group);
+  const double least = std::ceil(readings.scale.cells * n / kMostOfModules / group);
+  if (readings.traits.module && most == least && most > 0) {
+    plausible.cells = static_cast<int>(std::lround(most * group));
+  }
+  return plausible;
+}
+
 // Reports n below 1, an indication of a wrong temperature or number of cells even if not
 // significant.
 void AddIdealityFinding(const Selection& selection, Evidence* evidence) {
   const Readings& readings = *selection.weighted.readings;
   const double n = std::min(Ideality(selection.base), Ideality(selection.extended));
   if (n > 1) return;
-  const double kelvin = readings.reference_temperature_K * n;
+  const Plausible plausible = PlausibleConditions(readings, n);
   evidence->findings.push_back(
       {"n_below_1",
-       fmt::format("n = {:.3f} is below 1: at {} cells, n between 1 and 1.5 needs {:.0f} to {:.0f} "
-                   "C, not the {:.1f} C stated; check the temperature and the number of cells",
-                   n, readings.scale.cells, kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K,
-                   readings.reference_temperature_K - kZeroCelsius_K),
+       plausible.temperature
+           ? fmt::format("n = {:.3f} is below 1: at {} cells, n between 1 and 1.25 needs {:.0f} to "
+                         "{:.0f} C, not the {:.1f} C stated; check the temperature and the number "
+                         "of cells",
+                         n, readings.scale.cells, plausible.coldest_C, plausible.warmest_C,
+                         readings.reference_temperature_K - kZeroCelsius_K)
+           : fmt::format("n = {:.3f} is below that of any junction at any plausible temperature",
+                         n),
        {}});
 }
 
@@ -241,6 +271,7 @@ Cause WrongCells(const Selection& selection) {
       "make n plausible (1 to 1.5)",
       traits.stated_cells, traits.open_circuit * traits.cells / traits.stated_cells,
       std::ceil(cells / 1.5), std::floor(cells));
+  cause.in_words = {cause.sentence};
   return cause;
 }
 
@@ -261,6 +292,7 @@ Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   cause.separate_by = {effect.separate_by, metadata.separate_by.front()};
   cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},
                     metadata.strength.front()};
+  cause.in_words = {fmt::format("1 of {} bypass groups gives no voltage", groups)};
   cause.sentence = fmt::format(
       "a group of cells is shorted, or the number of cells or the temperature is wrong: 1 of {} "
       "bypass groups gives no voltage; n = {:.2f} at {} cells, {:.2f} without that group",
@@ -281,8 +313,13 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const Readings& readings = *weighted.readings;
   const DataTraits& traits = readings.traits;
   if (traits.cells_known && traits.stated_cells != traits.cells) return {WrongCells(selection)};
+  // Beside another cause n may be a consequence of what that cause leaves. Before the knee it is
+  // not determined.
+  if (!selection.causes.empty() || !ReachesPastKnee(readings)) return {};
   const double n = Ideality(fit);
   if (n >= smallest && n <= kLargest) return {};
+  const Plausible plausible = PlausibleConditions(readings, n);
+  if (!plausible.temperature && plausible.cells == 0) return {};
   const std::vector<double> errors = StandardErrors(Linearize(weighted, fit));
   const double error = errors[IdealityIndex(0)] * std::sqrt(SquarePerDegree(weighted, fit));
   if (!(error > 0)) return {};
@@ -290,20 +327,26 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const double p = NormalTail(distance);
   if (!(p < kSure)) return {};
   Cause cause = Metadata("fit", 1 - p);
-  // The data determine n Ns T only. A plausible range of n gives ranges of T and of Ns.
-  const double kelvin = readings.reference_temperature_K * n;
-  const double cells = readings.scale.cells * n;
   const double z = StudentT95(Degrees(weighted, fit.law)) * error;
-  cause.strength = {{"n", "n", "", n, n - z, n + z, false},
-                    {"T", "temperature_for_n_1_to_1.5", "C", kelvin / 1.2 - kZeroCelsius_K,
-                     kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, false},
-                    {"Ns", "cells_for_n_1_to_1.5", "", cells / 1.2, cells / 1.5, cells, false}};
-  cause.sentence = fmt::format(
-      "{}: n = {:.3f} at {} cells and {:.1f} C; n between 1 and 1.5 would need {:.0f} to {:.0f} C, "
-      "or {:.0f} to {:.0f} cells",
-      cause.sentence, n, readings.scale.cells, readings.reference_temperature_K - kZeroCelsius_K,
-      kelvin / 1.5 - kZeroCelsius_K, kelvin - kZeroCelsius_K, std::ceil(cells / 1.5),
-      std::floor(cells));
+  cause.strength = {{"n", "n", "", n, n - z, n + z, false}};
+  std::vector<std::string> needs;
+  if (plausible.temperature) {
+    const double kelvin = readings.reference_temperature_K * n;
+    cause.strength.push_back({"T", "temperature_for_n_1_to_1.25", "C",
+                              kelvin / 1.1 - kZeroCelsius_K, plausible.coldest_C,
+                              plausible.warmest_C, false});
+    needs.push_back(fmt::format("{:.0f} to {:.0f} C instead of {:.1f}", plausible.coldest_C,
+                                plausible.warmest_C,
+                                readings.reference_temperature_K - kZeroCelsius_K));
+  }
+  if (plausible.cells > 0) {
+    const double cells = plausible.cells;
+    cause.strength.push_back({"Ns", "cells_for_n_1_to_1.25", "", cells, cells, cells, false});
+    needs.push_back(fmt::format("{} cells instead of {}", plausible.cells, readings.scale.cells));
+  }
+  cause.in_words = {
+      fmt::format("n = {:.2f}, where a junction needs {}", n, fmt::join(needs, ", or "))};
+  cause.sentence += "; " + cause.in_words.front();
   if (shorted && LacksAGroup(traits, n)) return {ShortedGroup(traits, n, cause)};
   return {cause};
 }

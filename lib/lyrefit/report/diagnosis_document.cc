@@ -17,7 +17,7 @@ constexpr double kLargestShiftPercent = 1000;  // above it a relative difference
 
 // "200 to 1000", "25"
 std::string NoiseSpread(double low, double high) {
-  return high > low ? fmt::format("{:.5g} to {:.5g}", low, high) : fmt::format("{:.5g}", low);
+  return high > low ? fmt::format("{:.4g} to {:.4g}", low, high) : fmt::format("{:.4g}", low);
 }
 
 std::string ConditionsText(const Diagnosis& diagnosis) {
@@ -48,19 +48,26 @@ std::string NamedText(const Diagnosis& diagnosis) {
   return text;
 }
 
+void AddIfAny(const char* name, const std::string& text, Section* section) {
+  if (!text.empty()) AddField(name, text, section);
+}
+
 Section DiagnosisHead(const Diagnosis& diagnosis) {
   Section head = {fmt::format("lyrefit {}: diagnosis of {}", diagnosis.version, diagnosis.name)};
-  AddField(
-      "measured",
-      fmt::format("{}; {}, {}{}", diagnosis.evidence.kind, Plural(diagnosis.curves.size(), "curve"),
-                  Plural(diagnosis.points.size(), "point"),
-                  diagnosis.source.empty() ? "" : fmt::format(" ({})", diagnosis.source)),
-      &head);
-  AddField("conditions", ConditionsText(diagnosis), &head);
-  AddField("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence), &head);
-  AddField("objective", fmt::format("solved-current; seed {}", diagnosis.seed), &head);
-  AddField("named", NamedText(diagnosis), &head);
+  const std::size_t curves = diagnosis.curves.size();
+  const bool counted = diagnosis.evidence.kind.find("curve") != std::string::npos;
+  AddField("measured",
+           fmt::format("{}; {}{}; {}", diagnosis.evidence.kind,
+                       curves > 1 && !counted ? Plural(curves, "curve") + ", " : "",
+                       Plural(diagnosis.points.size(), "point"), ConditionsText(diagnosis)),
+           &head);
+  AddIfAny("assumed", fmt::format("{}", fmt::join(diagnosis.assumptions, "; ")), &head);
   return head;
+}
+
+Section Folded(Section section) {
+  section.folded = true;
+  return section;
 }
 
 std::string WithUnit(const std::string& text, const std::string& unit) {
@@ -68,7 +75,7 @@ std::string WithUnit(const std::string& text, const std::string& unit) {
 }
 
 // "relative step d = -0.0190, 95 %: -0.0212 .. -0.0168"
-std::string SizeText(const CauseParameter& parameter) {
+std::string ParameterText(const CauseParameter& parameter) {
   std::string name = parameter.name;
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string text =
@@ -91,25 +98,25 @@ std::string CertaintyText(const Cause& cause) {
   return "probability " + WholePercent(cause.probability);
 }
 
-// "0.86 % (0.80 .. 0.92)"
-std::string PercentText(const Sized& size) {
-  std::string text = Significant(100 * size.value, 3) + " %";
-  if (std::isfinite(size.low_95)) {
-    text += fmt::format(" ({})", Range(100 * size.low_95, 100 * size.high_95));
-  }
-  return text;
+// "12 %", "1.4 %"
+std::string ShortPercent(double part) {
+  return fmt::format("{:.{}f} %", 100 * part, std::fabs(part) < 0.0995 ? 1 : 0);
 }
 
-std::string EffectText(const Cause& cause) {
-  std::string text;
-  if (std::isfinite(cause.current_effect.value)) {
-    text = PercentText(cause.current_effect) + " of Isc, root mean square over the curve";
+// "0.86 % (0.80 to 0.92)", with two digits of half the interval at most.
+std::string WithInterval(const Sized& size, double factor, const char* unit) {
+  if (!std::isfinite(size.low_95)) {
+    return fmt::format("{} {}", Significant(factor * size.value, 3), unit);
   }
-  if (std::isfinite(cause.power_effect.value)) {
-    text += fmt::format("{}{} of Pmax", text.empty() ? "" : "; ", PercentText(cause.power_effect));
-  }
-  return text;
+  const double half = 0.5 * factor * (size.high_95 - size.low_95);
+  const double digits = half > 0 ? std::ceil(-std::log10(half)) : 1;
+  const int places = static_cast<int>(std::clamp(digits, 0.0, 4.0));
+  return fmt::format("{:.{}f} {} ({:.{}f} to {:.{}f})", factor * size.value, places, unit,
+                     factor * size.low_95, places, factor * size.high_95, places);
 }
+
+// "0.86 % (0.80 to 0.92)"
+std::string PercentText(const Sized& size) { return WithInterval(size, 100, "%"); }
 
 // Title and id of an effect: "step of the irradiance (irr_step)".
 std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
@@ -119,28 +126,111 @@ std::string EffectLabel(const Diagnosis& diagnosis, const std::string& id) {
   return id;
 }
 
-Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::string& before) {
-  Section section = {fmt::format("{}: {} ({})", before, cause.title, cause.id)};
-  for (const std::string& words : cause.in_words) AddSentence(FullSentence(words), &section);
-  AddSentence(FullSentence(cause.sentence), &section);
-  const std::string effect = EffectText(cause);
-  if (!effect.empty()) AddField("effect", effect, &section);
-  for (std::size_t i = 0; i < cause.strength.size(); ++i) {
-    AddField(i == 0 ? "size" : "", SizeText(cause.strength[i]), &section);
+// "12 to 18.4 V: from the moment of the step on"
+std::string WhereText(const Diagnosis& diagnosis, const Cause& cause) {
+  double low = kUnknown, high = kUnknown;
+  for (const int k : cause.points) {
+    const double voltage = diagnosis.points[k].voltage_V;
+    low = low <= voltage ? low : voltage;
+    high = high >= voltage ? high : voltage;
   }
-  AddField("certainty", CertaintyText(cause), &section);
-  if (!cause.acts.empty()) AddField("acts", cause.acts, &section);
+  if (!std::isfinite(low)) return cause.acts;
+  const int places = high >= 10 ? 1 : high >= 1 ? 2 : 3;
+  const std::string from = fmt::format("{:.{}f}", low, places);
+  const std::string to = fmt::format("{:.{}f}", high, places);
+  return fmt::format("{}{} V{}{}", from == to ? "" : from + " to ", to,
+                     cause.acts.empty() ? "" : ": ", cause.acts);
+}
+
+// `alone`: the misfit without it is that of the whole diagnosis, and is said there.
+std::string SizeText(const Cause& cause, bool alone) {
+  std::vector<std::string> words = cause.in_words;
+  if (words.empty()) words = {cause.sentence};
+  if (!alone && std::isfinite(cause.current_effect.value)) {
+    words.push_back("without it the model misses by " +
+                    WithInterval(cause.current_effect, 100, "% of Isc"));
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+// Maximum power of the device; NaN if it is not known.
+double MaxPower(const Diagnosis& diagnosis) {
+  for (const ParameterShift& shift : diagnosis.gain.shifts) {
+    if (shift.name == "max_power") return shift.after;
+  }
+  return kUnknown;
+}
+
+// "16.7 W (15.1 to 18.3), 7 % of Pmax"; empty without power to gain.
+std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_least) {
+  if (at_least)
+    return "at least a part of the loss: the brightest cells are not at full light either";
+  if (!std::isfinite(power.value)) return "";
+  // Cells of a laboratory give milliwatts and less.
+  const double size = std::max(std::fabs(power.value), power.high_95);
+  std::string text = size < 1e-3 ? WithInterval(power, 1e6, "uW")
+                     : size < 1  ? WithInterval(power, 1e3, "mW")
+                                 : WithInterval(power, 1, "W");
+  const double all = MaxPower(diagnosis);
+  if (all > 0) text += ", " + ShortPercent(power.value / all) + " of Pmax";
+  return text;
+}
+
+// What else could stand in the place of a cause: with probabilities if they are known.
+std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
   std::vector<std::string> others;
+  for (const Alternative& other : cause.alternatives) {
+    others.push_back(other.title + " " + ShortPercent(other.probability));
+  }
+  if (!others.empty()) return fmt::format("{}", fmt::join(others, ", "));
   for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
-  if (!others.empty()) {
-    AddField("or else",
-             fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; ")),
-             &section);
+  if (others.empty()) return "";
+  return fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; "));
+}
+
+// Title of a cause, with its probability if it is known.
+std::string CauseHeading(const Cause& cause, const std::string& before) {
+  std::string text = fmt::format("{}: {} ({}", before, cause.title, cause.id);
+  if (std::isfinite(cause.probability)) {
+    text += ", " + ShortPercent(cause.probability);
   }
-  if (!cause.separate_by.empty()) {
-    AddField("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
-  }
+  return text + ")";
+}
+
+// What a technician needs of a cause.
+Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::string& before) {
+  Section section = {CauseHeading(cause, before)};
+  AddIfAny("where", WhereText(diagnosis, cause), &section);
+  const bool alone = diagnosis.verdict.causes.size() == 1 && !diagnosis.verdict.comparison.empty();
+  AddField("size", SizeText(cause, alone), &section);
+  AddIfAny("to gain", PowerText(diagnosis, cause.recoverable_power_W, cause.at_least), &section);
+  const std::string sheet = cause.fact_sheet.empty() ? "" : fmt::format(" ({})", cause.fact_sheet);
+  if (!cause.action.empty()) AddField("to do", cause.action + sheet, &section);
+  AddIfAny("or else", AlternativesText(diagnosis, cause), &section);
+  if (!cause.separate_by.empty()) AddField("to tell", cause.separate_by.front(), &section);
   return section;
+}
+
+// Parameters and certainty of a cause.
+Section CauseDetails(const Diagnosis& diagnosis, const Cause& cause) {
+  Section section = {fmt::format("Parameters of {} ({})", cause.title, cause.id)};
+  AddSentence(FullSentence(cause.sentence), &section);
+  for (std::size_t i = 0; i < cause.strength.size(); ++i) {
+    AddField(i == 0 ? "parameters" : "", ParameterText(cause.strength[i]), &section);
+  }
+  std::vector<std::string> without;
+  if (std::isfinite(cause.current_effect.value)) {
+    without.push_back(
+        fmt::format("misfit {}", WithInterval(cause.current_effect, 100, "% of Isc")));
+  }
+  if (std::isfinite(cause.power_effect.value)) {
+    without.push_back(
+        fmt::format("error of Pmax of the base model {}", PercentText(cause.power_effect)));
+  }
+  AddIfAny("without it", fmt::format("{}", fmt::join(without, "; ")), &section);
+  AddField("certainty", CertaintyText(cause), &section);
+  AddIfAny("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
+  return Folded(section);
 }
 
 }  // namespace
@@ -149,8 +239,9 @@ std::vector<Section> CauseSections(const Diagnosis& diagnosis) {
   const std::vector<Cause>& causes = diagnosis.verdict.causes;
   std::vector<Section> sections;
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    sections.push_back(
-        CauseSection(diagnosis, causes[i], fmt::format("Cause {} of {}", i + 1, causes.size())));
+    const std::string group = causes[i].group.empty() ? "" : fmt::format(" ({})", causes[i].group);
+    sections.push_back(CauseSection(diagnosis, causes[i],
+                                    fmt::format("Cause {} of {}{}", i + 1, causes.size(), group)));
   }
   return sections;
 }
@@ -160,9 +251,41 @@ namespace {
 std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
   std::vector<Section> sections;
   for (const Cause& cause : diagnosis.verdict.below_floor) {
-    sections.push_back(CauseSection(diagnosis, cause, "Present, not material"));
+    sections.push_back(Folded(CauseSection(diagnosis, cause, "Present, not material")));
+    sections.push_back(CauseDetails(diagnosis, cause));
   }
   return sections;
+}
+
+std::vector<Section> DetailSections(const Diagnosis& diagnosis) {
+  std::vector<Section> sections;
+  for (const Cause& cause : diagnosis.verdict.causes) {
+    sections.push_back(CauseDetails(diagnosis, cause));
+  }
+  return sections;
+}
+
+// The whole: power of all causes together, comparison with modules without a fault, parameters out
+// of range, limits of these readings.
+Section WholeSection(const Diagnosis& diagnosis) {
+  const Verdict& verdict = diagnosis.verdict;
+  Section section = {"The device"};
+  const bool at_least = std::any_of(verdict.causes.begin(), verdict.causes.end(),
+                                    [](const Cause& cause) { return cause.at_least; });
+  const auto with_power =
+      std::count_if(verdict.causes.begin(), verdict.causes.end(), [](const Cause& cause) {
+        return std::isfinite(cause.recoverable_power_W.value) || cause.at_least;
+      });
+  if (with_power > 1) {
+    AddIfAny("all to gain", PowerText(diagnosis, verdict.recoverable_power_W, at_least), &section);
+  }
+  AddIfAny("misfit", verdict.comparison, &section);
+  for (const DeviceFinding& finding : diagnosis.device_findings) {
+    const bool first = &finding == &diagnosis.device_findings.front();
+    AddField(first ? "out of range" : "", "it " + finding.sentence, &section);
+  }
+  if (verdict.found) AddIfAny("not shown", verdict.not_shown, &section);
+  return section;
 }
 
 // The next measurements that would separate the causes.
@@ -269,21 +392,40 @@ Section ShiftSection(const std::vector<ParameterShift>& shifts) {
 
 Section RunSection(const Diagnosis& diagnosis) {
   Section section = {"How it was found"};
+  AddIfAny("file", diagnosis.source, &section);
+  AddField("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence), &section);
+  AddField("objective", fmt::format("solved-current; seed {}", diagnosis.seed), &section);
+  AddField("named", NamedText(diagnosis), &section);
   AddField("time", Duration(diagnosis.seconds), &section);
   AddField("options", OptionsText(diagnosis.non_default_options), &section);
   return section;
 }
 
-// "irr_step d -0.0190 (98 %) or drift"
-std::string BriefCause(const Cause& cause) {
-  std::string text = cause.id;
-  if (!cause.strength.empty()) {
-    const CauseParameter& first = cause.strength.front();
-    text += fmt::format(" {} {}{}{}", first.symbol, Significant(first.value, 3),
-                        first.unit.empty() ? "" : " ", first.unit);
+// Warnings that no banner says.
+std::vector<std::string> OtherWarnings(const Diagnosis& diagnosis) {
+  std::vector<std::string> others;
+  for (const std::string& warning : diagnosis.warnings) {
+    const auto& doubts = diagnosis.doubts;
+    if (std::find(doubts.begin(), doubts.end(), warning) == doubts.end()) others.push_back(warning);
   }
-  text += fmt::format(" ({})", WholePercent(cause.probability));
-  for (const std::string& id : cause.equivalents) text += " or " + id;
+  return others;
+}
+
+// "shading (86 %), 1 of 3 substrings under 71 % (69 to 73) of the others' light, 17 W (15 to 18), 7 %
+// of Pmax to gain (or weak_cell)"
+std::string BriefCause(const Diagnosis& diagnosis, const Cause& cause) {
+  std::string text = cause.id;
+  if (std::isfinite(cause.probability)) {
+    text += " (" + ShortPercent(cause.probability) + ")";
+  }
+  if (!cause.in_words.empty()) text += ", " + cause.in_words.front();
+  if (std::isfinite(cause.recoverable_power_W.value)) {
+    text += ", " + PowerText(diagnosis, cause.recoverable_power_W, false) + " to gain";
+  }
+  std::vector<std::string> others = cause.equivalents;
+  if (!cause.alternatives.empty()) others.clear();
+  for (const Alternative& other : cause.alternatives) others.push_back(other.id);
+  if (!others.empty()) text += fmt::format(" (or {})", fmt::join(others, ", "));
   return text;
 }
 
@@ -298,36 +440,40 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
   AddSections({{"Verdict", {block::Sentence{FullSentence(diagnosis.verdict.sentence)}}}},
               &document);
   AddSections(CauseSections(diagnosis), &document);
-  AddSections({PlanSection(diagnosis)}, &document);
+  AddSections(
+      {WholeSection(diagnosis), PlanSection(diagnosis), WarningSection(OtherWarnings(diagnosis))},
+      &document);
+  AddSections(DetailSections(diagnosis), &document);
   AddSections(BelowSections(diagnosis), &document);
-  AddSections({found ? GainSection(gain) : BaseGainSection(gain),
-               found ? ShiftSection(gain.shifts) : BaseSection(gain.shifts)},
+  AddSections({Folded(found ? GainSection(gain) : BaseGainSection(gain)),
+               Folded(found ? ShiftSection(gain.shifts) : BaseSection(gain.shifts))},
               &document);
-  AddSections(DiagnosisEvidenceSections(diagnosis), &document);
-  AddSections({RunSection(diagnosis), ListSection("Assumed", diagnosis.assumptions),
-               WarningSection(diagnosis.warnings)},
-              &document);
+  for (Section& section : DiagnosisEvidenceSections(diagnosis)) {
+    AddSections({Folded(std::move(section))}, &document);
+  }
+  AddSections({Folded(RunSection(diagnosis))}, &document);
   document.verdict = FullSentence(diagnosis.verdict.sentence);
   AddFigure(FigureBlock(diagnosis), &document.head);
   return document;
 }
 
-std::string DiagnosisText(const Diagnosis& diagnosis) {
-  return DrawText(DiagnosisDocument(diagnosis));
+std::string DiagnosisText(const Diagnosis& diagnosis, Length length) {
+  const Document document = DiagnosisDocument(diagnosis);
+  return DrawText(length == Length::kShort ? WithoutFolds(document) : document);
 }
 
 std::string BriefDiagnosis(const Diagnosis& diagnosis) {
-  const Gain& gain = diagnosis.gain;
+  const Verdict& verdict = diagnosis.verdict;
   std::string text;
-  for (const Cause& cause : diagnosis.verdict.causes) {
-    text += (text.empty() ? "" : "; ") + BriefCause(cause);
+  for (const Cause& cause : verdict.causes)
+    text += (text.empty() ? "" : "; ") + BriefCause(diagnosis, cause);
+  if (text.empty()) {
+    text = FullSentence(verdict.sentence);
+  } else {
+    text += fmt::format("; misfit {:.2f} -> {:.2f} % of Isc", 100 * verdict.lack_of_fit.value,
+                        100 * verdict.remaining.value);
   }
-  if (text.empty()) text = FullSentence(diagnosis.verdict.sentence);
-  text +=
-      fmt::format("{} RMSE {}", text.back() == '.' ? "" : ";", Scientific(gain.rmse_before_A, 4));
-  if (diagnosis.verdict.found) text += " -> " + Scientific(gain.rmse_after_A, 4);
-  text += " A solved-current" +
-          BriefMarks(diagnosis.interrupted, diagnosis.extended.usable, diagnosis.warnings.size());
+  text += BriefMarks(diagnosis.interrupted, diagnosis.extended.usable, diagnosis.warnings.size());
   return diagnosis.name + ": " + text + "\n";
 }
 

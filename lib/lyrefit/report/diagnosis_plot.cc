@@ -225,11 +225,11 @@ Panel ResidualPanel(const ShownDiagnosis& shown, const std::string& title,
 }
 
 std::string Title(const Diagnosis& diagnosis) {
-  const Gain& gain = diagnosis.gain;
-  std::string title = fmt::format("{}: solved-current RMSE {} A", diagnosis.name,
-                                  Scientific(gain.rmse_before_A, 3));
-  if (diagnosis.verdict.found) {
-    title += fmt::format(", with the causes {} A", Scientific(gain.rmse_after_A, 3));
+  const Verdict& verdict = diagnosis.verdict;
+  std::string title =
+      fmt::format("{}: misfit {:.2f} % of Isc", diagnosis.name, 100 * verdict.lack_of_fit.value);
+  if (verdict.found) {
+    title += fmt::format(", with the causes {:.2f} %", 100 * verdict.remaining.value);
   }
   return title + (diagnosis.interrupted ? ", interrupted" : "");
 }

@@ -1,5 +1,7 @@
 #include "lyrefit/report/document.h"
 
+#include <algorithm>
+
 namespace lyrefit {
 
 void AddField(std::string name, std::string text, Section* section) {
@@ -31,6 +33,14 @@ Section WarningSection(std::vector<std::string> warnings) {
   Section section = ListSection("Warnings", std::move(warnings));
   section.warns = true;
   return section;
+}
+
+Document WithoutFolds(Document document) {
+  std::vector<Section>& sections = document.sections;
+  sections.erase(std::remove_if(sections.begin(), sections.end(),
+                                [](const Section& section) { return section.folded; }),
+                 sections.end());
+  return document;
 }
 
 void AddSections(std::vector<Section> sections, Document* document) {

@@ -95,6 +95,7 @@ struct Section {
   std::vector<block::Any> blocks = {};  // in reading order
   int depth = 0;                        // 0, or 1 below the last of 0
   bool warns = false;                   // holds warnings, which pages show first
+  bool folded = false;                  // pages show its heading only, until it is opened
 };
 
 // A report: its sections in reading order, with banners before them.
@@ -115,6 +116,9 @@ void AddSentence(std::string text, Section* section);
 void AddList(std::vector<std::string> sentences, Section* section);
 void AddTable(block::Table table, Section* section);
 void AddFigure(block::Figure figure, Section* section);  // ignored without panels
+
+// The document without its folded sections.
+Document WithoutFolds(Document document);
 
 // A heading and a list below it.
 Section ListSection(std::string heading, std::vector<std::string> sentences);

@@ -37,10 +37,12 @@ Document FamilyDocument(const FamilyReport& report, const CurveSet& set);
 std::string FamilyText(const FamilyReport& report);
 std::string BriefFamily(const FamilyReport& report);
 
-// A diagnosis: the verdict, each cause with its size and equivalents, then the evidence. Every RMSE
-// is solved-current and labelled so.
+// A diagnosis: the verdict, each cause with its place, size, power and what to do, then, folded,
+// parameters and evidence. Every RMSE is solved-current and labelled so.
 Document DiagnosisDocument(const Diagnosis& diagnosis);
-std::string DiagnosisText(const Diagnosis& diagnosis);
+// The text without or with the folded sections.
+enum class Length { kShort, kWhole };
+std::string DiagnosisText(const Diagnosis& diagnosis, Length length = Length::kShort);
 std::string BriefDiagnosis(const Diagnosis& diagnosis);
 
 // A sweep against reference sweeps: conclusion, table of measured and expected values, sweeps used.

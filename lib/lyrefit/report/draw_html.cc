@@ -187,10 +187,18 @@ std::string HtmlBlocks(const std::vector<block::Any>& blocks, const HtmlLooks& l
 
 std::string HtmlSection(const Section& section, const HtmlLooks& looks, const std::string& id) {
   std::string html = "<section" + (id.empty() ? "" : " id=\"" + id + "\"") + ">\n";
-  if (!section.heading.empty()) {
-    html += HtmlElement(section.depth == 0 ? "h2" : "h3", section.heading) + "\n";
+  const std::string heading =
+      section.heading.empty()
+          ? ""
+          : HtmlElement(section.depth == 0 ? "h2" : "h3", section.heading) + "\n";
+  const std::string blocks = HtmlBlocks(section.blocks, looks);
+  if (section.folded) {
+    html +=
+        "<details class=\"fold\">\n<summary>" + heading + "</summary>\n" + blocks + "</details>\n";
+  } else {
+    html += heading + blocks;
   }
-  return html + HtmlBlocks(section.blocks, looks) + "</section>\n";
+  return html + "</section>\n";
 }
 
 std::string DrawHtml(const Document& document) {

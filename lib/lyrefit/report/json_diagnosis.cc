@@ -93,7 +93,19 @@ void to_json(Json& j, const Cause& cause) {
 }
 
 LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, lack_of_fit,
-                    probability_none, recoverable_power_W, cannot_be_excluded)
+                    remaining, comparison, probability_none, recoverable_power_W,
+                    cannot_be_excluded, not_shown)
+
+void to_json(Json& j, const DeviceFinding& finding) {
+  j = {{"id", finding.id},
+       {"symbol", finding.symbol},
+       {"value", finding.value.value},
+       {"low_95", finding.value.low_95},
+       {"high_95", finding.value.high_95},
+       {"healthy_limit", finding.healthy_limit},
+       {"power_loss", finding.power_loss},
+       {"sentence", finding.sentence}};
+}
 
 void to_json(Json& j, const ParameterShift& shift) {
   j = ParameterInfo{shift.symbol, shift.name, shift.unit, ""};
@@ -172,6 +184,7 @@ void to_json(Json& j, const Diagnosis& diagnosis) {
        {"floor_current", diagnosis.floor_current},
        {"floor_power", diagnosis.floor_power},
        {"verdict", diagnosis.verdict},
+       {"device_findings", diagnosis.device_findings},
        {"gain", diagnosis.gain}};
   if (diagnosis.plan) j["plan"] = *diagnosis.plan;
   j["evidence"] = diagnosis.evidence;

@@ -125,7 +125,7 @@ std::string Contents(const std::vector<const Section*>& sections) {
   if (sections.size() < kFewSections) return "";
   std::string html = "<nav class=\"contents\" aria-label=\"Contents\">\n<ul>\n";
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    if (sections[i]->heading.empty() || sections[i]->depth > 0) continue;
+    if (sections[i]->heading.empty() || sections[i]->depth > 0 || sections[i]->folded) continue;
     html += fmt::format("<li><a href=\"#section-{}\">{}</a></li>\n", i + 1,
                         HtmlEscaped(sections[i]->heading));
   }

@@ -63,7 +63,7 @@ std::string ConditionsText(const MemberConditions& at);
 // family_curve_document.cc: tables of curves, validation curves, and curves that were left out.
 std::vector<Section> FamilyCurveSections(const FamilyReport& report);
 
-// diagnosis_document.cc: each cause with its size and its equivalents.
+// diagnosis_document.cc: each cause with its place, size, power, alternatives and what to do.
 std::vector<Section> CauseSections(const Diagnosis& diagnosis);
 
 // diagnosis_plot.cc: adds the bands and titles of causes to a panel over voltage with known ends.

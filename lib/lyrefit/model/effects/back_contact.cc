@@ -15,7 +15,7 @@ Effect BackContact() {
   e.acts = "at open circuit and beyond";
   e.confused_with = {"rs_current", "transient"};
   e.separate_by = "points further beyond open circuit, or another irradiance";
-  e.action = "sweep further beyond open circuit: nothing on the roof repairs it";
+  e.action = "sweep further beyond open circuit: it belongs to the cells, and nothing repairs it";
   e.parameters = {Parameter("1/Ib", "barrier", "inverse saturation current of the barrier")
                       .Unit("1/A")
                       .Between(0, 60)

@@ -15,7 +15,8 @@ Effect Collection() {
   e.acts = "between short circuit and the knee, in proportion to light";
   e.confused_with = {"nonohmic_shunt", "photoshunt", "second_diode"};
   e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
-  e.action = "take a dark curve or a second irradiance: nothing on the roof repairs it";
+  e.action =
+      "take a dark curve or a second irradiance: it belongs to the cells, and nothing repairs it";
   e.parameters = {
       Parameter("chi", "d2mutau", "loss parameter of a cell").Unit("V").Between(0, 0.3).Usual(0.02)};
   e.junction = [](const auto* p, const auto&, const auto& photocurrent, const auto& voltage) {

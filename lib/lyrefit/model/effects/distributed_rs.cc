@@ -20,7 +20,8 @@ Effect DistributedRs() {
   e.confused_with = {"rs_current", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
   e.action =
-      "re-torque the connectors and clamps and measure again; then look for interrupted fingers in "
+      "re-torque the connectors, or contact the cell anew, and measure again; then look for "
+      "interrupted fingers in "
       "an electroluminescence image";
   e.parameters = {Parameter("Rlat", "resistance_lateral", "between the halves of the cells")
                       .Unit("ohm")

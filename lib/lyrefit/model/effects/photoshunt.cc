@@ -21,7 +21,8 @@ Effect Photoshunt() {
   e.acts = "at short circuit, in proportion to light";
   e.confused_with = {"collection"};
   e.separate_by = "a wide range of irradiance with little noise near the knee";
-  e.action = "take a sweep at a fifth of the light: nothing on the roof repairs it";
+  e.action =
+      "take a sweep at a fifth of the light: it belongs to the cells, and nothing repairs it";
   e.parameters = {
       Parameter("Gph", "photoconductance", "conductance that 1000 W/m2 adds")
           .Unit("S")

@@ -17,7 +17,7 @@ Effect RsCurrent() {
   e.acts = "from the knee to open circuit";
   e.confused_with = {"distributed_rs", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
-  e.action = "re-torque the connectors and clamps and measure again";
+  e.action = "re-torque the connectors, or contact the cell anew, and measure again";
   e.parameters = {Parameter("Rs1", "resistance_per_current", "change of Rs with current")
                       .Unit("ohm/A")
                       .Between(-0.2, 0.2)

@@ -1,0 +1,241 @@
+#include "lyrefit/diagnose/device_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/diagnose/law_coordinates.h"
+#include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/estimate/fit/statistics.h"
+
+namespace lyrefit {
+namespace {
+
+enum class DeviceClass { kSiliconModule, kSiliconCell, kThinFilm };
+enum class JudgedQuantity { kLeak, kIdeality, kSeriesResistance };
+
+// Largest values of devices without a fault under standard light. Of silicon modules simulated cell
+// by cell, 1 of 72 without a fault exceeds one of them, and 24 of 30 that were degraded. Single cells
+// and thin films vary more, and a slope at 0 V may be collection that depends on the voltage, so that
+// their limits are wide.
+struct HealthyLimit {
+  JudgedQuantity quantity;
+  DeviceClass kind;
+  double limit;
+  const char* source;
+};
+constexpr HealthyLimit kHealthyLimits[] = {
+    {JudgedQuantity::kLeak, DeviceClass::kSiliconModule, 0.016, "72 modules without a fault"},
+    {JudgedQuantity::kLeak, DeviceClass::kSiliconCell, 0.03,
+     "twice that of modules, whose cells are sorted"},
+    {JudgedQuantity::kLeak, DeviceClass::kThinFilm, 0.25,
+     "doi:10.1038/ncomms7951: no shunt, poor collection"},
+    {JudgedQuantity::kIdeality, DeviceClass::kSiliconModule, 1.25, "72 modules without a fault"},
+    {JudgedQuantity::kIdeality, DeviceClass::kSiliconCell, 1.6,
+     "doi:10.2478/s11772-013-0095-5: edges"},
+    {JudgedQuantity::kIdeality, DeviceClass::kThinFilm, 2.2,
+     "doi:10.1103/PhysRevApplied.14.024031"},
+    {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconModule, 0.14,
+     "72 modules without a fault"},
+    {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconCell, 0.14, "as of modules"},
+    {JudgedQuantity::kSeriesResistance, DeviceClass::kThinFilm, 0.25,
+     "twice that of modules: contact layers"},
+};
+
+double LimitOf(JudgedQuantity quantity, DeviceClass kind) {
+  for (const HealthyLimit& row : kHealthyLimits) {
+    if (row.quantity == quantity && row.kind == kind) return row.limit;
+  }
+  return kUnknown;
+}
+
+// Thin films by the word for their technology; any other word and none are silicon.
+DeviceClass ClassOf(const std::string& technology, const DataTraits& traits) {
+  std::string word;
+  for (const char c : technology) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  for (const std::string_view part : {"cdte", "cigs", "cis", "a-si", "amorphous", "thin",
+                                      "perovskite", "organic", "opv", "dye", "tandem"}) {
+    if (word.find(part) != std::string::npos) return DeviceClass::kThinFilm;
+  }
+  return traits.module ? DeviceClass::kSiliconModule : DeviceClass::kSiliconCell;
+}
+
+// The extended fit, with what the quantities under standard light need.
+struct JudgedDevice {
+  const WeightedData& weighted;
+  const LawFit& fit;
+  DeviceClass of;
+  double voltage_V;  // open circuit under standard light
+  double current_A;  // short circuit under standard light
+  std::vector<double> errors;
+  double spread;  // half of a 95 % interval in standard errors
+};
+
+JudgedDevice JudgeDevice(const Selection& selection, const DeviceKind& kind) {
+  const WeightedData& weighted = selection.weighted;
+  const LawFit& fit = selection.extended;
+  const Readings& readings = *weighted.readings;
+  const DataTraits& traits = readings.traits;
+  double light = 0;
+  for (const Reading& reading : readings.points) light = std::max(light, reading.irradiance);
+  const double measured = traits.open_circuit > 0 ? traits.open_circuit : readings.pivot_voltage;
+  const double thermal = ThermalVoltage(readings.reference_temperature_K);
+  const double to_standard = kind.irradiance_known ? -Ideality(fit) * thermal * std::log(light) : 0;
+  return {weighted,
+          fit,
+          ClassOf(kind.technology, traits),
+          (measured + to_standard) * readings.scale.cells,
+          kind.irradiance_known ? fit.p[kIph] : fit.p[kIph] * light,
+          StandardErrors(Linearize(weighted, fit)),
+          StudentT95(Degrees(weighted, fit.law)) * std::sqrt(NoiseVariance(weighted, fit))};
+}
+
+// Part of Pmax that the device lacks against the same device with another value of a parameter.
+// The current of the diode at open circuit stays what it is.
+double LossAgainst(const JudgedDevice& device, int parameter, double value) {
+  const LawCoordinates coordinates(device.fit.law, *device.weighted.readings);
+  LawFit healthy = device.fit;
+  healthy.p[parameter] = value;
+  const double coordinate = coordinates.Of(healthy.p)[parameter];
+  std::vector<double> theta = coordinates.Of(device.fit.p);
+  theta[parameter] = coordinate;
+  healthy.p = coordinates.Parameters(theta);
+  return 1 - DevicePower(device.weighted, device.fit) / DevicePower(device.weighted, healthy);
+}
+
+Sized About(double value, double half) {
+  return {value, std::max(value - half, 0.0), value + half};
+}
+
+bool IsAbove(const Sized& value, double limit) { return value.low_95 > limit; }
+
+// "twice what modules do (at most 1.6 %)"
+std::string Exceeding(const JudgedDevice& device, double ratio, const char* what,
+                      const std::string& limit) {
+  const char* const others = device.of == DeviceClass::kSiliconModule ? "modules"
+                             : device.of == DeviceClass::kSiliconCell ? "cells"
+                                                                      : "thin films";
+  const std::string more = ratio < 1.75   ? "more than"
+                           : ratio < 2.25 ? "twice what"
+                                          : fmt::format("{:.2g} times what", ratio);
+  return fmt::format("{} healthy {} {} (at most {})", more, others, what, limit);
+}
+
+// ": -4 % of Pmax"
+std::string LossText(double loss) { return fmt::format(": {:+.1f} % of Pmax", -100 * loss); }
+
+void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
+  const double resistance = device.fit.p[kRsh];
+  if (!std::isfinite(resistance)) return;
+  const double limit = LimitOf(JudgedQuantity::kLeak, device.of);
+  const double value = device.voltage_V / (resistance * device.current_A);
+  const Sized leak = About(value, value * device.spread * device.errors[kRsh] / resistance);
+  if (!IsAbove(leak, limit)) return;
+  const double healthy = device.voltage_V / (limit * device.current_A);
+  const double loss = LossAgainst(device, kRsh, healthy);
+  const char* const causes =
+      device.of == DeviceClass::kSiliconModule
+          ? "potential-induced degradation, a shunted cell or an edge"
+          : "a shunt, or collection that depends on the voltage; a dark curve decides";
+  findings->push_back(
+      {"leak", "Voc/(Rsh Isc)", leak, limit, loss,
+       fmt::format("leaks {:.1f} % ({:.1f} to {:.1f}) of Isc at Voc, {}{}; {}", 100 * leak.value,
+                   100 * leak.low_95, 100 * leak.high_95,
+                   Exceeding(device, value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),
+                   LossText(loss), causes)});
+}
+
+void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
+  if (device.fit.law.model != Model::kSingleDiode) return;  // n1 is then of one of two
+  const int index = IdealityIndex(0);
+  const double limit = LimitOf(JudgedQuantity::kIdeality, device.of);
+  const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
+  if (!IsAbove(n, limit)) return;
+  const double loss = LossAgainst(device, index, limit);
+  // Recombination in a junction ends at n = 2.
+  constexpr double kMostOfJunctions = 2;
+  const char* const causes =
+      n.value > kMostOfJunctions && device.of != DeviceClass::kThinFilm
+          ? "more than of any junction: unequal or shunted cells, light that changes, or a number "
+            "of cells not as stated"
+          : "recombination in aged cells, or a temperature or a number of cells not as stated";
+  findings->push_back(
+      {"ideality", "n", n, limit, loss,
+       fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), {}{}; {}", n.value, n.low_95, n.high_95,
+                   Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
+                   causes)});
+}
+
+void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
+  const double limit = LimitOf(JudgedQuantity::kSeriesResistance, device.of);
+  const double scale = device.current_A / device.voltage_V;
+  const Sized drop = About(device.fit.p[kRs] * scale, device.spread * device.errors[kRs] * scale);
+  if (!IsAbove(drop, limit)) return;
+  const double loss = LossAgainst(device, kRs, limit / scale);
+  findings->push_back(
+      {"series_resistance", "Rs Isc/Voc", drop, limit, loss,
+       fmt::format(
+           "drops {:.1f} % ({:.1f} to {:.1f}) of Voc in its series resistance at Isc, "
+           "{}{}; {}",
+           100 * drop.value, 100 * drop.low_95, 100 * drop.high_95,
+           Exceeding(device, drop.value / limit, "do", fmt::format("{:.2g} %", 100 * limit)),
+           LossText(loss),
+           device.of == DeviceClass::kSiliconModule
+               ? "corroded contacts, a broken ribbon, connectors or long leads"
+               : "contacts, a resistive layer or leads")});
+}
+
+}  // namespace
+
+bool ReachesPastKnee(const Readings& readings) {
+  constexpr double kPast = 0.6;  // of the largest current
+  for (const Reading& reading : readings.points) {
+    if (!reading.dark && reading.current < kPast &&
+        reading.voltage > 0.5 * readings.pivot_voltage) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
+                                              const Floors& floors) {
+  constexpr double kSmallestFloor = 0.0025;
+  const Readings& readings = *selection.weighted.readings;
+  const DataTraits& traits = readings.traits;
+  if (traits.only_dark || !traits.single || !ReachesPastKnee(readings)) return {};
+  if (LeftBy(selection.weighted, selection.extended).value >
+      std::max(floors.current, kSmallestFloor)) {
+    return {};
+  }
+  const JudgedDevice device = JudgeDevice(selection, kind);
+  if (!(device.voltage_V > 0 && device.current_A > 0)) return {};
+  // More than any string of cells gives: the stated irradiance is wrong.
+  constexpr double kMostCurrent_A = 25;
+  const bool light_known =
+      kind.irradiance_known && (device.current_A < kMostCurrent_A || readings.scale.strings > 1);
+  std::vector<DeviceFinding> findings;
+  // Parts of the current and of the voltage under standard light are known only where the light is.
+  if (light_known) AddLeak(device, &findings);
+  AddIdeality(device, &findings);
+  if (light_known) AddSeriesResistance(device, &findings);
+  constexpr double kSmallestLoss = 0.01;  // below it sound modules differ as much
+  const double least = std::max(floors.power, kSmallestLoss);
+  findings.erase(std::remove_if(findings.begin(), findings.end(),
+                                [least](const DeviceFinding& finding) {
+                                  return !(finding.power_loss > least);
+                                }),
+                 findings.end());
+  std::stable_sort(
+      findings.begin(), findings.end(),
+      [](const DeviceFinding& a, const DeviceFinding& b) { return a.power_loss > b.power_loss; });
+  return findings;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,191 @@
+#include "lyrefit/diagnose/verdict_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "lyrefit/diagnose/select.h"
+#include "lyrefit/model/effects/catalogue.h"
+
+namespace lyrefit {
+namespace {
+
+// Range of the lack of fit of a single diode on sweeps of modules without a fault, in fractions of
+// Isc.
+constexpr double kLeastReferences = 5e-4, kMostHealthy = 2e-3;
+
+std::string OfIsc(double part) {
+  if (part < 5e-5) return "below 0.01 % of Isc";
+  return fmt::format("{:.2f} % of Isc", 100 * part);
+}
+
+// "0.05 to 0.20 %"
+std::string Usual() {
+  return fmt::format("{:.2f} to {:.2f} %", 100 * kLeastReferences, 100 * kMostHealthy);
+}
+
+// "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)"
+std::string DepartureText(double lack_of_fit, const Floors& floors) {
+  if (lack_of_fit < kLeastReferences) return OfIsc(lack_of_fit) + " beyond their noise";
+  if (lack_of_fit <= kMostHealthy)
+    return OfIsc(lack_of_fit) + ", as healthy modules do (" + Usual() + ")";
+  return OfIsc(lack_of_fit) +
+         fmt::format(", more than healthy modules do ({}) but less than the floor of {:g} %",
+                     Usual(), 100 * floors.current);
+}
+
+// "a, b or c"
+std::string Alternatives(const std::vector<std::string>& texts) {
+  std::string text;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    if (k > 0) text += k + 1 < texts.size() ? ", " : " or ";
+    text += texts[k];
+  }
+  return text;
+}
+
+std::string BelowText(const Verdict& verdict, const Floors& floors) {
+  if (verdict.below_floor.empty()) return "";
+  return fmt::format("present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
+                     100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
+}
+
+// "One sweep", "These curves"
+std::string Measured(int curves) { return curves > 1 ? "These curves" : "One sweep"; }
+
+// "a leak of 3.1 % of Isc at Voc (-4 % of Pmax)"
+std::string FindingText(const DeviceFinding& finding) {
+  const double value = finding.value.value;
+  const std::string what =
+      finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
+      : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
+                                 : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+  return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
+}
+
+// Sentence if no cause is named: the lack of fit, effects below the floors, parameters of the
+// device, and what the readings cannot show.
+std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves,
+                            const std::vector<DeviceFinding>& findings) {
+  if (!floors.Any() && findings.empty()) {
+    return "Nothing to find: what the base model leaves is noise.";
+  }
+  const double lack_of_fit = verdict.lack_of_fit.value;
+  const std::string limits =
+      verdict.not_shown.empty()
+          ? "."
+          : fmt::format(". {} cannot show {}.", Measured(curves), verdict.not_shown);
+  std::string present = BelowText(verdict, floors);
+  if (MissesTooMuch(verdict, floors)) {
+    present = present.empty() ? ", and no cause of the catalogue explains it" : "; " + present;
+    return fmt::format(
+        "The base model misses the data by {}, more than it misses healthy modules by ({}){}. To "
+        "tell: {}{}{}",
+        OfIsc(lack_of_fit), Usual(), present, curves > 1 ? "diagnose each curve by itself; " : "",
+        FindEffect("unknown_structure")->separate_by, limits);
+  }
+  if (!findings.empty()) {
+    std::string text = "No single fault shows, but the device is not as healthy ones are: ";
+    for (std::size_t k = 0; k < findings.size(); ++k) {
+      text += (k > 0 ? ", " : "") + FindingText(findings[k]);
+    }
+    return text + (present.empty() ? "" : ". Also " + present) + limits;
+  }
+  return "Nothing to act on: the data depart from the base model by " +
+         DepartureText(lack_of_fit, floors) + (present.empty() ? "" : "; " + present) + limits;
+}
+
+bool IsNameless(const Verdict& verdict) {
+  return verdict.causes.size() == 1 && verdict.causes.front().id == "unknown_structure";
+}
+
+// The causes: "partial shading (88 %) and drift of the irradiance (or what looks like it)"
+std::string Titles(const std::vector<Cause>& causes) {
+  std::string text;
+  for (std::size_t c = 0; c < causes.size(); ++c) {
+    if (c > 0) text += c + 1 < causes.size() ? ", " : " and ";
+    text += causes[c].title;
+    if (std::isfinite(causes[c].probability)) {
+      text += fmt::format(" ({:.0f} %)", 100 * causes[c].probability);
+    } else if (!causes[c].equivalents.empty()) {
+      text += " (or what looks like it)";
+    }
+  }
+  return text;
+}
+
+std::string CausesSentence(const Verdict& verdict, const Floors& floors) {
+  std::string titles = Titles(verdict.causes);
+  if (!LeavesTooMuch(verdict, floors)) return "The data show " + titles + ".";
+  constexpr double kMost = 0.5;
+  const bool most = verdict.remaining.value <= kMost * verdict.lack_of_fit.value;
+  titles.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(titles.front())));
+  return fmt::format("{} would explain {} of it; {} remain unexplained.", titles,
+                     most ? "most" : "a part", OfIsc(verdict.remaining.value));
+}
+
+// How much the model with the causes misses, against modules without a fault.
+std::string ComparisonText(const Verdict& verdict, const Floors& floors) {
+  if (!verdict.found || IsNameless(verdict) || !floors.Any()) return "";
+  return fmt::format("{} with the cause{}, {:.2f} without; healthy modules {}",
+                     OfIsc(verdict.remaining.value), verdict.causes.size() > 1 ? "s" : "",
+                     100 * verdict.lack_of_fit.value, Usual());
+}
+
+}  // namespace
+
+Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
+  double noise = 0;
+  for (std::size_t k = 0; k < fit.current.size(); ++k) {
+    if (weighted.used[k] != 0) noise += weighted.sigma[k] * weighted.sigma[k];
+  }
+  noise /= std::max(weighted.count(), 1);
+  const double lack_of_fit = MissedBy(weighted, fit);
+  const double left = std::sqrt(std::max(lack_of_fit * lack_of_fit - noise, 0.0));
+  // A rough path has about six independent pieces in a sweep, so its size is known to about a
+  // third.
+  constexpr double kPieces = 6;
+  const double half = left * kNormal95 / std::sqrt(2 * kPieces);
+  return {left, left - half, left + half};
+}
+
+bool MissesTooMuch(const Verdict& verdict, const Floors& floors) {
+  return floors.Any() && verdict.lack_of_fit.value > std::max(kMostHealthy, floors.current);
+}
+
+bool LeavesTooMuch(const Verdict& verdict, const Floors& floors) {
+  if (verdict.unexplained) return true;
+  return floors.Any() && verdict.remaining.value > std::max(kMostHealthy, floors.current);
+}
+
+std::string NotShownBy(const DataTraits& traits) {
+  std::vector<std::string> never;
+  if (!traits.only_dark) never.emplace_back("dirt or slight ageing of all cells alike");
+  never.emplace_back("resistance of the leads");
+  if (traits.temperature_levels < 2) never.emplace_back("a wrong temperature");
+  if (traits.single && !traits.up_down && !traits.only_dark) {
+    never.emplace_back("light that fades steadily");
+  }
+  return Alternatives(never);
+}
+
+void DescribeVerdict(const Selection& selection, const Floors& floors,
+                     const std::vector<DeviceFinding>& findings, Verdict* verdict) {
+  const DataTraits& traits = selection.weighted.readings->traits;
+  verdict->remaining = LeftBy(selection.weighted, selection.extended);
+  verdict->comparison = ComparisonText(*verdict, floors);
+  verdict->not_shown = NotShownBy(traits);
+  if (IsNameless(*verdict)) {
+    verdict->sentence = fmt::format(
+        "Something is there that noise does not explain ({}), and none of the known causes fits.",
+        OfIsc(verdict->remaining.value));
+  } else if (!verdict->found) {
+    verdict->sentence = NothingSentence(*verdict, floors, traits.curves, findings);
+  } else {
+    verdict->sentence = CausesSentence(*verdict, floors);
+  }
+}
+
+}  // namespace lyrefit

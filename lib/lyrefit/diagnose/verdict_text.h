@@ -1,0 +1,29 @@
+#pragma once
+
+#include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/effect_size.h"
+
+namespace lyrefit {
+
+struct Selection;
+
+// Lack of fit of a fit beyond the noise: root mean square in fractions of Isc.
+Sized LeftBy(const WeightedData& weighted, const LawFit& fit);
+
+// Whether the lack of fit of the base model exceeds both that of modules without a fault and the
+// floor.
+bool MissesTooMuch(const Verdict& verdict, const Floors& floors);
+
+// Whether the causes leave more than noise, the floor and the model's usual misfit of modules
+// without a fault.
+bool LeavesTooMuch(const Verdict& verdict, const Floors& floors);
+
+// What readings of this kind never show: "dirt or slight ageing of all cells alike, ..."
+std::string NotShownBy(const DataTraits& traits);
+
+// The conclusion in words: fills `remaining`, `comparison`, `not_shown` and `sentence`. The causes
+// are described. `findings`: parameters of the device that are out of range.
+void DescribeVerdict(const Selection& selection, const Floors& floors,
+                     const std::vector<DeviceFinding>& findings, Verdict* verdict);
+
+}  // namespace lyrefit

@@ -1,0 +1,104 @@
+#include "lyrefit/diagnose/verdict_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "diagnose/synthetic_data.h"
+#include "lyrefit/diagnose/select.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr Floors kFloors = {0.0025, 0.005};
+
+// A base fit of a clean curve as the extended model; the causes of `verdict` are said beside it.
+Verdict Told(Verdict verdict, const std::vector<DeviceFinding>& findings = {},
+             const Floors& floors = kFloors) {
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
+  Selection selection;
+  selection.weighted = made.weighted;
+  selection.extended = FitBase(made.weighted, Law());
+  DescribeVerdict(selection, floors, findings, &verdict);
+  return verdict;
+}
+
+Cause NamedCause(const std::string& title) {
+  Cause cause;
+  cause.id = cause.title = title;
+  return cause;
+}
+
+Verdict With(std::vector<Cause> causes, double lack_of_fit) {
+  Verdict verdict;
+  verdict.causes = std::move(causes);
+  verdict.found = true;
+  verdict.lack_of_fit.value = lack_of_fit;
+  return verdict;
+}
+
+TEST(DescribeVerdict, TheDataShowACauseOnlyIfNothingIsLeft) {
+  const Verdict shown = Told(With({NamedCause("weak cells")}, 0.05));
+  EXPECT_EQ(shown.sentence, "The data show weak cells.");
+  EXPECT_THAT(shown.comparison, HasSubstr("5.00 without; healthy modules 0.05 to 0.20 %"));
+  Verdict left = With({NamedCause("weak cells")}, 0.05);
+  left.unexplained = true;
+  const std::string sentence = Told(left).sentence;
+  EXPECT_THAT(sentence, HasSubstr("Weak cells would explain most of it; "));
+  EXPECT_THAT(sentence, HasSubstr("% of Isc remain unexplained."));
+  EXPECT_THAT(sentence, Not(HasSubstr("The data show")));
+}
+
+TEST(DescribeVerdict, SaysHowProbableACauseIs) {
+  Cause probable = NamedCause("weak cells");
+  probable.probability = 0.86;
+  probable.equivalents = {"shading"};
+  EXPECT_EQ(Told(With({probable}, 0.05)).sentence, "The data show weak cells (86 %).");
+  probable.probability = kUnknown;
+  EXPECT_EQ(Told(With({probable, NamedCause("drift")}, 0.05)).sentence,
+            "The data show weak cells (or what looks like it) and drift.");
+}
+
+TEST(DescribeVerdict, SilenceNamesWhatIsNeverShown) {
+  const Verdict silent = Told({});
+  EXPECT_THAT(silent.sentence, HasSubstr("Nothing to act on"));
+  EXPECT_THAT(silent.sentence, HasSubstr("One sweep cannot show " + silent.not_shown));
+  EXPECT_THAT(silent.not_shown, HasSubstr("dirt or slight ageing of all cells alike"));
+  EXPECT_EQ(silent.comparison, "");
+}
+
+TEST(DescribeVerdict, SomethingToActOnIsNotCalledNothing) {
+  const DeviceFinding leak = {"leak", "", {0.031, 0.029, 0.033}, 0.016, 0.04, ""};
+  const std::string ill = Told({}, {leak}).sentence;
+  EXPECT_THAT(ill,
+              HasSubstr("a leak of 3.1 % of Isc at Voc (-4.0 % of Pmax). One sweep cannot show"));
+  EXPECT_THAT(ill, Not(HasSubstr("Nothing to act on")));
+  Verdict misses;
+  misses.lack_of_fit.value = 0.0056;
+  misses.below_floor = {NamedCause("drift")};
+  const std::string missed = Told(misses).sentence;
+  EXPECT_THAT(missed, HasSubstr("misses the data by 0.56 % of Isc"));
+  EXPECT_THAT(missed, HasSubstr("drift"));
+  EXPECT_THAT(missed, HasSubstr("One sweep cannot show"));
+  EXPECT_THAT(missed, Not(HasSubstr("Nothing to act on")));
+}
+
+TEST(DescribeVerdict, AMisfitThatNoCauseFitsHasItsSize) {
+  const std::string sentence = Told(With({NamedCause("unknown_structure")}, 0.05)).sentence;
+  EXPECT_THAT(sentence, HasSubstr("Something is there that noise does not explain"));
+  EXPECT_THAT(sentence, HasSubstr("% of Isc)"));
+}
+
+TEST(NotShownBy, DependsOnTheReadings) {
+  DataTraits traits;
+  EXPECT_THAT(NotShownBy(traits), HasSubstr("light that fades steadily"));
+  traits.up_down = true;
+  EXPECT_THAT(NotShownBy(traits), Not(HasSubstr("light that fades")));
+  traits.temperature_levels = 2;
+  EXPECT_THAT(NotShownBy(traits), Not(HasSubstr("temperature")));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -125,5 +125,15 @@ TEST(FieldModels, FitShuntsThatGrowAlongTheString) {
   EXPECT_LT(misfits.after.back(), 0.4);
 }
 
+// Of 24, 48 and 24 cells. Some have a single dim cell, for which a light of all cells is no model.
+TEST(FieldModels, FitSubstringsOfUnlikeSize) {
+  const Misfits whole = MisfitsOf("unlike_groups", "substrings", 16);
+  EXPECT_GT(whole.before[8], 4);
+  EXPECT_LT(whole.after[6], 0.1);
+  const Misfits partly = MisfitsOf("unlike_groups", "covered_edge", 16);
+  EXPECT_LT(partly.Middle(), 0.1);
+  EXPECT_LT(partly.after[14], 0.7);
+}
+
 }  // namespace
 }  // namespace faults::field

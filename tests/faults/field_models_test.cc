@@ -135,5 +135,14 @@ TEST(FieldModels, FitSubstringsOfUnlikeSize) {
   EXPECT_LT(partly.after[14], 0.7);
 }
 
+// Two chains in parallel are at the same voltage: with a light each they have the curve of one chain
+// under the mean of both, as far as a curve shows.
+TEST(FieldModels, FitDimCellsInBothHalvesOfAGroup) {
+  const Misfits misfits = MisfitsOf("both_halves", "dim_cells", 16);
+  EXPECT_GT(misfits.before[8], 4);
+  EXPECT_LT(misfits.Middle(), 0.3);
+  EXPECT_LT(MisfitsOf("both_halves", "covered_edge", 16).after[14], 0.5);
+}
+
 }  // namespace
 }  // namespace faults::field

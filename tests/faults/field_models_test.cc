@@ -144,5 +144,12 @@ TEST(FieldModels, FitDimCellsInBothHalvesOfAGroup) {
   EXPECT_LT(MisfitsOf("both_halves", "covered_edge", 16).after[14], 0.5);
 }
 
+TEST(FieldModels, FitADimCellUnderAnOpenDiode) {
+  const Misfits misfits = MisfitsOf("bypass_open", "bypass_open", 16);
+  EXPECT_GT(misfits.before[8], 2);
+  EXPECT_LT(misfits.Middle(), 0.1);
+  EXPECT_LT(misfits.after[14], 0.5);
+}
+
 }  // namespace
 }  // namespace faults::field

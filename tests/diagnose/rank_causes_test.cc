@@ -31,7 +31,7 @@ FittedCandidate FittedCandidateOf(const char* id, const std::vector<double>& val
 }
 
 const std::vector<double> kShade = {0.3, 1.0 / 3, 0.5, 1}, kDip = {0.1, 0, 0.05, 0, 2},
-                          kUnequal = {0.1, 0.2}, kLag = {0.001, 0};
+                          kUnequal = {0.1, 0.2}, kLag = {0.001, 0, 0};
 
 LawFit Before(double n = kOrdinary) {
   LawFit before;

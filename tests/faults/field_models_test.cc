@@ -84,10 +84,6 @@ Misfits MisfitsOf(const std::string& kind, const char* effect, int modules) {
     score.effect = lyrefit::FindEffect(effect);
     const auto& traits = curve.data.measurement.readings.traits;
     if (score.effect->WhyNot(traits)) continue;
-    const int probes = static_cast<int>(score.effect->probes(traits).size());
-    for (int k = 0; score.effect->starts == nullptr && k < probes; ++k) {
-      score.directions.push_back({k, 1, 1, 1});
-    }
     const lyrefit::LawFit fit = lyrefit::FitEffect(curve.data.weighted, base, score);
     misfits.before.push_back(Misfit(curve, base));
     misfits.after.push_back(fit.usable ? Misfit(curve, fit) : misfits.before.back());
@@ -149,6 +145,13 @@ TEST(FieldModels, FitADimCellUnderAnOpenDiode) {
   EXPECT_GT(misfits.before[8], 2);
   EXPECT_LT(misfits.Middle(), 0.1);
   EXPECT_LT(misfits.after[14], 0.5);
+}
+
+TEST(FieldModels, FitHysteresisThatFallsWithTheCurrent) {
+  const Misfits misfits = MisfitsOf("falling_hysteresis", "capacitance", 12);
+  EXPECT_GT(misfits.before[6], 0.5);
+  EXPECT_LT(misfits.Middle(), 0.12);  // 0.3 with times that do not fall
+  EXPECT_LT(misfits.after.back(), 0.25);
 }
 
 }  // namespace

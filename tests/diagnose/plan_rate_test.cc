@@ -57,7 +57,7 @@ std::vector<Pair> Pairs() {
       {"shading", {0.02, 1.0 / 3, 0.5, 1}, "irr_step", Module()},
       {"mismatch", {0.1, 0.3}, "weak_cell", Module(), false, 5e-4},
       {"drift", {0.006}, "irr_step", Cell(true)},
-      {"capacitance", {0, 0.004}, "timing_skew", Cell(true)},
+      {"capacitance", {0, 0.004, 0}, "timing_skew", Cell(true)},
       {"photoshunt", {0.03, 0}, "collection", Cell(), true},
       {"second_diode", {0.5}, "transient", Cell()},
       {"mismatch", {0.1, 0.3}, "shading", Module(), false, 5e-4},

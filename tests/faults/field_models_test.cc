@@ -84,10 +84,6 @@ Misfits MisfitsOf(const std::string& kind, const char* effect, int modules) {
     score.effect = lyrefit::FindEffect(effect);
     const auto& traits = curve.data.measurement.readings.traits;
     if (score.effect->WhyNot(traits)) continue;
-    const int probes = static_cast<int>(score.effect->probes(traits).size());
-    for (int k = 0; score.effect->starts == nullptr && k < probes; ++k) {
-      score.directions.push_back({k, 1, 1, 1});
-    }
     const lyrefit::LawFit fit = lyrefit::FitEffect(curve.data.weighted, base, score);
     misfits.before.push_back(Misfit(curve, base));
     misfits.after.push_back(fit.usable ? Misfit(curve, fit) : misfits.before.back());
@@ -123,6 +119,39 @@ TEST(FieldModels, FitShuntsThatGrowAlongTheString) {
   EXPECT_GT(misfits.before[7], 0.6);
   EXPECT_LT(misfits.Middle(), 0.15);
   EXPECT_LT(misfits.after.back(), 0.4);
+}
+
+// Of 24, 48 and 24 cells. Some have a single dim cell, for which a light of all cells is no model.
+TEST(FieldModels, FitSubstringsOfUnlikeSize) {
+  const Misfits whole = MisfitsOf("unlike_groups", "substrings", 16);
+  EXPECT_GT(whole.before[8], 4);
+  EXPECT_LT(whole.after[6], 0.1);
+  const Misfits partly = MisfitsOf("unlike_groups", "covered_edge", 16);
+  EXPECT_LT(partly.Middle(), 0.1);
+  EXPECT_LT(partly.after[14], 0.7);
+}
+
+// Two chains in parallel are at the same voltage: with a light each they have the curve of one chain
+// under the mean of both, as far as a curve shows.
+TEST(FieldModels, FitDimCellsInBothHalvesOfAGroup) {
+  const Misfits misfits = MisfitsOf("both_halves", "dim_cells", 16);
+  EXPECT_GT(misfits.before[8], 4);
+  EXPECT_LT(misfits.Middle(), 0.3);
+  EXPECT_LT(MisfitsOf("both_halves", "covered_edge", 16).after[14], 0.5);
+}
+
+TEST(FieldModels, FitADimCellUnderAnOpenDiode) {
+  const Misfits misfits = MisfitsOf("bypass_open", "bypass_open", 16);
+  EXPECT_GT(misfits.before[8], 2);
+  EXPECT_LT(misfits.Middle(), 0.1);
+  EXPECT_LT(misfits.after[14], 0.5);
+}
+
+TEST(FieldModels, FitHysteresisThatFallsWithTheCurrent) {
+  const Misfits misfits = MisfitsOf("falling_hysteresis", "capacitance", 12);
+  EXPECT_GT(misfits.before[6], 0.5);
+  EXPECT_LT(misfits.Middle(), 0.12);  // 0.3 with times that do not fall
+  EXPECT_LT(misfits.after.back(), 0.25);
 }
 
 }  // namespace

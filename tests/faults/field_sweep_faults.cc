@@ -86,6 +86,13 @@ void Hysteresis(Random* random, Rig* rig, Truth* truth) {
   truth->accepted = {"hysteresis", "capacitance", "timing_skew"};
 }
 
+// Slow charge as in perovskites, whose time constants fall with the current.
+void FallingHysteresis(Random* random, Rig* rig, Truth* truth) {
+  Hysteresis(random, rig, truth);
+  rig->charge.constant = random->LogUniform(5e-3, 5e-2);
+  rig->charge.fall = random->LogUniform(2, 20);
+}
+
 // One sweep cannot distinguish a range switch from a step of the light: both names are accepted.
 void RangeSwitch(Random* random, Rig* rig, Truth* truth) {
   if (random->Chance(0.4)) UpAndDown(random, &rig->tracer);
@@ -119,10 +126,14 @@ void Limits(Random* random, Rig* rig, Truth* truth) {
 }  // namespace
 
 const std::vector<Fault>& SweepFaults() {
-  static const std::vector<Fault> kFaults = {
-      {"light_step", LightStep},  {"light_dip", LightDip},       {"light_drift", LightDrift},
-      {"hysteresis", Hysteresis}, {"range_switch", RangeSwitch}, {"voltage_bins", VoltageBins},
-      {"limits", Limits}};
+  static const std::vector<Fault> kFaults = {{"light_step", LightStep},
+                                             {"light_dip", LightDip},
+                                             {"light_drift", LightDrift},
+                                             {"hysteresis", Hysteresis},
+                                             {"falling_hysteresis", FallingHysteresis},
+                                             {"range_switch", RangeSwitch},
+                                             {"voltage_bins", VoltageBins},
+                                             {"limits", Limits}};
   return kFaults;
 }
 

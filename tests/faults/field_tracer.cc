@@ -38,7 +38,9 @@ void Add(const Rig& rig, const Averaged& mean, double isc, double voc, int sweep
 double Charging(const Rig& rig, const Sampled& curve, const Instant& now, double isc, double voc) {
   if (rig.charge.constant == 0 && rig.charge.diffusion == 0) return 0;
   const double slope = std::min(-1 / curve.PointAtVoltage(now.voltage).slope, 60 * isc / voc);
-  return now.speed * (rig.charge.constant * isc + rig.charge.diffusion * voc * slope);
+  const double delivered = std::max(curve.CurrentAt(now.voltage) / isc, 0.0);
+  return now.speed * (rig.charge.constant * isc + rig.charge.diffusion * voc * slope) /
+         (1 + rig.charge.fall * delivered);
 }
 
 }  // namespace

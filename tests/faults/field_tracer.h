@@ -60,6 +60,7 @@ Tracer DrawTracer(Bench bench, Random* random);
 struct Charge {
   double constant = 0;   // fraction of Isc at the mean speed of the sweep
   double diffusion = 0;  // shift of the curve at that speed, fraction of the open-circuit voltage
+  double fall = 0;       // both are less at Isc, by the factor 1 + fall
 };
 
 // True voltage and time (0 to 1) of one reading before noise. Readings that are averaged are listed

@@ -87,6 +87,7 @@ class Strings {
     }
     if (cell_.strings == 2) cell_.substring[1].string = 1;
     cell_.bypass = Draw([&] { return Between(0.2, 0.9); });
+    cell_.bypass_ideality = Draw([&] { return Between(0.8, 2); });
     Pack sum = 0.0;
     for (int g = 0; g < cell_.groups; ++g) {
       CellGroup<Pack>& group = groups_[g];
@@ -188,7 +189,7 @@ class Lane {
   T Bypass(int p, const T& voltage) const {
     using std::exp;
     if (!cell_.substring[p].bypassed) return T(0);
-    const T n_vt = T(1.2) * T(cell_.thermal_voltage[lane_]);
+    const T n_vt = T(cell_.bypass_ideality[lane_]) * T(cell_.thermal_voltage[lane_]);
     return exp(-T(cell_.bypass[lane_]) / n_vt) *
            (exp(-voltage * T(cell_.substring[p].cells) / n_vt) - 1);
   }

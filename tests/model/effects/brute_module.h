@@ -119,7 +119,7 @@ class BruteModule {
           }
           return carried - current;
         },
-        -2, 1.2 * cells);
+        substring.bypassed ? -2 : -20, 1.2 * cells);
   }
 
   double Voltage(double current) const {

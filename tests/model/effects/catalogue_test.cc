@@ -173,7 +173,7 @@ TEST(ReportedFactorTest, MatchesTheEquationsOfAModule) {
   EXPECT_NEAR(vbr, -8, 1e-12);
   EXPECT_NEAR(a * 4 * std::pow(1 - 4.0 / 8, -3.4), 0.2 * 8, 1e-12);
   // Charging current of the device: C dV/dt, for 60 cells at 0.5 V/s each.
-  EXPECT_NEAR(reported("capacitance", 0, {0.01, 0}) * 60 * 0.5, 0.01 * 8, 1e-12);
+  EXPECT_NEAR(reported("capacitance", 0, {0.01, 0, 0}) * 60 * 0.5, 0.01 * 8, 1e-12);
   EXPECT_NEAR(reported("timing_skew", 0, {0.001}) * 0.5, 0.001, 1e-15);
   // At the current scale, Rs1 I |I| is the voltage drop of 60 cells.
   EXPECT_NEAR(reported("rs_current", 0, {0.01}) * 64, 60 * 0.01, 1e-12);

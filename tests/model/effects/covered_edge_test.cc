@@ -10,7 +10,7 @@ BruteSubstring Covered(double cells, double part, double light) {
 }
 
 TEST(CoveredEdgeTest, IsTheSumOfItsCells) {
-  ExpectBruteCurrents("covered_edge", {0.6, 0.2, 0.45, 0.1, 0.3, 0.15, 0, 0.1, 0.5, 0, 0}, 60,
+  ExpectBruteCurrents("covered_edge", {0.6, 0.2, 0.45, 0.1, 0.3, 0.15, 0, 0.1, 0.5, 0, 60}, 60,
                       {Covered(20, 0.2, 0.4), Covered(20, 0.1, 0.55), Covered(20, 0.15, 0.7)});
 }
 
@@ -25,7 +25,7 @@ TEST(CoveredEdgeTest, HasALargeFirstSubstringAndASoftReverseLaw) {
 
 // Without one covered substring, the parameters of the others move up.
 TEST(CoveredEdgeTest, LosesTheCoveredSubstring) {
-  std::vector<double> p = {0.6, 0.2, 0.45, 0.1, 0.3, 0.15, 0, 0.1, 0.5, 0, 0};
+  std::vector<double> p = {0.6, 0.2, 0.45, 0.1, 0.3, 0.15, 0, 0.1, 0.5, 0, 60};
   ASSERT_TRUE(FindEffect("covered_edge")->covered(p.data(), 1, 3));
   EXPECT_EQ(p[0], 0.6);
   EXPECT_EQ(p[2], 0.3);

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/needs.h"
 
@@ -9,7 +11,7 @@ Effect Capacitance() {
   e.title = "capacitive hysteresis";
   e.finding = "hysteresis";
   e.where = Where::kInstrument;
-  e.equation = "I = ... - (C0 + tau gd(Vj)) dVj/dt";
+  e.equation = "I = ... - (C0 + tau gd(Vj)) exp(-b I / Isc) dVj/dt, b = 0 for silicon";
   e.reference = "Friesen and Ossenbrink 1997, Solar Energy Materials and Solar Cells 48, 77";
   e.sentence =
       "the sweep was too fast: charging the cells adds to the current upwards and takes from it "
@@ -33,15 +35,30 @@ Effect Capacitance() {
           .Between(0, 0.3)
           .Usual(0.02)
           .RatePower(-1),
+      Parameter("b", "fall",
+                "e-folds by which both fall from open circuit to short circuit, as in perovskites")
+          .Between(0, 10)
+          .FixedByDefault()
+          .AbsentAt(0),
   };
   e.instrument = [](const auto* p, const auto& reading, auto* solved) {
     const auto divider = 1.0 + solved->resistance * solved->conductance;
-    const auto charge = p[0] + p[1] * solved->diode_conductance;
+    using T = std::decay_t<decltype(solved->current)>;
+    const T delivered = Smaller(Larger(solved->current, T(0.0)), T(2.0));
+    const T charge = (p[0] + p[1] * solved->diode_conductance) * exp(-p[2] * delivered);
     solved->current = solved->current - charge * reading.rate / (divider * divider);
+  };
+  e.starts = [](const CurveShape&, const DataTraits&, const auto&) {
+    std::vector<ShapeStart> starts = {{{0.002, 0.002, 0}, {}}};
+    for (const double fall : {0.5, 2.0, 5.0}) {
+      starts.push_back({{0.002, 0.002, fall}, {2}});
+      starts.push_back({{0.02, 0.002, fall}, {2}});
+    }
+    return starts;
   };
   e.why_not = NeedsUpDown;
   e.probes = [](const DataTraits&) {
-    return std::vector<Probe>{{0.002, 0}, {0, 0.002}, {0.001, 0.001}, {0.004, 0.001}};
+    return std::vector<Probe>{{0.002, 0, 0}, {0, 0.002, 0}, {0.001, 0.001, 0}, {0.004, 0.001, 0}};
   };
   return e;
 }

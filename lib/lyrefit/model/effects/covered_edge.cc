@@ -3,6 +3,7 @@
 
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/needs.h"
+#include "lyrefit/model/effects/unlike_substrings.h"
 
 namespace lyrefit {
 namespace {
@@ -11,6 +12,7 @@ constexpr int kMostEdges = 4;
 enum { kEdgeDrop = 2 * kMostEdges, kEdgeFirstShare, kEdgeSoft, kEdgeParameters };
 
 constexpr double kEdgeExponent = 3.4;
+constexpr double kBlockingEdge_V = 60;  // soft voltage of cells that hardly conduct in reverse
 
 int EdgesOf(double cells, double substring_cells) {
   return std::clamp(static_cast<int>(std::lround(cells / substring_cells)), 2, kMostEdges);
@@ -37,7 +39,7 @@ void SetCoveredEdge(const S* p, Cell<S>* cell) {
     cell->substring[k] = {true, cell->cells * ValueOf(share)[0], 0};
   }
   cell->bypass = p[kEdgeDrop];
-  if (!(ValueOf(p[kEdgeSoft])[0] > 0)) return;
+  if (!(ValueOf(p[kEdgeSoft])[0] < kBlockingEdge_V)) return;
   cell->reverse = ReverseLaw::kSoft;
   cell->reverse_voltage = p[kEdgeSoft];
   cell->reverse_exponent = S(kEdgeExponent);
@@ -51,40 +53,70 @@ bool CoveredEdgeLeft(double* p, int which, int groups) {
   return true;
 }
 
-// Starts with the light of every substring from the middle of its plateau, for several full lights
-// beyond what the curve shows.
-void AddEdgeStarts(const CurveShape& shape, int substrings, double first_share, double soft,
-                   std::vector<ShapeStart>* starts) {
+// Substrings, the brightest first: share of the cells and position among the parameters.
+struct EdgeOrder {
+  std::vector<double> shares;
+  std::vector<int> number;
+  double first_share = 0;  // value of w
+};
+
+EdgeOrder OrderOfAlike(int substrings) {
+  EdgeOrder order;
+  order.shares.assign(substrings, 1.0 / substrings);
+  for (int k = substrings; k-- > 0;) order.number.push_back(k);
+  return order;
+}
+
+// The largest substring has the first parameters.
+EdgeOrder OrderOf(const ThreeShares& shares) {
+  EdgeOrder order;
+  order.shares.assign(shares.begin(), shares.end());
+  order.first_share = *std::max_element(shares.begin(), shares.end());
+  int next = 0;
+  for (const double share : shares) order.number.push_back(share == order.first_share ? 0 : ++next);
+  return order;
+}
+
+// A start with the light of every substring from the middle of its plateau. `shown`: part of the
+// full light that the curve shows.
+ShapeStart EdgeStart(const CurveShape& shape, const EdgeOrder& order, double shown, double covered,
+                     double soft) {
   constexpr double kMiddle = 0.36;  // of a plateau, before its final knee
-  const double first = first_share > 0 ? first_share : 1.0 / substrings;
-  const double other = (1 - first) / (substrings - 1);
-  const double full = shape.At(0.02);
-  if (!(full > 0)) return;
-  for (const double shown : {0.9, 0.6}) {  // of the full light
-    for (const double covered : {0.06, 0.15, 0.4}) {
-      ShapeStart start{Probe(kEdgeParameters, 0.0), {}};
-      for (int k = 0; k < kMostEdges; ++k) start.p[2 * k + 1] = covered;
-      double begin = 0;
-      for (int k = substrings - 1; k >= 0; --k) {  // the substring with a share of its own is last
-        const double share = k == 0 ? first : other;
-        const double light = shape.At(begin + kMiddle * share) / full;
-        start.p[2 * k] = std::clamp(1 - shown * light, 0.01, 0.98);
-        start.freed.insert(start.freed.end(), {2 * k, 2 * k + 1});
-        begin += share;
-      }
-      start.p[kEdgeDrop] = 0.5;
-      start.p[kEdgeFirstShare] = first_share;
-      start.p[kEdgeSoft] = soft;
-      if (soft > 0) start.freed.push_back(kEdgeSoft);
-      starts->push_back(std::move(start));
-    }
+  ShapeStart start{Probe(kEdgeParameters, 0.0), {}};
+  for (int k = 0; k < kMostEdges; ++k) start.p[2 * k + 1] = covered;
+  double begin = 0;
+  for (std::size_t k = 0; k < order.shares.size(); ++k) {
+    const double light = shape.At(begin + kMiddle * order.shares[k]) / shape.At(0.02);
+    const int at = 2 * order.number[k];
+    start.p[at] = std::clamp(1 - shown * light, 0.01, 0.98);
+    start.freed.insert(start.freed.end(), {at, at + 1});
+    begin += order.shares[k];
   }
+  start.p[kEdgeDrop] = 0.5;
+  start.p[kEdgeFirstShare] = order.first_share;
+  start.p[kEdgeSoft] = soft;
+  if (soft < kBlockingEdge_V) start.freed.push_back(kEdgeSoft);
+  return start;
 }
 
 std::vector<ShapeStart> CoveredEdgeStarts(const CurveShape& shape, const DataTraits& traits) {
   std::vector<ShapeStart> starts;
-  const int substrings = std::clamp(SubstringsOf(traits), 2, kMostEdges);
-  for (const double soft : {0.0, 7.0}) AddEdgeStarts(shape, substrings, 0, soft, &starts);
+  if (!(shape.At(0.02) > 0)) return starts;
+  const EdgeOrder alike = OrderOfAlike(std::clamp(SubstringsOf(traits), 2, kMostEdges));
+  for (const double soft : {kBlockingEdge_V, 7.0}) {
+    for (const double shown : {0.9, 0.6}) {
+      for (const double covered : {0.06, 0.15, 0.4}) {
+        starts.push_back(EdgeStart(shape, alike, shown, covered, soft));
+      }
+    }
+  }
+  for (const ThreeShares& shares : UnlikeShares(shape, traits)) {
+    for (const double covered : {0.06, 0.4}) {
+      for (const double soft : {kBlockingEdge_V, 7.0}) {
+        starts.push_back(EdgeStart(shape, OrderOf(shares), 0.9, covered, soft));
+      }
+    }
+  }
   return starts;
 }
 
@@ -118,11 +150,12 @@ std::vector<EffectParameter> CoveredEdgeParameters() {
                            .FixedByDefault()
                            .AbsentAt(0));
   parameters.push_back(
-      Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph; 0: hardly at any")
+      Parameter("A", "soft_voltage", "at which a cell in reverse carries Iph; 60: hardly at any")
           .Unit("V")
-          .Between(0, 30)
+          .Between(1.5, kBlockingEdge_V)
+          .From(kBlockingEdge_V)
           .FixedByDefault()
-          .AbsentAt(0));
+          .AbsentAt(kBlockingEdge_V));
   return parameters;
 }
 
@@ -162,8 +195,8 @@ Effect CoveredEdge() {
     return why;
   };
   e.probes = [](const DataTraits&) {
-    return std::vector<Probe>{{0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.5, 0, 0},
-                              {0.3, 0.2, 0.5, 0.2, 0.5, 0.2, 0.5, 0.2, 0.5, 0, 0}};
+    return std::vector<Probe>{{0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.5, 0, kBlockingEdge_V},
+                              {0.3, 0.2, 0.5, 0.2, 0.5, 0.2, 0.5, 0.2, 0.5, 0, kBlockingEdge_V}};
   };
   return e;
 }

@@ -3,6 +3,7 @@
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/covered.h"
 #include "lyrefit/model/effects/needs.h"
+#include "lyrefit/model/effects/unlike_substrings.h"
 
 namespace lyrefit {
 namespace {
@@ -22,7 +23,15 @@ std::vector<double> Shares(const DataTraits& traits) {
 std::vector<ShapeStart> ShadingStarts(const CurveShape& shape, const DataTraits& traits) {
   constexpr double kMiddle = 0.36, kEnd = 0.3;  // of each plateau's voltage range
   std::vector<ShapeStart> starts;
-  for (const double share : Shares(traits)) {
+  std::vector<double> shares = Shares(traits);
+  if (!UnlikeShares(shape, traits).empty()) {
+    for (const double quarters : {0.25, 0.5, 0.75}) {
+      if (std::find(shares.begin(), shares.end(), quarters) == shares.end()) {
+        shares.push_back(quarters);
+      }
+    }
+  }
+  for (const double share : shares) {
     const double full = shape.At(kMiddle * (1 - share));
     if (!(full > 0)) continue;
     const double light = shape.At(1 - share + kEnd * share) / full;

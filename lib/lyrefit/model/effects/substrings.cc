@@ -7,6 +7,7 @@
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/covered.h"
 #include "lyrefit/model/effects/needs.h"
+#include "lyrefit/model/effects/unlike_substrings.h"
 
 namespace lyrefit {
 namespace {
@@ -187,6 +188,9 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
   const int known = traits.substrings;
   for (int k = 3; k <= 4; ++k) {  // with two substrings this is shading
     if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
+  }
+  for (const ThreeShares& shares : UnlikeShares(shape, traits)) {
+    AddStart(shape, {shares[1], shares[2]}, InOrder(2), &starts);
   }
   return starts;
 }

@@ -105,10 +105,9 @@ TEST(DiagnoseVerb, WritesEveryFileItIsAskedFor) {
 
 TEST(DiagnoseVerb, PlansWhatToMeasureNext) {
   SKIP_IF_SANITIZED();
-  const std::string laboratory =
-      "diagnose '" + DataFolder("pwp201") +
-      "' --noise white --floor-current 0 --floor-power 0 --no-held-out "
-      "--effects shading,mismatch,transient ";
+  const std::string laboratory = "diagnose '" + DataFolder("pwp201") +
+                                 "' --noise white --floor-current 0 --floor-power 0 --no-held-out "
+                                 "--effects shading,mismatch,transient ";
   const AppResult result = RunApp(laboratory + "--plan");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("What would tell them apart\n"));

@@ -306,9 +306,8 @@ TEST(DiagnoseTest, EveryChoiceIsEchoed) {
   for (const OptionEcho& echo : DiagnoseOrFail(SyntheticCurve({}), options).non_default_options) {
     echoed[echo.name] = echo.value;
   }
-  EXPECT_EQ(echoed, (std::map<std::string, std::string>{{"base", "dd"},
-                                                        {"effects", "nonohmic_shunt,drift"},
-                                                        {"held-out", "no"}}));
+  EXPECT_EQ(echoed, (std::map<std::string, std::string>{
+                        {"base", "dd"}, {"effects", "nonohmic_shunt,drift"}, {"held-out", "no"}}));
 }
 
 // The extended model of the report can be simulated when no cause was found: it then consists of

@@ -114,9 +114,8 @@ std::vector<PlanCandidate> FitPair(const Pair& pair, const Synthetic& made) {
   Signatures signatures;
   Hypotheses pairs;
   pairs.none.fit = base;
-  for (const Score& score :
-       ScoreEffects(made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)},
-                    &signatures)) {
+  for (const Score& score : ScoreEffects(
+           made.weighted, base, {FindEffect(pair.truth), FindEffect(pair.other)}, &signatures)) {
     if (!score.testable) return {};
     LawFit fit = FitEffect(made.weighted, base, score);
     if (!fit.usable) return {};

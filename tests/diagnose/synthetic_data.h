@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
-#include "lyrefit/diagnose/candidate.h"
 #include "lyrefit/diagnose/weighted_data.h"
 #include "lyrefit/model/effects/catalogue.h"
 #include "model/synthetic_curve.h"

@@ -65,8 +65,9 @@ std::vector<Run> RunCases(const StudyOptions& options, Kind kind, const Injectio
     const Request request = RequestFor(options, kind, injection, i, lowest, highest);
     const std::optional<Case> made = MakeCase(request);
     if (!made) return;
-    runs[i] = {true, *made,
-               Ask(made->measurement, i, options.probability, request.seed, false, ModeOf(options))};
+    runs[i] = {
+        true, *made,
+        Ask(made->measurement, i, options.probability, request.seed, false, ModeOf(options))};
   });
   return runs;
 }

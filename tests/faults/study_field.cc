@@ -155,8 +155,8 @@ int StudyField(const StudyOptions& options) {
     ForEach(cases, options.threads, [&](int i) {
       FieldRun& run = runs[i];
       run.with_fault = FieldCase(options, kind, i);
-      run.answer = Ask(run.with_fault.measurement, i, options.probability, FieldSeed(options, kind, i),
-                       false, ModeOf(options));
+      run.answer = Ask(run.with_fault.measurement, i, options.probability,
+                       FieldSeed(options, kind, i), false, ModeOf(options));
       run.score = field::ScoreCase(run.with_fault, run.answer);
     });
     PrintTable(kind, runs);

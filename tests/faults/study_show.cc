@@ -47,7 +47,8 @@ int ShowCase(const StudyOptions& options) {
   std::fprintf(stderr, "cells %d, bypass diodes %d, band gap %g eV, tempco %g/K, %s noise\n",
                taken.cells, taken.bypass_diodes, taken.bandgap_eV, taken.isc_tempco_per_K,
                Name(made->noise));
-  const Answer answer = Ask(taken, options.number, options.probability, seed, false, ModeOf(options));
+  const Answer answer =
+      Ask(taken, options.number, options.probability, seed, false, ModeOf(options));
   std::fprintf(stderr, "answer: %s\n", Text(answer).c_str());
   for (const Claim& claim : answer.claims) {
     for (const Strength& strength : claim.strengths) {

@@ -19,7 +19,6 @@ TranslateOptions Quick(const SyntheticModule& module) {
   TranslateOptions options;
   options.coefficients = module.Coefficients();
   options.diagnosis.held_out = false;
-  options.diagnosis.draws = 200;
   options.uncertainty.draws = 200;
   return options;
 }

@@ -60,10 +60,9 @@ TEST(Engine, FitsAsTheLibraryDoes) {
 TEST(Engine, DiagnosesAsTheLibraryDoes) {
   SKIP_IF_SANITIZED();
   progress_heard.clear();
-  const json answer = Ask("diagnose", kShaded, {{"draws", "400"}, {"no-held-out", "yes"}});
+  const json answer = Ask("diagnose", kShaded, {{"no-held-out", "yes"}});
   ASSERT_FALSE(answer.contains("error")) << answer["error"];
   DiagnoseOptions options;
-  options.draws = 400;
   options.held_out = false;
   const auto diagnosis = Diagnose(*ReadMeasurement(kShaded), options);
   ASSERT_TRUE(diagnosis);
@@ -135,7 +134,7 @@ TEST(Engine, FormsAreTheOptionTables) {
     EXPECT_THAT(fit, Contains(name));
   }
   const std::set<std::string> diagnose = names(forms["diagnose"]);
-  for (const char* name : {"cells", "base", "effects", "level", "no-held-out", "plan"}) {
+  for (const char* name : {"cells", "base", "effects", "probability", "no-held-out", "plan"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
   // Every choice that a form offers is accepted.

@@ -98,6 +98,89 @@ std::vector<std::string> OfWeakCell(const Described& of) {
   return words;
 }
 
+// Three digits without an exponent.
+std::string Plain(double value) {
+  return fmt::format(std::fabs(value) < 999.5 ? "{:.3g}" : "{:.0f}", value);
+}
+
+// "3.2 K (2.9 to 3.5)"
+std::string WithRange(const Sized& size, const char* unit) {
+  const std::string range =
+      std::isfinite(size.low_95)
+          ? fmt::format(" ({} to {})", Plain(std::min(size.low_95, size.high_95)),
+                        Plain(std::max(size.low_95, size.high_95)))
+          : "";
+  return fmt::format("{} {}{}", Plain(size.value), unit, range);
+}
+
+std::vector<std::string> OfCoveredEdge(const Described& of) {
+  std::vector<std::string> words;
+  const int substrings = std::clamp(SubstringsOf(of.readings().traits), 2, 4);
+  for (int k = 0; k < substrings; ++k) {
+    words.push_back(fmt::format("{:.0f} % of a substring's cells have {} of the others' light",
+                                Percent(of.p[2 * k + 1]),
+                                LightLeft(of.p[2 * k], of.Of(fmt::format("d{}", k + 1)))));
+  }
+  return words;
+}
+
+std::vector<std::string> OfDimCells(const Described& of) {
+  const double chains = of.p[of.fit.law.effects[of.index]->size() - 1];
+  std::vector<std::string> lights;
+  for (int k = 0; k < 6; ++k) {
+    const Sized deficit = of.Of(fmt::format("d{}", k + 1));
+    if (std::isfinite(deficit.value)) lights.push_back(LightLeft(deficit.value, deficit, chains));
+  }
+  return {
+      fmt::format("{} cells have {} of the others' light", lights.size(), fmt::join(lights, ", "))};
+}
+
+std::vector<std::string> OfOpenSubstring(const Described& of) {
+  return {fmt::format("{} without current; the bypass diode drops {}", Part(of.readings(), of.p[0]),
+                      WithRange(of.Of("Vb"), "V"))};
+}
+
+std::vector<std::string> OfGradedShunt(const Described& of) {
+  return {
+      fmt::format("at 0.5 V the cells lose {:.2g} % of Isc on average, {:.2g} times as much at "
+                  "one end as at the other",
+                  Percent(0.5 * of.p[0]), std::exp(of.p[1]))};
+}
+
+// Currents of a fit in one direction of the sweep, at the voltages of the readings.
+std::vector<double> InDirection(const Described& of, double sign) {
+  Readings readings = of.readings();
+  for (Reading& reading : readings.points) reading.rate = sign * std::fabs(reading.rate);
+  std::vector<double> current(readings.points.size());
+  LawWorkspace workspace;
+  const bool fine =
+      EvaluateLaw(of.fit.law, readings, of.fit.p.data(), &workspace, current.data(), nullptr);
+  return fine ? current : std::vector<double>();
+}
+
+// Hysteresis by two usual definitions: of the maximum powers (doi:10.1021/acsenergylett.8b01627)
+// and the difference of the curves.
+std::vector<std::string> OfHysteresis(const Described& of) {
+  const std::vector<double> up = InDirection(of, 1), down = InDirection(of, -1);
+  if (up.empty() || down.empty()) return {};
+  const std::vector<Reading>& points = of.readings().points;
+  double power_up = 0, power_down = 0, square = 0, count = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    power_up = std::max(power_up, points[k].voltage * up[k]);
+    power_down = std::max(power_down, points[k].voltage * down[k]);
+    if (points[k].voltage < 0 || !(up[k] + down[k] > 0)) continue;
+    square += std::pow(up[k] - down[k], 2);
+    count += 1;
+  }
+  if (!(power_down > 0) || count == 0) return {};
+  const double index = (power_down - power_up) / power_down;
+  return {fmt::format(
+      "the directions differ by {:.2g} % of Isc (rms); index (Pmax down - up) / "
+      "down = {:.1f} %: {}",
+      Percent(std::sqrt(square / count)), Percent(index),
+      index < 0 ? "inverted, the sweep up gives more" : "normal, the sweep down gives more")};
+}
+
 std::vector<std::string> OfBypassOpen(const Described& of) {
   return {fmt::format("{} under {} of the others' light, and no bypass diode leads around it",
                       Part(of.readings(), of.p[1]), LightLeft(of.p[0], of.Of("d")))};
@@ -140,26 +223,11 @@ std::vector<std::string> OfDrift(const Described& of) {
                       LightChange(of.Of("d")))};
 }
 
-// Three digits without an exponent.
-std::string Plain(double value) {
-  return fmt::format(std::fabs(value) < 999.5 ? "{:.3g}" : "{:.0f}", value);
-}
-
 // "5.02 A", "1.3 mA", "8.2 uA"
 std::string Ampere(double value) {
   const double size = std::fabs(value);
   if (size < 1e-3) return Plain(1e6 * value) + " uA";
   return size < 0.1 ? Plain(1e3 * value) + " mA" : fmt::format("{:.4g} A", value);
-}
-
-// "3.2 K (2.9 to 3.5)"
-std::string WithRange(const Sized& size, const char* unit) {
-  const std::string range =
-      std::isfinite(size.low_95)
-          ? fmt::format(" ({} to {})", Plain(std::min(size.low_95, size.high_95)),
-                        Plain(std::max(size.low_95, size.high_95)))
-          : "";
-  return fmt::format("{} {}{}", Plain(size.value), unit, range);
 }
 
 // Times a factor.
@@ -310,6 +378,11 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   if (id == "shading") return OfShading(of);
   if (id == "substrings") return OfSubstrings(of);
   if (id == "weak_cell") return OfWeakCell(of);
+  if (id == "covered_edge") return OfCoveredEdge(of);
+  if (id == "dim_cells") return OfDimCells(of);
+  if (id == "open_substring") return OfOpenSubstring(of);
+  if (id == "graded_shunt") return OfGradedShunt(of);
+  if (fit.law.effects[index]->Finding() == "hysteresis") return OfHysteresis(of);
   if (id == "bypass_open") return OfBypassOpen(of);
   if (id == "irr_step") return OfStep(of);
   if (id == "transient") return OfTransient(of);

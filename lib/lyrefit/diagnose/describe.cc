@@ -77,9 +77,9 @@ void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
       cause->probability += other.probability;
       AddProbability(effect.id, effect.title, other.probability, &cause->mechanisms);
     } else {
-      AddProbability(effect.Finding(), FindEffect(effect.Finding()) != nullptr
-                                           ? FindEffect(effect.Finding())->title
-                                           : effect.title,
+      AddProbability(effect.Finding(),
+                     FindEffect(effect.Finding()) != nullptr ? FindEffect(effect.Finding())->title
+                                                             : effect.title,
                      other.probability, &cause->alternatives);
     }
   }

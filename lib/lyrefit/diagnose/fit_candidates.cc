@@ -161,8 +161,8 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
     options.progress.Count();
     if (options.progress.Stopped()) break;
     if (described && IsElaborate(*score.effect)) continue;
-    const bool by_shape = score.effect->starts != nullptr && own->groups &&
-                          weighted.readings->traits.single;
+    const bool by_shape =
+        score.effect->starts != nullptr && own->groups && weighted.readings->traits.single;
     const bool fits = by_shape || (score.testable && score.statistic >= hopeless);
     if (score.effect != own && !fits) continue;
     LawFit fit = score.effect == own ? selection->extended : FitEffect(weighted, without, score);
@@ -188,7 +188,8 @@ void FindAlternatives(const Measurement& measurement, const SelectOptions& optio
   constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
   int replacements = 2;
   const int count = static_cast<int>(selection->causes.size());
-  options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size()) * count);
+  options.progress.Begin("candidates",
+                         static_cast<std::int64_t>(options.candidates.size()) * count);
   for (int c = 0; c < count;) {
     if (selection->causes[c].in_values) {
       ++c;
@@ -196,10 +197,10 @@ void FindAlternatives(const Measurement& measurement, const SelectOptions& optio
     }
     Hypotheses place = FitPlace(options, c, selection);
     if (options.progress.Stopped()) return;
-    const auto own = std::find_if(
-        place.candidates.begin(), place.candidates.end(), [&](const FittedCandidate& candidate) {
-          return candidate.score.effect == selection->causes[c].effect;
-        });
+    const auto own = std::find_if(place.candidates.begin(), place.candidates.end(),
+                                  [&](const FittedCandidate& candidate) {
+                                    return candidate.score.effect == selection->causes[c].effect;
+                                  });
     const bool better = own != place.candidates.end() && own != place.candidates.begin() &&
                         place.candidates.front().log_posterior > own->log_posterior + kClearly;
     if (better && replacements > 0) {

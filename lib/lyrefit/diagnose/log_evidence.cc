@@ -123,7 +123,8 @@ Linear LinearOf(const WeightedData& weighted, const LawFit& fit) {
     for (const int k : *list) {
       linear.rows.col(column++) = jacobian.col(k);
       const EffectParameter* own = fit.law.EffectParameterAt(k);
-      linear.prior.push_back(own != nullptr ? EffectPrior(*own, theta[k]) : BasePrior(fit.law, k, theta[k]));
+      linear.prior.push_back(own != nullptr ? EffectPrior(*own, theta[k])
+                                            : BasePrior(fit.law, k, theta[k]));
     }
   }
   linear.rows.col(column) = residual;

@@ -47,7 +47,8 @@ ErrorModel ErrorsOf(const WeightedData& weighted) {
     errors.chain.push_back(neighbours ? r.segment : r.curve);
   }
   if (neighbours) errors.white.assign(points.size(), 0);
-  if (!neighbours && weighted.readings->traits.up_down) OrderByVoltage(points, voltage * weighted.path_length, &errors);
+  if (!neighbours && weighted.readings->traits.up_down)
+    OrderByVoltage(points, voltage * weighted.path_length, &errors);
   return errors;
 }
 

@@ -102,13 +102,13 @@ struct Cell {
   S photocurrent;                        // Iph, in scales
   int diodes = 0;                        // number of diodes
   Diode<S> diode[kMostDiodes];           // first `diodes` valid
-  S saturation_2_unit;  // saturation current of a diode with n = 2 that carries 1 at the pivot
-  S conductance;        // Gsh, in scales per volt of a cell
-  S resistance;         // Rs, in volt of a cell per scale
-  S thermal_voltage;    // k T / q, V
+  S saturation_2_unit;     // saturation current of a diode with n = 2 that carries 1 at the pivot
+  S conductance;           // Gsh, in scales per volt of a cell
+  S resistance;            // Rs, in volt of a cell per scale
+  S thermal_voltage;       // k T / q, V
   Pack sweep = Pack(0.0);  // 1 where the voltage rises, -1 where it falls, 0 at rest
-  double reach = 1;     // largest |voltage| of the readings, V per cell, where shunts are reported
-  double cells = 1;     // in series
+  double reach = 1;  // largest |voltage| of the readings, V per cell, where shunts are reported
+  double cells = 1;  // in series
   double substring_cells = 1;        // cells that share a bypass diode
   int groups = 1;                    // number of cell groups; 1: all cells alike, no bypass diode
   int substrings = 1;                // number of substrings
@@ -321,8 +321,8 @@ struct ShapeStart {
 
 // A named cause that changes the terminal law: its text for reports, parameters, stages and starts.
 struct Effect {
-  const char* id = "";     // "nonohmic_shunt"
-  const char* title = "";  // "non-ohmic shunt"
+  const char* id = "";       // "nonohmic_shunt"
+  const char* title = "";    // "non-ohmic shunt"
   const char* finding = "";  // id under which a diagnosis reports it; empty: its own
   Where where = Where::kDevice;
   const char* equation = "";                // as printed in reports

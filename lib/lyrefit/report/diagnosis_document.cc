@@ -183,7 +183,9 @@ std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
     others.push_back(other.title + " " + ShortPercent(other.probability));
   }
   if (!others.empty()) return fmt::format("{}", fmt::join(others, ", "));
-  for (const std::string& id : cause.equivalents) others.push_back(EffectLabel(diagnosis, id));
+  for (const std::string& id : cause.equivalents) {
+    if (id != cause.effect) others.push_back(EffectLabel(diagnosis, id));
+  }
   if (others.empty()) return "";
   return fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; "));
 }

@@ -17,8 +17,10 @@ Effect Collection() {
   e.separate_by = "a dark curve (this part scales with light) or a wide range of irradiance";
   e.action =
       "take a dark curve or a second irradiance: it belongs to the cells, and nothing repairs it";
-  e.parameters = {
-      Parameter("chi", "d2mutau", "loss parameter of a cell").Unit("V").Between(0, 0.3).Usual(0.02)};
+  e.parameters = {Parameter("chi", "d2mutau", "loss parameter of a cell")
+                      .Unit("V")
+                      .Between(0, 0.3)
+                      .Usual(0.02)};
   e.junction = [](const auto* p, const auto&, const auto& photocurrent, const auto& voltage) {
     constexpr double kBuiltIn = 0.9;
     constexpr double kClosest = 0.03;  // closer to it the tangent replaces the pole

@@ -179,6 +179,8 @@ Effect CoveredEdge() {
   e.acts = "at a knee that is sharper than that of any diode, and at steps of the current";
   e.confused_with = {"substrings", "shading", "mismatch"};
   e.separate_by = "clean the module, or compare the short-circuit current with the light";
+  e.fact_sheet = "PVFS 3-3";
+  e.action = "look for snow, dirt or a shadow along an edge of the module and clear it";
   e.parameters = CoveredEdgeParameters();
   e.cell = [](const auto* p, auto* cell) { SetCoveredEdge(p, cell); };
   e.groups = true;

@@ -153,6 +153,7 @@ Effect DimCells() {
   e.acts = "at a staircase between short circuit and the knee";
   e.confused_with = {"weak_cell", "substrings", "scatter"};
   e.separate_by = "cover one cell after the other, or a thermal image under load";
+  e.action = "look at the module with a thermal camera: several cells are covered, dark or broken";
   e.parameters = DimCellsParameters();
   e.cell = [](const auto* p, auto* cell) { SetDimCells(p, cell); };
   e.groups = true;

@@ -51,6 +51,9 @@ Effect GradedShunt() {
   e.confused_with = {"leaky_cell", "nonohmic_shunt", "mismatch"};
   e.separate_by =
       "an electroluminescence image, or a sweep at low light, where leaks take most of the voltage";
+  e.fact_sheet = "PVFS 1-10";
+  e.action =
+      "measure the insulation and look at the string by night with an electroluminescence camera";
   e.parameters = {
       Parameter("g", "mean_leak", "mean conductance of the cells beside that of the device")
           .Unit("S")

@@ -60,17 +60,21 @@ Effect Hysteresis() {
   e.id = "hysteresis";
   e.title = "hysteresis by ions or traps";
   e.where = Where::kDevice;
-  e.equation = "Iph (1 + a s), Is exp(b s) at Voc, (1 / n) (1 + c s), Rs exp(r s), Gsh + g s; "
-               "s = 1 up, -1 down";
-  e.reference = "Unger et al. 2014, doi:10.1039/C4EE02465F; Calado et al. 2016, "
-                "doi:10.1038/ncomms13831";
-  e.sentence = "the state of the device depends on the direction of the sweep, as with mobile ions "
-               "or slow traps";
+  e.equation =
+      "Iph (1 + a s), Is exp(b s) at Voc, (1 / n) (1 + c s), Rs exp(r s), Gsh + g s; "
+      "s = 1 up, -1 down";
+  e.reference =
+      "Unger et al. 2014, doi:10.1039/C4EE02465F; Calado et al. 2016, "
+      "doi:10.1038/ncomms13831";
+  e.sentence =
+      "the state of the device depends on the direction of the sweep, as with mobile ions "
+      "or slow traps";
   e.needs = "a sweep up and a sweep down";
   e.acts = "between the sweeps up and down, most at the knee";
   e.confused_with = {"timing_skew", "capacitance", "drift", "temp_drift"};
-  e.separate_by = "two sweep rates: charge and timing grow with the rate, ions have a rate at which "
-                  "they are largest";
+  e.separate_by =
+      "two sweep rates: charge and timing grow with the rate, ions have a rate at which "
+      "they are largest";
   e.action = "measure the stabilised power, and both directions at a tenth of the rate";
   e.parameters = HysteresisChanges();
   e.cell = [](const auto* p, auto* cell) { SetDirection(p, cell); };

@@ -72,6 +72,7 @@ Effect OpenSubstring() {
   e.confused_with = {"bypass_short", "temperature_or_cells", "shading"};
   e.separate_by =
       "a thermal image: the bypass diodes of the open substrings are hot; a shorted diode is cold";
+  e.action = "open the junction box and look for a broken connection of a substring";
   e.parameters = OpenSubstringParameters();
   e.cell = [](const auto* p, auto* cell) {
     if (!(ValueOf(p[0])[0] > 0)) return;  // all lanes have the same parameters

@@ -77,7 +77,7 @@ Expected<BatchTaskType> MakeDiagnose(const VerbLine& /*verb*/, const BatchReques
   return DiagnoseTask(request.diagnose);
 }
 
-// Draws of the propagation of uncertainty; --draws belongs to the diagnosis.
+// Draws of the propagation of uncertainty.
 constexpr char kUncertaintyDraws[] = "--uncertainty-draws";
 
 // All rows except the target, which is standard conditions.
@@ -109,9 +109,7 @@ std::string GivenFieldTestFlag(const VerbLine& verb) {
     if (!flag.empty()) return flag;
   }
   if (verb.Given(kUncertaintyDraws)) return kUncertaintyDraws;
-  // --draws belongs to the diagnosis.
-  const std::string flag = GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
-  return flag == "--draws" ? "" : flag;
+  return GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
 }
 
 Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {

@@ -133,9 +133,8 @@ TEST_F(BatchCommand, DiagnosesWithItsOwnFlags) {
 TEST_F(BatchCommand, TestsStringsInTheFieldOntoAPage) {
   const std::string few = folder_.Write("few.jsonl", ManyRows(2));
   const std::string page = folder_.Path("plant.html");
-  const AppResult done =
-      RunApp("batch '" + few + "' --task field-test --draws 200 --effects clip " + "--html '" +
-             page + "' --out '" + folder_.Path("out") + "'");
+  const AppResult done = RunApp("batch '" + few + "' --task field-test --effects clip " +
+                                "--html '" + page + "' --out '" + folder_.Path("out") + "'");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const std::string lines = FileText(folder_.Path("out") + "/results.jsonl");
   const auto row = nlohmann::json::parse(lines.substr(0, lines.find('\n')));
@@ -151,8 +150,8 @@ TEST_F(BatchCommand, WritesPagesOfStringsThatThePlantsPageLeadsTo) {
   const std::string module =
       folder_.Write("module.json", R"({"rated_power_W": 400, "beta_oc_percent_K": -0.28})");
   const AppResult done =
-      RunApp("batch '" + few + "' --task field-test --draws 200 --effects clip --module '" +
-             module + "' --tracer PVA --operator 'Crew B' --pages failed --plant Elm --html '" +
+      RunApp("batch '" + few + "' --task field-test --effects clip --module '" + module +
+             "' --tracer PVA --operator 'Crew B' --pages failed --plant Elm --html '" +
              folder_.Path("plant.html") + "' --out '" + folder_.Path("out") + "'");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const std::string page = FileText(folder_.Path("out") + "/pages/site/comb0/str0.html");
@@ -171,7 +170,7 @@ TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
                      {command + " --task sort", "expected one of fit, diagnose"},
                      {command + " --pages some", "expected one of none, failed, all"},
                      {command + " --shard 4/3", "expected K/N with K from 1 to N"},
-                     {command + " --draws 300", "--draws is for --task diagnose"},
+                     {command + " --probability 0.9", "--probability is for --task diagnose"},
                      {command + " --task diagnose --model dd", "--model is for --task fit"},
                      {command + " --resume --force", "only one of --resume and --force"},
                      {" '" + file_ + "'", "--out is required"},

@@ -27,7 +27,7 @@ TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
   ExpectRefusals("", {
                          {"diagnose", "CURVE is required"},
                          {"diagnose no_such_file.csv", "no_such_file.csv: the file does not exist"},
-                         {kVerb + "--level 7", "--level: 7 is outside ["},
+                         {kVerb + "--probability 7", "--probability: 7 is outside ["},
                          {kVerb + "--base td", "--base: expected sd or dd, found 'td'"},
                          {kVerb + "--effects nonsense", "--effects: expected one of "},
                          {kVerb + "--effects ,", "--effects: expected a list such as a,b,c"},
@@ -150,10 +150,10 @@ TEST(DiagnoseVerb, ExplainsEveryEffectOfTheList) {
 }
 
 TEST(DiagnoseVerb, WritesWholeDiagnosesAsJson) {
-  const json j = json::parse(RunApp(kVerb + "--draws 200 --folds 4 --json -").out, nullptr, false);
+  const json j = json::parse(RunApp(kVerb + "--folds 4 --json -").out, nullptr, false);
   ASSERT_TRUE(j.is_object());
-  for (const char* key :
-       {"evidence", "trials", "verdict", "gain", "points", "curves", "seed", "level", "warnings"}) {
+  for (const char* key : {"evidence", "trials", "verdict", "gain", "points", "curves", "seed",
+                          "probability", "warnings"}) {
     EXPECT_TRUE(j.contains(key)) << key;
   }
   EXPECT_EQ(j["points"]["voltage_V"].size(), 26U);

@@ -15,7 +15,7 @@ using ::testing::StartsWith;
 
 const std::string kSweeps = "'" + DataFolder("diagnosis/sweeps") + "'";
 const std::string kNow = "'" + DataFolder("diagnosis/sweep_now.csv") + "'";
-const std::string kQuickReference = " --effects nonohmic_shunt --draws 200 --no-held-out ";
+const std::string kQuickReference = " --effects nonohmic_shunt --no-held-out ";
 
 TEST(DiagnoseReference, ComparesASweepWithItsHistory) {
   const AppResult result = RunApp("diagnose " + kNow + " --reference " + kSweeps + kQuickReference);

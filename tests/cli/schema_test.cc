@@ -13,7 +13,7 @@ namespace {
 const std::string kData = std::string(LYREFIT_DATA_DIR) + "/";
 const std::string kChecker = kData + "../tests/cli/check_schema.py";
 const std::string kSearch = " --population 10 --iterations 10 --quiet ";
-const std::string kCauses = " --effects nonohmic_shunt,irr_step --draws 200 --no-held-out --quiet ";
+const std::string kCauses = " --effects nonohmic_shunt,irr_step --no-held-out --quiet ";
 
 bool Works(const std::string& command) { return std::system(command.c_str()) == 0; }
 
@@ -75,7 +75,7 @@ std::vector<SchemaCase> SchemaCases() {
       {"Translation",
        "translate " + rtc +
            "--irradiance-Wm2 1000 --rated-W 0.32 --json FILE --effects nonohmic_shunt,irr_step "
-           "--draws 200 --quiet",
+           "--quiet",
        "translation"},
       {"DataSheetForPvlib", module + "--pvlib FILE", "pvlib"},
       {"Diagnosis", "diagnose " + shaded + "--json FILE --plan" + kCauses, "diagnosis"},

@@ -84,7 +84,7 @@ TEST(TranslateVerb, JudgesNoMilliampereReadAsAmpere) {
   EXPECT_THAT(result.out, ::testing::Not(HasSubstr("pass")));
   constexpr char kSays[] = "more than any cell gives";
   for (const std::string& verb :
-       {std::string("fit --intervals none "), std::string("diagnose --no-held-out --draws 200 "),
+       {std::string("fit --intervals none "), std::string("diagnose --no-held-out "),
         "translate --rated-W 300 --irradiance-Wm2 800 --procedures desoto " + kQuickTranslation}) {
     const AppResult text = RunApp(verb + file + at);
     std::string flat = text.out;

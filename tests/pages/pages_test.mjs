@@ -293,7 +293,7 @@ test('a plant leads to the page of a string, wherever both lie', async () => {
   const lines = readFileSync(`${DATA}/plant/strings.csv`, 'utf8').split('\n');
   writeFileSync(file('two.csv'), [lines[0], ...lines.slice(1, 3)].join('\n') + '\n');
   execFileSync(APP, ['batch', file('two.csv'), '--task', 'field-test', '--module', module, '--modules', '20',
-                     '--effects', 'clip', '--draws', '200', '--pages', 'all', '--force', '--quiet',
+                     '--effects', 'clip', '--pages', 'all', '--force', '--quiet',
                      '--out', file('my results #1'), '--html', file('two.html')]);
   const {page, close} = await open(browser, file('two.html'));
   await page.waitForSelector('html[data-ready]', {state: 'attached'});

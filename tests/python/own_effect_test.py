@@ -77,7 +77,7 @@ class OwnEffect(unittest.TestCase):
         device = {"Iph": 8.2, "Is1": 2e-9, "n1": 1.15, "Rs": 0.25, "Rsh": 300.0}
         curve = lyrefit.simulate(device, voltage=np.linspace(-10, 37, 70), cells_in_series=60, noise_A=1e-3, seed=2,
                                  with_="nonohmic_shunt:k=0.8,m=3")
-        options = {"held_out": False, "draws": 200, "noise": "white", "floor_current": 0, "floor_power": 0}
+        options = {"held_out": False, "noise": "white", "floor_current": 0, "floor_power": 0}
         expected = lyrefit.diagnose(curve, effects=["nonohmic_shunt", "second_diode"], **options)
         found = lyrefit.diagnose(curve, effects=[own_shunt(), "second_diode"], **options)
         self.assertEqual(expected.causes, ["nonohmic_shunt"])

@@ -100,8 +100,8 @@ class Verbs(unittest.TestCase):
         self.assertEqual(of_frame.parameters, of_list.parameters)
 
     def test_diagnose(self):
-        found = lyrefit.diagnose(SHADED, draws=400, held_out=False)
-        self.same(found, "diagnose", SHADED, "--draws", 400, "--no-held-out")
+        found = lyrefit.diagnose(SHADED, held_out=False)
+        self.same(found, "diagnose", SHADED, "--no-held-out")
         self.assertEqual(found.causes, ["shading"])
         self.assertIn("partial shading", found.sentence)
         self.assertEqual(len(found.frame()), len(found["trials"]))
@@ -110,9 +110,9 @@ class Verbs(unittest.TestCase):
 
     def test_diagnose_against_reference_sweeps(self):
         now = DATA / "diagnosis" / "sweep_now.csv"
-        options = dict(draws=200, held_out=False)
+        options = dict(held_out=False)
         found = lyrefit.diagnose(now, reference=SWEEPS, **options)
-        self.same(found, "diagnose", now, "--reference", SWEEPS, "--draws", 200, "--no-held-out")
+        self.same(found, "diagnose", now, "--reference", SWEEPS, "--no-held-out")
         files = sorted(SWEEPS.glob("*.csv"))
         if len(files) > 4:
             one_by_one = lyrefit.diagnose(now, reference=files, **options)

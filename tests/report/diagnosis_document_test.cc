@@ -81,7 +81,6 @@ TEST(DiagnosisText, SaysAllIfItIsAsked) {
   add("a cause seen in the values", [](Diagnosis* diagnosis) {
     Cause& cause = diagnosis->verdict.causes[0];
     cause.evidence = "values";
-    cause.corrected_p = kUnknown;
     cause.strength.clear();
     diagnosis->evidence.clipped_points = 3;
     diagnosis->evidence.clip_level_A = 5.02;

@@ -41,7 +41,7 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(
       Keys(j),
       (Set{"lyrefit_version", "name",     "source",         "base",        "base_sentence",
-           "objective",       "seed",     "floor_current",  "floor_power", "level",
+           "objective",       "seed",     "floor_current",  "floor_power", "probability",
            "verdict",         "gain",     "evidence",       "trials",      "non_default_options",
            "assumptions",     "warnings", "interrupted",    "usable",      "seconds",
            "curves",          "points",   "device_findings"}));
@@ -49,21 +49,18 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
             (Set{"found", "unexplained", "sentence", "causes", "below_floor", "lack_of_fit",
                  "remaining", "comparison", "not_shown", "probability_none", "recoverable_power_W",
                  "cannot_be_excluded"}));
-  EXPECT_EQ(Keys(j["verdict"]["causes"][0]), (Set{"id",           "title",
-                                                  "sentence",     "equivalents",
-                                                  "separate_by",  "parameters",
-                                                  "corrected_p",  "evidence",
-                                                  "acts",         "points",
-                                                  "in_words",     "current_effect",
-                                                  "power_effect", "recoverable_power_W",
-                                                  "at_least",     "probability",
-                                                  "alternatives", "group",
-                                                  "action",       "fact_sheet"}));
+  EXPECT_EQ(
+      Keys(j["verdict"]["causes"][0]),
+      (Set{"id",          "effect",      "title",          "sentence",     "equivalents",
+           "separate_by", "parameters",  "mechanisms",     "evidence",     "acts",
+           "points",      "in_words",    "current_effect", "power_effect", "recoverable_power_W",
+           "at_least",    "probability", "alternatives",   "group",        "action",
+           "fact_sheet"}));
   EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
             (Set{"id", "biases", "sentence", "separate_by"}));
   EXPECT_EQ(Keys(j["trials"][0]),
-            (Set{"effect", "title", "tried", "why_not", "rmse_A", "misfit", "p_value",
-                 "corrected_p", "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
+            (Set{"effect", "title", "tried", "why_not", "rmse_A", "misfit", "log_evidence",
+                 "probability", "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
   EXPECT_EQ(Keys(j["gain"]), (Set{"rmse_before_A", "rmse_after_A", "held_out_before_A",
                                   "held_out_after_A", "held_out_gain_A2", "held_out_gain_error_A2",
                                   "folds", "by_sweeps", "gain", "sentence", "parameter_shift"}));

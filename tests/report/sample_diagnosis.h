@@ -60,8 +60,8 @@ inline Trial SampleTrial(const std::string& id, const std::string& title, double
   trial.tried = true;
   trial.rmse_A = rmse_A;
   trial.misfit = 5e-2 / rmse_A;
-  trial.p_value = p;
-  trial.corrected_p = std::min(1.0, 20 * p);
+  trial.log_evidence = -std::log(p);
+  trial.probability = std::max(0.0, 1 - 20 * p);
   trial.delta_aicc = 2 + 20 * std::log10(p);
   trial.held_out_rmse_A = 1.1 * rmse_A;
   trial.kept = 0.42;
@@ -149,7 +149,7 @@ inline Cause SampleStepCause() {
   cause.separate_by = {"a reference cell read with every point"};
   cause.strength = {{"d", "relative_step", "", -0.019, -0.0212, -0.0168, false},
                     {"V1", "from", "V", 12.1, 11.8, 12.4, true}};
-  cause.corrected_p = 2e-7;
+  cause.effect = cause.id;
   cause.evidence = "fit";
   cause.acts = "from the moment of the step on";
   return cause;
@@ -175,7 +175,7 @@ inline Cause SampleShadingCause() {
                        "a thermal image under load"};
   cause.strength = {{"d", "light_deficit", "", 0.29, 0.27, 0.31, false},
                     {"w", "share", "", 1.0 / 3, kUnknown, kUnknown, false}};
-  cause.corrected_p = 4e-9;
+  cause.effect = cause.id;
   cause.evidence = "fit";
   cause.acts = "at a step of the current, at a fixed voltage";
   return cause;

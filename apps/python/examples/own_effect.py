@@ -42,7 +42,7 @@ assert np.isclose(lyrefit.fit(curve, with_=exact).parameters["resistance_series"
                   fit.parameters["resistance_series"], rtol=1e-6)
 
 # %% A diagnosis tries it beside others; as on a bench every reading has its own error alone, and all counts
-verdict = lyrefit.diagnose(curve, effects=[shunt, "second_diode"], draws=500, held_out=False, noise="white",
+verdict = lyrefit.diagnose(curve, effects=[shunt, "second_diode"], held_out=False, noise="white",
                            floor_current=0, floor_power=0)
 print(verdict.sentence)
 assert verdict.causes == ["square_shunt"]

@@ -123,7 +123,7 @@ const std::vector<PlantFault>& PlantFaults() {
        MissingModule},
       {"bad_connector", "series_resistance|Rs+|FF-", "neighbours",
        "a connector with two to three ohm", BadConnector},
-      {"degraded", "shunt|Rsh-|nonohmic_shunt|photoshunt|leaky_cell|FF-", "neighbours",
+      {"degraded", "shunt|Rsh-|nonohmic_shunt|photoshunt|leaky_cell|graded_shunt|FF-", "neighbours",
        "potential-induced degradation from one end of the string", Degraded},
       {"cracked_cell", "weak_cell|substrings|shading", "curve",
        "one cell has lost a part of itself", CrackedCell},

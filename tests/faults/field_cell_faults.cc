@@ -12,7 +12,6 @@ double Share(const Module& module) { return 1.0 / static_cast<double>(module.gro
 // Snow or dirt on the lower edge: some cells of every group are dim, and a few more or fewer from
 // group to group. In a half-cut module the edge is that of one half.
 void CoveredEdge(Random* random, Rig* rig, Truth* truth) {
-  double brightest = 0;
   const int usual = 1 + random->Index(5);
   for (Group& group : rig->module.groups) {
     const double light = random->Uniform(0.25, 0.8);
@@ -24,7 +23,6 @@ void CoveredEdge(Random* random, Rig* rig, Truth* truth) {
     const double left = (light + chains - 1) / chains;
     truth->figures.push_back({"light", left});
     truth->figures.push_back({"share", Share(rig->module)});
-    brightest = std::max(brightest, left);
   }
   truth->accepted = {"covered_edge", "substrings", "shading"};
 }

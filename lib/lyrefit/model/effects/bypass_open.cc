@@ -27,15 +27,18 @@ void SetBypassOpen(const S* p, Cell<S>* cell) {
   cell->reverse_exponent = p[kOpenExponent];
 }
 
-// `share`: part of the cells in a substring.
-std::vector<ShapeStart> BypassOpenStarts(const CurveShape& shape, double share) {
+// In a string of modules a cell breaks down long before it takes the voltage of the string, with or
+// without its bypass diode: single cells are tried in modules only.
+std::vector<ShapeStart> BypassOpenStarts(const CurveShape& shape, const DataTraits& traits) {
+  constexpr int kMostOfAModule = 4;
+  const double share = 1.0 / std::max(SubstringsOf(traits), 2);
   const std::vector<int> freed = {kOpenSoft, kOpenExponent};
   std::vector<ShapeStart> starts;
   for (const double deficit : {0.1, 0.4}) {
     starts.push_back({{deficit, share, 3.2, 3.4, 0, 1}, freed});
   }
   const double full = shape.At(0.05);
-  if (!(full > 0)) return starts;
+  if (!(full > 0) || SubstringsOf(traits) > kMostOfAModule) return starts;
   // A single cell: its light from before the knee, or from a tail of the current.
   for (const double place : {0.75, 0.95}) {
     const double deficit = std::clamp(1 - shape.At(place) / full, 0.01, 0.97);
@@ -109,11 +112,10 @@ Effect BypassOpen() {
     for (const double deficit : {0.03, 0.1, 0.4}) {
       probes.push_back({deficit, share, 3.2, 3.4, 0, 1});
     }
-    probes.push_back({0.4, share, 15, 5, 1, 1});
     return probes;
   };
   e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
-    return BypassOpenStarts(shape, 1.0 / std::max(SubstringsOf(traits), 2));
+    return BypassOpenStarts(shape, traits);
   };
   return e;
 }

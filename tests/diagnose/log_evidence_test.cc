@@ -27,9 +27,15 @@ SyntheticData WithKnownNoise(const IvCurve& curve) {
   return made;
 }
 
+constexpr double kCentre = -0.08, kWidth = 0.05;
+
 IvCurve WithDip() {
   IvCurve curve = SyntheticCurve({});
-  for (int k = 18; k < 25; ++k) curve.current_A[k] -= 0.1;
+  const SyntheticData made = OnTheData(curve);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double z = (made.measurement.readings.points[k].x - kCentre) / kWidth;
+    curve.current_A[k] -= 0.1 * std::exp(-0.5 * z * z);
+  }
   return curve;
 }
 
@@ -46,7 +52,7 @@ double EvidenceWith(const SyntheticData& made, const LawFit& base, const Effect&
   Law law;
   law.effects = {&dip};
   std::vector<double> start = base.p;
-  start.insert(start.end(), {depth, -0.08, 0.05, 0, 2});
+  start.insert(start.end(), {depth, kCentre, kWidth, 0, 2});
   const LawFit fit = FitLaw(made.weighted, law, start);
   EXPECT_TRUE(fit.usable);
   return FindLogEvidence(made.weighted, fit, {}).complete;
@@ -77,7 +83,7 @@ TEST(LogEvidenceTest, GrowsWithWhatACauseExplains) {
   const SyntheticData none = WithKnownNoise(SyntheticCurve({}));
   const auto gain = [](const SyntheticData& made) {
     const LawFit base = FitBase(made.weighted, Law());
-    const LawFit fit = FitWith(made, "transient", {0.01, 0.05, 0.05, 0, 2});
+    const LawFit fit = FitWith(made, "transient", {0.01, kCentre, kWidth, 0, 2});
     return FindLogEvidence(made.weighted, fit, {}).complete -
            FindLogEvidence(made.weighted, base, {}).complete;
   };
@@ -87,14 +93,14 @@ TEST(LogEvidenceTest, GrowsWithWhatACauseExplains) {
 
 TEST(LogEvidenceTest, AnUnknownDepartureExplainsWhatTheLawDoesNot) {
   IvCurve curve = SyntheticCurve({});
-  for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] += 0.1 * std::sin(0.4 * k);
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.current_A[k] += 0.2 * std::sin(0.25 * k);
   const SyntheticData odd = WithKnownNoise(curve), sound = WithKnownNoise(SyntheticCurve({}));
   const auto of = [](const SyntheticData& made) {
     return FindLogEvidence(made.weighted, FitBase(made.weighted, Law()), {1.2e-3, 0.35});
   };
-  EXPECT_GT(of(odd).incomplete, of(odd).complete + 20);
+  EXPECT_GT(of(odd).incomplete - of(odd).complete, of(sound).incomplete - of(sound).complete);
   EXPECT_LT(of(sound).incomplete, of(sound).complete);
-  EXPECT_GT(of(odd).path, of(sound).path);
+  EXPECT_GT(of(odd).path, 3 * of(sound).path);
 }
 
 TEST(LogEvidenceTest, AParameterAtItsBoundCountsWithThePartInside) {

@@ -33,13 +33,12 @@ TEST(DiagnosisProgress, HearsOfEveryStageOfADiagnosis) {
   options.threads = 1;
   options.folds = 3;
   ASSERT_TRUE(Diagnose(SteppedCurve(100), options, observer));
-  EXPECT_THAT(stages,
-              ElementsAre("base fit", "null statistics", "selection", "candidates", "held out"));
+  EXPECT_THAT(stages, ElementsAre("base fit", "selection", "candidates", "held out"));
 }
 
 // A stop during any stage ends all fits, and the diagnosis is marked as unfinished.
 TEST(DiagnosisProgress, AStopEndsEveryStageAtOnce) {
-  for (const char* stage : {"base fit", "null statistics", "selection", "candidates", "held out"}) {
+  for (const char* stage : {"base fit", "selection", "candidates", "held out"}) {
     const Observer observer = [&](const Progress& progress) {
       return progress.stage == stage ? ObserverAction::kStop : ObserverAction::kContinue;
     };

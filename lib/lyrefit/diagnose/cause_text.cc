@@ -382,7 +382,7 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   if (id == "dim_cells") return OfDimCells(of);
   if (id == "open_substring") return OfOpenSubstring(of);
   if (id == "graded_shunt") return OfGradedShunt(of);
-  if (fit.law.effects[index]->Finding() == "hysteresis") return OfHysteresis(of);
+  if (id == "hysteresis") return OfHysteresis(of);
   if (id == "bypass_open") return OfBypassOpen(of);
   if (id == "irr_step") return OfStep(of);
   if (id == "transient") return OfTransient(of);

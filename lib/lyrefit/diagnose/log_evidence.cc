@@ -29,7 +29,7 @@ double LogHalfCauchy(double x, double scale) {
 // Student's t with three degrees of freedom, about 0.
 double LogStudent3(double x, double scale) {
   const double z = x / scale;
-  return std::log(2 * std::sqrt(3.0) / M_PI / scale) - 2 * std::log(3 + z * z);
+  return std::log(6 * std::sqrt(3.0) / M_PI / scale) - 2 * std::log(3 + z * z);
 }
 
 // Priors of the base parameters, in the coordinates of law_coordinates.h. Heavy tails: the base

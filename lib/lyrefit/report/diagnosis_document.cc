@@ -95,6 +95,7 @@ std::string WholePercent(double part) {
 
 std::string CertaintyText(const Cause& cause) {
   if (cause.evidence == "values") return "seen in the values themselves";
+  if (std::isnan(cause.probability)) return "";
   return "probability " + WholePercent(cause.probability);
 }
 
@@ -230,7 +231,7 @@ Section CauseDetails(const Diagnosis& diagnosis, const Cause& cause) {
         fmt::format("error of Pmax of the base model {}", PercentText(cause.power_effect)));
   }
   AddIfAny("without it", fmt::format("{}", fmt::join(without, "; ")), &section);
-  AddField("certainty", CertaintyText(cause), &section);
+  AddIfAny("certainty", CertaintyText(cause), &section);
   AddIfAny("to tell", fmt::format("{}", fmt::join(cause.separate_by, "; ")), &section);
   return Folded(section);
 }

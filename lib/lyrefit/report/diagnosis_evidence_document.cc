@@ -106,18 +106,19 @@ Section EvidenceSection(const Diagnosis& diagnosis) {
 
 Section TrialSection(const Diagnosis& diagnosis) {
   Section section = {"Effects tried, one at a time (RMSE solved-current)"};
-  block::Table table = {
-      "lrrrrrrr",
-      {{"effect", "RMSE (A)", "misfit", "p", "corrected p", "dAICc", "held out (A)", "kept"}}};
+  block::Table table = {"lrrrrrrr",
+                        {{"effect", "RMSE (A)", "misfit", "ln evidence", "probability", "dAICc",
+                          "held out (A)", "kept"}}};
   for (const Trial& trial : diagnosis.trials) {
     if (trial.tried) table.rows.push_back(TrialRow(diagnosis, trial));
   }
   if (table.rows.empty()) return section;
   AddTable(std::move(table), &section);
   AddSentence(
-      "<-: named as a cause. Misfit: what the effect takes away, in units of the noise. Corrected "
-      "p: the whole catalogue counted. dAICc: with the effect minus without. Kept: the part of its "
-      "signature that the base model cannot absorb.",
+      "<-: named as a cause. Misfit: what the effect takes away, in units of the noise. ln "
+      "evidence: of the marginal likelihood with the effect over that without. Probability: of it "
+      "as the only cause; -: not fitted, its score excludes it. dAICc: with the effect minus "
+      "without. Kept: the part of its signature that the base model cannot absorb.",
       &section);
   return section;
 }

@@ -31,6 +31,7 @@ set(LYREFIT_PUBLIC_HEADERS
   # options of these functions
   certify/certify_options.h
   diagnose/diagnose_options.h
+  diagnose/priors.h
   diagnose/reference_options.h
   estimate/family/family_options.h
   estimate/fit/bounds.h

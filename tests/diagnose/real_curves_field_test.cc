@@ -17,6 +17,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Labelled> ReadLabels() {
     std::getline(cells, one.label, ',');
     std::getline(cells, accepted, ',');
     std::istringstream ids(accepted);
-    for (std::string id; ids >> id;) one.accepted.push_back(id);
+    for (std::string id; ids >> id;) one.accepted.push_back(FindEffect(id)->Finding());
     all.push_back(one);
   }
   return all;

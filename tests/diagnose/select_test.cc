@@ -8,6 +8,7 @@
 #include <string>
 
 #include "diagnose/synthetic_diagnosis.h"
+#include "lyrefit/diagnose/values.h"
 #include "synthetic_data.h"
 
 namespace lyrefit {
@@ -142,6 +143,34 @@ TEST(FindAlternativesTest, ListsWhatCouldStandInACausesPlace) {
   EXPECT_NEAR(sum, 1, 1e-9);
   EXPECT_NEAR(cause.others.none.fit.sum, selected.selection.base.sum,
               0.5 * selected.selection.base.sum);
+}
+
+// In the first sweep, charging raises the current; in the second sweep it does not. Sorted by
+// voltage, the currents of both would rise and fall.
+TEST(LightMovedTest, SaysNothingOfTwoSweeps) {
+  for (const bool both : {false, true}) {
+    Recipe recipe;
+    recipe.cells = 60;
+    recipe.and_back = both;
+    IvCurve curve = SyntheticCurve(recipe);
+    EXPECT_FALSE(LightMoved(*OnTheData(curve).weighted.readings));
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      curve.current_A[k] *= 1 + 0.004 * static_cast<double>(std::min<std::size_t>(k, 15));
+    }
+    EXPECT_EQ(LightMoved(*OnTheData(curve).weighted.readings), !both);
+  }
+}
+
+TEST(SelectCausesTest, ACurrentThatRisesWithTheVoltageNeedsAnEffectOfTheSweep) {
+  Recipe recipe;
+  recipe.cells = 60;
+  IvCurve curve = SyntheticCurve(recipe);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    curve.current_A[k] *= 0.9 + 0.1 * static_cast<double>(k) / static_cast<double>(curve.size());
+  }
+  const Selection selection = SelectFor(curve).selection;
+  ASSERT_FALSE(selection.causes.empty());
+  EXPECT_EQ(selection.causes.front().effect->where, Where::kSweep);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
+#include "lyrefit/diagnose/values.h"
 
 namespace lyrefit {
 namespace {
@@ -52,6 +53,11 @@ LawFit FitCandidate(const SelectionState& now, const Score& score) {
 // An elaborate variant of another effect with cell groups.
 bool IsElaborate(const Effect& effect) { return effect.groups && *effect.finding != '\0'; }
 
+bool HasSweepEffect(const Law& law) {
+  return std::any_of(law.effects.begin(), law.effects.end(),
+                     [](const Effect* effect) { return effect->where == Where::kSweep; });
+}
+
 // Whether a candidate describes the readings to within the floor, so that no elaborate one is
 // needed.
 bool IsDescribed(const WeightedData& weighted, const std::vector<FittedCandidate>& candidates,
@@ -93,13 +99,16 @@ double HopelessStatistic(const std::vector<Score>& scores, int most) {
 Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& scores) {
   Hypotheses hypotheses;
   hypotheses.none.fit = now.fit;
-  const double hopeless = HopelessStatistic(scores, now.options.most_fitted_candidates);
+  // On the residuals of a ruined fit all scores mislead.
+  const bool astray = !now.options.repeats && LeadsAstray(now.weighted, now.fit);
+  const double hopeless =
+      astray ? 0 : HopelessStatistic(scores, now.options.most_fitted_candidates);
   const double floor = now.options.floors.current;
   // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
   // spoil the scores.
   const bool by_shape = now.measurement.readings.traits.single &&
-                        ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) ||
-                         LeadsAstray(now.weighted, now.fit));
+                        ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) || astray);
+  const bool needs_sweep = LightMoved(now.measurement.readings) && !HasSweepEffect(now.fit.law);
   ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
   const auto try_effects = [&](bool elaborate) {
     for (const Score& score : scores) {
@@ -107,6 +116,7 @@ Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& sc
       ReporterOf(now).Count();
       if (now.weighted.progress.Stopped()) break;
       if (score.effect->probes == nullptr) continue;
+      if (needs_sweep && score.effect->where != Where::kSweep) continue;
       const bool fits = (by_shape && score.effect->starts != nullptr) ||
                         (score.testable && score.statistic >= hopeless);
       if (!fits) continue;

@@ -32,17 +32,21 @@ double LogStudent3(double x, double scale) {
   return std::log(6 * std::sqrt(3.0) / M_PI / scale) - 2 * std::log(3 + z * z);
 }
 
-// Priors of the base parameters, in the coordinates of law_coordinates.h. Heavy tails: the base
-// model's parameters of faulty devices are never excluded, only less probable.
-Prior BasePrior(const Law& law, int k, double value) {
-  constexpr double kUsualIdeality = 1.15, kIdealityWidth = 0.2, kUsualResistance = 0.03,
-                   kUsualConductance = 0.05, kUsualSecond = 0.05;
+// Priors of the base parameters, in the coordinates of law_coordinates.h. Those of cells have heavy
+// tails: thin films have idealities of 1 to 6. Modules are silicon or nearly so.
+Prior BasePrior(const Law& law, const DataTraits& traits, int k, double value) {
+  constexpr double kUsualIdeality = 1.15, kIdealityWidth = 0.2, kIdealityWidthOfModules = 0.25,
+                   kUsualResistance = 0.03, kUsualConductance = 0.05, kUsualSecond = 0.05;
   const auto scaled = [](double log_density, double scale) {
     return Prior{log_density, 1 / (scale * scale), HUGE_VAL};
   };
   if (k == IdealityIndex(0)) {
     const double off = std::log(value / kUsualIdeality);
-    return scaled(LogStudent3(off, kIdealityWidth) - std::log(value), 1);
+    const double z = off / kIdealityWidthOfModules;
+    const double log_density = traits.module
+                                   ? -0.5 * (z * z + kLog2Pi) - std::log(kIdealityWidthOfModules)
+                                   : LogStudent3(off, kIdealityWidth);
+    return scaled(log_density - std::log(value), 1);
   }
   if (k == kRs) return scaled(LogHalfCauchy(value, kUsualResistance), 0.3);
   if (k == kRsh) return scaled(LogHalfCauchy(value, kUsualConductance), 1);
@@ -124,7 +128,7 @@ Linear LinearOf(const WeightedData& weighted, const LawFit& fit) {
       linear.rows.col(column++) = jacobian.col(k);
       const EffectParameter* own = fit.law.EffectParameterAt(k);
       linear.prior.push_back(own != nullptr ? EffectPrior(*own, theta[k])
-                                            : BasePrior(fit.law, k, theta[k]));
+                                            : BasePrior(fit.law, readings.traits, k, theta[k]));
     }
   }
   linear.rows.col(column) = residual;

@@ -1,4 +1,5 @@
 #include "lyrefit/diagnose/values.h"
+#include "lyrefit/model/curve_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -265,6 +266,18 @@ ValueFindings LookAtValues(const Readings& readings) {
     findings.clipped = repeats;
   }
   return findings;
+}
+
+bool LightMoved(const Readings& readings) {
+  constexpr double kLeast = 0.01;
+  if (!readings.traits.single || readings.traits.only_dark) return false;
+  if (readings.traits.up_down) return false;
+  double lowest = HUGE_VAL, rise = 0;
+  for (const double current : ShapeOf(readings).current) {
+    lowest = std::min(lowest, current);
+    rise = std::max(rise, current - lowest);
+  }
+  return rise > kLeast;
 }
 
 }  // namespace lyrefit

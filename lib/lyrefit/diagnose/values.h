@@ -48,4 +48,8 @@ VoltageBins FindBins(const Readings& readings);
 // Finds clipping, grids and bins from the values alone. `readings` must not be empty.
 ValueFindings LookAtValues(const Readings& readings);
 
+// Whether the current rises with the voltage. No passive device does so, so that the light moved.
+// Always false for sweeps up and down, where stored charge has the same effect.
+bool LightMoved(const Readings& readings);
+
 }  // namespace lyrefit

@@ -15,7 +15,7 @@ struct FittedCandidate {
   Score score;
   LawFit fit;
   double statistic = 0;  // reduction of the sum of squares, in units of the noise variance
-  LogEvidence evidence;
+  LogEvidence evidence = {};
   double log_prior = 0;              // ln of the prior odds of its effect
   double log_posterior = -HUGE_VAL;  // ln of prior times marginal likelihood, up to a constant
   double probability = 0;            // among the hypotheses compared

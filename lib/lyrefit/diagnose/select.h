@@ -33,7 +33,7 @@ struct ChosenCause {
   Score score;             // when it was added
   bool in_values = false;  // it shows in the values themselves and is never removed
   double probability = 1;  // that it stands in its place, not one of `others` and not nothing
-  Hypotheses others;       // in its place, beside the other causes; by FindAlternatives
+  Hypotheses others = {};  // in its place, beside the other causes; by FindAlternatives
 };
 
 struct Selection {

@@ -49,7 +49,7 @@ Answer Ask(const Measurement& measurement, int number, double probability, std::
            bool second_diode, Mode mode) {
   lyrefit::DiagnoseOptions options =
       mode == Mode::kLaboratory ? lyrefit::LaboratoryOptions() : lyrefit::DiagnoseOptions();
-  options.probability = probability;
+  if (probability > 0) options.probability = probability;
   options.seed = seed;
   options.held_out = false;
   options.threads = 1;

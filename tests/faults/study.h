@@ -15,11 +15,11 @@ struct StudyOptions {
   std::string mode;
   std::string kind = "all";
   std::string effect = "all";
-  std::string csv;   // file of the table; empty: none
-  std::string rows;  // file of all cases; empty: none
-  int cases = 0;     // 0: default of the mode
-  int number = 0;    // index of the case to show
-  double probability = 0.8;
+  std::string csv;         // file of the table; empty: none
+  std::string rows;        // file of all cases; empty: none
+  int cases = 0;           // 0: default of the mode
+  int number = 0;          // index of the case to show
+  double probability = 0;  // of a cause that is named; 0: the default of the mode
   std::uint64_t seed = 1;
   std::string asked;  // "laboratory" or "field"; empty: that of the simulator
   int threads = 0;    // 0: one per processor

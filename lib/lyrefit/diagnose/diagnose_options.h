@@ -45,11 +45,12 @@ struct DiagnoseOptions {
 };
 
 // For low-noise laboratory readings of a device that follows its model: white noise and no floors,
-// so that every significant cause is named.
+// so that every cause is named that is more probable than none. All are taken as equally common.
 inline DiagnoseOptions LaboratoryOptions() {
   DiagnoseOptions options;
   options.noise = ErrorSpec();
   options.priors = {{}, true, "alike"};
+  options.probability = 0.5;
   options.floor_current = options.floor_power = 0;
   return options;
 }

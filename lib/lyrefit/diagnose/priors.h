@@ -13,9 +13,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // How often a cause is in a sweep at a size that matters, and on what the number rests.
 struct CausePrior {
-  const char* id;
-  double probability;
-  const char* source;
+  const char* id;      // of the effect
+  double probability;  // that it is in a sweep
+  const char* source;  // on what the number rests
 };
 
 // The table for sweeps of the field. Orders of magnitude: the evidence of a fault above the floors
@@ -28,6 +28,7 @@ struct CausePriors {
   bool alike = false;                   // no table: all other causes are equally probable
   std::string name = "table";           // "table", "alike" or the name of the file
 
+  // Of an effect.
   double Of(const std::string& id) const;
 };
 

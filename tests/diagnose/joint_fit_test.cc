@@ -104,5 +104,27 @@ TEST(DrawErrorsTest, AreOfTheirSizeAndShared) {
   EXPECT_NEAR(product, 4 * std::exp(-0.1), 0.6);
 }
 
+// Up and down over the same positions: the path is that of the position, so that it is equal where a
+// reading comes twice.
+TEST(DrawErrorsTest, FollowTheOrderAlongTheChain) {
+  constexpr int kHalf = 50;
+  ErrorModel errors;
+  errors.white.assign(2 * kHalf, 0);
+  errors.path.assign(2 * kHalf, 1);
+  errors.chain.assign(2 * kHalf, 0);
+  for (int k = 0; k < kHalf; ++k) errors.position.push_back(0.1 * k);
+  for (int k = kHalf - 1; k >= 0; --k) errors.position.push_back(0.1 * k);
+  for (int k = 0; k < kHalf; ++k) {
+    errors.order.push_back(k);
+    errors.order.push_back(2 * kHalf - 1 - k);
+  }
+  RandomStream random(3);
+  const std::vector<double> drawn = DrawErrors(errors, &random);
+  for (int k = 0; k < kHalf; ++k) {
+    ASSERT_TRUE(std::isfinite(drawn[k])) << k;
+    EXPECT_NEAR(drawn[k], drawn[2 * kHalf - 1 - k], 1e-12) << k;
+  }
+}
+
 }  // namespace
 }  // namespace lyrefit

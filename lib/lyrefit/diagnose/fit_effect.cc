@@ -59,8 +59,6 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
 // fitted again with its own noise.
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
-// For effects that are not significant: a hundredth of the noise variance does not matter.
-const LeastSquaresOptions kToKnow = UpTo(20, 1e-4);
 
 // Sum of squares plus the penalty for freed parameters.
 double Paid(const WeightedData& weighted, const LawFit& fit) {
@@ -209,11 +207,10 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
   for (const std::vector<double>& own : starts) {
     std::vector<double> start = fit.p;
     start.insert(start.end(), own.begin(), own.end());
-    LeastSquaresOptions briefly = effort == Effort::kForTheRecord ? kToKnow : kBriefly;
+    LeastSquaresOptions briefly = kBriefly;
     if (best.usable) briefly.cutoff = best.sum;
     LawFit end = FitLaw(weighted, law, start, briefly);
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
-    if (effort == Effort::kForTheRecord && best.usable && best.sum < fit.sum) break;
   }
   if (effect.starts != nullptr && weighted.readings->traits.single && effort == Effort::kFull) {
     TryShapes(weighted, fit, effect, law, &best);
@@ -228,8 +225,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
   }
   if (!best.usable) return best;
   if (effort == Effort::kFull) DescendInProbes(weighted, effect, probes, &best);
-  LawFit end = effort == Effort::kForTheRecord ? std::move(best)
-                                               : FitLaw(weighted, best.law, best.p, kForRanking);
+  LawFit end = FitLaw(weighted, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(effect, end, weighted.readings->traits)) return {};
   return end;
 }

@@ -5,9 +5,8 @@
 
 namespace lyrefit {
 
-// Effort of a fit. kFull: several starts. kInPassing: the best probe only. kForTheRecord: the best
-// probe only, with a looser tolerance.
-enum class Effort { kFull, kInPassing, kForTheRecord };
+// Effort of a fit. kFull: several starts. kInPassing: the best probe only.
+enum class Effort { kFull, kInPassing };
 
 // Fits the law of `fit` with one more effect, all parameters free, from the best of the effect's
 // probes. The sum of squares is never larger than that of `fit`, except for effects without a

@@ -179,16 +179,18 @@ std::optional<Joint> TakeFurther(const WeightedData& measured, double deviation,
 }
 
 std::vector<double> DrawErrors(const ErrorModel& errors, RandomStream* random) {
-  std::vector<double> drawn;
+  std::vector<double> drawn(errors.size());
   double path = 0;
-  for (int k = 0; k < errors.size(); ++k) {
+  for (int place = 0, before = -1; place < errors.size(); ++place) {
+    const int k = errors.order.empty() ? place : errors.order[place];
     if (!errors.path.empty()) {
-      const bool follows = k > 0 && errors.chain[k] == errors.chain[k - 1];
-      const double kept = follows ? std::exp(errors.position[k - 1] - errors.position[k]) : 0;
+      const bool follows = before >= 0 && errors.chain[k] == errors.chain[before];
+      const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0;
       path = kept * path + std::sqrt(1 - kept * kept) * random->Normal();
     }
     const double shared = errors.path.empty() ? 0 : errors.path[k] * path;
-    drawn.push_back(shared + errors.white[k] * random->Normal());
+    drawn[k] = shared + errors.white[k] * random->Normal();
+    before = k;
   }
   return drawn;
 }

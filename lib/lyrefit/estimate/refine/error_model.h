@@ -23,7 +23,8 @@ struct ErrorModel {
   // For rows that are means of neighbours: the part of path^2 by which averaging lowers their
   // variance but not their covariance with others. Empty: every row is one reading.
   std::vector<double> averaged_away;
-  // The rows in the order along the chains, where that is not the order of the rows; for Whiten.
+  // The rows in the order along the chains, where that is not the order of the rows. Whiten and
+  // DrawErrors follow it; CovarianceTimes takes rows in order only.
   std::vector<int> order;
 
   int size() const { return static_cast<int>(white.size()); }

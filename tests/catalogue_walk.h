@@ -51,10 +51,11 @@ struct DrawnEffect {
   EffectUse asked;
   std::string symbol;  // symbol of the strength
   double strength = 0;
+  bool whole = false;  // the strength is a whole number of substrings
 };
 
-// A random point between two probes of the effect, with the strength multiplied by 0.5 to 2 and of
-// random sign if both are possible. `device` must have this effect only.
+// A random point between two probes of the effect, with the strength multiplied by 0.5 to 2, unless
+// it is a whole number, and of random sign if both are possible. `device` must have this effect only.
 inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, RandomStream* random) {
   const std::vector<Probe> probes = effect.probes(device.effects->readings.traits);
   Probe p = probes[random->Index(static_cast<std::uint32_t>(probes.size()))];
@@ -64,14 +65,18 @@ inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, Random
     if (!info.searched && !info.fixed_by_default) p[k] = Between(random, p[k], other[k]);
   }
   const EffectParameter& strength = effect.parameters[0];
-  if (strength.neutral == 0) p[0] *= LogUniform(random, 0.5, 2);
+  if (strength.neutral == 0 && strength.whole == Whole::kNo) p[0] *= LogUniform(random, 0.5, 2);
   if (strength.lower == -strength.upper && random->Index(2) == 1) p[0] = -p[0];
   p[0] = std::min(p[0], 0.9 * strength.upper);
   const int first = device.size() - effect.size();
   std::vector<double> all(first, 0);
   all.insert(all.end(), p.begin(), p.end());
   const std::vector<double> values = Reported(device, all);
-  DrawnEffect drawn{{&effect, {}}, {&effect, {}}, device.parameters[first].symbol, values[first]};
+  DrawnEffect drawn{{&effect, {}},
+                    {&effect, {}},
+                    device.parameters[first].symbol,
+                    values[first],
+                    strength.whole != Whole::kNo};
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
     const std::pair<double, double> value(values[first + k], values[first + k]);
@@ -115,7 +120,9 @@ void CountFit(const Expected<Report>& report, std::chrono::duration<double, std:
   const Estimate& e =
       *std::find_if(report->estimates.begin(), report->estimates.end(),
                     [&](const Estimate& one) { return one.info.symbol == drawn.symbol; });
-  const bool held = e.low_95 <= drawn.strength && drawn.strength <= e.high_95;
+  // A whole number has no interval.
+  const bool held = drawn.whole ? std::fabs(e.refined - drawn.strength) < 1e-3
+                                : e.low_95 <= drawn.strength && drawn.strength <= e.high_95;
   if (std::getenv("LYREFIT_WALK_VERBOSE") != nullptr) {
     std::printf("   %s is %.5g [%.5g, %.5g] %s%s, rmse %.4g A %s\n",
                 DescribeUse(drawn.truth).c_str(), e.refined, e.low_95, e.high_95,

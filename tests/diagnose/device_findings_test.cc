@@ -121,8 +121,8 @@ TEST(ReachesPastKneeTest, NeedsSmallCurrentsNearOpenCircuit) {
   EXPECT_FALSE(ReachesPastKnee(OnTheData(SweepOf(ill)).measurement.readings));
 }
 
-// A wrong temperature explains n of 0.85; no temperature explains n of 0.5, and of that nothing is
-// said.
+// A wrong temperature explains n of 0.85; no temperature explains n of 0.5, and that is said of the
+// device without a number.
 TEST(CheckTemperatureAndCellsTest, SaysOnlyWhatIsPossible) {
   Ill ill;
   IvCurve curve = SweepOf(ill);
@@ -135,7 +135,10 @@ TEST(CheckTemperatureAndCellsTest, SaysOnlyWhatIsPossible) {
   EXPECT_THAT(cause.in_words.front(), Not(HasSubstr("-4")));
   curve.conditions.cells_in_series = 150;
   curve.conditions.cell_temperature_K = 298.15;
-  EXPECT_THAT(Ids(DiagnoseOrFail(curve)), Not(testing::Contains("temperature_or_cells")));
+  const Diagnosis impossible = DiagnoseOrFail(curve);
+  EXPECT_THAT(Ids(impossible), Not(testing::Contains("temperature_or_cells")));
+  ASSERT_EQ(impossible.device_findings.size(), 1U);
+  EXPECT_THAT(impossible.device_findings.front().sentence, HasSubstr("less than any junction has"));
 }
 
 }  // namespace

@@ -43,14 +43,23 @@ bool CurrentOffset(const Shape& shape, double strength, Scene* scene) {
   return true;
 }
 
+// States a wrong temperature, one bypass group too many, or one to three cells too many of a few
+// without bypass diodes. `strength` is the n that then seems to be.
 bool WrongCellsOrTemperature(const Shape& shape, double strength, Scene* scene) {
-  const double factor = scene->device.ideality / strength;  // divisor of n
-  if (shape.parts[0] < 0.5 && factor < 1.25) {
+  constexpr double kHottest = 1.25, kLargestStrength = 0.86;
+  constexpr int kFew = 8;
+  const Device& device = scene->device;
+  const double factor = device.ideality / strength;  // divisor of n
+  if (shape.parts[0] < 0.5 && factor < kHottest) {
     scene->stated_kelvin = kReferenceK * factor;
     return true;
   }
-  scene->stated_cells = static_cast<int>(std::ceil(factor * scene->device.cells));
-  return true;
+  const int groups = device.substrings;
+  if (groups == 0 && device.cells > kFew) return false;
+  const int more = groups > 0 ? device.cells / groups : 1 + static_cast<int>(3 * shape.parts[1]);
+  scene->stated_cells = device.cells + more;
+  if (groups > 0) scene->stated_groups = groups + 1;
+  return device.ideality * device.cells < kLargestStrength * scene->stated_cells;
 }
 
 Names OffsetTwins(const Shape&, const Scene& scene) {

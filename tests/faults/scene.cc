@@ -53,7 +53,7 @@ Measurement Take(const Scene& scene, Random* random) {
     taken.temperature.push_back(kelvin - 273.15);
   }
   taken.cells = scene.stated_cells > 0 ? scene.stated_cells : scene.device.cells;
-  taken.bypass_diodes = scene.device.substrings;
+  taken.bypass_diodes = scene.stated_groups > 0 ? scene.stated_groups : scene.device.substrings;
   taken.bandgap_eV = scene.device.bandgap_eV;
   taken.isc_tempco_per_K = scene.device.isc_tempco_per_K;
   taken.thin_film = scene.device.thin_film;

@@ -22,6 +22,7 @@ struct Scene {
   std::vector<Outlier> outliers;
   double resolution_A = 0;   // rounding step to be identified; 0: that of `noise`
   int stated_cells = 0;      // cells stated to the diagnosis; 0: the true number
+  int stated_groups = 0;     // bypass diodes stated to the diagnosis; 0: the true number
   double stated_kelvin = 0;  // temperature stated to the diagnosis; 0: the true one
 
   std::vector<double> Exact() const;   // A; with outliers, without noise and rounding

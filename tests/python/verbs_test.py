@@ -176,8 +176,8 @@ class Verbs(unittest.TestCase):
             with self.assertRaises(lyrefit.Error) as raised:
                 call()
             self.assertIn(raised.exception.message, command(*arguments, code=1))
-        with self.assertRaisesRegex(TypeError, "did you mean 'draws'"):
-            lyrefit.diagnose(SHADED, draw=3)
+        with self.assertRaisesRegex(TypeError, "did you mean 'probability'"):
+            lyrefit.diagnose(SHADED, probabilty=0.9)
         with self.assertRaisesRegex(lyrefit.Error, "healthy and module"):
             lyrefit.diagnose(SHADED, reference=SWEEPS, module=True)
 

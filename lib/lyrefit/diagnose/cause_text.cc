@@ -116,6 +116,7 @@ std::string WithRange(const Sized& size, const char* unit) {
 std::vector<std::string> OfCoveredEdge(const Described& of) {
   std::vector<std::string> words;
   const int substrings = std::clamp(SubstringsOf(of.readings().traits), 2, 4);
+  words.reserve(substrings);
   for (int k = 0; k < substrings; ++k) {
     words.push_back(fmt::format("{:.0f} % of a substring's cells have {} of the others' light",
                                 Percent(of.p[2 * k + 1]),

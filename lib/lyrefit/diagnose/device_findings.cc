@@ -172,6 +172,20 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
                    causes)});
 }
 
+// With a rough path the limit is smaller: the module's departure from the model changes n by more
+// than its error.
+void AddLowIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
+  const double limit = device.weighted.path > 0 ? 0.9 : 0.97;
+  const int index = IdealityIndex(0);
+  const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
+  if (!(n.high_95 < limit)) return;
+  findings->push_back(
+      {"ideality", "n", n, 1, kUnknown,
+       fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), less than any junction has; the number of "
+                   "cells or the temperature is not as stated, or the model lacks a cause",
+                   n.value, n.low_95, n.high_95)});
+}
+
 void AddSeriesResistance(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
   const double limit = LimitOf(JudgedQuantity::kSeriesResistance, device.of);
   const double scale = device.current_A / device.voltage_V;
@@ -205,6 +219,7 @@ bool ReachesPastKnee(const Readings& readings) {
 }
 
 std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
+                                              const std::vector<Cause>& causes,
                                               const Floors& floors) {
   constexpr double kSmallestFloor = 0.0025;
   const Readings& readings = *selection.weighted.readings;
@@ -235,6 +250,7 @@ std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const 
   std::stable_sort(
       findings.begin(), findings.end(),
       [](const DeviceFinding& a, const DeviceFinding& b) { return a.power_loss > b.power_loss; });
+  if (causes.empty()) AddLowIdeality(device, &findings);  // a cause may change n
   return findings;
 }
 

@@ -20,8 +20,10 @@ struct DeviceKind {
 // Leak, ideality and series resistance of the extended model under standard light, where the whole
 // interval lies above what devices without a fault have and the loss of Pmax is material, the
 // largest loss first. Empty if the model misses the readings by more than the floor of the current,
-// or if the sweep ends before its knee.
+// or if the sweep ends before its knee. An ideality below that of any junction is added where the
+// verdict names no cause.
 std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
+                                              const std::vector<Cause>& causes,
                                               const Floors& floors);
 
 }  // namespace lyrefit

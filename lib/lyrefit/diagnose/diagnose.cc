@@ -322,7 +322,7 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.device_findings = FindDeviceFindings(
       found,
       {prepared.set.curves.front().notes.technology, prepared.set.curves.front().irradiance_known},
-      floors);
+      diagnosis.verdict.causes, floors);
   DescribeVerdict(found, floors, diagnosis.device_findings, &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);

@@ -68,20 +68,24 @@ struct Plausible {
   bool temperature = false;  // a possible temperature does
   double coldest_C = 0;
   double warmest_C = 0;
-  int cells = 0;  // a whole number of bypass groups does; 0: none or several do
+  int cells = 0;  // a whole number of bypass groups, or of few cells, does; 0: none or several do
 };
 
 Plausible PlausibleConditions(const Readings& readings, double n) {
   constexpr double kColdest_C = -40, kWarmest_C = 110;  // of cells outdoors and in the laboratory
-  constexpr double kMostOfModules = 1.25;
+  constexpr double kMostOfModules = 1.25, kMostOfCells = 1.6;
+  constexpr int kFewest = 18;  // cells of a bypass group
+  const bool few = readings.scale.cells < kFewest;
   Plausible plausible;
   const double kelvin = readings.reference_temperature_K * n;
   plausible.coldest_C = std::max(kelvin / kMostOfModules - kZeroCelsius_K, kColdest_C);
   plausible.warmest_C = std::min(kelvin - kZeroCelsius_K, kWarmest_C);
   plausible.temperature = plausible.coldest_C < plausible.warmest_C;
-  const double group = static_cast<double>(readings.scale.cells) / SubstringsOf(readings.traits);
+  const double group =
+      few ? 1 : static_cast<double>(readings.scale.cells) / SubstringsOf(readings.traits);
   const double most = std::floor(readings.scale.cells * n / group);
-  const double least = std::ceil(readings.scale.cells * n / kMostOfModules / group);
+  const double least =
+      std::ceil(readings.scale.cells * n / (few ? kMostOfCells : kMostOfModules) / group);
   if (readings.traits.module && most == least && most > 0) {
     plausible.cells = static_cast<int>(std::lround(most * group));
   }

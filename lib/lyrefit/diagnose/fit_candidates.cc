@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <functional>
+#include <string_view>
 #include <utility>
 
 #include "lyrefit/diagnose/fit_effect.h"
@@ -68,10 +69,13 @@ bool IsDescribed(const WeightedData& weighted, const std::vector<FittedCandidate
   });
 }
 
-// Statistic below which no fit is tried: a cause that is more probable than none gains more.
-constexpr double kLeastStatistic = 4;
-// Effects whose linear score is below this part of the best one cannot become the best by a fit.
-constexpr double kHopelessPart = 0.1;
+// The most that a fit can be expected to gain decides whether it is tried.
+struct Trying {
+  double least_statistic = 0;
+  bool by_shape = false;     // effects with starts from the curve's shape whatever their statistic
+  bool only_sweeps = false;  // no effects but those of the sweep
+  const Effect* best = nullptr;  // of the largest statistic
+};
 
 // Statistic of effect number `most` among those that can be fitted, best first. 0 if `most` is 0 or
 // there are no more than that.
@@ -86,12 +90,40 @@ double LeastOfTheBest(const std::vector<Score>& scores, int most) {
   return statistics[count - 1];
 }
 
-double HopelessStatistic(const std::vector<Score>& scores, int most) {
+// The statistics of a ruined fit mislead, so that everything is then tried.
+Trying TryingOf(const std::vector<Score>& scores, bool ruined, int most) {
+  // A cause that is more probable than none gains more than this.
+  constexpr double kLeastStatistic = 4;
+  // Effects with less than this part of the best statistic do not become the best by a fit.
+  constexpr double kHopelessPart = 0.1;
+  Trying trying;
   double best = 0;
   for (const Score& score : scores) {
-    if (score.testable) best = std::max(best, score.statistic);
+    if (!score.testable || score.effect->probes == nullptr || score.statistic <= best) continue;
+    best = score.statistic;
+    trying.best = score.effect;
   }
-  return std::max({kLeastStatistic, kHopelessPart * best, LeastOfTheBest(scores, most)});
+  if (ruined) return trying;
+  trying.least_statistic =
+      std::max({kLeastStatistic, kHopelessPart * best, LeastOfTheBest(scores, most)});
+  return trying;
+}
+
+// Whether `other` draws curves like those of an effect, so that both must be fitted to be told
+// apart: a statistic is that of small sizes.
+bool DrawsAlike(const Effect* effect, const Effect& other) {
+  return effect != nullptr &&
+         std::any_of(effect->confused_with.begin(), effect->confused_with.end(),
+                     [&](const char* id) { return std::string_view(id) == other.id; });
+}
+
+bool IsTried(const Trying& trying, const Score& score) {
+  const Effect& effect = *score.effect;
+  if (effect.probes == nullptr) return false;
+  if (trying.only_sweeps && effect.where != Where::kSweep) return false;
+  if (trying.by_shape && effect.starts != nullptr) return true;
+  return score.testable &&
+         (score.statistic >= trying.least_statistic || DrawsAlike(trying.best, effect));
 }
 
 }  // namespace
@@ -99,27 +131,19 @@ double HopelessStatistic(const std::vector<Score>& scores, int most) {
 Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& scores) {
   Hypotheses hypotheses;
   hypotheses.none.fit = now.fit;
-  // On the residuals of a ruined fit all scores mislead.
   const bool astray = !now.options.repeats && LeadsAstray(now.weighted, now.fit);
-  const double hopeless =
-      astray ? 0 : HopelessStatistic(scores, now.options.most_fitted_candidates);
   const double floor = now.options.floors.current;
-  // Effects with starts from the curve's shape are fitted even with low scores, since a fault can
-  // spoil the scores.
-  const bool by_shape = now.measurement.readings.traits.single &&
-                        ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) || astray);
-  const bool needs_sweep = LightMoved(now.measurement.readings) && !HasSweepEffect(now.fit.law);
+  Trying trying = TryingOf(scores, astray, now.options.most_fitted_candidates);
+  trying.by_shape = now.measurement.readings.traits.single &&
+                    ((floor > 0 && MissedBy(now.weighted, now.fit) > floor) || astray);
+  trying.only_sweeps = LightMoved(now.measurement.readings) && !HasSweepEffect(now.fit.law);
   ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
   const auto try_effects = [&](bool elaborate) {
     for (const Score& score : scores) {
       if (IsElaborate(*score.effect) != elaborate) continue;
       ReporterOf(now).Count();
       if (now.weighted.progress.Stopped()) break;
-      if (score.effect->probes == nullptr) continue;
-      if (needs_sweep && score.effect->where != Where::kSweep) continue;
-      const bool fits = (by_shape && score.effect->starts != nullptr) ||
-                        (score.testable && score.statistic >= hopeless);
-      if (!fits) continue;
+      if (!IsTried(trying, score)) continue;
       LawFit fit = FitCandidate(now, score);
       if (fit.usable) hypotheses.candidates.push_back({score, std::move(fit)});
     }
@@ -159,22 +183,18 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   place.none.fit = FitWithout(weighted, selection->extended, c);
   const LawFit& without = place.none.fit;
   if (!without.usable || options.progress.Stopped()) return place;
-  std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
-  open.erase(std::remove_if(open.begin(), open.end(),
-                            [](const Effect* effect) { return effect->probes == nullptr; }),
-             open.end());
+  const std::vector<const Effect*> open = RoomFor(without.law, options.candidates);
   const std::vector<Score> scores = ScoreEffects(weighted, without, open, &selection->signatures);
-  const double hopeless = HopelessStatistic(scores, 0);
+  Trying trying = TryingOf(scores, false, 0);
+  trying.by_shape = own->groups && weighted.readings->traits.single;
+  trying.best = own;
   const bool described = !IsElaborate(*own) && options.floors.current > 0 &&
                          MissedBy(weighted, selection->extended) < options.floors.current;
   for (const Score& score : scores) {
     options.progress.Count();
     if (options.progress.Stopped()) break;
     if (described && IsElaborate(*score.effect)) continue;
-    const bool by_shape =
-        score.effect->starts != nullptr && own->groups && weighted.readings->traits.single;
-    const bool fits = by_shape || (score.testable && score.statistic >= hopeless);
-    if (score.effect != own && !fits) continue;
+    if (score.effect != own && !IsTried(trying, score)) continue;
     LawFit fit = score.effect == own ? selection->extended : FitEffect(weighted, without, score);
     if (fit.usable) place.candidates.push_back({score, std::move(fit)});
   }

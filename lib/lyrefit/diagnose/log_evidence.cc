@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kLog2Pi = 1.8378770664093453;
 
-// A prior of one coordinate at the fit: ln of its density, and a precision that bounds the
-// posterior where the readings say nothing.
+// A prior of one coordinate at the fit: ln of its density, and the precision of a normal density of
+// that width there. Where the readings say nothing, their product integrates to about one.
 struct Prior {
   double log_density = 0;
   double precision = 0;
@@ -37,8 +37,8 @@ double LogStudent3(double x, double scale) {
 Prior BasePrior(const Law& law, const DataTraits& traits, int k, double value) {
   constexpr double kUsualIdeality = 1.15, kIdealityWidth = 0.2, kIdealityWidthOfModules = 0.25,
                    kUsualResistance = 0.03, kUsualConductance = 0.05, kUsualSecond = 0.05;
-  const auto scaled = [](double log_density, double scale) {
-    return Prior{log_density, 1 / (scale * scale), HUGE_VAL};
+  const auto half_cauchy = [value](double scale) {
+    return Prior{LogHalfCauchy(value, scale), 2 / (scale * scale + value * value), HUGE_VAL};
   };
   if (k == IdealityIndex(0)) {
     const double off = std::log(value / kUsualIdeality);
@@ -46,25 +46,29 @@ Prior BasePrior(const Law& law, const DataTraits& traits, int k, double value) {
     const double log_density = traits.module
                                    ? -0.5 * (z * z + kLog2Pi) - std::log(kIdealityWidthOfModules)
                                    : LogStudent3(off, kIdealityWidth);
-    return scaled(log_density - std::log(value), 1);
+    const double width =
+        value * (traits.module ? kIdealityWidthOfModules : std::hypot(kIdealityWidth, off));
+    return {log_density - std::log(value), 1 / (width * width), HUGE_VAL};
   }
-  if (k == kRs) return scaled(LogHalfCauchy(value, kUsualResistance), 0.3);
-  if (k == kRsh) return scaled(LogHalfCauchy(value, kUsualConductance), 1);
+  if (k == kRs) return half_cauchy(kUsualResistance);
+  if (k == kRsh) return half_cauchy(kUsualConductance);
   if (law.model == Model::kDoubleDiode && k == SaturationCurrentIndex(1)) {
-    return scaled(LogHalfCauchy(value, kUsualSecond), 1);
+    return half_cauchy(kUsualSecond);
   }
   return {0, 1e-2, HUGE_VAL};  // the same in every law
 }
 
-// About the neutral value where a usual size is known, else uniform between the bounds. A parameter without finite bounds belongs to every law compared.
+// About the neutral value where a usual size is known, else uniform between the bounds. A parameter
+// without finite bounds belongs to every law compared.
 Prior EffectPrior(const EffectParameter& parameter, double value) {
   constexpr double kUnbounded = 1e3;
   const double range = parameter.upper - parameter.lower;
   if (!(range < kUnbounded)) return {0, 1e-6, HUGE_VAL};
   if (parameter.usual > 0) {
     const bool two_sided = parameter.lower < parameter.neutral;
-    const double log_density = LogStudent3(value - parameter.neutral, parameter.usual);
-    return {log_density + (two_sided ? 0 : std::log(2.0)), 12 / (range * range), range};
+    const double off = value - parameter.neutral, usual = parameter.usual;
+    const double log_density = LogStudent3(off, usual) + (two_sided ? 0 : std::log(2.0));
+    return {log_density, 4 / (3 * usual * usual + off * off), range};
   }
   return {-std::log(range), 12 / (range * range), range};
 }

@@ -104,13 +104,16 @@ void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* 
   }
 }
 
-// Whether a candidate is large enough to be named.
-bool IsWorthAName(const SelectionState& now, const FittedCandidate& candidate) {
-  if (!now.options.floors.Any()) return true;
+// Size of the last effect of a candidate.
+EffectSize SizeOfCandidate(const SelectionState& now, const FittedCandidate& candidate) {
   const int last = static_cast<int>(candidate.fit.law.effects.size()) - 1;
-  return ExceedsFloors(
-      SizeOf(now.weighted, candidate.fit, last, MakeWithout(now.weighted, now.fit)),
-      now.options.floors);
+  return SizeOf(now.weighted, candidate.fit, last, MakeWithout(now.weighted, now.fit));
+}
+
+// Whether an effect below the floors is large enough to be mentioned.
+bool IsWorthMention(const EffectSize& size, const Floors& floors) {
+  constexpr double kPart = 0.1;
+  return ExceedsFloors(size, {kPart * floors.current, kPart * floors.power});
 }
 
 // Drops the last causes, or all, if the law is more probable without them. Only now it counts that
@@ -173,8 +176,10 @@ void Extend(SelectionState* now, Selection* selection) {
     if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
     const FittedCandidate& best = *MostProbable(step.candidates);
     if (!(best.LogComplete() > step.none.LogComplete() + least)) return;
-    if (!IsWorthAName(*now, best)) {
-      selection->below = std::move(step);
+    const Floors& floors = now->options.floors;
+    const EffectSize size = SizeOfCandidate(*now, best);
+    if (floors.Any() && !ExceedsFloors(size, floors)) {
+      if (IsWorthMention(size, floors)) selection->below = std::move(step);
       return;
     }
     Accept(best, now);

@@ -62,6 +62,7 @@ std::string FindingText(const DeviceFinding& finding) {
       finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
       : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
                                  : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+  if (!std::isfinite(finding.power_loss)) return what;
   return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
 }
 

@@ -207,6 +207,7 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     temperature.push_back(r.temperature_K);
     if (!r.dark) lit_irradiance.push_back(r.irradiance);
     if (!r.dark && r.current < -0.01) traits.beyond_voc = true;
+    if (!r.dark) traits.largest_current = std::max(traits.largest_current, r.current);
   }
   traits.curves = static_cast<int>(set.curves.size());
   traits.only_dark = lit_irradiance.empty();

@@ -63,6 +63,7 @@ struct DataTraits {
   double lowest_voltage = 0;   // per cell
   double highest_voltage = 0;  // per cell
   double open_circuit = 0;     // estimate of Voc per cell; 0: no estimate
+  double largest_current = 0;  // of lit curves, in scales
   double thermal_voltage = 0;  // k T / q at the reference
   int readings = 0;
   std::vector<double> turns;       // x at which a sweep up and down turns

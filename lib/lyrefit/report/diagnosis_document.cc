@@ -215,7 +215,7 @@ Section CauseSection(const Diagnosis& diagnosis, const Cause& cause, const std::
 }
 
 // Parameters and certainty of a cause.
-Section CauseDetails(const Diagnosis& diagnosis, const Cause& cause) {
+Section CauseDetails(const Cause& cause) {
   Section section = {fmt::format("Parameters of {} ({})", cause.title, cause.id)};
   AddSentence(FullSentence(cause.sentence), &section);
   for (std::size_t i = 0; i < cause.strength.size(); ++i) {
@@ -255,7 +255,7 @@ std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
   std::vector<Section> sections;
   for (const Cause& cause : diagnosis.verdict.below_floor) {
     sections.push_back(Folded(CauseSection(diagnosis, cause, "Present, not material")));
-    sections.push_back(CauseDetails(diagnosis, cause));
+    sections.push_back(CauseDetails(cause));
   }
   return sections;
 }
@@ -263,7 +263,7 @@ std::vector<Section> BelowSections(const Diagnosis& diagnosis) {
 std::vector<Section> DetailSections(const Diagnosis& diagnosis) {
   std::vector<Section> sections;
   for (const Cause& cause : diagnosis.verdict.causes) {
-    sections.push_back(CauseDetails(diagnosis, cause));
+    sections.push_back(CauseDetails(cause));
   }
   return sections;
 }

@@ -41,11 +41,13 @@ Effect Clip() {
     solved->current = Choose(below, p[1], solved->current);
   };
   e.why_not = NeedsLight;
-  e.probes = [](const DataTraits&) {
+  e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;
+    const double largest = traits.reverse ? traits.largest_current : 1;
     for (const double limit : {0.995, 0.99, 0.98, 0.965, 0.94, 0.9}) {
-      probes.push_back({limit, kNoLowerLimit});
+      probes.push_back({limit * largest, kNoLowerLimit});
     }
+    if (traits.reverse) probes.push_back({largest, kNoLowerLimit});
     return probes;
   };
   return e;

@@ -19,8 +19,9 @@ TEST(PriorTableTest, NamesEffectsAndItsSources) {
   for (const CausePrior& prior : PriorTable()) {
     EXPECT_NE(FindEffect(prior.id), nullptr) << prior.id;
     EXPECT_STRNE(prior.source, "") << prior.id;
-    EXPECT_GT(prior.probability, 0) << prior.id;
-    sum += prior.probability;
+    EXPECT_GT(prior.in_cells, 0) << prior.id;
+    EXPECT_GT(prior.in_modules, 0) << prior.id;
+    sum += prior.in_modules;
   }
   EXPECT_LT(sum, 1);
 }
@@ -38,9 +39,9 @@ class ReadPriorsTest : public ::testing::Test {
 TEST_F(ReadPriorsTest, ReplacesThoseOfTheTable) {
   const auto priors = Read(R"({"shading": 0.25})");
   ASSERT_TRUE(priors);
-  EXPECT_EQ(priors->Of("shading"), 0.25);
-  EXPECT_EQ(priors->Of("drift"), CausePriors().Of("drift"));
-  EXPECT_EQ(priors->Of("an effect of one's own"), kOtherPrior);
+  EXPECT_EQ(priors->Of("shading", true), 0.25);
+  EXPECT_EQ(priors->Of("drift", true), CausePriors().Of("drift", true));
+  EXPECT_EQ(priors->Of("an effect of one's own", false), kOtherPrior);
 }
 
 TEST_F(ReadPriorsTest, SaysWhatIsWrongAndWhere) {
@@ -53,7 +54,7 @@ TEST_F(ReadPriorsTest, SaysWhatIsWrongAndWhere) {
 TEST(PriorsNamedTest, AlikeGivesAllTheSame) {
   const auto alike = PriorsNamed("alike");
   ASSERT_TRUE(alike);
-  EXPECT_EQ(alike->Of("shading"), alike->Of("clip"));
+  EXPECT_EQ(alike->Of("shading", true), alike->Of("clip", false));
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 #include "faults/adapter.h"
 
 #include <chrono>
+#include <cmath>
+#include <map>
 
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/priors.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace faults {
 namespace {
@@ -45,18 +49,21 @@ lyrefit::CurveSet ToSet(const Measurement& from, int number) {
 
 }  // namespace
 
-Answer Ask(const Measurement& measurement, int number, double probability, std::uint64_t seed,
-           bool second_diode, Mode mode) {
+namespace {
+
+lyrefit::DiagnoseOptions OptionsOf(double probability, Mode mode) {
   lyrefit::DiagnoseOptions options =
       mode == Mode::kLaboratory ? lyrefit::LaboratoryOptions() : lyrefit::DiagnoseOptions();
   if (probability > 0) options.probability = probability;
-  options.seed = seed;
   options.held_out = false;
   options.threads = 1;
-  if (second_diode) options.base = lyrefit::Model::kDoubleDiode;
+  return options;
+}
+
+Answer AnswerOf(const lyrefit::CurveSet& set, const lyrefit::DiagnoseOptions& options) {
   Answer answer;
   const auto start = std::chrono::steady_clock::now();
-  const auto diagnosis = lyrefit::Diagnose(ToSet(measurement, number), options);
+  const auto diagnosis = lyrefit::Diagnose(set, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   answer.seconds = took.count();
   if (!diagnosis) {
@@ -71,7 +78,42 @@ Answer Ask(const Measurement& measurement, int number, double probability, std::
     }
     answer.claims.push_back(claim);
   }
+  std::map<std::string, double> stated;
+  for (const lyrefit::Trial& trial : diagnosis->trials) {
+    if (!std::isfinite(trial.probability)) continue;
+    stated[lyrefit::FindEffect(trial.effect)->Finding()] +=
+        trial.probability * trial.probability_material;
+  }
+  stated["none"] = diagnosis->verdict.probability_none;
+  for (const auto& [id, probability] : stated) answer.stated.push_back({id, probability});
   return answer;
+}
+
+}  // namespace
+
+Answer Ask(const Measurement& measurement, int number, double probability, std::uint64_t seed,
+           bool second_diode, Mode mode) {
+  lyrefit::DiagnoseOptions options = OptionsOf(probability, mode);
+  options.seed = seed;
+  if (second_diode) options.base = lyrefit::Model::kDoubleDiode;
+  return AnswerOf(ToSet(measurement, number), options);
+}
+
+Answer AskFile(const std::string& path, double probability) {
+  const auto set = lyrefit::ReadMeasurement(path);
+  if (set) return AnswerOf(*set, OptionsOf(probability, Mode::kField));
+  Answer answer;
+  answer.error = set.error().ToString();
+  return answer;
+}
+
+std::string FindingOf(const std::string& id) {
+  const lyrefit::Effect* effect = lyrefit::FindEffect(id);
+  return effect != nullptr ? effect->Finding() : id;
+}
+
+double PriorOf(const std::string& id, bool module, Mode mode) {
+  return lyrefit::CausePriors{{}, mode == Mode::kLaboratory, ""}.Of(id, module);
 }
 
 }  // namespace faults

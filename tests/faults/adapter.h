@@ -25,9 +25,16 @@ struct Claim {
   std::vector<Strength> strengths;
 };
 
+// Probability of a finding as the only one, before anything is named.
+struct Stated {
+  std::string id;      // "none": no finding, or none above the floors
+  double probability;  // of a finding above the floors
+};
+
 struct Answer {
   std::string error;  // empty: no error
   std::vector<Claim> claims;
+  std::vector<Stated> stated;
   double seconds = 0;
 };
 
@@ -39,5 +46,11 @@ enum class Mode { kLaboratory, kField };
 // `second_diode`: the base model is the double-diode model.
 Answer Ask(const Measurement& measurement, int number, double probability, std::uint64_t seed,
            bool second_diode = false, Mode mode = Mode::kLaboratory);
+// The same for a file, with the settings of the command.
+Answer AskFile(const std::string& path, double probability);
+// The finding that an effect is reported as.
+std::string FindingOf(const std::string& id);
+// How common the findings of an effect are taken to be.
+double PriorOf(const std::string& id, bool module, Mode mode);
 
 }  // namespace faults

@@ -89,6 +89,7 @@ constexpr const char* kUsage =
     "             [--probability P] [--seed N] [--threads N] [--csv FILE]\n"
     "             [--rows FILE] [--number I]\n"
     "MODE: silence, power, pairs, confusion, size, show\n"
+    "fault_study calibration [--asked laboratory|field | --real FOLDER] [--cases N] [--csv FILE]\n"
     "fault_study field [--effect KIND|all] [--cases N] [--misfit-above PERCENT] [--rows FILE]\n"
     "             [--show KIND --number I] [--dump FOLDER]\n";
 
@@ -101,6 +102,7 @@ bool Read(int argc, char** argv, StudyOptions* options) {
       {"--cases", [&](const char* text) { options->cases = std::atoi(text); }},
       {"--asked", [&](const char* text) { options->asked = text; }},
       {"--probability", [&](const char* text) { options->probability = std::atof(text); }},
+      {"--real", [&](const char* text) { options->real = text; }},
       {"--seed", [&](const char* text) { options->seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { options->threads = std::atoi(text); }},
       {"--rows", [&](const char* text) { options->rows = text; }},
@@ -126,9 +128,10 @@ bool Read(int argc, char** argv, StudyOptions* options) {
 int main(int argc, char** argv) {
   using namespace faults;
   const std::map<std::string, int (*)(const StudyOptions&)> modes = {
-      {"silence", StudySilence},     {"power", StudyPower}, {"pairs", StudyPairs},
-      {"confusion", StudyConfusion}, {"size", StudySize},   {"show", ShowCase},
-      {"field", StudyField}};
+      {"silence", StudySilence}, {"power", StudyPower},
+      {"pairs", StudyPairs},     {"confusion", StudyConfusion},
+      {"size", StudySize},       {"show", ShowCase},
+      {"field", StudyField},     {"calibration", StudyCalibration}};
   StudyOptions options;
   if (!Read(argc, argv, &options) || modes.count(options.mode) == 0) {
     std::fputs(kUsage, stderr);

@@ -22,6 +22,7 @@ struct StudyOptions {
   double probability = 0;  // of a cause that is named; 0: the default of the mode
   std::uint64_t seed = 1;
   std::string asked;  // "laboratory" or "field"; empty: that of the simulator
+  std::string real;   // folder of labelled sweeps
   int threads = 0;    // 0: one per processor
   // For the mode `field`:
   double misfit_above = 0;  // minimum misfit of the cases with a fault, % of Isc
@@ -45,6 +46,10 @@ int StudySize(const StudyOptions& options);
 // and the errors of lights and shares. Or writes its cases as tables. `effect` is a kind of
 // field_case.h.
 int StudyField(const StudyOptions& options);
+// Stated probabilities beside the share that is true, in tenths: of every finding before one is
+// named, and of the first that is named. Causes are as common as the diagnosis takes them to be.
+// `asked` is the world; `real` is a folder of labelled sweeps in its place.
+int StudyCalibration(const StudyOptions& options);
 // Writes one case of `power` or, without an effect, of `silence` as a table of readings. The causes
 // and the answer go to standard error.
 int ShowCase(const StudyOptions& options);

@@ -223,6 +223,7 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
       if (fitted.fit.usable) {
         trial.log_evidence = LogTotal(fitted.evidence) - LogTotal(selection.trials.none.evidence);
         trial.probability = fitted.probability;
+        trial.probability_material = fitted.material;
       }
       trial.misfit = std::sqrt(std::max(fitted.statistic, fitted.score.statistic));
       if (!fitted.fit.usable) continue;

@@ -209,6 +209,7 @@ JudgeOptions JudgeOptionsOf(const Measurement& measurement, const CausePriors& p
   constexpr double kUsualWidth = 0.35;
   JudgeOptions judge;
   judge.priors = priors;
+  judge.module = measurement.readings.traits.module;
   if (!measurement.has_path()) return judge;
   if (measurement.errors.kind == ErrorKind::kStated) {
     judge.departure = measurement.errors.sizes.path;

@@ -91,7 +91,8 @@ struct Trial {
   // ln of the marginal likelihood of the base model with this effect over that without it.
   double log_evidence = kUnknown;
   double probability = kUnknown;  // of this effect as the only cause, among none and all effects
-  double delta_aicc = kUnknown;   // with the effect minus without; negative is better
+  double probability_material = kUnknown;  // that its size, if it acts, exceeds a floor
+  double delta_aicc = kUnknown;            // with the effect minus without; negative is better
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // fraction of the effect's signature that the base model cannot absorb
   std::vector<CauseParameter> parameters;  // fitted together with the base model
@@ -165,7 +166,7 @@ struct Verdict {
   // Significant effects that are too small to act on.
   std::vector<Cause> below_floor;
   Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc
-  double probability_none = kUnknown;  // that no cause acts
+  double probability_none = kUnknown;  // that no cause above the floors acts
   Sized recoverable_power_W;           // additional Pmax of the device without all causes
   Sized remaining;                     // the same of the extended model
   std::string comparison;  // of both with modules without a fault; empty if nothing was found

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/distributions.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit {
 namespace {
+
+// Below this fraction of the current floor lies the usual departure of modules without a fault
+// from the model. A power effect of one sweep would then rest on nothing visible in the readings.
+constexpr double kShown = 0.4;
 
 // The device terms of a fit: base and device effects. `of`: position of each parameter in the fit.
 struct DeviceTerms {
@@ -199,10 +204,20 @@ EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
   return size;
 }
 
+double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
+  if (!floors.Any()) return 1;
+  constexpr double kErrors = 1.96;  // in half of a 95 % interval
+  const auto above = [](double value, double half, double floor) {
+    if (!(half > 0)) return value > floor ? 1.0 : 0.0;
+    return NormalTail((floor - value) * kErrors / half);
+  };
+  const double current = above(size.current, size.current * size.reach, floors.current);
+  if (size.one_sweep && size.current < kShown * floors.current) return current;
+  const double power = above(std::fabs(size.power), size.power_error, floors.power);
+  return std::isfinite(power) ? std::max(current, power) : current;
+}
+
 bool ExceedsFloors(const EffectSize& size, const Floors& floors) {
-  // Below this fraction of the current floor lies the usual departure of modules without a fault
-  // from the model. A power effect of one sweep would then rest on nothing visible in the readings.
-  constexpr double kShown = 0.4;
   const double current = size.current * (1 - size.reach);
   if (current >= floors.current) return true;
   if (size.one_sweep && current < kShown * floors.current) return false;

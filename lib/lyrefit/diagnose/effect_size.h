@@ -64,6 +64,8 @@ struct EffectSize {
 EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
                   const Without& without);
 
+// Probability that one of its sizes lies above its floor; 1 without floors.
+double ProbabilityAbove(const EffectSize& size, const Floors& floors);
 // Whether the whole interval of one of its sizes lies above its floor.
 bool ExceedsFloors(const EffectSize& size, const Floors& floors);
 

@@ -202,46 +202,55 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   return place;
 }
 
-// Puts another effect in the place of cause number `c`.
+// Puts another effect in the place of cause number `c`, or nothing.
 void Replace(const Measurement& measurement, const FittedCandidate& better, int c,
              Selection* selection) {
   selection->causes.erase(selection->causes.begin() + c);
-  selection->causes.push_back({better.score.effect, better.score});
+  if (better.score.effect != nullptr) {
+    selection->causes.push_back({better.score.effect, better.score});
+  }
   selection->extended = better.fit;
   selection->noise = SettleNoise(measurement, &selection->weighted, &selection->extended);
+}
+
+// What is clearly more probable in the place of an effect than the effect; null if nothing is.
+const FittedCandidate* BetterThan(const Effect* own, const Hypotheses& place) {
+  constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
+  if (place.candidates.empty()) return nullptr;
+  const auto at = std::find_if(
+      place.candidates.begin(), place.candidates.end(),
+      [own](const FittedCandidate& candidate) { return candidate.score.effect == own; });
+  if (at == place.candidates.end()) return nullptr;
+  if (place.none.probability > 0.5) return &place.none;
+  const FittedCandidate& best = place.candidates.front();
+  return best.log_posterior > at->log_posterior + kClearly ? &best : nullptr;
 }
 
 }  // namespace
 
 void FindAlternatives(const Measurement& measurement, const SelectOptions& options,
                       Selection* selection) {
-  constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
-  int replacements = 2;
-  const int count = static_cast<int>(selection->causes.size());
-  options.progress.Begin("candidates",
-                         static_cast<std::int64_t>(options.candidates.size()) * count);
-  for (int c = 0; c < count;) {
+  constexpr int kMostReplacements = 4;
+  int replacements = 0;
+  options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size() *
+                                                                 selection->causes.size()));
+  for (std::size_t c = 0; c < selection->causes.size();) {
     if (selection->causes[c].in_values) {
       ++c;
       continue;
     }
-    Hypotheses place = FitPlace(options, c, selection);
+    Hypotheses place = FitPlace(options, static_cast<int>(c), selection);
     if (options.progress.Stopped()) return;
-    const auto own = std::find_if(place.candidates.begin(), place.candidates.end(),
-                                  [&](const FittedCandidate& candidate) {
-                                    return candidate.score.effect == selection->causes[c].effect;
-                                  });
-    const bool better = own != place.candidates.end() && own != place.candidates.begin() &&
-                        place.candidates.front().log_posterior > own->log_posterior + kClearly;
-    if (better && replacements > 0) {
-      --replacements;
-      Replace(measurement, place.candidates.front(), c, selection);
+    const FittedCandidate* better = BetterThan(selection->causes[c].effect, place);
+    if (better != nullptr && replacements < kMostReplacements) {
+      ++replacements;
+      Replace(measurement, *better, static_cast<int>(c), selection);
       c = 0;
       continue;
     }
     ChosenCause& cause = selection->causes[c++];
-    if (own != place.candidates.end()) cause.probability = own->probability;
     cause.others = std::move(place);
+    if (const FittedCandidate* own = OwnCandidate(cause)) cause.probability = own->probability;
   }
 }
 

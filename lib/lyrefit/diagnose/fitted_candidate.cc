@@ -27,7 +27,7 @@ LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
 }
 
 double LogPriorOdds(const Effect& effect, const JudgeOptions& options) {
-  const double prior = options.priors.Of(effect.id);
+  const double prior = options.priors.Of(effect.id, options.module);
   return std::log(prior / (1 - prior));
 }
 
@@ -40,20 +40,45 @@ double IncompleteProbability(const LogEvidence& evidence) {
   return std::exp(evidence.incomplete + std::log(kUnknownPrior) - LogTotal(evidence));
 }
 
+namespace {
+
+// Tempers the differences between causes, whose sum stays. What a right law misses is smooth and
+// small in number; the likelihood counts it as if every reading had its own.
+void Temper(double part, std::vector<FittedCandidate>* candidates) {
+  double top = -HUGE_VAL, sum = -HUGE_VAL, tempered = -HUGE_VAL;
+  for (const FittedCandidate& candidate : *candidates) {
+    sum = LogSum(sum, candidate.log_posterior);
+    top = std::max(top, candidate.log_posterior - candidate.log_prior);
+  }
+  if (!std::isfinite(top)) return;
+  for (FittedCandidate& candidate : *candidates) {
+    const double below = candidate.log_posterior - candidate.log_prior - top;
+    candidate.log_posterior = candidate.log_prior + part * below;
+    tempered = LogSum(tempered, candidate.log_posterior);
+  }
+  for (FittedCandidate& candidate : *candidates) candidate.log_posterior += sum - tempered;
+}
+
+}  // namespace
+
 void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions& options,
            Hypotheses* hypotheses) {
+  constexpr double kPartOfDevices = 0.3, kPartOfLaws = 0.6;  // with a departure, and without
   FittedCandidate& none = hypotheses->none;
   std::vector<FittedCandidate>& candidates = hypotheses->candidates;
   const double variance = NoiseVariance(weighted, none.fit);
   none.evidence = EvidenceOf(weighted, base, options, none.fit);
   none.log_posterior = LogTotal(none.evidence);
-  double total = none.log_posterior;
   for (FittedCandidate& candidate : candidates) {
     candidate.log_prior = LogPriorOdds(*candidate.score.effect, options);
     candidate.evidence = EvidenceOf(weighted, base, options, candidate.fit);
     candidate.log_posterior = LogTotal(candidate.evidence) + candidate.log_prior;
     candidate.statistic = (none.fit.sum - candidate.fit.sum) /
                           std::min(variance, NoiseVariance(weighted, candidate.fit));
+  }
+  Temper(options.departure > 0 ? kPartOfDevices : kPartOfLaws, &candidates);
+  double total = none.log_posterior;
+  for (const FittedCandidate& candidate : candidates) {
     total = LogSum(total, candidate.log_posterior);
   }
   none.probability = std::exp(none.log_posterior - total);

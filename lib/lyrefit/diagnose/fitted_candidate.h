@@ -19,6 +19,7 @@ struct FittedCandidate {
   double log_prior = 0;              // ln of the prior odds of its effect
   double log_posterior = -HUGE_VAL;  // ln of prior times marginal likelihood, up to a constant
   double probability = 0;            // among the hypotheses compared
+  double material = 1;               // probability that its effect, if there, exceeds a floor
 
   // As log_posterior, if nothing unknown acts as well. An unknown departure bends to everything,
   // so that causes are looked for as if there were none.
@@ -40,6 +41,7 @@ struct JudgeOptions {
   double departure = 0;        // usual departure of devices from a right law, in scales; 0: none
   double departure_width = 0;  // see DeparturePrior
   CausePriors priors;
+  bool module = false;
 };
 
 // Sets evidence and probability of every hypothesis and sorts the candidates. `base`: the fit

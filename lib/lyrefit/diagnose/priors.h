@@ -14,8 +14,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 // How often a cause is in a sweep at a size that matters, and on what the number rests.
 struct CausePrior {
   const char* id;      // of the effect
-  double probability;  // that it is in a sweep
-  const char* source;  // on what the number rests
+  double in_cells;     // probability that it is in a sweep of a cell
+  double in_modules;   // ... of a module
+  const char* source;  // on what the numbers rest
 };
 
 // The table for sweeps of the field. Orders of magnitude: the evidence of a fault above the floors
@@ -28,8 +29,8 @@ struct CausePriors {
   bool alike = false;                   // no table: all other causes are equally probable
   std::string name = "table";           // "table", "alike" or the name of the file
 
-  // Of an effect.
-  double Of(const std::string& id) const;
+  // Of an effect in sweeps of modules or of cells.
+  double Of(const std::string& id, bool module) const;
 };
 
 // Of a cause that is in no table, such as an effect of one's own, and of all with `alike`.

@@ -110,6 +110,15 @@ EffectSize SizeOfCandidate(const SelectionState& now, const FittedCandidate& can
   return SizeOf(now.weighted, candidate.fit, last, MakeWithout(now.weighted, now.fit));
 }
 
+// Probability that no cause acts, or one below the floors.
+double NothingMaterial(const Hypotheses& step) {
+  double probability = step.none.probability;
+  for (const FittedCandidate& candidate : step.candidates) {
+    probability += candidate.probability * (1 - candidate.material);
+  }
+  return probability;
+}
+
 // Whether an effect below the floors is large enough to be mentioned.
 bool IsWorthMention(const EffectSize& size, const Floors& floors) {
   constexpr double kPart = 0.1;
@@ -167,8 +176,12 @@ void Extend(SelectionState* now, Selection* selection) {
     if (now->weighted.progress.Stopped()) return;
     Hypotheses step = FitCandidates(*now, scores);
     if (first) {
+      for (FittedCandidate& candidate : step.candidates) {
+        candidate.material =
+            ProbabilityAbove(SizeOfCandidate(*now, candidate), now->options.floors);
+      }
       selection->trials = step;
-      selection->none = step.none.probability;
+      selection->none = NothingMaterial(step);
       AddUntried(scores, &selection->trials.candidates);
     }
     if (now->weighted.progress.Stopped()) return;

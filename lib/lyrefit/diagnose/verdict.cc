@@ -43,9 +43,10 @@ Cause BinsCause(const Effect& effect, const Measurement& measurement) {
   return cause;
 }
 
-Cause UnknownCause(const Selection& selection) {
+Cause UnknownCause(const Selection& selection, double whiteness_after) {
   const Effect& effect = *FindEffect("unknown_structure");
-  Cause cause = MakeCause(effect, "fit", selection.incomplete);
+  Cause cause =
+      MakeCause(effect, "fit", std::max(selection.incomplete, 1 - std::max(whiteness_after, 0.0)));
   cause.separate_by = {effect.separate_by};
   return cause;
 }
@@ -89,7 +90,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {
     verdict.unexplained = true;
-    verdict.causes.push_back(UnknownCause(selection));
+    verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
   verdict.probability_none = selection.none;

@@ -62,6 +62,7 @@ void to_json(Json& j, const Trial& trial) {
        {"misfit", trial.misfit},
        {"log_evidence", trial.log_evidence},
        {"probability", trial.probability},
+       {"probability_material", trial.probability_material},
        {"delta_aicc", trial.delta_aicc},
        {"held_out_rmse_A", trial.held_out_rmse_A},
        {"kept", trial.kept},

@@ -24,7 +24,7 @@ std::vector<ShapeStart> ShadingStarts(const CurveShape& shape, const DataTraits&
   constexpr double kMiddle = 0.36, kEnd = 0.3;  // of each plateau's voltage range
   std::vector<ShapeStart> starts;
   std::vector<double> shares = Shares(traits);
-  if (!UnlikeShares(shape, traits).empty()) {
+  if (!UnlikeShares(shape, traits, kStepPlaced).empty()) {
     for (const double quarters : {0.25, 0.5, 0.75}) {
       if (std::find(shares.begin(), shares.end(), quarters) == shares.end()) {
         shares.push_back(quarters);

@@ -189,7 +189,7 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
   for (int k = 3; k <= 4; ++k) {  // with two substrings this is shading
     if (known == k || (known == 0 && k == 3)) AddEqual(shape, k, &starts);
   }
-  for (const ThreeShares& shares : UnlikeShares(shape, traits)) {
+  for (const ThreeShares& shares : UnlikeShares(shape, traits, kStepPlaced)) {
     AddStart(shape, {shares[1], shares[2]}, InOrder(2), &starts);
   }
   return starts;

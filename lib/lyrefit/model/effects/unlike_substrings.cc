@@ -20,13 +20,14 @@ double Distance(const std::vector<double>& steps, const ThreeShares& shares) {
 
 }  // namespace
 
-std::vector<ThreeShares> UnlikeShares(const CurveShape& shape, const DataTraits& traits) {
+std::vector<ThreeShares> UnlikeShares(const CurveShape& shape, const DataTraits& traits,
+                                      double nearly) {
   const bool three =
       traits.substrings == 3 || (traits.substrings == 0 && SubstringsOf(traits) == 3);
   std::vector<ThreeShares> unlike;
   if (!three || traits.cells % 4 != 0) return unlike;
   const std::vector<double> steps = StairsOf(shape).steps;
-  const double alike = Distance(steps, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+  const double alike = Distance(steps, {1.0 / 3, 1.0 / 3, 1.0 / 3}) + nearly;
   for (const ThreeShares& shares :
        {ThreeShares{0.5, 0.25, 0.25}, {0.25, 0.5, 0.25}, {0.25, 0.25, 0.5}}) {
     if (Distance(steps, shares) < alike) unlike.push_back(shares);

@@ -207,7 +207,7 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   EXPECT_THAT(cause.in_words[0], HasSubstr(") of the others' light"));
   EXPECT_THAT(cause.sentence, Not(HasSubstr("=")));  // no parameters
   EXPECT_EQ(cause.action, std::string(FindEffect("shading")->action));
-  EXPECT_EQ(d.verdict.sentence, "The data show partial shading (100 %).");
+  EXPECT_EQ(d.verdict.sentence, "The data show partial shading (88 %).");
   EXPECT_THAT(d.verdict.comparison, HasSubstr("healthy modules 0.05 to 0.20 %"));
   const double measured_W = [&] {
     double most = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "synthetic_data.h"
 
@@ -77,15 +78,36 @@ TEST(JudgeTest, ADepartureOfTheDeviceMakesSmallCausesLessProbable) {
 
 TEST(JudgeTest, PriorsWeighInOdds) {
   JudgeOptions rare, usual;
-  rare.priors.given = {{"irr_step", 1e-3}};
-  usual.priors.given = {{"irr_step", 0.5}};
+  for (const char* id : {"irr_step", "transient"}) {
+    rare.priors.given[id] = 1e-3;
+    usual.priors.given[id] = 0.5;
+  }
   const auto odds = [](const JudgeOptions& options) {
-    const Hypotheses judged = Judged(WithStep(0.02), options);
-    const auto& candidates = judged.candidates;
-    const std::size_t step = candidates[0].score.effect == FindEffect("irr_step") ? 0 : 1;
-    return std::log(candidates[step].probability / judged.none.probability);
+    const double none = Judged(WithStep(0.02), options).none.probability;
+    return std::log((1 - none) / none);
   };
   EXPECT_NEAR(odds(usual) - odds(rare), std::log(0.999 / 0.001), 1e-6);
+}
+
+// Against none the evidence of all causes counts in full; between causes a part of it does, the
+// smaller where devices depart from their model.
+TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
+  JudgeOptions field;
+  field.departure = kField;
+  field.departure_width = 0.35;
+  for (const auto& [options, part] : {std::pair(JudgeOptions(), 0.6), std::pair(field, 0.3)}) {
+    const Hypotheses judged = Judged(WithStep(0.05), options);
+    const FittedCandidate& first = judged.candidates[0];
+    const FittedCandidate& second = judged.candidates[1];
+    EXPECT_NEAR(std::log(first.probability / second.probability),
+                first.log_prior - second.log_prior +
+                    part * (LogTotal(first.evidence) - LogTotal(second.evidence)),
+                1e-9);
+    const double causes = LogSum(LogTotal(first.evidence) + first.log_prior,
+                                 LogTotal(second.evidence) + second.log_prior);
+    EXPECT_NEAR(std::log((1 - judged.none.probability) / judged.none.probability),
+                causes - LogTotal(judged.none.evidence), 1e-6);
+  }
 }
 
 TEST(FittedCandidateTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {

@@ -93,6 +93,19 @@ TEST(LookAtValuesTest, FindsALowerLimit) {
   EXPECT_FALSE(Look(curve).limited);  // two readings at one value are no limit
 }
 
+// A meter of its own reads the held current with its own last digits.
+TEST(LookAtValuesTest, FindsALowerLimitInReadingsOfItsLastDigits) {
+  IvCurve curve = SyntheticCurve({});
+  const double limit = std::min(curve.current_A.back(), 0.0) - 0.4;
+  for (const double part : {1.0, 1.00002, 0.99998}) {
+    curve.voltage_V.push_back(curve.voltage_V.back() + 0.5);
+    curve.current_A.push_back(limit * part);
+  }
+  const ValueFindings findings = Look(curve);
+  ASSERT_TRUE(findings.limited);
+  EXPECT_EQ(findings.at_lower.size(), 3U);
+}
+
 TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
   IvCurve curve = SyntheticCurve({});
   for (const int k : {0, 1, 2}) curve.current_A[k] = 8.1;

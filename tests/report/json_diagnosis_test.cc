@@ -58,9 +58,9 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
            "fact_sheet"}));
   EXPECT_EQ(Keys(j["verdict"]["cannot_be_excluded"][0]),
             (Set{"id", "biases", "sentence", "separate_by"}));
-  EXPECT_EQ(Keys(j["trials"][0]),
-            (Set{"effect", "title", "tried", "why_not", "rmse_A", "misfit", "log_evidence",
-                 "probability", "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
+  EXPECT_EQ(Keys(j["trials"][0]), (Set{"effect", "title", "tried", "why_not", "rmse_A", "misfit",
+                                       "log_evidence", "probability_material", "probability",
+                                       "delta_aicc", "held_out_rmse_A", "kept", "parameters"}));
   EXPECT_EQ(Keys(j["gain"]), (Set{"rmse_before_A", "rmse_after_A", "held_out_before_A",
                                   "held_out_after_A", "held_out_gain_A2", "held_out_gain_error_A2",
                                   "folds", "by_sweeps", "gain", "sentence", "parameter_shift"}));

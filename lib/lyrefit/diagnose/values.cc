@@ -56,11 +56,14 @@ void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t l
   const int inwards = rising ? -1 : 1;
   const int end = static_cast<int>(rising ? last : first);
   const int stop = static_cast<int>(rising ? first : last) + inwards;
-  const double slack = 1e-9 * (std::fabs(smallest) + 1);
+  constexpr double kHeld = 1e-4;  // of the limit: sources hold it, meters read it
+  const double slack = kHeld * std::fabs(smallest) + 1e-9;
   int k = end;
   while (k != stop && points[k].current <= smallest + slack) k += inwards;
   const int run = std::abs(k - end);
-  if (run < 3 || k == stop || k + inwards == stop) return;
+  // Beyond open circuit currents fall steeply; near 0 coarse readings repeat.
+  const int fewest = smallest < -0.01 ? 3 : 4;
+  if (run < fewest || k == stop || k + inwards == stop) return;
   const double fall = points[k + inwards].current - points[k].current;
   if (!(fall > std::max(3 * step, 1e-3))) return;
   for (int i = end; i != k; i += inwards) at->push_back(i);
@@ -69,7 +72,6 @@ void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t l
 // Finds readings at the smallest current that follow each other at the high-voltage end of a
 // stretch.
 void FindLowerLimit(const Readings& readings, double step, ValueFindings* findings) {
-  constexpr std::size_t kFewest = 4;
   const std::vector<Reading>& points = readings.points;
   double smallest = points.front().current;
   for (const Reading& r : points) smallest = std::min(smallest, r.current);
@@ -80,7 +82,7 @@ void FindLowerLimit(const Readings& readings, double step, ValueFindings* findin
     AddEnd(points, first, last, smallest, step, &at);
     first = last + 1;
   }
-  if (at.size() < kFewest) return;
+  if (at.empty()) return;
   findings->limited = true;
   findings->lower_limit = smallest;
   findings->at_lower = at;

@@ -21,7 +21,7 @@ Verdict Told(Verdict verdict, const std::vector<DeviceFinding>& findings = {},
   Selection selection;
   selection.weighted = made.weighted;
   selection.extended = FitBase(made.weighted, Law());
-  DescribeVerdict(selection, floors, findings, &verdict);
+  DescribeVerdict(selection, floors, findings, 0.8, &verdict);
   return verdict;
 }
 
@@ -56,6 +56,10 @@ TEST(DescribeVerdict, SaysHowProbableACauseIs) {
   probable.probability = 0.86;
   probable.equivalents = {"shading"};
   EXPECT_EQ(Told(With({probable}, 0.05)).sentence, "The data show weak cells (86 %).");
+  probable.probability = 0.7;
+  probable.alternatives = {{"shading", "partial shading", 0.15}, {"none", "no cause", 0.1}};
+  EXPECT_EQ(Told(With({probable}, 0.05)).sentence,
+            "The data show either weak cells (70 %) or partial shading (15 %).");
   probable.probability = kUnknown;
   EXPECT_EQ(Told(With({probable, NamedCause("drift")}, 0.05)).sentence,
             "The data show weak cells (or what looks like it) and drift.");

@@ -324,7 +324,8 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
       found,
       {prepared.set.curves.front().notes.technology, prepared.set.curves.front().irradiance_known},
       diagnosis.verdict.causes, floors);
-  DescribeVerdict(found, floors, diagnosis.device_findings, &diagnosis.verdict);
+  DescribeVerdict(found, floors, diagnosis.device_findings, prepared.options.probability,
+                  &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,
                                     selected.candidates, selected.held_out, prepared.options);
   diagnosis.gain = MeasureGain(found, selected.at, selected.held_out, measurement.has_path());

@@ -102,23 +102,35 @@ bool IsNameless(const Verdict& verdict) {
   return verdict.causes.size() == 1 && verdict.causes.front().id == "unknown_structure";
 }
 
-// The causes: "partial shading (88 %) and drift of the irradiance (or what looks like it)"
-std::string Titles(const std::vector<Cause>& causes) {
+// A cause by its name, or, where its probability is less than `probability`, as the set of those
+// that have it together: "either partial shading (70 %) or substrings under a light each (17 %)".
+std::string TitleOf(const Cause& cause, double probability) {
+  constexpr std::size_t kMost = 3;
+  if (!std::isfinite(cause.probability)) {
+    return cause.title + (cause.equivalents.empty() ? "" : " (or what looks like it)");
+  }
+  std::vector<std::string> titles = {
+      fmt::format("{} ({:.0f} %)", cause.title, 100 * cause.probability)};
+  double sum = cause.probability;
+  for (const Alternative& other : cause.alternatives) {
+    if (sum >= probability || titles.size() == kMost) break;
+    titles.push_back(fmt::format("{} ({:.0f} %)", other.title, 100 * other.probability));
+    sum += other.probability;
+  }
+  return (titles.size() > 1 ? "either " : "") + Alternatives(titles);
+}
+
+std::string Titles(const std::vector<Cause>& causes, double probability) {
   std::string text;
   for (std::size_t c = 0; c < causes.size(); ++c) {
     if (c > 0) text += c + 1 < causes.size() ? ", " : " and ";
-    text += causes[c].title;
-    if (std::isfinite(causes[c].probability)) {
-      text += fmt::format(" ({:.0f} %)", 100 * causes[c].probability);
-    } else if (!causes[c].equivalents.empty()) {
-      text += " (or what looks like it)";
-    }
+    text += TitleOf(causes[c], probability);
   }
   return text;
 }
 
-std::string CausesSentence(const Verdict& verdict, const Floors& floors) {
-  std::string titles = Titles(verdict.causes);
+std::string CausesSentence(const Verdict& verdict, const Floors& floors, double probability) {
+  std::string titles = Titles(verdict.causes, probability);
   if (!LeavesTooMuch(verdict, floors)) return "The data show " + titles + ".";
   constexpr double kMost = 0.5;
   const bool most = verdict.remaining.value <= kMost * verdict.lack_of_fit.value;
@@ -173,7 +185,8 @@ std::string NotShownBy(const DataTraits& traits) {
 }
 
 void DescribeVerdict(const Selection& selection, const Floors& floors,
-                     const std::vector<DeviceFinding>& findings, Verdict* verdict) {
+                     const std::vector<DeviceFinding>& findings, double probability,
+                     Verdict* verdict) {
   const DataTraits& traits = selection.weighted.readings->traits;
   verdict->remaining = LeftBy(selection.weighted, selection.extended);
   verdict->comparison = ComparisonText(*verdict, floors);
@@ -185,7 +198,7 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
   } else if (!verdict->found) {
     verdict->sentence = NothingSentence(*verdict, floors, traits.curves, findings);
   } else {
-    verdict->sentence = CausesSentence(*verdict, floors);
+    verdict->sentence = CausesSentence(*verdict, floors, probability);
   }
 }
 

@@ -23,7 +23,9 @@ std::string NotShownBy(const DataTraits& traits);
 
 // The conclusion in words: fills `remaining`, `comparison`, `not_shown` and `sentence`. The causes
 // are described. `findings`: parameters of the device that are out of range.
+// `probability`: a cause with less is said as one of a set.
 void DescribeVerdict(const Selection& selection, const Floors& floors,
-                     const std::vector<DeviceFinding>& findings, Verdict* verdict);
+                     const std::vector<DeviceFinding>& findings, double probability,
+                     Verdict* verdict);
 
 }  // namespace lyrefit

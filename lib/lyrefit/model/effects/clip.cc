@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lyrefit/model/effects/catalogue.h"
 #include "lyrefit/model/effects/catalogue_entries.h"
 #include "lyrefit/model/effects/needs.h"
@@ -43,7 +45,7 @@ Effect Clip() {
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;
-    const double largest = traits.reverse ? traits.largest_current : 1;
+    const double largest = traits.reverse ? std::max(traits.largest_current, 1.0) : 1;
     for (const double limit : {0.995, 0.99, 0.98, 0.965, 0.94, 0.9}) {
       probes.push_back({limit * largest, kNoLowerLimit});
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/diagnose/cause_text.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/estimate/fit/statistics.h"
@@ -261,7 +262,6 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
 }
 
 std::vector<Cause> DescribeBelow(const Selection& selection) {
-  constexpr double kNotable = 0.05;
   std::vector<Cause> causes;
   for (const FittedCandidate& fitted : selection.below.candidates) {
     const Effect& effect = *fitted.score.effect;

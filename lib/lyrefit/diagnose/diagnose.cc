@@ -13,6 +13,7 @@
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/evidence.h"
@@ -43,7 +44,7 @@ struct WhitenedSelection {
 // model are correlated. Without whitening, correlated noise makes every test see effects.
 WhitenedSelection SelectWhitened(const Measurement& measurement, const SelectOptions& options) {
   // A larger correlation is rather structure that no cause explains than noise.
-  constexpr double kNotable = 0.08, kSure = 1, kLargest = 0.5;
+  constexpr double kCorrelated = 0.08, kSure = 1, kLargest = 0.5;
   const Readings& readings = measurement.readings;
   const std::vector<char> used(readings.points.size(), 1);
   Selection first = SelectCauses(measurement, used, 0, options);
@@ -56,7 +57,7 @@ WhitenedSelection SelectWhitened(const Measurement& measurement, const SelectOpt
   const Autocorrelation correlation = EstimateAutocorrelation(
       readings, whitened, first.weighted.used, FreeCount(first.weighted, first.extended.law));
   const bool coarse = IsCoarse(measurement, first.noise);
-  if (!measurement.has_path() && !coarse && correlation.value > kNotable &&
+  if (!measurement.has_path() && !coarse && correlation.value > kCorrelated &&
       correlation.value > kSure * correlation.standard_error) {
     Selection again =
         SelectCauses(measurement, used, std::min(correlation.value, kLargest), options);
@@ -206,7 +207,6 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions
 // Departure of a device from a law with the right causes: that of modules without a fault, or as
 // stated.
 JudgeOptions JudgeOptionsOf(const Measurement& measurement, const CausePriors& priors) {
-  constexpr double kUsualWidth = 0.35;
   JudgeOptions judge;
   judge.priors = priors;
   judge.module = measurement.readings.traits.module;
@@ -216,7 +216,7 @@ JudgeOptions JudgeOptionsOf(const Measurement& measurement, const CausePriors& p
     return judge;
   }
   judge.departure = UsualErrors(1, 1).center.path;
-  judge.departure_width = kUsualWidth;
+  judge.departure_width = kDepartureWidth;
   return judge;
 }
 

@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 
 namespace lyrefit {
 namespace {
-
-// Below this fraction of the current floor lies the usual departure of modules without a fault
-// from the model. A power effect of one sweep would then rest on nothing visible in the readings.
-constexpr double kShown = 0.4;
 
 // The device terms of a fit: base and device effects. `of`: position of each parameter in the fit.
 struct DeviceTerms {
@@ -212,7 +209,7 @@ double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
     return NormalTail((floor - value) * kErrors / half);
   };
   const double current = above(size.current, size.current * size.reach, floors.current);
-  if (size.one_sweep && size.current < kShown * floors.current) return current;
+  if (size.one_sweep && size.current < kShownPart * floors.current) return current;
   const double power = above(std::fabs(size.power), size.power_error, floors.power);
   return std::isfinite(power) ? std::max(current, power) : current;
 }
@@ -220,7 +217,7 @@ double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
 bool ExceedsFloors(const EffectSize& size, const Floors& floors) {
   const double current = size.current * (1 - size.reach);
   if (current >= floors.current) return true;
-  if (size.one_sweep && current < kShown * floors.current) return false;
+  if (size.one_sweep && current < kShownPart * floors.current) return false;
   // False if the power is NaN.
   return std::fabs(size.power) - size.power_error >= floors.power;
 }

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
 #include "lyrefit/diagnose/values.h"
@@ -92,10 +93,6 @@ double LeastOfTheBest(const std::vector<Score>& scores, int most) {
 
 // The statistics of a ruined fit mislead, so that everything is then tried.
 Trying TryingOf(const std::vector<Score>& scores, bool ruined, int most) {
-  // A cause that is more probable than none gains more than this.
-  constexpr double kLeastStatistic = 4;
-  // Effects with less than this part of the best statistic do not become the best by a fit.
-  constexpr double kHopelessPart = 0.1;
   Trying trying;
   double best = 0;
   for (const Score& score : scores) {
@@ -162,7 +159,6 @@ const FittedCandidate* OwnCandidate(const ChosenCause& cause) {
 }
 
 std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
-  constexpr double kNotable = 0.05;
   std::vector<const FittedCandidate*> equivalents;
   for (const FittedCandidate& candidate : cause.others.candidates) {
     const bool own = candidate.score.effect == cause.effect;
@@ -215,7 +211,6 @@ void Replace(const Measurement& measurement, const FittedCandidate& better, int 
 
 // What is clearly more probable in the place of an effect than the effect; null if nothing is.
 const FittedCandidate* BetterThan(const Effect* own, const Hypotheses& place) {
-  constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
   if (place.candidates.empty()) return nullptr;
   const auto at = std::find_if(
       place.candidates.begin(), place.candidates.end(),
@@ -230,7 +225,6 @@ const FittedCandidate* BetterThan(const Effect* own, const Hypotheses& place) {
 
 void FindAlternatives(const Measurement& measurement, const SelectOptions& options,
                       Selection* selection) {
-  constexpr int kMostReplacements = 4;
   int replacements = 0;
   options.progress.Begin("candidates", static_cast<std::int64_t>(options.candidates.size() *
                                                                  selection->causes.size()));

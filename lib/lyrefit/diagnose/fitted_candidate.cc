@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/diagnose/decision_constants.h"
+
 namespace lyrefit {
 
 std::vector<FittedCandidate>::const_iterator MostProbable(
@@ -15,13 +17,12 @@ std::vector<FittedCandidate>::const_iterator MostProbable(
 
 LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
                        const JudgeOptions& options, const LawFit& fit) {
-  constexpr double kPartOfCauses = 0.1, kUsualWidth = 0.6;
   DeparturePrior departure{options.departure, options.departure_width};
   const bool stated = options.departure > 0 && options.departure_width == 0;
   if (!fit.law.effects.empty() && !stated) {
     const double size = LackOfFit(weighted, base, fit.current);
-    departure.center = std::hypot(options.departure, kPartOfCauses * size);
-    departure.width = kUsualWidth;
+    departure.center = std::hypot(options.departure, kDepartureOfCauses * size);
+    departure.width = kDepartureOfCausesWidth;
   }
   return FindLogEvidence(weighted, fit, departure);
 }
@@ -42,8 +43,7 @@ double IncompleteProbability(const LogEvidence& evidence) {
 
 namespace {
 
-// Tempers the differences between causes, whose sum stays. What a right law misses is smooth and
-// small in number; the likelihood counts it as if every reading had its own.
+// Tempers the differences in evidence between causes; the sum of their probabilities stays.
 void Temper(double part, std::vector<FittedCandidate>* candidates) {
   double top = -HUGE_VAL, sum = -HUGE_VAL, tempered = -HUGE_VAL;
   for (const FittedCandidate& candidate : *candidates) {
@@ -63,7 +63,6 @@ void Temper(double part, std::vector<FittedCandidate>* candidates) {
 
 void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions& options,
            Hypotheses* hypotheses) {
-  constexpr double kPartOfDevices = 0.3, kPartOfLaws = 0.6;  // with a departure, and without
   FittedCandidate& none = hypotheses->none;
   std::vector<FittedCandidate>& candidates = hypotheses->candidates;
   const double variance = NoiseVariance(weighted, none.fit);
@@ -76,7 +75,7 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
     candidate.statistic = (none.fit.sum - candidate.fit.sum) /
                           std::min(variance, NoiseVariance(weighted, candidate.fit));
   }
-  Temper(options.departure > 0 ? kPartOfDevices : kPartOfLaws, &candidates);
+  Temper(options.departure > 0 ? kEvidencePartOfDevices : kEvidencePartOfLaws, &candidates);
   double total = none.log_posterior;
   for (const FittedCandidate& candidate : candidates) {
     total = LogSum(total, candidate.log_posterior);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 
 namespace lyrefit {
@@ -35,8 +36,6 @@ double LogStudent3(double x, double scale) {
 // Priors of the base parameters, in the coordinates of law_coordinates.h. Those of cells have heavy
 // tails: thin films have idealities of 1 to 6. Modules are silicon or nearly so.
 Prior BasePrior(const Law& law, const DataTraits& traits, int k, double value) {
-  constexpr double kUsualIdeality = 1.15, kIdealityWidth = 0.2, kIdealityWidthOfModules = 0.25,
-                   kUsualResistance = 0.03, kUsualConductance = 0.05, kUsualSecond = 0.05;
   const auto half_cauchy = [value](double scale) {
     return Prior{LogHalfCauchy(value, scale), 2 / (scale * scale + value * value), HUGE_VAL};
   };
@@ -45,15 +44,15 @@ Prior BasePrior(const Law& law, const DataTraits& traits, int k, double value) {
     const double z = off / kIdealityWidthOfModules;
     const double log_density = traits.module
                                    ? -0.5 * (z * z + kLog2Pi) - std::log(kIdealityWidthOfModules)
-                                   : LogStudent3(off, kIdealityWidth);
+                                   : LogStudent3(off, kIdealityWidthOfCells);
     const double width =
-        value * (traits.module ? kIdealityWidthOfModules : std::hypot(kIdealityWidth, off));
+        value * (traits.module ? kIdealityWidthOfModules : std::hypot(kIdealityWidthOfCells, off));
     return {log_density - std::log(value), 1 / (width * width), HUGE_VAL};
   }
-  if (k == kRs) return half_cauchy(kUsualResistance);
-  if (k == kRsh) return half_cauchy(kUsualConductance);
+  if (k == kRs) return half_cauchy(kUsualSeriesDrop);
+  if (k == kRsh) return half_cauchy(kUsualLeak);
   if (law.model == Model::kDoubleDiode && k == SaturationCurrentIndex(1)) {
-    return half_cauchy(kUsualSecond);
+    return half_cauchy(kUsualSecondDiode);
   }
   return {0, 1e-2, HUGE_VAL};  // the same in every law
 }
@@ -204,7 +203,6 @@ LogEvidence FindLogEvidence(const WeightedData& weighted, const LawFit& fit,
   // Sizes of the departure on a grid, a factor of sqrt(2) apart, up to a seventh of Isc.
   constexpr double kLeast = 1e-4, kRatio = 0.34657359027997264;
   constexpr int kSizes = 22;
-  constexpr double kLeastIncomplete = 1.5e-3;
   LogEvidence evidence;
   const Linear linear = LinearOf(weighted, fit);
   if (linear.prior.empty()) return evidence;
@@ -217,10 +215,10 @@ LogEvidence FindLogEvidence(const WeightedData& weighted, const LawFit& fit,
   }
   double best = -HUGE_VAL;
   const int incomplete_sizes =
-      kSizes - static_cast<int>(std::ceil(std::log(kLeastIncomplete / kLeast) / kRatio));
+      kSizes - static_cast<int>(std::ceil(std::log(kUnknownDeparture / kLeast) / kRatio));
   for (int k = 0; k < kSizes; ++k) {
     own.path = kLeast * std::exp(kRatio * k);
-    const bool large = own.path >= kLeastIncomplete;
+    const bool large = own.path >= kUnknownDeparture;
     if (departure.width == 0 && !large) continue;
     const double value = LogIntegral(own, ErrorsOf(own), linear);
     if (large) {

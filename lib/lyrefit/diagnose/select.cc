@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
 #include "lyrefit/model/effects/catalogue.h"
@@ -121,8 +122,7 @@ double NothingMaterial(const Hypotheses& step) {
 
 // Whether an effect below the floors is large enough to be mentioned.
 bool IsWorthMention(const EffectSize& size, const Floors& floors) {
-  constexpr double kPart = 0.1;
-  return ExceedsFloors(size, {kPart * floors.current, kPart * floors.power});
+  return ExceedsFloors(size, {kMentionedPart * floors.current, kMentionedPart * floors.power});
 }
 
 // Drops the last causes, or all, if the law is more probable without them. Only now it counts that

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
 
@@ -24,7 +25,6 @@ bool SwapOne(int c, SelectionState* now) {
                       LogPriorOdds(*chosen[c].effect, judge);
   const Hypotheses place = FitCandidates(*now, ScoreOpen(now));
   if (now->weighted.progress.Stopped()) return keep();
-  constexpr double kClearly = 0.5;  // ln of a ratio of probabilities
   const double none = place.none.LogComplete();
   const auto best = MostProbable(place.candidates);
   const bool replaced = best != place.candidates.end() && best->score.effect != chosen[c].effect &&

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
@@ -53,8 +54,7 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
 
 // Whether the residuals of the extended model are certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
-  constexpr double kCertain = 1e-3;
-  return selection.incomplete > 0.5 || whiteness_after < kCertain ||
+  return selection.incomplete > 0.5 || whiteness_after < kRemains ||
          selection.weighted.correlation >= 0.5;
 }
 
@@ -85,7 +85,6 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
       verdict.causes.push_back(cause);
     }
   }
-  constexpr double kNeverNoise = 1e-6;
   const bool unknown = exceeds && (selection.incomplete > 0.5 || whiteness_after < kNeverNoise);
   const bool nameless = unknown && verdict.causes.empty();
   if (nameless) {

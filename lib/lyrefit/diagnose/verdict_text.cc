@@ -58,7 +58,7 @@ std::string Measured(int curves) { return curves > 1 ? "These curves" : "One swe
 // "a leak of 3.1 % of Isc at Voc (-4 % of Pmax)"
 std::string FindingText(const DeviceFinding& finding) {
   const double value = finding.value.value;
-  const std::string what =
+  std::string what =
       finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
       : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
                                  : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);

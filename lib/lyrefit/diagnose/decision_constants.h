@@ -1,0 +1,61 @@
+#pragma once
+
+namespace lyrefit {
+
+// What decides which cause is named, beside the priors of causes (priors.h), the usual sizes of
+// effects (EffectParameter::usual), the floors (DiagnoseOptions) and the limits of healthy devices
+// (device_findings.cc). Of each: its unit, on what it rests, and a test that fails without it.
+
+// Departure of a device from the right law. Its usual size is that of `UsualErrors`; this is the
+// scatter of its logarithm. JudgeTest.ADepartureOfTheDeviceMakesSmallCausesLessProbable.
+inline constexpr double kDepartureWidth = 0.35;
+// Causes are described to a part of their size only, which adds to the departure, with a scatter of
+// its logarithm: chosen on the labelled real sweeps. RealCurvesTest.
+inline constexpr double kDepartureOfCauses = 0.1;
+inline constexpr double kDepartureOfCausesWidth = 0.6;
+// The least departure by something unknown, in Isc: less is what devices without a fault have.
+// LogEvidenceTest.AnUnknownDepartureExplainsWhatTheLawDoesNot.
+inline constexpr double kUnknownDeparture = 1.5e-3;
+
+// Part of the differences in evidence between causes that counts, with a departure and without: as
+// `fault_study calibration` shows stated and true shares to agree. What a law misses is smooth, and
+// the likelihood counts it as if every reading had its own.
+// JudgeTest.DifferencesBetweenCausesCountInPart.
+inline constexpr double kEvidencePartOfDevices = 0.3;
+inline constexpr double kEvidencePartOfLaws = 0.6;
+
+// Priors of the device's parameters, orders of magnitude: ideality and its width in ln, of cells
+// (heavy tails: thin films) and of modules; Rs Isc/Voc, Voc/(Rsh Isc), and the current of a second
+// diode at Voc in Isc. Every law has them, so that they decide only where causes take their place.
+// RealCurvesTest.
+inline constexpr double kUsualIdeality = 1.15;
+inline constexpr double kIdealityWidthOfCells = 0.2;
+inline constexpr double kIdealityWidthOfModules = 0.25;
+inline constexpr double kUsualSeriesDrop = 0.03;
+inline constexpr double kUsualLeak = 0.05;
+inline constexpr double kUsualSecondDiode = 0.05;
+
+// Which effects are fitted at all, by the F statistic of their signature: what is less than this
+// cannot be more probable than none, and what has less than this part of the best statistic seldom
+// becomes the best. They save time; Seek (faults) fails if they are too large.
+inline constexpr double kLeastStatistic = 4;
+inline constexpr double kHopelessPart = 0.1;
+
+// A cause is replaced by one that is more probable by this, in ln, so that ties do not alternate,
+// and so often at most. An alternative is kept from this part of the cause's probability on.
+inline constexpr double kClearly = 0.5;
+inline constexpr int kMostReplacements = 4;
+inline constexpr double kNotable = 0.05;
+
+// Part of the floor of the current below which a power of one sweep rests on nothing visible
+// (ExceedsFloors.OfOneSweepOnlyWhereItShows), and part of both floors from which an effect is
+// mentioned as present (FieldDiagnosis.WhatIsTooSmallToActOnStandsApart).
+inline constexpr double kShownPart = 0.4;
+inline constexpr double kMentionedPart = 0.1;
+
+// Probabilities of a white remainder below which something certainly remains, and below which it is
+// a finding by itself. FieldDiagnosis.WhatNoCauseExplainsIsNotSaidToBeReference.
+inline constexpr double kRemains = 1e-3;
+inline constexpr double kNeverNoise = 1e-6;
+
+}  // namespace lyrefit

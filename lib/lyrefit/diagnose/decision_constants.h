@@ -44,7 +44,7 @@ inline constexpr double kHopelessPart = 0.1;
 // A cause is replaced by one that is more probable by this, in ln, so that ties do not alternate,
 // and so often at most. An alternative is kept from this part of the cause's probability on.
 inline constexpr double kClearly = 0.5;
-inline constexpr int kMostReplacements = 4;
+inline constexpr int kMostReplacements = 3;
 inline constexpr double kNotable = 0.05;
 
 // Part of the floor of the current below which a power of one sweep rests on nothing visible

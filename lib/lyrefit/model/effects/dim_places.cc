@@ -51,20 +51,20 @@ class RoughCells {
     }
   }
   // Area between the curves, over volts and parts of the full current.
-  double AreaOf(const DimPlaces& guess, double cells, int substrings, int counted) const {
+  double AreaOf(const DimPlaces& guess, double cells, int in_module, int counted) const {
     constexpr double kBypassDrop = 0.5;
     double area = 0;
     for (int i = 0; i < kCurrents; ++i) {
       double sum = 0;
-      for (int s = 0; s < substrings; ++s) {
-        double voltage = cells / substrings * bright_[i];
+      for (int s = 0; s < in_module; ++s) {
+        double voltage = cells / in_module * bright_[i];
         bool dim = false;
         for (std::size_t k = 0; s < counted && k < dim_.size(); ++k) {
           if (guess.places[k] != s) continue;
           voltage += dim_[k][i] - bright_[i];
           dim = true;
         }
-        sum += dim && substrings > 1 ? std::max(voltage, -kBypassDrop) : voltage;
+        sum += dim && in_module > 1 ? std::max(voltage, -kBypassDrop) : voltage;
       }
       area += std::fabs(sum - stairs_.voltage[i]) / kCurrents;
     }
@@ -123,15 +123,15 @@ std::vector<DimPlaces> GuessDimPlaces(const CurveShape& shape, const DataTraits&
   std::vector<DimPlaces> guesses;
   if (deficits.empty() || !(shape.At(0.02) > 0)) return guesses;
   const double cells = traits.cells;
-  const int all = SubstringsOf(traits);
+  const int in_module = SubstringsOf(traits);
   const MeasuredStairs stairs = MeasureStairs(shape, cells);
   RoughCells rough(stairs, shape.open_circuit);
   const auto add = [&](DimPlaces guess) {
     rough.SetDim(deficits, guess);
     std::vector<int> places;
-    ForPlaces(deficits.size(), std::min(all, substrings), &places, [&](const auto& chosen) {
+    ForPlaces(deficits.size(), std::min(in_module, substrings), &places, [&](const auto& chosen) {
       guess.places = chosen;
-      guess.area = rough.AreaOf(guess, cells, all, substrings);
+      guess.area = rough.AreaOf(guess, cells, in_module, substrings);
       guesses.push_back(guess);
     });
   };

@@ -119,9 +119,15 @@ Outcomes LaboratoryOutcomes(const StudyOptions& options, int number) {
 // Which effect a kind of the field world is an instance of.
 std::string EffectOf(const std::string& kind) {
   static const std::vector<std::pair<std::string, std::string>> kOther = {
-      {"snow", "shading"},  {"open_group", "open_substring"}, {"step", "irr_step"},
-      {"dip", "transient"}, {"range", "range_switch"},        {"hysteresis", "capacitance"},
-      {"limits", "clip"}};
+      {"snow", "shading"},
+      {"unlike_groups", "substrings"},
+      {"both_halves", "dim_cells"},
+      {"open_group", "open_substring"},
+      {"light_step", "irr_step"},
+      {"light_dip", "transient"},
+      {"light_drift", "drift"},
+      {"hysteresis", "capacitance"},
+      {"falling_hysteresis", "capacitance"}};
   for (const auto& [name, effect] : kOther) {
     if (name == kind) return effect;
   }

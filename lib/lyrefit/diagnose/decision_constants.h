@@ -4,7 +4,7 @@ namespace lyrefit {
 
 // What decides which cause is named, beside the priors of causes (priors.h), the usual sizes of
 // effects (EffectParameter::usual), the floors (DiagnoseOptions) and the limits of healthy devices
-// (device_findings.cc). Of each: its unit, on what it rests, and a test that fails without it.
+// (device_findings.cc). Of each: its unit, on what it rests, and a test of what it does.
 
 // Departure of a device from the right law. Its usual size is that of `UsualErrors`; this is the
 // scatter of its logarithm. JudgeTest.ADepartureOfTheDeviceMakesSmallCausesLessProbable.

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
@@ -172,13 +173,10 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
                    causes)});
 }
 
-// With a rough path the limit is smaller: the module's departure from the model changes n by more
-// than its error.
 void AddLowIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
-  const double limit = device.weighted.path > 0 ? 0.9 : 0.97;
   const int index = IdealityIndex(0);
   const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
-  if (!(n.high_95 < limit)) return;
+  if (!(n.high_95 < LeastIdeality(device.weighted))) return;
   findings->push_back(
       {"ideality", "n", n, 1, kUnknown,
        fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), less than any junction has; the number of "

@@ -203,10 +203,9 @@ EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
 
 double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
   if (!floors.Any()) return 1;
-  constexpr double kErrors = 1.96;  // in half of a 95 % interval
   const auto above = [](double value, double half, double floor) {
     if (!(half > 0)) return value > floor ? 1.0 : 0.0;
-    return NormalTail((floor - value) * kErrors / half);
+    return NormalTail((floor - value) * kNormal95 / half);
   };
   const double current = above(size.current, size.current * size.reach, floors.current);
   if (size.one_sweep && size.current < kShownPart * floors.current) return current;

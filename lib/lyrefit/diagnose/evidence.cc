@@ -306,12 +306,15 @@ Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
 
 }  // namespace
 
+double LeastIdeality(const WeightedData& weighted) {
+  constexpr double kBent = 0.9, kStraight = 0.97;
+  return weighted.path > 0 ? kBent : kStraight;
+}
+
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted) {
-  // No junction has n below 1; the slack allows for a temperature error of a few kelvin. Above 3,
-  // the number of cells is rather wrong than the junction. With a rough path the lower limit is
-  // smaller: the module's departure from the model changes n by more than its error.
-  constexpr double kBent = 0.9, kLargest = 3, kSure = 1e-4;
-  const double smallest = selection.weighted.path > 0 ? kBent : 0.97;
+  // Above 3, the number of cells is rather wrong than the junction.
+  constexpr double kLargest = 3, kSure = 1e-4;
+  const double smallest = LeastIdeality(selection.weighted);
   const LawFit& fit = selection.extended;
   const WeightedData& weighted = selection.weighted;
   const Readings& readings = *weighted.readings;

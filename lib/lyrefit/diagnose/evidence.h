@@ -18,6 +18,11 @@ double Whiteness(const WeightedData& weighted, const LawFit& fit);
 Evidence DescribeEvidence(const Selection& selection, const AtReadings& at,
                           const ValueFindings& values, const Autocorrelation& autocorrelation);
 
+// The least n that a junction can have. The slack allows for a temperature error of a few kelvin.
+// With a rough path it is larger: the module's departure from the model changes n by more than its
+// error.
+double LeastIdeality(const WeightedData& weighted);
+
 // If n of the extended model is below 1 or above 3: a cause with the temperature or number of cells
 // that would make n plausible. Empty if n is plausible. With `shorted`, a shorted bypass group is
 // offered as an explanation.

@@ -46,8 +46,8 @@ Cause BinsCause(const Effect& effect, const Measurement& measurement) {
 
 Cause UnknownCause(const Selection& selection, double whiteness_after) {
   const Effect& effect = *FindEffect("unknown_structure");
-  Cause cause =
-      MakeCause(effect, "fit", std::max(selection.incomplete, 1 - std::max(whiteness_after, 0.0)));
+  // What is certainly not white is there; a p-value says no more.
+  Cause cause = MakeCause(effect, "fit", whiteness_after < kNeverNoise ? 1 : selection.incomplete);
   cause.separate_by = {effect.separate_by};
   return cause;
 }

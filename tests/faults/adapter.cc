@@ -78,6 +78,8 @@ Answer AnswerOf(const lyrefit::CurveSet& set, const lyrefit::DiagnoseOptions& op
     }
     answer.claims.push_back(claim);
   }
+  const lyrefit::Sized& gain = diagnosis->verdict.recoverable_power_W;
+  answer.recoverable = {gain.value, gain.low_95, gain.high_95};
   std::map<std::string, double> stated;
   for (const lyrefit::Trial& trial : diagnosis->trials) {
     if (!std::isfinite(trial.probability)) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,9 +32,15 @@ struct Stated {
   double probability;  // of a finding above the floors
 };
 
+// Power to gain without all causes, in W. Where only "at least" is known, the value is NaN.
+struct Recoverable {
+  double value = NAN, low = NAN, high = NAN;
+};
+
 struct Answer {
   std::string error;  // empty: no error
   std::vector<Claim> claims;
+  Recoverable recoverable;
   std::vector<Stated> stated;
   double seconds = 0;
 };

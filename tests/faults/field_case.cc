@@ -94,6 +94,8 @@ Case MakeCase(const std::string& kind, std::uint64_t seed) {
   const Fault* fault = Called(kind);
   if (fault != nullptr) fault->apply(&random, &rig, &made.truth);
   Lit lit(rig.module);
+  made.truth.power_W = MaximumPower(healthy.Whole());
+  made.truth.lost_W = made.truth.power_W - MaximumPower(lit.Whole());
   if (fault != nullptr) made.misfit = MisfitPercent(rig, &lit);
   made.measurement = HandedOver(made, rig, Measured(rig, &lit, &random), &random);
   return made;

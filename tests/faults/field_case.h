@@ -20,6 +20,8 @@ struct Figure {
 struct Truth {
   std::vector<std::string> accepted;  // accepted first names; empty: no fault
   std::vector<Figure> figures;        // a "light" is followed by its "share" if it has one
+  double power_W = 0;                 // maximum power without the fault
+  double lost_W = 0;                  // what the fault takes of it
 };
 
 // A field fault: the change that it makes to a healthy rig.

@@ -110,6 +110,17 @@ Point Sampled::PointAtVoltage(double voltage) const {
 double Sampled::VoltageAt(double current) const { return PointAtCurrent(current).voltage; }
 double Sampled::CurrentAt(double voltage) const { return PointAtVoltage(voltage).current; }
 
+double MaximumPower(const Sampled& curve) {
+  constexpr int kSteps = 4000;
+  const double end = curve.VoltageAt(0);
+  double most = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double voltage = end * k / kSteps;
+    most = std::max(most, voltage * curve.CurrentAt(voltage));
+  }
+  return most;
+}
+
 Sampled Sample(const std::function<Point(double)>& law, double low, double high, double tolerance) {
   Sampled sampled;
   const Point last = law(high);

@@ -18,6 +18,9 @@ struct Sampled {
   Point PointAtVoltage(double voltage) const;
 };
 
+// Largest product of voltage and current.
+double MaximumPower(const Sampled& curve);
+
 // Samples `law` from `low` to `high`. Intervals are halved until the cubic is accurate to
 // `tolerance` in current.
 Sampled Sample(const std::function<Point(double current)>& law, double low, double high,

@@ -104,6 +104,14 @@ CaseScore ScoreCase(const Case& made, const Answer& answer) {
     score.any_right |= right;
   }
   score.named = score.claims > 0;
+  const Recoverable& said = answer.recoverable;
+  if (score.first_right && std::isfinite(said.low)) {
+    const bool least = !std::isfinite(said.value);
+    const double lost = made.truth.lost_W, whole = made.truth.power_W;
+    const bool holds = said.low <= lost && (least || lost <= said.high);
+    score.compared.push_back({least ? "least power" : "power", lost / whole,
+                              (least ? said.low : said.value) / whole, true, holds});
+  }
   return score;
 }
 

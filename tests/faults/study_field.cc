@@ -68,7 +68,8 @@ void PrintTable(const std::string& kind, const std::vector<FieldRun>& runs) {
   std::printf("%-13s %5d %7.2f %7.1f %7.1f %7.1f %6d %7.1f %7.2f %7.2f %6d", kind.c_str(), cases,
               misfit, Percent(named, cases), Percent(first, cases), Percent(any, cases), claims,
               Percent(spurious, claims), seconds, slowest, failed);
-  for (const char* quantity : {"light", "share", "width", "step", "dip", "drift", "gain"}) {
+  for (const char* quantity :
+       {"light", "share", "width", "step", "dip", "drift", "gain", "power", "least power"}) {
     PrintAgreement(runs, quantity);
   }
   std::printf("\n");

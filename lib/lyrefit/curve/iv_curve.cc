@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "lyrefit/base/try.h"
 
@@ -45,6 +48,19 @@ Expected<void> CheckConditions(const Conditions& conditions) {
 }
 
 }  // namespace
+
+bool IsThinFilm(const std::string& technology) {
+  std::string word;
+  for (const char c : technology) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  constexpr std::string_view kParts[] = {"cdte",      "cigs", "cis",        "a-si",
+                                         "amorphous", "thin", "perovskite", "organic",
+                                         "opv",       "dye",  "tandem"};
+  return std::any_of(std::begin(kParts), std::end(kParts), [&](const std::string_view part) {
+    return word.find(part) != std::string::npos;
+  });
+}
 
 Expected<void> Validate(const IvCurve& curve) {
   const std::size_t points = curve.size();

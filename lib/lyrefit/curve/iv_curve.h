@@ -41,6 +41,10 @@ struct DeviceNotes {
   std::string date;                                // of the measurement, as written
 };
 
+// Whether a word for a technology means thin films or a tandem. Any other word and none mean
+// silicon. Case does not count.
+bool IsThinFilm(const std::string& technology);
+
 // One measured curve in generator sign: delivered current is positive, negative voltages are
 // reverse bias. Points are in measurement order. Optional columns are empty or as long as
 // voltage_V.

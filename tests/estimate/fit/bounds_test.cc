@@ -30,6 +30,20 @@ TEST(MakeBounds, WidensNWhereTheNumberOfCellsCannotBeRight) {
   EXPECT_GE(bounds[2].upper, 36 * 1.2);
 }
 
+// Collection, ions and barriers raise the n of a thin film's curve.
+TEST(MakeBounds, LetsNOfThinFilmsBeAboveTwo) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const auto upper = [&](const char* technology) {
+    curve.notes.technology = technology;
+    return (*MakeBounds({}, device, curve))[2].upper;
+  };
+  EXPECT_EQ(upper(""), 2);
+  EXPECT_EQ(upper("mono-Si"), 2);
+  EXPECT_EQ(upper("Perovskite"), 6);
+  EXPECT_EQ(upper("organic, inverted"), 6);
+}
+
 TEST(MakeBounds, LetsATableSpeakForEveryDiodeOrForOne) {
   const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 1e-3);
   const Device device = MakeDevice(Model::kDoubleDiode, curve.conditions);

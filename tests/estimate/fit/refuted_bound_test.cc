@@ -43,6 +43,16 @@ TEST(RefutedBound, LeavesNoIntervalThatHoldsUnderItAlone) {
   }
 }
 
+// The n of a stated thin film may be above 2, and the report says what is in it.
+TEST(RefutedBound, ThinFilmsHaveRoomAboveIt) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSteepTruth, 1e-3);
+  curve.notes.technology = "perovskite";
+  const FitReport report = FitOf(curve);
+  EXPECT_EQ(report.no_intervals_because, "");
+  EXPECT_NEAR(report.refined[2], 2.7, 0.1);
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("is above 2: collection, ions, a barrier")));
+}
+
 TEST(RefutedBound, ASecondDiodeAtTwoKeepsItsIntervals) {
   const auto rtc = ReadCurve(std::string(LYREFIT_DATA_DIR) + "/rtc_france");
   ASSERT_TRUE(rtc);

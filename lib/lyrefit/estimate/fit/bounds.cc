@@ -124,7 +124,9 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
                                                   const IvCurve& curve) {
   std::vector<ParameterBounds> bounds;
   if (spec.name == "physical") {
-    bounds = PhysicalBounds(device, curve, 1, 2);
+    constexpr double kSilicon = 2, kThinFilm = 6;
+    bounds =
+        PhysicalBounds(device, curve, 1, IsThinFilm(curve.notes.technology) ? kThinFilm : kSilicon);
   } else if (spec.name == "wide") {
     bounds = PhysicalBounds(device, curve, 0.5, 10);
   } else {

@@ -13,9 +13,10 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // Box of the search.
-//   physical     derived from the curve: Iph up to twice the largest current, n in [1, 2], Is on a
-//                logarithmic scale around the value that Voc implies, Rs and Rsh from the
-//                characteristic resistance V_max / I_max. Is may be 0, Rsh practically infinite.
+//   physical     derived from the curve: Iph up to twice the largest current, n in [1, 2] or, of a
+//                stated thin film, in [1, 6], Is on a logarithmic scale around the value that Voc
+//                implies, Rs and Rsh from the characteristic resistance V_max / I_max. Is may be 0,
+//                Rsh practically infinite.
 //   wide         as physical, but n in [0.5, 10]: wrong temperature or cell count, unusual devices
 //   a table      symbol -> [lower, upper], as published: linear in every parameter. "Is" and "n"
 //                hold for every diode unless "Is1", "n2" ... are given.

@@ -52,6 +52,19 @@ void WarnOfBounds(const FitReport& report, Sentences* out) {
   }
 }
 
+// Above this an ideality of one diode is none of recombination in one junction.
+void WarnOfIdeality(const FitReport& report, Sentences* out) {
+  constexpr double kMost = 2.2;
+  if (!report.curve.cells_known) return;  // then it is that of all cells together
+  for (const Estimate& e : report.estimates) {
+    if (e.info.symbol[0] != 'n' || !(e.refined > kMost) || e.at_bound != BoundSide::kNone) continue;
+    out->push_back(
+        fmt::format("{} = {:.3g} is above 2: collection, ions, a barrier or another junction is in "
+                    "it; Voc over light, or the dark curve, has the ideality of the junction",
+                    e.info.symbol, e.refined));
+  }
+}
+
 void WarnOfRichModel(const FitReport& report, Sentences* out) {
   std::string absent;
   for (const Estimate& e : report.estimates) {
@@ -150,6 +163,7 @@ std::vector<std::string> FindWarnings(const FitReport& report) {
   WarnOfStops(report, &warnings);
   WarnOfNoIntervals(report, &warnings);
   WarnOfBounds(report, &warnings);
+  WarnOfIdeality(report, &warnings);
   WarnOfRichModel(report, &warnings);
   WarnOfProfiles(report, &warnings);
   WarnOfRisingCurrent(report, &warnings);

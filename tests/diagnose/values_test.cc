@@ -93,6 +93,25 @@ TEST(LookAtValuesTest, FindsALowerLimit) {
   EXPECT_FALSE(Look(curve).limited);  // two readings at one value are no limit
 }
 
+// A limit that the file states is one from the first reading at it on.
+TEST(LookAtValuesTest, BelievesAStatedLimit) {
+  IvCurve curve = SyntheticCurve({});
+  const double limit_A = 1.1 * curve.current_A[0];
+  const int last = static_cast<int>(curve.size()) - 1;
+  curve.current_A[last - 1] = curve.current_A[last] = -limit_A;
+  EXPECT_FALSE(Look(curve).limited);  // two readings at one value
+  std::vector<std::string> warnings;
+  const auto readings = MakeReadings(SetOf({curve}), &warnings);
+  ASSERT_TRUE(readings);
+  const double limit = limit_A / readings->scale.current_A;
+  const ValueFindings findings = LookAtValues(*readings, limit);
+  EXPECT_TRUE(findings.limited);
+  EXPECT_THAT(findings.at_lower, ElementsAre(last - 1, last));
+  EXPECT_DOUBLE_EQ(findings.lower_limit, -limit);
+  EXPECT_EQ(findings.clip_level, 0);
+  EXPECT_FALSE(LookAtValues(*readings, 2 * limit).HasLimits());
+}
+
 // A meter of its own reads the held current with its own last digits.
 TEST(LookAtValuesTest, FindsALowerLimitInReadingsOfItsLastDigits) {
   IvCurve curve = SyntheticCurve({});

@@ -26,8 +26,11 @@ Expected<Measurement> MakeMeasurement(const CurveSet& set) {
     return Fail("a diagnosis needs 7 readings or more, there are " + std::to_string(count));
   }
   measurement.notes = set.curves.front().notes;
-  measurement.values = LookAtValues(measurement.readings);
-  measurement.stated_sigma = StatedSigma(set, measurement.readings.scale.current_A);
+  const double scale_A = measurement.readings.scale.current_A;
+  std::optional<double> limit = measurement.notes.compliance_A;
+  if (limit) *limit /= scale_A;
+  measurement.values = LookAtValues(measurement.readings, limit);
+  measurement.stated_sigma = StatedSigma(set, scale_A);
   return measurement;
 }
 

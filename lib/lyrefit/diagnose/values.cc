@@ -88,6 +88,19 @@ void FindLowerLimit(const Readings& readings, double step, ValueFindings* findin
   findings->at_lower = at;
 }
 
+// Finds readings at a limit that is stated. `limit`: in scales.
+void FindStatedLimit(const Readings& readings, double limit, ValueFindings* findings) {
+  constexpr double kHeld = 1e-3;  // of the limit
+  for (std::size_t k = 0; k < readings.points.size(); ++k) {
+    const double current = readings.points[k].current;
+    if (std::fabs(current) < limit * (1 - kHeld)) continue;
+    (current < 0 ? findings->at_lower : findings->clipped).push_back(static_cast<int>(k));
+  }
+  findings->limited = !findings->at_lower.empty();
+  if (findings->limited) findings->lower_limit = -limit;
+  if (!findings->clipped.empty()) findings->clip_level = limit;
+}
+
 // Finds readings at the largest voltage at the high-voltage end of a stretch while the current
 // still falls: the voltmeter was at its limit.
 void FindVoltageLimit(const Readings& readings, double step, ValueFindings* findings) {
@@ -224,7 +237,7 @@ VoltageBins FindBins(const Readings& readings) {
   return {step, static_cast<double>(all) / std::max(all - commonest, 1)};
 }
 
-ValueFindings LookAtValues(const Readings& readings) {
+ValueFindings LookAtValues(const Readings& readings, std::optional<double> limit) {
   ValueFindings findings;
   std::vector<double> currents, lit, unlit;
   double largest = 0;
@@ -252,7 +265,10 @@ ValueFindings LookAtValues(const Readings& readings) {
   std::sort(below.begin(), below.end());
   int ties = 0;
   for (std::size_t k = 1; k < below.size(); ++k) ties += below[k] == below[k - 1];
-  FindLowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
+  if (limit) FindStatedLimit(readings, *limit, &findings);
+  if (!findings.HasLimits()) {
+    FindLowerLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
+  }
   FindVoltageLimit(readings, std::max(findings.grids.lit, findings.grids.dark), &findings);
   const VoltageBins bins = FindBins(readings);
   findings.voltage_bin = bins.step;
@@ -263,7 +279,7 @@ ValueFindings LookAtValues(const Readings& readings) {
     findings.bin_rounding[k] = findings.voltage_bin * slope / std::sqrt(12);
   }
   const bool many = repeats.size() >= 4 && static_cast<int>(repeats.size()) > 3 * (ties + 1);
-  if (many && findings.grids.lit == 0) {
+  if (many && findings.grids.lit == 0 && findings.clip_level == 0) {
     findings.clip_level = largest;
     findings.clipped = repeats;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lyrefit/model/reading.h"
@@ -45,8 +46,9 @@ struct VoltageBins {
 // uneven steps or repeats.
 VoltageBins FindBins(const Readings& readings);
 
-// Finds clipping, grids and bins from the values alone. `readings` must not be empty.
-ValueFindings LookAtValues(const Readings& readings);
+// Finds clipping, grids and bins from the values alone. `readings` must not be empty. `limit`: of
+// the current, as stated for the source, in scales.
+ValueFindings LookAtValues(const Readings& readings, std::optional<double> limit = {});
 
 // Whether the current rises with the voltage. No passive device does so, so that the light moved.
 // Always false for sweeps up and down, where stored charge has the same effect.

@@ -51,6 +51,25 @@ TEST(DeviceFindings, AreNoneOfAHealthyModule) {
   EXPECT_THAT(d.verdict.sentence, HasSubstr("One sweep cannot show dirt or slight ageing"));
 }
 
+// The n of a cell whose directions differ is no ideality, although it is above that of junctions.
+TEST(DeviceFindings, OfHystereticDevicesHaveNoIdeality) {
+  Ill ill;
+  ill.n = 1.6;
+  EXPECT_THAT(DiagnosisOf(ill).verdict.sentence, HasSubstr("n = 1.6"));
+  IvCurve curve = SweepOf(ill);
+  ill.n = 1.5;
+  ill.drop = 0.12;
+  const IvCurve down = SweepOf(ill);
+  const std::size_t up = curve.size();
+  curve.voltage_V.insert(curve.voltage_V.end(), down.voltage_V.rbegin(), down.voltage_V.rend());
+  curve.current_A.insert(curve.current_A.end(), down.current_A.rbegin(), down.current_A.rend());
+  for (std::size_t k = 0; k < curve.size(); ++k) curve.sweep.push_back(k < up ? 0 : 1);
+  const Diagnosis d = DiagnoseOrFail(curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().effect, "hysteresis");
+  for (const DeviceFinding& finding : d.device_findings) EXPECT_NE(finding.id, "ideality");
+}
+
 TEST(DeviceFindings, ALeakHasItsSizeItsPowerAndItsCauses) {
   Ill ill;
   ill.leak = 0.06;

@@ -195,6 +195,95 @@ TEST(DescribeRecoverableTest, IsALowerLimitWhereTheModelIsIncomplete) {
   EXPECT_TRUE(std::isnan(of_sweeps.recoverable_power_W.low_95));
 }
 
+// Of an effect that one curve shows in part only.
+TEST(DescribeRecoverableTest, IsALowerLimitWhereTheEffectHidesAPart) {
+  const ShadedFit shaded = FitShaded(1);
+  Selection selection;
+  selection.weighted = shaded.made.weighted;
+  selection.extended = shaded.fit;
+  Effect hiding = *FindEffect("shading");
+  hiding.hides = [](const double* p, const DataTraits&) { return p[0] > 0; };
+  selection.extended.law.effects = {&hiding};
+  Verdict verdict;
+  verdict.causes.resize(1);
+  verdict.causes[0].effect = "shading";
+  verdict.causes[0].recoverable_power_W = {10, 9, 11};
+  DescribeRecoverable(selection, &verdict);
+  EXPECT_TRUE(verdict.causes[0].at_least);
+  EXPECT_TRUE(std::isnan(verdict.causes[0].recoverable_power_W.high_95));
+  EXPECT_TRUE(std::isnan(verdict.recoverable_power_W.value));
+  EXPECT_GT(verdict.recoverable_power_W.low_95, 0);
+}
+
+TEST(ProbabilityAboveTest, APowerOfOneSweepCountsWhereTheEffectShows) {
+  const Floors floors = {0.0025, 0.005};
+  EffectSize size;
+  size.current = 0.0002;
+  size.reach = 1;
+  size.power = 0.02;
+  size.power_error = 0.005;
+  EXPECT_GT(ProbabilityAbove(size, floors), 0.99);
+  size.one_sweep = true;
+  EXPECT_LT(ProbabilityAbove(size, floors), 0.01);
+  size.current = 0.002;
+  size.reach = 0.1;
+  EXPECT_GT(ProbabilityAbove(size, floors), 0.99);
+}
+
+// Two thirds of the module give nothing: the curve ends at a third of the voltage that the repaired
+// module has.
+TEST(FieldDiagnosis, FindsOpenSubstringsAndTheirWatts) {
+  SKIP_IF_SANITIZED();
+  for (const double share : {1.0 / 3, 2.0 / 3}) {
+    Done done = Do("open_substring", {share, 0.3, 1.3});
+    for (std::size_t k = done.curve.size(); k-- > 0;) {
+      if (done.curve.current_A[k] > -0.5) continue;
+      done.curve.voltage_V.erase(done.curve.voltage_V.begin() + static_cast<std::ptrdiff_t>(k));
+      done.curve.current_A.erase(done.curve.current_A.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    const Diagnosis d = DiagnosedInTheField(done.curve);
+    ASSERT_FALSE(d.verdict.causes.empty());
+    const Cause& cause = d.verdict.causes.front();
+    EXPECT_EQ(cause.id, "open_substring");
+    EXPECT_NEAR(cause.strength[0].value, share, 1e-6);
+    double measured_W = 0;
+    for (std::size_t k = 0; k < done.curve.size(); ++k) {
+      measured_W = std::max(measured_W, done.curve.voltage_V[k] * done.curve.current_A[k]);
+    }
+    EXPECT_NEAR(cause.recoverable_power_W.value, done.healthy_W - measured_W,
+                0.05 * done.healthy_W);
+  }
+}
+
+// Light that grows fastest in the middle of a sweep up and down is no hysteresis of a module.
+TEST(FieldDiagnosis, FindsUnsteadyDriftInASweepUpAndDown) {
+  SKIP_IF_SANITIZED();
+  const IvCurve up = Do("drift", {0, 0, 0}, 0).curve;
+  IvCurve curve = up;
+  curve.voltage_V.insert(curve.voltage_V.end(), up.voltage_V.rbegin(), up.voltage_V.rend());
+  curve.current_A.insert(curve.current_A.end(), up.current_A.rbegin(), up.current_A.rend());
+  const double largest = *std::max_element(up.current_A.begin(), up.current_A.end());
+  const double last = static_cast<double>(curve.size()) - 1;
+  RandomStream random(5);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double x = static_cast<double>(k) / last - 0.5;
+    curve.sweep.push_back(k < up.size() ? 0 : 1);
+    curve.current_A[k] += largest * 0.03 * x * (1 - 2.5 * x * x) + 0.004 * random.Normal();
+  }
+  const Diagnosis d = DiagnosedInTheField(curve);
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().id, "drift");
+}
+
+// A barrier at a contact with a leak of its own bends the curve into an S.
+TEST(LaboratoryDiagnosis, FindsTheBarrierOfAnSShape) {
+  SKIP_IF_SANITIZED();
+  const Done done = Do("back_contact", {20, 2, 0.3});
+  const Diagnosis d = DiagnoseOrFail(done.curve, Quick(LaboratoryOptions()));
+  ASSERT_FALSE(d.verdict.causes.empty());
+  EXPECT_EQ(d.verdict.causes.front().id, "back_contact");
+}
+
 TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   SKIP_IF_SANITIZED();
   const Done done = Do("shading", {0.2, 1.0 / 3, 0.5, 1});
@@ -207,7 +296,7 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   EXPECT_THAT(cause.in_words[0], HasSubstr(") of the others' light"));
   EXPECT_THAT(cause.sentence, Not(HasSubstr("=")));  // no parameters
   EXPECT_EQ(cause.action, std::string(FindEffect("shading")->action));
-  EXPECT_EQ(d.verdict.sentence, "The data show partial shading (88 %).");
+  EXPECT_EQ(d.verdict.sentence, "The data show partial shading (100 %).");
   EXPECT_THAT(d.verdict.comparison, HasSubstr("healthy modules 0.05 to 0.20 %"));
   const double measured_W = [&] {
     double most = 0;
@@ -220,7 +309,8 @@ TEST(FieldDiagnosis, SaysTheLightOfASubstringAndThePowerToWin) {
   EXPECT_NEAR(recoverable.value, done.healthy_W - measured_W, 0.02 * done.healthy_W);
   EXPECT_LT(recoverable.low_95, done.healthy_W - measured_W);
   EXPECT_GT(recoverable.high_95, done.healthy_W - measured_W);
-  EXPECT_LT(recoverable.high_95 - recoverable.low_95, 0.02 * done.healthy_W);
+  // Narrower intervals hold the truth in four of five modules built cell by cell only.
+  EXPECT_LT(recoverable.high_95 - recoverable.low_95, 0.03 * done.healthy_W);
   EXPECT_FALSE(cause.at_least);
   EXPECT_EQ(d.verdict.recoverable_power_W.value, recoverable.value);  // of the only cause
   EXPECT_GT(cause.current_effect.low_95, 0.01);

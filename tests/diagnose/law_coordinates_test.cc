@@ -14,7 +14,7 @@ namespace {
 struct Family {
   Readings readings = SyntheticReadings(DataKind::kFamily, 60);
   Law law;
-  std::vector<double> theta = {1, -0.1, 1.25, 0.02, 0.04, 0.1, 2, 0.0006, 1.15, 0.03};
+  std::vector<double> theta = {1, -0.1, 1.25, 0.02, 0.04, 0.1, 2, 0.0006, 1.15, 0.03, 0.1, 0.2};
 
   Family() {
     law.model = Model::kDoubleDiode;

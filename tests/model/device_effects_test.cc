@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, DeviceEffectsTest, ::testing::ValuesIn(WithPar
 TEST(Extend, NamesParametersAfterTheirEffect) {
   const auto device = ExtendModule({UseOf("shading"), UseOf("drift")});
   ASSERT_TRUE(device) << device.error().ToString();
-  EXPECT_EQ(device->size(), 10);
+  EXPECT_EQ(device->size(), 12);
   EXPECT_EQ(device->Find("shading.d"), 5);
   EXPECT_EQ(device->Find("shading_bypass_voltage"), 7);
   EXPECT_EQ(device->Find("shading.c"), 8);
@@ -154,7 +154,7 @@ TEST(Extend, SaysWhatCannotBe) {
               HasSubstr("shares of 1.1 in all leave no cell for the rest"));
   EXPECT_THAT(ErrorOf({UseOf("substrings"), UseOf("transient"), UseOf("back_contact"),
                        UseOf("clip"), UseOf("drift")}),
-              HasSubstr("24 parameters are too many for one law, expected 20 at most"));
+              HasSubstr("28 parameters are too many for one law, expected 20 at most"));
 }
 
 TEST(Extend, KeepsToWholeNumbers) {

@@ -183,7 +183,7 @@ TEST(LawTest, KnowsWhereEachEffectBegins) {
   law.model = Model::kDoubleDiode;
   law.effects = {FindEffect("nonohmic_shunt"), FindEffect("irr_step"), FindEffect("drift")};
   EXPECT_EQ(law.base_size(), 7);
-  EXPECT_EQ(law.size(), 12);
+  EXPECT_EQ(law.size(), 14);
   EXPECT_EQ(law.Offset(0), 7);
   EXPECT_EQ(law.Offset(2), 11);
   EXPECT_EQ(law.EffectParameterAt(6), nullptr);

@@ -143,9 +143,9 @@ std::vector<std::string> OfOpenSubstring(const Described& of) {
 
 std::vector<std::string> OfGradedShunt(const Described& of) {
   return {
-      fmt::format("at 0.5 V the cells lose {:.2g} % of Isc on average, {:.2g} times as much at "
-                  "one end as at the other",
-                  Percent(0.5 * of.p[0]), std::exp(of.p[1]))};
+      fmt::format("at 0.5 V the cells lose {:.2g} % of Isc on average, most at one end of the "
+                  "string",
+                  Percent(0.5 * of.p[0]))};
 }
 
 // Currents of a fit in one direction of the sweep, at the voltages of the readings.

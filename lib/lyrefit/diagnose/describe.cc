@@ -141,18 +141,6 @@ Cause MakeCause(const Effect& effect, const char* evidence, double probability) 
   return cause;
 }
 
-double RmseOf(const WeightedData& weighted, const std::vector<double>& current) {
-  double sum = 0, count = 0;
-  for (std::size_t k = 0; k < current.size(); ++k) {
-    if (weighted.used[k] == 0) continue;
-    const Reading& reading = weighted.readings->points[k];
-    const double r = current[k] - reading.current;
-    sum += reading.weight * (r * r + reading.scatter);
-    count += reading.weight;
-  }
-  return weighted.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
-}
-
 std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, const LawFit& fit,
                                                int index) {
   const Effect& effect = *fit.law.effects[index];
@@ -336,6 +324,22 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
   return causes;
 }
 
+namespace {
+
+// Whether one curve hides a part of an effect of the fit.
+bool Hides(const Selection& selection, const std::string& id) {
+  const LawFit& fit = selection.extended;
+  for (std::size_t e = 0; e < fit.law.effects.size(); ++e) {
+    const Effect& effect = *fit.law.effects[e];
+    if (id != effect.id || effect.hides == nullptr) continue;
+    return effect.hides(fit.p.data() + fit.law.Offset(static_cast<int>(e)),
+                        selection.weighted.readings->traits);
+  }
+  return false;
+}
+
+}  // namespace
+
 void DescribeRecoverable(const Selection& selection, Verdict* verdict) {
   // A smaller n beside named causes means that the model lacks part of them: its brightest cells
   // are darker than the device's would be.
@@ -348,13 +352,15 @@ void DescribeRecoverable(const Selection& selection, Verdict* verdict) {
     return;
   }
   verdict->recoverable_power_W = Recoverable(GainWithoutEffects(selection.weighted, fit));
-  if (Ideality(fit) >= kIncomplete) return;
   const auto limit = [](Sized* power) { *power = {kUnknown, power->low_95, kUnknown}; };
-  limit(&verdict->recoverable_power_W);
+  bool any = false;
   for (Cause& cause : verdict->causes) {
-    cause.at_least = std::isfinite(cause.recoverable_power_W.value);
+    cause.at_least = std::isfinite(cause.recoverable_power_W.value) &&
+                     (Ideality(fit) < kIncomplete || Hides(selection, cause.effect));
     if (cause.at_least) limit(&cause.recoverable_power_W);
+    any = any || cause.at_least;
   }
+  if (any) limit(&verdict->recoverable_power_W);
 }
 
 std::vector<ParameterShift> DescribeShifts(const Selection& selection) {

@@ -38,7 +38,4 @@ std::vector<Cause> DescribeBelow(const Selection& selection);
 // Base parameters and maximum power of the device, with and without the causes.
 std::vector<ParameterShift> DescribeShifts(const Selection& selection);
 
-// RMSE in ampere over the used readings, including those within averages.
-double RmseOf(const WeightedData& weighted, const std::vector<double>& current);
-
 }  // namespace lyrefit

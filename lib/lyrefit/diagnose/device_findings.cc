@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <string_view>
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {
@@ -54,16 +53,8 @@ double LimitOf(JudgedQuantity quantity, DeviceClass kind) {
   return kUnknown;
 }
 
-// Thin films by the word for their technology; any other word and none are silicon.
 DeviceClass ClassOf(const std::string& technology, const DataTraits& traits) {
-  std::string word;
-  for (const char c : technology) {
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  for (const std::string_view part : {"cdte", "cigs", "cis", "a-si", "amorphous", "thin",
-                                      "perovskite", "organic", "opv", "dye", "tandem"}) {
-    if (word.find(part) != std::string::npos) return DeviceClass::kThinFilm;
-  }
+  if (IsThinFilm(technology)) return DeviceClass::kThinFilm;
   return traits.module ? DeviceClass::kSiliconModule : DeviceClass::kSiliconCell;
 }
 
@@ -236,7 +227,12 @@ std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const 
   std::vector<DeviceFinding> findings;
   // Parts of the current and of the voltage under standard light are known only where the light is.
   if (light_known) AddLeak(device, &findings);
-  AddIdeality(device, &findings);
+  // n of one direction of a hysteretic cell is no ideality.
+  const bool by_sweep = std::any_of(causes.begin(), causes.end(), [](const Cause& cause) {
+    const Effect* effect = FindEffect(cause.effect);
+    return effect != nullptr && effect->by_sweep;
+  });
+  if (!by_sweep) AddIdeality(device, &findings);
   if (light_known) AddSeriesResistance(device, &findings);
   constexpr double kSmallestLoss = 0.01;  // below it sound modules differ as much
   const double least = std::max(floors.power, kSmallestLoss);

@@ -66,18 +66,25 @@ struct PowerPoint {
   double power = kUnknown;
 };
 
+// Up to voltages that end beyond open circuit, which without a cause may lie far beyond the
+// readings.
 PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
-  Readings grid = bare.grid;
-  Reading at = bare.at;
-  const double top = 1.1 * grid.pivot_voltage;
-  constexpr int kPoints = 400;
-  for (int k = 0; k <= kPoints; ++k) {
-    at.voltage = top * k / kPoints;
-    grid.points.push_back(at);
+  constexpr int kPoints = 400, kMostTimes = 6;
+  Readings grid;
+  std::vector<double> current(kPoints + 1, 1);
+  double top = 1.1 * bare.grid.pivot_voltage;
+  for (int times = 0; times < kMostTimes && current.back() > 0; ++times, top *= 1.5) {
+    grid = bare.grid;
+    Reading at = bare.at;
+    for (int k = 0; k <= kPoints; ++k) {
+      at.voltage = top * k / kPoints;
+      grid.points.push_back(at);
+    }
+    LawWorkspace workspace;
+    if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, current.data(), nullptr)) {
+      return {};
+    }
   }
-  LawWorkspace workspace;
-  std::vector<double> current(grid.points.size());
-  if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, current.data(), nullptr)) return {};
   int best = 0;
   const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
   for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
@@ -87,7 +94,7 @@ PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
     const double bend = a - 2 * b + c;
     if (bend < 0) {
       peak.power = b - (a - c) * (a - c) / (8 * bend);
-      peak.voltage += top / kPoints * (a - c) / (2 * bend);
+      peak.voltage += grid.points[1].voltage * (a - c) / (2 * bend);
     }
   }
   return peak;
@@ -140,8 +147,13 @@ PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTe
   const std::vector<double> by_now = SlopesOfPower(fit, bare, terms, now);
   if (by.empty() || by_now.empty()) return {};
   for (std::size_t k = 0; k < by.size(); ++k) by[k] -= by_now[k];
-  const PowerPoint unit = {0, kNormal95 * (ErrorBy(weighted, fit, by) + weighted.path * now.power)};
-  return {InWatts(weighted, then) - InWatts(weighted, now), InWatts(weighted, unit)};
+  const double gain = then.power - now.power;
+  double error = std::hypot(ErrorBy(weighted, fit, by), weighted.path * then.power);
+  if (weighted.path > 0) {
+    error = std::hypot(error, std::hypot(kCellsDiffer * then.power, kCausesDiffer * gain));
+  }
+  const PowerPoint half = {0, std::min(kNormal95 * error, then.power)};
+  return {InWatts(weighted, {0, gain}), InWatts(weighted, half)};
 }
 
 }  // namespace
@@ -207,9 +219,11 @@ double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
     if (!(half > 0)) return value > floor ? 1.0 : 0.0;
     return NormalTail((floor - value) * kNormal95 / half);
   };
-  const double current = above(size.current, size.current * size.reach, floors.current);
-  if (size.one_sweep && size.current < kShownPart * floors.current) return current;
-  const double power = above(std::fabs(size.power), size.power_error, floors.power);
+  const double half = size.current * size.reach;
+  const double current = above(size.current, half, floors.current);
+  double power = above(std::fabs(size.power), size.power_error, floors.power);
+  // The power of one sweep counts only where the effect shows as well.
+  if (size.one_sweep) power *= above(size.current, half, kShownPart * floors.current);
   return std::isfinite(power) ? std::max(current, power) : current;
 }
 

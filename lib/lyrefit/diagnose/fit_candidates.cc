@@ -52,9 +52,6 @@ LawFit FitCandidate(const SelectionState& now, const Score& score) {
   return fit;
 }
 
-// An elaborate variant of another effect with cell groups.
-bool IsElaborate(const Effect& effect) { return effect.groups && *effect.finding != '\0'; }
-
 bool HasSweepEffect(const Law& law) {
   return std::any_of(law.effects.begin(), law.effects.end(),
                      [](const Effect* effect) { return effect->where == Where::kSweep; });
@@ -123,6 +120,15 @@ bool IsTried(const Trying& trying, const Score& score) {
          (score.statistic >= trying.least_statistic || DrawsAlike(trying.best, effect));
 }
 
+// Whether an effect of one sweep makes its plain RMSE larger than without it, which whitened
+// residuals forgive: it would leave the curve to the rough path. Sweeps up and down are compared
+// with each other, so that what both miss alike counts little.
+bool LeavesToPath(const WeightedData& weighted, const LawFit& without, const LawFit& fit) {
+  const DataTraits& traits = weighted.readings->traits;
+  return traits.single && traits.turns.empty() &&
+         RmseOf(weighted, fit.current) > RmseOf(weighted, without.current);
+}
+
 }  // namespace
 
 Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& scores) {
@@ -137,12 +143,13 @@ Hypotheses FitCandidates(const SelectionState& now, const std::vector<Score>& sc
   ReporterOf(now).Begin("selection", static_cast<std::int64_t>(scores.size()));
   const auto try_effects = [&](bool elaborate) {
     for (const Score& score : scores) {
-      if (IsElaborate(*score.effect) != elaborate) continue;
+      if (score.effect->elaborate != elaborate) continue;
       ReporterOf(now).Count();
       if (now.weighted.progress.Stopped()) break;
       if (!IsTried(trying, score)) continue;
       LawFit fit = FitCandidate(now, score);
-      if (fit.usable) hypotheses.candidates.push_back({score, std::move(fit)});
+      if (!fit.usable || LeavesToPath(now.weighted, now.fit, fit)) continue;
+      hypotheses.candidates.push_back({score, std::move(fit)});
     }
   };
   try_effects(false);
@@ -184,15 +191,16 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   Trying trying = TryingOf(scores, false, 0);
   trying.by_shape = own->groups && weighted.readings->traits.single;
   trying.best = own;
-  const bool described = !IsElaborate(*own) && options.floors.current > 0 &&
+  const bool described = !own->elaborate && options.floors.current > 0 &&
                          MissedBy(weighted, selection->extended) < options.floors.current;
   for (const Score& score : scores) {
     options.progress.Count();
     if (options.progress.Stopped()) break;
-    if (described && IsElaborate(*score.effect)) continue;
+    if (described && score.effect->elaborate) continue;
     if (score.effect != own && !IsTried(trying, score)) continue;
     LawFit fit = score.effect == own ? selection->extended : FitEffect(weighted, without, score);
-    if (fit.usable) place.candidates.push_back({score, std::move(fit)});
+    if (!fit.usable || (score.effect != own && LeavesToPath(weighted, without, fit))) continue;
+    place.candidates.push_back({score, std::move(fit)});
   }
   Judge(weighted, selection->base, options.judge, &place);
   return place;

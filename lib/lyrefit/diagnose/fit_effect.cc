@@ -101,26 +101,26 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
                const Law& law, LawFit* best) {
   const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
-  const std::vector<double> reference = TypicalStart(readings, law, shape.At(0.02));
   std::vector<ShapeEnd> starts;
   for (const ShapeStart& own : effect.starts(shape, readings.traits, {})) {
     LawFit& start = starts.emplace_back().fit;
     start.law = law;
     for (const int k : own.freed) start.law.freed.emplace_back(&effect, k);
     start.p = fit.p;
-    std::copy(reference.begin(), reference.end(), start.p.begin());
+    const std::vector<double> typical = TypicalStart(readings, law, shape.At(0.02), own.giving);
+    std::copy(typical.begin(), typical.end(), start.p.begin());
     start.p.insert(start.p.end(), own.p.begin(), own.p.end());
   }
-  // Weights from small noise make the sum very steep near steps of the current. With a large misfit
-  // the first steps therefore use equal weights.
+  // Weights from small noise make the sum very steep near steps of the current. Where the fit without
+  // the effect is ruined, starts lie far away: their first steps therefore use equal weights.
   enum { kEqualWeights, kOwnWeights };
   WeightedData alike = weighted;
   alike.path = alike.correlation = 0;
   alike.sigma.assign(weighted.sigma.size(), 0.01);
-  constexpr double kSteps = 0.02;
   MultistartRules rules;
-  if (Misses(weighted, fit, kSteps))
+  if (LeadsAstray(weighted, fit)) {
     rules.stages = {{5, 16, kEqualWeights}, {9, 16, kEqualWeights}};
+  }
   rules.stages.insert(rules.stages.end(), {{5, 16, kOwnWeights}, {9, 16, kOwnWeights}});
   rules.last = {30, 8, kOwnWeights};
   rules.apart = 1e-3;

@@ -15,12 +15,15 @@ const std::vector<CausePrior>& PriorTable() {
   static const char* const kShade = "soiling, snow and shade: most frequent in field sweeps";
   static const char* const kFault = "IEA PVPS T13-01:2014, section 5: failures per module";
   static const char* const kCell = "not rare in cells; modules are sorted, seldom above the floors";
+  static const char* const kAllCells =
+      "not rare in cells; in all cells of a module alike: thin films";
   static const char* const kSky = "moving clouds: a few in a hundred sweeps of 0.1 to 30 s";
+  static const char* const kLamp = "clouds, seldom gone within a sweep; lamps falter less";
   static const char* const kPair = "28 of 44 real pairs of sweeps of thin films";
   static const char* const kTracer = "properties of tracers, per instrument";
   static const std::vector<CausePrior> table = {
       {"second_diode", 0.05, 0.02, kCell},
-      {"nonohmic_shunt", 0.03, 0.003, kCell},
+      {"nonohmic_shunt", 0.03, 0.0003, kAllCells},
       {"breakdown", 0.02, 0.005, kCell},
       {"collection", 0.02, 0.005, kCell},
       {"photoshunt", 0.02, 0.005, kCell},
@@ -39,8 +42,8 @@ const std::vector<CausePrior>& PriorTable() {
       {"bypass_open", 0.003, 0.003, kFault},
       {"open_substring", 0.005, 0.005, kFault},
       {"graded_shunt", 0.02, 0.02, kFault},
-      {"irr_step", 0.02, 0.02, kSky},
-      {"transient", 0.02, 0.02, kSky},
+      {"irr_step", 0.003, 0.02, kLamp},
+      {"transient", 0.002, 0.005, kLamp},
       {"drift", 0.01, 0.01, kSky},
       {"temp_drift", 0.003, 0.003, kSky},
       {"hysteresis", 0.1, 0.02, kPair},

@@ -8,6 +8,7 @@
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/model/default_values.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {
@@ -120,8 +121,14 @@ std::vector<double> BaseStart(const Readings& readings, const Law& law, double l
 
 }  // namespace
 
-std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light) {
-  return BaseStart(readings, law, light, 1.2, 0.015);
+std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light,
+                                 double giving) {
+  constexpr double kIdeality = 1.2, kResistance = 0.015;
+  std::vector<double> p = BaseStart(readings, law, light, kIdeality, kResistance);
+  const double exponent =
+      readings.pivot_voltage / (kIdeality * ThermalVoltage(readings.reference_temperature_K));
+  p[SaturationCurrentIndex(0)] *= std::exp(exponent * (1 - 1 / giving));
+  return p;
 }
 
 int WeightedData::count() const {
@@ -144,7 +151,7 @@ LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<do
               const LeastSquaresOptions& options) {
   LawFit fit;
   fit.law = law;
-  LawWorkspace workspace;
+  LawWorkspace workspace(GiveUp::kSlow);
   const LawCoordinates coordinates(law, *weighted.readings);
   const LeastSquaresProblem problem = MakeProblem(weighted, coordinates, &workspace, &fit.current);
   LeastSquaresOptions watched = options;
@@ -294,6 +301,18 @@ double LackOfFit(const WeightedData& weighted, const LawFit& fit,
   off = Whiten(plain, off);
   TakeOut(plain_basis, &off);
   return off.norm() / std::sqrt(std::max(weighted.count(), 1));
+}
+
+double RmseOf(const WeightedData& weighted, const std::vector<double>& current) {
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    if (weighted.used[k] == 0) continue;
+    const Reading& reading = weighted.readings->points[k];
+    const double r = current[k] - reading.current;
+    sum += reading.weight * (r * r + reading.scatter);
+    count += reading.weight;
+  }
+  return weighted.readings->scale.current_A * std::sqrt(sum / std::max(count, 1.0));
 }
 
 double MissedBy(const WeightedData& weighted, const LawFit& fit) {

@@ -60,8 +60,9 @@ LawFit FitLaw(const WeightedData& weighted, const Law& law, const std::vector<do
 constexpr std::size_t kQuickToFit = 2500;
 
 // Typical base parameters of a module without a fault, as a start that does not depend on another
-// fit. `light`: current under the brightest light, in scales.
-std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light);
+// fit. `light`: current under the brightest light, in scales. `giving`: see ShapeStart.
+std::vector<double> TypicalStart(const Readings& readings, const Law& law, double light,
+                                 double giving = 1);
 
 // Standard deviation of the rough path by restricted maximum likelihood, given the noise and a
 // prior from modules without a fault. In current scales.
@@ -95,6 +96,9 @@ double LackOfFit(const WeightedData& weighted, const LawFit& fit,
 Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
 double LackOfFit(const WeightedData& weighted, const LawFit& fit,
                  const Eigen::MatrixXd& plain_basis, const std::vector<double>& currents);
+
+// RMSE in ampere over the used readings, including those within averages.
+double RmseOf(const WeightedData& weighted, const std::vector<double>& current);
 
 // Lack of fit of a fit to its readings.
 double MissedBy(const WeightedData& weighted, const LawFit& fit);

@@ -317,6 +317,7 @@ using Probe = std::vector<double>;
 struct ShapeStart {
   Probe p;                 // start values
   std::vector<int> freed;  // parameters to fit although they are fixed by default
+  double giving = 1;       // part of the cells that gives the open-circuit voltage
 };
 
 // A named cause that changes the terminal law: its text for reports, parameters, stages and starts.
@@ -358,6 +359,9 @@ struct Effect {
   // Whether the effect imitates another cause at these parameters, so that a fit which ends there is
   // rejected. Null: nowhere but at the bounds that its parameters name.
   bool (*imitates)(const double* p, const DataTraits&) = nullptr;
+  // Whether one curve hides a part of the effect at these parameters, so that the power to gain is
+  // at least what the effect takes. Null: never.
+  bool (*hides)(const double* p, const DataTraits&) = nullptr;
   // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
   // covered and only the other groups generate. The effect begins in the first group. Returns false
   // if the effect vanishes. Null: the effect is the same in all cells.
@@ -366,6 +370,7 @@ struct Effect {
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.
   bool groups = false;
+  bool elaborate = false;  // fitted only where no simpler effect describes the readings
   bool is_wiring = false;  // of the device: of its junction box, connectors or leads
   bool momentary = false;  // short compared with the sweep: it can imitate any outlier
   bool by_sweep = false;   // its cell stage depends on Cell::sweep

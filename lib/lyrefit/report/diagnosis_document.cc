@@ -164,8 +164,7 @@ double MaxPower(const Diagnosis& diagnosis) {
 
 // "16.7 W (15.1 to 18.3), 7 % of Pmax"; empty without power to gain.
 std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_least) {
-  if (at_least)
-    return "at least a part of the loss: the brightest cells are not at full light either";
+  if (at_least) return "a part of the loss at least: what all cells lose alike does not show";
   if (!std::isfinite(power.value)) return "";
   // Cells of a laboratory give milliwatts and less.
   const double size = std::max(std::fabs(power.value), power.high_95);

@@ -14,7 +14,8 @@ TEST(GradedShuntTest, IsTheSumOfAllCells) {
     std::vector<BruteCells> cells;
     for (int k = 0; k < 60; ++k) {
       const double place = (k + 0.5) / 60;
-      cells.push_back({1, 1, kMean * steep * std::exp(steep * place) / std::expm1(steep)});
+      const double grown = std::expm1(steep * place) / (std::expm1(steep) - steep);
+      cells.push_back({1, 1, kMean * steep * grown});
     }
     ExpectBruteCurrents("graded_shunt", {kMean, steep}, 60, {{{cells}, false}}, nullptr, 3, 3e-3);
   }
@@ -33,6 +34,17 @@ TEST(GradedShuntTest, HasTheMeanLeak) {
   }
   EXPECT_NEAR(share, 1, 1e-14);
   EXPECT_NEAR(mean, 0.4, 1e-9);
+}
+
+// Two or five cells are no string along which leaks grow, nor a distribution.
+TEST(GradedShuntTest, NeedsManyCells) {
+  DataTraits traits = SyntheticReadings(DataKind::kForward, 60).traits;
+  for (const char* id : {"graded_shunt", "scatter", "weak_cell", "covered_edge"}) {
+    traits.cells = 60;
+    EXPECT_FALSE(FindEffect(id)->WhyNot(traits)) << id;
+    traits.cells = 2;
+    EXPECT_TRUE(FindEffect(id)->WhyNot(traits)) << id;
+  }
 }
 
 }  // namespace

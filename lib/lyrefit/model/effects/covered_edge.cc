@@ -165,7 +165,11 @@ Effect CoveredEdge() {
   Effect e;
   e.id = "covered_edge";
   e.title = "every substring partly covered";
-  e.finding = "substrings";
+  e.finding = "shading";
+  e.elaborate = true;
+  e.hides = [](const double*, const DataTraits&) {
+    return true;
+  };  // light is relative to the brightest
   e.where = Where::kDevice;
   e.equation =
       "V = sum over substrings k of (1 - c_k) Vcell(I; Iph) + c_k Vcell(I; (1 - d_k) Iph), each "

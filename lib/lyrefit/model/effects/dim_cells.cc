@@ -140,6 +140,7 @@ Effect DimCells() {
   e.id = "dim_cells";
   e.title = "cells under a light each";
   e.finding = "weak_cell";
+  e.elaborate = true;
   e.where = Where::kDevice;
   e.equation =
       "single cells of one or more substrings under light (1 - d_k); in reverse "

@@ -27,9 +27,9 @@ template <class S>
 void SetGradedShunt(const S* p, Cell<S>* cell) {
   cell->groups = 0;
   const S steep = p[1];
-  const S scale = p[0] * steep / (exp(steep) - 1.0);
+  const S scale = p[0] * steep / (exp(steep) - 1.0 - steep);
   for (const ShuntPlace& at : kShuntPlaces) {
-    cell->group[cell->groups++] = {S(at.share), S(1.0), scale * exp(steep * at.place), 0};
+    cell->group[cell->groups++] = {S(at.share), S(1.0), scale * (exp(steep * at.place) - 1.0), 0};
   }
 }
 
@@ -41,8 +41,8 @@ Effect GradedShunt() {
   e.title = "shunts that grow along the string";
   e.where = Where::kDevice;
   e.equation =
-      "cells have conductances g s exp(s x) / (exp(s) - 1) beside the common one, x from 0 to 1 "
-      "along the string";
+      "cells have conductances g s (exp(s x) - 1) / (exp(s) - 1 - s) beside the common one, x from "
+      "0 to 1 along the string";
   e.reference = "Luo et al. 2017, doi:10.1039/C6EE02271E";
   e.sentence =
       "cells leak, more and more towards one end of the string: potential-induced degradation";
@@ -59,15 +59,14 @@ Effect GradedShunt() {
           .Unit("S")
           .Between(0, 20)
           .CurrentPower(1),
-      // Towards its lower bound it is a shunt of the whole device.
-      Parameter("s", "steepness", "logarithm of the ratio of the leaks at the ends")
-          .Between(0.5, 8)
-          .From(4)
-          .AboveLower(),
+      Parameter("s", "steepness", "exponent of the growth; small: in proportion to the place")
+          .Between(0.2, 8)
+          .From(4),
   };
   e.cell = [](const auto* p, auto* cell) { SetGradedShunt(p, cell); };
   e.groups = true;
-  e.why_not = NeedsModule;
+  e.hides = [](const double*, const DataTraits&) { return true; };  // what leaks alike in all cells
+  e.why_not = NeedsManyCells;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
     for (const double steep : {2.0, 4.0, 7.0}) {

@@ -19,7 +19,11 @@ Effect IrradianceStep() {
       "the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
-      Parameter("s", "relative_step", "jump of the light").Between(-0.5, 0.5).Usual(0.05),
+      Parameter("s", "relative_step", "jump of the light")
+          .Between(-0.8, 0.8)
+          .AboveLower()
+          .BelowUpper()
+          .Usual(0.05),
       Parameter("x0", "step_time", "when, -1/2 .. 1/2 over the measurement")
           .Between(-0.5, 0.5)
           .Searched(),

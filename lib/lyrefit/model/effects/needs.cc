@@ -19,8 +19,16 @@ WhyNot NeedsModule(const DataTraits& traits) {
   return {};
 }
 
-WhyNot NeedsBypassedModule(const DataTraits& traits) {
+WhyNot NeedsManyCells(const DataTraits& traits) {
+  constexpr int kLeast = 6;
   if (auto why = NeedsModule(traits)) return why;
+  if (traits.cells < kLeast) return "needs six cells in series or more";
+  return {};
+}
+
+WhyNot NeedsBypassedModule(const DataTraits& traits) {
+  const bool stated = traits.bypass_known && traits.substrings > 0;
+  if (auto why = stated ? NeedsModule(traits) : NeedsManyCells(traits)) return why;
   if (traits.lowest_voltage < -1) {
     return "bypass diodes let no module so far into reverse: these cells have none";
   }

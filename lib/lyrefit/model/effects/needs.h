@@ -22,8 +22,9 @@ using WhyNot = std::optional<std::string>;
 WhyNot NeedsLight(const DataTraits& traits);
 WhyNot NeedsOneLitCondition(const DataTraits& traits);  // effects of one sweep
 WhyNot NeedsModule(const DataTraits& traits);           // cells in series, one lit condition
+WhyNot NeedsManyCells(const DataTraits& traits);        // so many that they form a distribution
 WhyNot NeedsBypassDiodes(const DataTraits& traits);
-WhyNot NeedsBypassedModule(const DataTraits& traits);  // cells in series, no deep reverse voltage
+WhyNot NeedsBypassedModule(const DataTraits& traits);  // with bypass diodes, or as if it had some
 WhyNot NeedsUpDown(const DataTraits& traits);
 WhyNot NeedsLightLevels(const DataTraits& traits);   // two irradiances; a dark curve counts
 WhyNot NeedsIrradiances(const DataTraits& traits);   // several irradiances

@@ -31,8 +31,10 @@ std::vector<double> LikelyShares(const DataTraits& traits) {
   constexpr double kLeast_V = 0.42, kMost_V = 0.8;  // of a cell
   const std::vector<double> shares = OpenShares(traits);
   std::vector<double> likely;
+  const double whole =
+      traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;  // of all cells
   for (const double share : shares) {
-    const double voltage = traits.open_circuit / (1 - share);
+    const double voltage = whole / (1 - share);
     if (voltage > kLeast_V && voltage < kMost_V) likely.push_back(share);
   }
   return likely.empty() ? shares : likely;
@@ -104,7 +106,9 @@ Effect OpenSubstring() {
     std::vector<ShapeStart> starts;
     for (const double share : LikelyShares(traits)) {
       for (const double drop : {0.25, 0.5}) {
-        for (const double ideality : {1.1, 2.0}) starts.push_back({{share, drop, ideality}, {}});
+        for (const double ideality : {1.1, 2.0}) {
+          starts.push_back({{share, drop, ideality}, {}, 1 - share});
+        }
       }
     }
     return starts;

@@ -21,6 +21,8 @@ Effect RangeSwitch() {
   e.parameters = {
       Parameter("g", "relative_gain", "of the range of small currents over the other")
           .Between(-0.2, 0.2)
+          .AboveLower()
+          .BelowUpper()
           .Usual(0.01),
       Parameter("Ir", "range_end", "current at which the range changes")
           .Unit("A")

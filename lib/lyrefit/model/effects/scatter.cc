@@ -11,14 +11,16 @@ namespace {
 
 // Cell groups of the effect: more take longer and change little.
 constexpr int kScatterGroups = 8;
+// Substrings whose dimmest cell has a light of its own.
+constexpr int kScatterOwn = 3;
 
 enum {
   kScatterWidth,
   kScatterSoft,
   kScatterExponent,
   kScatterLopsided,
-  kScatterDimmest,
-  kScatterBypass
+  kScatterDimmest,  // of the first substring; those of the others follow
+  kScatterBypass = kScatterDimmest + kScatterOwn
 };
 
 // The dimmest cells, one group each, and all others as one group. Their lights are the mean order
@@ -59,7 +61,7 @@ void SetScatter(const S* p, Cell<S>* cell) {
   for (int g = 0; g < substrings; ++g) {
     double others = 1.0 / substrings;
     for (int k = g; k < dimmest.count; k += substrings) {
-      const S beyond = k == 0 ? S(-p[kScatterDimmest]) : S(0.0);
+      const S beyond = k < kScatterOwn ? S(-p[kScatterDimmest + k]) : S(0.0);
       cell->group[cell->groups++] = {
           S(1.0 / cells), light(dimmest.normal[k], dimmest.lopsided[k], beyond), S(0.0), g};
       others -= 1.0 / cells;
@@ -72,6 +74,17 @@ void SetScatter(const S* p, Cell<S>* cell) {
   cell->reverse = ReverseLaw::kSoft;
   cell->reverse_voltage = p[kScatterSoft];
   cell->reverse_exponent = p[kScatterExponent];
+}
+
+// Where the dimmest cell of a substring lies, whose usual scatter is that of order statistics.
+EffectParameter DimmestBeyond(const char* symbol, const char* name, const char* meaning) {
+  constexpr double kUsual = 0.5;
+  return Parameter(symbol, name, meaning)
+      .Between(-2.5, 2.5)
+      .Usual(kUsual)
+      .FixedByDefault()
+      .AbsentAt(0)
+      .BelowUpper();  // farther below it is a weak cell
 }
 
 std::vector<EffectParameter> ScatterParameters() {
@@ -90,11 +103,10 @@ std::vector<EffectParameter> ScatterParameters() {
           .Between(0, 1)
           .FixedByDefault()
           .AbsentAt(0),
-      Parameter("t", "dimmest_beyond", "widths that the dimmest cell lies below its usual place")
-          .Between(-2.5, 2.5)
-          .FixedByDefault()
-          .AbsentAt(0)
-          .BelowUpper(),  // farther below it is a weak cell
+      DimmestBeyond("t", "dimmest_beyond",
+                    "widths that the dimmest cell lies below its usual place"),
+      DimmestBeyond("t2", "second_dimmest_beyond", "likewise, of the second substring"),
+      DimmestBeyond("t3", "third_dimmest_beyond", "likewise, of the third substring"),
       Parameter("Vb", "bypass_voltage", "drop of a bypass diode at Isc")
           .Unit("V")
           .Between(0.1, 1.2)
@@ -111,16 +123,21 @@ std::vector<ShapeStart> ScatterStarts(const CurveShape& shape) {
   // separate local optima, and so are cells that conduct in reverse and cells that do not.
   for (const double lopsided : {0.0, 1.0}) {
     for (const double width : {0.015, 0.04}) {
-      starts.push_back({{width, 3.2, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-      starts.push_back({{width, 10, 3.4, lopsided, 0, 0.5}, {kScatterSoft}});
-      starts.push_back({{width, 30, 8, lopsided, 0, 0.5}, {}});
+      const auto start = [&](double soft, double exponent, double beyond) {
+        return Probe{width, soft, exponent, lopsided, beyond, 0, 0, 0.5};
+      };
+      starts.push_back({start(3.2, 3.4, 0), {kScatterSoft}});
+      starts.push_back({start(10, 3.4, 0), {kScatterSoft}});
+      starts.push_back({start(30, 8, 0), {}});
       for (const double beyond : {-1.0, 0.0, 1.0}) {
-        starts.push_back(
-            {{width, 15, 3.4, lopsided, beyond, 0.5}, {kScatterSoft, kScatterDimmest}});
+        starts.push_back({start(15, 3.4, beyond), {kScatterSoft, kScatterDimmest}});
       }
       for (const double beyond : {-1.0, 1.0}) {
-        starts.push_back({{width, 30, 8, lopsided, beyond, 0.5}, {kScatterDimmest}});
+        starts.push_back({start(30, 8, beyond), {kScatterDimmest}});
       }
+      std::vector<int> own = {kScatterBypass};
+      for (int k = 0; k < kScatterOwn; ++k) own.push_back(kScatterDimmest + k);
+      starts.push_back({start(30, 8, 0), own});
     }
   }
   return starts;
@@ -135,7 +152,8 @@ Effect Scatter() {
   e.where = Where::kDevice;
   e.equation =
       "lights of the cells have width s, normal or lopsided towards an exponential by q; the "
-      "dimmest, t widths beyond its place, and others lie in the substrings in turn; in reverse "
+      "dimmest of each substring, t widths beyond its place, and others lie in the substrings in "
+      "turn; in reverse "
       "I = ... + Iph (-Vj / A)^m";
   e.reference = "Bucciarelli 1979, doi:10.1016/0038-092X(79)90117-9";
   e.sentence = "no two cells deliver the same current, and the weaker ones limit the others";
@@ -148,10 +166,10 @@ Effect Scatter() {
   e.parameters = ScatterParameters();
   e.cell = [](const auto* p, auto* cell) { SetScatter(p, cell); };
   e.groups = true;
-  e.why_not = NeedsModule;
+  e.why_not = NeedsManyCells;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;
-    for (const double width : {0.01, 0.03}) probes.push_back({width, 3.2, 3.4, 0, 0, 0.5});
+    for (const double width : {0.01, 0.03}) probes.push_back({width, 3.2, 3.4, 0, 0, 0, 0, 0.5});
     return probes;
   };
   e.starts = [](const CurveShape& shape, const DataTraits&, const auto&) {

@@ -181,6 +181,19 @@ bool SubstringsCovered(double* p, int which, int groups) {
   return left > 0;
 }
 
+// Whether lights fall from substring to substring down to a single brightest one, which may be
+// covered as well.
+bool LeavesOneBright(const double* p, const DataTraits& traits) {
+  double rest = 1;
+  int dark = 0;
+  for (int k = 0; k < kGroups; ++k) {
+    rest -= p[2 * k + 1];
+    dark += p[2 * k + 1] > 0 ? 1 : 0;
+  }
+  constexpr double kRounding = 0.01;
+  return dark > 1 && rest < 1.0 / std::max(SubstringsOf(traits), 2) + kRounding;
+}
+
 std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTraits& traits,
                                         const std::vector<ParameterBounds>& asked) {
   if (!asked.empty()) return AskedStarts(shape, traits, asked);
@@ -200,6 +213,7 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
 Effect Substrings() {
   Effect e;
   e.id = "substrings";
+  e.finding = "shading";
   e.title = "substrings under a light each";
   e.where = Where::kDevice;
   e.equation =
@@ -217,6 +231,7 @@ Effect Substrings() {
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
   e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };
   e.groups = true;
+  e.hides = LeavesOneBright;
   e.covered = SubstringsCovered;
   e.starts = SubstringStarts;
   e.why_not = [](const DataTraits& traits) {

@@ -18,7 +18,9 @@ Effect TemperatureDrift() {
   e.action = "repeat the sweep faster, after the module has settled in the light";
   e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
                       .Unit("K")
-                      .Between(-30, 30)
+                      .Between(-10, 10)
+                      .AboveLower()
+                      .BelowUpper()
                       .Usual(0.5)};
   e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
     conditions->temperature_K = conditions->temperature_K + p[0] * reading.x;

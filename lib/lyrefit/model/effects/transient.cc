@@ -25,7 +25,11 @@ Effect Transient() {
   e.separate_by = "repeat the sweep; a reference cell beside the module";
   e.action = "repeat the sweep under steady light with a reference cell beside the module";
   e.parameters = {
-      Parameter("a", "relative_depth", "how much light was missing").Between(-0.8, 0.8).Usual(0.05),
+      Parameter("a", "relative_depth", "how much light was missing")
+          .Between(-0.8, 0.8)
+          .Usual(0.05)
+          .AboveLower()
+          .BelowUpper(),
       Parameter("c", "centre", "when, -1/2 .. 1/2 over the measurement")
           .Between(-0.45, 0.45)
           .AboveLower()

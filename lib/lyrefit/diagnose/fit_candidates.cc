@@ -124,9 +124,10 @@ bool IsTried(const Trying& trying, const Score& score) {
 // residuals forgive: it would leave the curve to the rough path. Sweeps up and down are compared
 // with each other, so that what both miss alike counts little.
 bool LeavesToPath(const WeightedData& weighted, const LawFit& without, const LawFit& fit) {
+  constexpr double kRounding = 1e-6;  // fits that end without the effect differ by it
   const DataTraits& traits = weighted.readings->traits;
   return traits.single && traits.turns.empty() &&
-         RmseOf(weighted, fit.current) > RmseOf(weighted, without.current);
+         RmseOf(weighted, fit.current) > (1 + kRounding) * RmseOf(weighted, without.current);
 }
 
 }  // namespace

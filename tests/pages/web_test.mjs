@@ -19,8 +19,7 @@ const kFiles = {
 // Numbers agree within this part of themselves, but for those whose size says nothing of their error: how far a
 // likelihood ratio lies in a tail, which magnifies what its logarithm misses, and what is zero but for rounding.
 const kSameDigits = 1e-6;
-const kTails = {p_value: 1e-4, corrected_p: 1e-4, log_evidence: 1e-3, probability: 1e-2, probability_none: 1e-2,
-                probability_material: 1e-2};  // in parts of themselves
+const kTails = {p_value: 1e-4, corrected_p: 1e-4, log_evidence: 1e-3, probability: 1e-2};  // in parts of themselves
 const kZeros = {misfit: 1e-5, mean_A: 1e-12, projected_gradient: 1e-8};  // in their own units
 
 let browser;

@@ -55,7 +55,8 @@ inline constexpr double kMentionedPart = 0.1;
 
 // Standard errors of a power to gain beside those of the fit: cells of a module differ, in parts of
 // the power without the cause, and causes are described to a part of their size, in parts of the
-// gain. Chosen where `fault_study field` shows the intervals to hold the truth in 95 %.
+// gain. Chosen by the share of intervals that hold the truth in `fault_study field`.
+// FieldDiagnosis.SaysTheLightOfASubstringAndThePowerToWin.
 inline constexpr double kCellsDiffer = 0.002;
 inline constexpr double kCausesDiffer = 0.03;
 

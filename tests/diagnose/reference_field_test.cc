@@ -237,6 +237,8 @@ TEST_P(ReferenceFieldTest, FindsSmallFaultsAndLeavesCleanSweepsAlone) {
   }
   EXPECT_GE(rates["Rs +10 %"].first, 0.8);
   EXPECT_GE(rates["leak 1 %"].among, 0.8);
+  EXPECT_GE(rates["drift 1 %"].among, 0.3);
+  EXPECT_GE(rates["substring 1 %"].among, 0.4);
 }
 
 // On 2015-07-01 the shade of the morning (until sweep 380) and its bypass step are a separate

@@ -102,6 +102,23 @@ TEST(CompareWithReferences, NamesALeak) {
   EXPECT_LT(c.causes.front().power, -0.01);
 }
 
+// Light that fades steadily takes current in proportion to the time, which only a fit of the whole
+// sweep tells from a leak.
+TEST(CompareWithReferences, NamesLightThatFades) {
+  IvCurve curve = Sweep(50);
+  const double last = static_cast<double>(curve.size()) - 1;
+  const double isc = curve.current_A.front();
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    curve.current_A[k] -= 0.02 * isc * (static_cast<double>(k) / last - 0.5);
+  }
+  const ReferenceComparison c = Compare(curve, Sweeps(24));
+  ASSERT_TRUE(c.differs);
+  const auto drift = std::find_if(c.causes.begin(), c.causes.end(),
+                                  [](const ReferenceCause& cause) { return cause.id == "drift"; });
+  ASSERT_NE(drift, c.causes.end());
+  EXPECT_NEAR(drift->size, -2, 0.5);
+}
+
 TEST(CompareWithReferences, FewReferenceSweepsShowOnlyLargeDifferencesAndSaySo) {
   const ReferenceComparison c = Compare(WithResistance(Sweep(50), kSeriesOhm), Sweeps(5));
   EXPECT_TRUE(c.differs);

@@ -26,7 +26,7 @@ struct Dose {
   int coordinate = -1;      // the raised one (law_coordinates.h), -1: an effect
   double raise = 0;         // its increase
   const char* effect = "";  // id of an effect in the catalogue
-  std::vector<double> p;    // parameters of the effect
+  std::vector<double> p;    // its first parameters; the others are neutral
 };
 
 std::vector<Dose> DosesFor(const FittedSweep& sweep) {
@@ -83,7 +83,7 @@ std::vector<Dose> DosesFor(const FittedSweep& sweep) {
                        -1,
                        0,
                        "shading",
-                       {0.005, 1.0 / substrings, 0.5, 1}});
+                       {0.005, 1.0 / substrings}});
     }
   }
   return doses;
@@ -105,10 +105,12 @@ std::vector<double> ChangeBy(const FittedSweep& sweep, const Dose& dose, double 
     theta[dose.coordinate] = std::max(theta[dose.coordinate] + sign * doses * dose.raise, 0.0);
     p = coordinates.Parameters(theta);
   } else {
-    law.effects.push_back(FindEffect(dose.effect));
-    p.insert(p.end(), dose.p.begin(), dose.p.end());
-    p[p.size() - dose.p.size()] *= doses;
-    if (law.size() != static_cast<int>(p.size())) return {};
+    const Effect& effect = *FindEffect(dose.effect);
+    const std::size_t first = p.size();
+    for (const EffectParameter& parameter : effect.parameters) p.push_back(parameter.neutral);
+    std::copy(dose.p.begin(), dose.p.end(), p.begin() + static_cast<std::ptrdiff_t>(first));
+    p[first] *= doses;
+    law.effects.push_back(&effect);
   }
   LawWorkspace workspace;
   std::vector<double> change(readings.points.size());

@@ -65,6 +65,20 @@ TEST(DescribeVerdict, SaysHowProbableACauseIs) {
             "The data show weak cells (or what looks like it) and drift.");
 }
 
+TEST(SaidBeside, AsManyAsReachTheProbability) {
+  Cause cause = NamedCause("shading");
+  cause.probability = 0.5;
+  for (const auto& [id, probability] : {std::pair("drift", 0.3), {"clip", 0.15}, {"none", 0.05}}) {
+    cause.alternatives.push_back({id, id, probability});
+  }
+  EXPECT_TRUE(SaidBeside(cause, 0.4).empty());
+  ASSERT_EQ(SaidBeside(cause, 0.75).size(), 1u);
+  EXPECT_EQ(SaidBeside(cause, 0.75)[0].id, "drift");
+  EXPECT_EQ(SaidBeside(cause, 0.999).size(), 2u);
+  cause.probability = kUnknown;
+  EXPECT_TRUE(SaidBeside(cause, 0.75).empty());
+}
+
 TEST(DescribeVerdict, SilenceNamesWhatIsNeverShown) {
   const Verdict silent = Told({});
   EXPECT_THAT(silent.sentence, HasSubstr("Nothing to act on"));

@@ -72,6 +72,9 @@ Answer AnswerOf(const lyrefit::CurveSet& set, const lyrefit::DiagnoseOptions& op
   }
   for (const lyrefit::Cause& cause : diagnosis->verdict.causes) {
     Claim claim{cause.id, cause.equivalents, cause.probability, cause.evidence == "values", {}};
+    for (const lyrefit::Alternative& other : lyrefit::SaidBeside(cause, options.probability)) {
+      claim.beside.push_back(other.id);
+    }
     for (const lyrefit::CauseParameter& parameter : cause.strength) {
       claim.strengths.push_back({parameter.symbol, parameter.unit, parameter.value,
                                  parameter.low_95, parameter.high_95, parameter.name});

@@ -24,6 +24,7 @@ struct Claim {
   double probability = 1;
   bool by_values = false;
   std::vector<Strength> strengths;
+  std::vector<std::string> beside = {};  // findings that the verdict says it may be as well
 };
 
 // Probability of a finding as the only one, before anything is named.

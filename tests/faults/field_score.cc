@@ -91,15 +91,21 @@ bool Counts(const Case& made, const Claim& claim) {
 
 CaseScore ScoreCase(const Case& made, const Answer& answer) {
   CaseScore score;
-  const auto& accepted = made.truth.accepted;
+  const auto is_accepted = [&](const std::string& id) {
+    const auto& accepted = made.truth.accepted;
+    return std::find(accepted.begin(), accepted.end(), id) != accepted.end();
+  };
   for (const Claim& claim : answer.claims) {
     if (!Counts(made, claim)) continue;
-    const bool right = std::find(accepted.begin(), accepted.end(), claim.id) != accepted.end();
+    const bool right = is_accepted(claim.id);
     if (score.claims++ == 0) {
       score.first = claim.id;
       score.first_right = right;
     }
-    score.spurious += !right;
+    const bool in_set =
+        !right && std::any_of(claim.beside.begin(), claim.beside.end(), is_accepted);
+    score.in_set += in_set;
+    score.spurious += !right && !in_set;
     if (right && !score.any_right) score.compared = Compare(made.truth, claim);
     score.any_right |= right;
   }

@@ -22,7 +22,8 @@ struct CaseScore {
   bool first_right = false;  // the first name is accepted
   bool any_right = false;
   int claims = 0;
-  int spurious = 0;  // claims that are not accepted
+  int in_set = 0;    // claims whose name is not accepted, but one that is said beside it
+  int spurious = 0;  // claims of which neither is accepted
   std::string first = "-";
   std::vector<Compared> compared;
 };

@@ -26,6 +26,12 @@ TEST(FieldJudge, KnowsRightFromWrong) {
   EXPECT_TRUE(second.any_right);
   EXPECT_FALSE(second.first_right);
   EXPECT_EQ(second.spurious, 1);
+  Claim either = Claiming("transient");
+  either.beside = {"substrings", "drift"};
+  const CaseScore set = ScoreCase(Shaded(), Saying({either}));
+  EXPECT_FALSE(set.first_right || set.any_right);
+  EXPECT_EQ(set.in_set, 1);
+  EXPECT_EQ(set.spurious, 0);
   const CaseScore wrong = ScoreCase(Shaded(), Saying({Claiming("irr_step")}));
   EXPECT_FALSE(wrong.first_right || wrong.any_right);
   EXPECT_FALSE(ScoreCase(Shaded(), Saying({})).named);

@@ -78,6 +78,7 @@ std::string Text(const Answer& answer) {
     if (!text.empty()) text += " ";
     text += claim.id;
     for (const std::string& other : claim.equivalents) text += "|" + other;
+    for (const std::string& other : claim.beside) text += "/" + other;
   }
   return text.empty() ? "-" : text;
 }

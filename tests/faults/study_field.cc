@@ -52,22 +52,23 @@ void PrintAgreement(const std::vector<FieldRun>& runs, const char* quantity) {
 
 void PrintTable(const std::string& kind, const std::vector<FieldRun>& runs) {
   const int cases = static_cast<int>(runs.size());
-  int named = 0, first = 0, any = 0, claims = 0, spurious = 0, failed = 0;
+  int named = 0, first = 0, any = 0, claims = 0, in_set = 0, spurious = 0, failed = 0;
   double seconds = 0, slowest = 0, misfit = 0;
   for (const FieldRun& run : runs) {
     named += run.score.named;
     first += run.score.first_right;
     any += run.score.any_right;
     claims += run.score.claims;
+    in_set += run.score.in_set;
     spurious += run.score.spurious;
     failed += !run.answer.error.empty();
     seconds += run.answer.seconds / cases;
     misfit += run.with_fault.misfit / cases;
     slowest = std::max(slowest, run.answer.seconds);
   }
-  std::printf("%-13s %5d %7.2f %7.1f %7.1f %7.1f %6d %7.1f %7.2f %7.2f %6d", kind.c_str(), cases,
-              misfit, Percent(named, cases), Percent(first, cases), Percent(any, cases), claims,
-              Percent(spurious, claims), seconds, slowest, failed);
+  std::printf("%-13s %5d %7.2f %7.1f %7.1f %7.1f %6d %7.1f %7.1f %7.2f %7.2f %6d", kind.c_str(),
+              cases, misfit, Percent(named, cases), Percent(first, cases), Percent(any, cases),
+              claims, Percent(in_set, claims), Percent(spurious, claims), seconds, slowest, failed);
   for (const char* quantity :
        {"light", "share", "width", "step", "dip", "drift", "gain", "power", "least power"}) {
     PrintAgreement(runs, quantity);
@@ -85,12 +86,12 @@ void PrintRows(const std::string& kind, const std::vector<FieldRun>& runs, std::
                     compared.value, compared.truth, compared.holds ? " held" : "");
       read += part;
     }
-    std::fprintf(rows, "%s,%zu,%d,%d,%zu,%.4f,%.4f,%d,%d,%d,%.3f,%s,%s,%s\n", kind.c_str(), i,
+    std::fprintf(rows, "%s,%zu,%d,%d,%zu,%.4f,%.4f,%d,%d,%d,%d,%.3f,%s,%s,%s\n", kind.c_str(), i,
                  run.with_fault.measurement.cells, run.with_fault.make.half_cut,
                  run.with_fault.measurement.voltage.size(), run.with_fault.healthy,
                  run.with_fault.misfit, run.score.first_right, run.score.any_right,
-                 run.score.spurious, run.answer.seconds, FiguresOf(run.with_fault).c_str(),
-                 Text(run.answer).c_str(), read.c_str());
+                 run.score.in_set, run.score.spurious, run.answer.seconds,
+                 FiguresOf(run.with_fault).c_str(), Text(run.answer).c_str(), read.c_str());
   }
 }
 
@@ -145,12 +146,13 @@ int StudyField(const StudyOptions& options) {
   if (rows == nullptr && !options.rows.empty()) return std::perror(options.rows.c_str()), 1;
   if (rows != nullptr) {
     std::fputs(
-        "kind,number,cells,half_cut,readings,healthy,misfit,first_right,any_right,spurious,"
+        "kind,number,cells,half_cut,readings,healthy,misfit,first_right,any_right,in_set,spurious,"
         "seconds,truth,answer,read\n",
         rows);
   }
-  std::printf("%-13s %5s %7s %7s %7s %7s %6s %7s %7s %7s %6s\n", "kind", "cases", "misfit%",
-              "named%", "first%", "any%", "claims", "spur.%", "s/case", "slowest", "errors");
+  std::printf("%-13s %5s %7s %7s %7s %7s %6s %7s %7s %7s %7s %6s\n", "kind", "cases", "misfit%",
+              "named%", "first%", "any%", "claims", "in set%", "spur.%", "s/case", "slowest",
+              "errors");
   for (const std::string& kind : kinds) {
     std::vector<FieldRun> runs(cases);
     ForEach(cases, options.threads, [&](int i) {

@@ -138,6 +138,10 @@ struct Cause {
   std::vector<int> points;               // where it acts most: positions in Diagnosis::points
 };
 
+// The alternatives that the verdict's sentence says beside a cause, most probable first: as many as
+// reach `probability` (DiagnoseOptions) together with it, two at most. Empty: it is named alone.
+std::vector<Alternative> SaidBeside(const Cause& cause, double probability);
+
 // An effect that may be present undetected, since these data cannot show it.
 struct CannotBeExcluded {
   std::string id;

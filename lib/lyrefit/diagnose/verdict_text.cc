@@ -102,20 +102,15 @@ bool IsNameless(const Verdict& verdict) {
   return verdict.causes.size() == 1 && verdict.causes.front().id == "unknown_structure";
 }
 
-// A cause by its name, or, where its probability is less than `probability`, as the set of those
-// that have it together: "either partial shading (70 %) or substrings under a light each (17 %)".
+// A cause by its name, or as one of a set: "either partial shading (70 %) or a shunt (17 %)".
 std::string TitleOf(const Cause& cause, double probability) {
-  constexpr std::size_t kMost = 3;
   if (!std::isfinite(cause.probability)) {
     return cause.title + (cause.equivalents.empty() ? "" : " (or what looks like it)");
   }
   std::vector<std::string> titles = {
       fmt::format("{} ({:.0f} %)", cause.title, 100 * cause.probability)};
-  double sum = cause.probability;
-  for (const Alternative& other : cause.alternatives) {
-    if (sum >= probability || titles.size() == kMost) break;
+  for (const Alternative& other : SaidBeside(cause, probability)) {
     titles.push_back(fmt::format("{} ({:.0f} %)", other.title, 100 * other.probability));
-    sum += other.probability;
   }
   return (titles.size() > 1 ? "either " : "") + Alternatives(titles);
 }
@@ -148,6 +143,19 @@ std::string ComparisonText(const Verdict& verdict, const Floors& floors) {
 }
 
 }  // namespace
+
+std::vector<Alternative> SaidBeside(const Cause& cause, double probability) {
+  constexpr std::size_t kMost = 2;
+  std::vector<Alternative> beside;
+  double sum = cause.probability;
+  if (!std::isfinite(sum)) return beside;
+  for (const Alternative& other : cause.alternatives) {
+    if (sum >= probability || beside.size() == kMost) break;
+    beside.push_back(other);
+    sum += other.probability;
+  }
+  return beside;
+}
 
 Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
   double noise = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "synthetic_data.h"
@@ -108,6 +109,62 @@ TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
     EXPECT_NEAR(std::log((1 - judged.none.probability) / judged.none.probability),
                 causes - LogTotal(judged.none.evidence), 1e-6);
   }
+}
+
+// The part of a shading's probability that cells which differ one by one have.
+double PartOfScatter(double light_missing, int substrings) {
+  SyntheticData made = OnTheData(SyntheticCurve({}));
+  Readings readings = made.measurement.readings;
+  readings.traits.substrings = substrings;
+  made.weighted.readings = std::make_shared<const Readings>(readings);
+  Hypotheses hypotheses;
+  hypotheses.none.fit = FitBase(made.weighted, Law());
+  FittedCandidate shading = With(made, hypotheses.none.fit, "shading");
+  shading.fit.p[shading.fit.law.Offset(0)] = light_missing;
+  hypotheses.candidates = {shading, With(made, hypotheses.none.fit, "irr_step")};
+  JudgeOptions options;
+  options.priors.given = {{"shading", 0.1}, {"scatter", 0.1}};
+  Judge(made.weighted, hypotheses.none.fit, options, &hypotheses);
+  double part = kUnknown, sum = hypotheses.none.probability;
+  for (const FittedCandidate& candidate : hypotheses.candidates) {
+    sum += candidate.probability + candidate.as_slight;
+    if (candidate.score.effect->light_missing == nullptr) {
+      EXPECT_EQ(candidate.as_slight, 0) << candidate.score.effect->id;
+    } else {
+      part = candidate.as_slight / (candidate.probability + candidate.as_slight);
+    }
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+  return part;
+}
+
+// With equal priors the densities of the size decide: at a light of 95 % half of Student's t has
+// 12 sqrt(3) / (16 pi 0.05), an even density 1.
+TEST(JudgeTest, SlightDifferencesOfLightMayBeCellsThatDiffer) {
+  const double density = 12 * std::sqrt(3.0) / M_PI / 0.05 / 16;
+  EXPECT_NEAR(PartOfScatter(0.05, 2), density / (1 + density), 1e-9);
+  EXPECT_LT(PartOfScatter(0.5, 2), 0.02);
+  EXPECT_EQ(PartOfScatter(0.05, 3), 0);  // two of three substrings alike
+}
+
+// Evidence that readings which alternate by 0.01 A about a step of the light take from the step.
+double LostByRoughness(double step_A) {
+  const auto evidence = [step_A](double rough_A) {
+    IvCurve curve = WithStep(step_A);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      curve.current_A[k] += k % 2 == 0 ? rough_A : -rough_A;
+    }
+    SyntheticData made = OnTheData(curve);
+    made.weighted.least_variance = 1;
+    const LawFit base = FitBase(made.weighted, Law());
+    return EvidenceOf(made.weighted, base, {}, With(made, base, "irr_step").fit).complete;
+  };
+  return evidence(0) - evidence(0.01);
+}
+
+// What a cause misses from reading to reading weighs less the larger it is.
+TEST(JudgeTest, LargeCausesMayMissTheKinks) {
+  EXPECT_LT(LostByRoughness(1), 0.5 * LostByRoughness(0.05));
 }
 
 TEST(FittedCandidateTest, ThereIsNoRoomForWhatIsThereNorForWhatItExcludes) {

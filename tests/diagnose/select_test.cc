@@ -17,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 struct Selected {
   SyntheticData made;
@@ -128,6 +129,25 @@ TEST(SelectCausesTest, NamesNoMoreThanAsked) {
   SelectOptions options;
   options.largest_causes = 2;
   EXPECT_LE(SelectFor(curve, options).selection.causes.size(), 2U);
+}
+
+// Causes of a sweep whose light steps by 0.8 A of 8 A and dips by `dip_A` earlier.
+std::vector<std::string> StepAndDip(double dip_A, const Floors& floors) {
+  IvCurve curve = SyntheticCurve({});
+  for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.8;
+  for (int k = 8; k < 16; ++k) curve.current_A[k] -= dip_A;
+  SelectOptions options;
+  options.floors = floors;
+  return SelectFor(curve, options).Ids();
+}
+
+// With floors, as in the field, causes are described in part only: what is small beside a large
+// step may be how that step is in detail.
+TEST(SelectCausesTest, WhatIsSmallBesideUnlikeCellsIsNoCause) {
+  const Floors floors = {0.0025, 0.005};
+  EXPECT_THAT(StepAndDip(0.1, {}), UnorderedElementsAre("irr_step", "transient"));
+  EXPECT_THAT(StepAndDip(0.1, floors), ElementsAre("irr_step"));
+  EXPECT_THAT(StepAndDip(1, floors), UnorderedElementsAre("irr_step", "transient"));
 }
 
 TEST(FindAlternativesTest, ListsWhatCouldStandInACausesPlace) {

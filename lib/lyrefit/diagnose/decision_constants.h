@@ -13,6 +13,9 @@ inline constexpr double kDepartureWidth = 0.35;
 // its logarithm: chosen on the labelled real sweeps. RealCurvesTest.
 inline constexpr double kDepartureOfCauses = 0.1;
 inline constexpr double kDepartureOfCausesWidth = 0.6;
+// The same from reading to reading, at the kinks of a curve: a standard deviation in parts of the
+// size of the causes. JudgeTest.LargeCausesMayMissTheKinks.
+inline constexpr double kRoughPartOfCauses = 0.05;
 // The least departure by something unknown, in Isc: less is what devices without a fault have.
 // LogEvidenceTest.AnUnknownDepartureExplainsWhatTheLawDoesNot.
 inline constexpr double kUnknownDeparture = 1.5e-3;
@@ -35,6 +38,15 @@ inline constexpr double kUsualSeriesDrop = 0.03;
 inline constexpr double kUsualLeak = 0.05;
 inline constexpr double kUsualSecondDiode = 0.05;
 
+// Least change of the current by one more cause, in parts of that by unlike cells or light that
+// moves in the same sweep. SelectCausesTest.WhatIsSmallBesideUnlikeCellsIsNoCause.
+inline constexpr double kLeastPartOfAnother = 1.0 / 3;
+
+// Usual light that the dimmest of cells that differ one by one misses: two standard deviations of
+// 2.5 %. Slight differences between substrings are shared with such cells by the densities of their
+// size. JudgeTest.SlightDifferencesOfLightMayBeCellsThatDiffer.
+inline constexpr double kUsualDimmest = 0.05;
+
 // Which effects are fitted at all, by the F statistic of their signature: what is less than this
 // cannot be more probable than none, and what has less than this part of the best statistic seldom
 // becomes the best. They save time; Seek (faults) fails if they are too large.
@@ -43,7 +55,7 @@ inline constexpr double kHopelessPart = 0.1;
 
 // A cause is replaced by one that is more probable by this, in ln, so that ties do not alternate,
 // and so often at most. An alternative is kept from this part of the cause's probability on.
-inline constexpr double kClearly = 0.5;
+inline constexpr double kClearly = 0.2;
 inline constexpr int kMostReplacements = 3;
 inline constexpr double kNotable = 0.05;
 

@@ -74,6 +74,10 @@ void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
   cause->probability = 0;
   for (const FittedCandidate& other : chosen.others.candidates) {
     const Effect& effect = *other.score.effect;
+    if (other.as_slight > 0) {
+      const Effect& slight = *FindEffect(effect.slight_is);
+      AddProbability(slight.id, slight.title, other.as_slight, &cause->alternatives);
+    }
     if (effect.Finding() == cause->id) {
       cause->probability += other.probability;
       AddProbability(effect.id, effect.title, other.probability, &cause->mechanisms);
@@ -171,6 +175,20 @@ std::vector<CauseParameter> DescribeParameters(const WeightedData& weighted, con
   return described;
 }
 
+namespace {
+
+// Adds the probability that a candidate shares with cells that differ one by one to their trial.
+void AddSlight(const FittedCandidate& fitted, std::vector<Trial>* trials) {
+  for (Trial& trial : *trials) {
+    if (trial.effect != fitted.score.effect->slight_is) continue;
+    const double before = std::isfinite(trial.probability) ? trial.probability : 0;
+    if (before == 0) trial.probability_material = fitted.material;
+    trial.probability = before + fitted.as_slight;
+  }
+}
+
+}  // namespace
+
 std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& selection,
                                   const std::vector<const Effect*>& known,
                                   const std::vector<const Effect*>& candidates,
@@ -225,6 +243,9 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
           DescribeParameters(weighted, fitted.fit, fitted.fit.law.effects.size() - 1);
     }
     trials.push_back(trial);
+  }
+  for (const FittedCandidate& fitted : selection.trials.candidates) {
+    if (fitted.as_slight > 0) AddSlight(fitted, &trials);
   }
   return trials;
 }
@@ -286,6 +307,12 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
       AddEquivalent(same ? fitted->score.effect->id : fitted->score.effect->Finding(), &cause);
       AddSeparation(effect, &cause.separate_by);
       AddSeparation(*fitted->score.effect, &cause.separate_by);
+    }
+    for (const Alternative& other : cause.alternatives) {
+      const bool is_slight = effect.light_missing != nullptr && other.id == effect.slight_is;
+      if (!is_slight || other.probability < kNotable * cause.probability) continue;
+      AddEquivalent(other.id, &cause);
+      AddSeparation(*FindEffect(other.id), &cause.separate_by);
     }
     if (by_values) {
       cause.points = values.clipped;

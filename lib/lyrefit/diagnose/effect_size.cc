@@ -150,7 +150,9 @@ PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTe
   const double gain = then.power - now.power;
   double error = std::hypot(ErrorBy(weighted, fit, by), weighted.path * then.power);
   if (weighted.path > 0) {
-    error = std::hypot(error, std::hypot(kCellsDiffer * then.power, kCausesDiffer * gain));
+    double part = kCausesDiffer;
+    for (const Effect* effect : fit.law.effects) part = std::max(part, effect->gain_scatter);
+    error = std::hypot(error, std::hypot(kCellsDiffer * then.power, part * gain));
   }
   const PowerPoint half = {0, std::min(kNormal95 * error, then.power)};
   return {InWatts(weighted, {0, gain}), InWatts(weighted, half)};

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -179,6 +182,33 @@ std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
 
 namespace {
 
+// The fit of an effect in the first step, with the base model alone. Null if there is none.
+const FittedCandidate* TrialOf(const Selection& selection, const Effect* effect) {
+  const std::vector<FittedCandidate>& trials = selection.trials.candidates;
+  const auto at = std::find_if(trials.begin(), trials.end(), [&](const FittedCandidate& trial) {
+    return trial.score.effect == effect && trial.fit.usable;
+  });
+  return at != trials.end() ? &*at : nullptr;
+}
+
+// Whether an effect was a notable alternative of the first step, to one of the causes.
+bool WasNotable(const Selection& selection, const Effect* effect) {
+  const FittedCandidate* trial = TrialOf(selection, effect);
+  const double best =
+      selection.trials.candidates.empty() ? 0 : selection.trials.candidates.front().probability;
+  return trial != nullptr && trial->probability >= kNotable * best;
+}
+
+// Fits an effect in a place. In the place of the only cause the fit of the first step goes on.
+LawFit FitInPlace(const Selection& selection, const LawFit& without, const Score& score) {
+  const FittedCandidate* trial = TrialOf(selection, score.effect);
+  if (trial != nullptr && without.law.effects.empty()) {
+    LawFit fit = FitOnwards(selection.weighted, trial->fit);
+    if (fit.usable) return fit;
+  }
+  return FitEffect(selection.weighted, without, score);
+}
+
 // The hypotheses in the place of cause number `c`.
 Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   const WeightedData& weighted = selection->weighted;
@@ -197,9 +227,9 @@ Hypotheses FitPlace(const SelectOptions& options, int c, Selection* selection) {
   for (const Score& score : scores) {
     options.progress.Count();
     if (options.progress.Stopped()) break;
-    if (described && score.effect->elaborate) continue;
-    if (score.effect != own && !IsTried(trying, score)) continue;
-    LawFit fit = score.effect == own ? selection->extended : FitEffect(weighted, without, score);
+    const bool tried = IsTried(trying, score) && !(described && score.effect->elaborate);
+    if (score.effect != own && !tried && !WasNotable(*selection, score.effect)) continue;
+    LawFit fit = score.effect == own ? selection->extended : FitInPlace(*selection, without, score);
     if (!fit.usable || (score.effect != own && LeavesToPath(weighted, without, fit))) continue;
     place.candidates.push_back({score, std::move(fit)});
   }
@@ -219,15 +249,27 @@ void Replace(const Measurement& measurement, const FittedCandidate& better, int 
 }
 
 // What is clearly more probable in the place of an effect than the effect; null if nothing is.
+// Findings are compared, and their most probable mechanisms taken.
 const FittedCandidate* BetterThan(const Effect* own, const Hypotheses& place) {
-  if (place.candidates.empty()) return nullptr;
-  const auto at = std::find_if(
-      place.candidates.begin(), place.candidates.end(),
-      [own](const FittedCandidate& candidate) { return candidate.score.effect == own; });
-  if (at == place.candidates.end()) return nullptr;
   if (place.none.probability > 0.5) return &place.none;
-  const FittedCandidate& best = place.candidates.front();
-  return best.log_posterior > at->log_posterior + kClearly ? &best : nullptr;
+  std::map<std::string, double> findings;
+  const FittedCandidate* present = nullptr;
+  for (const FittedCandidate& candidate : place.candidates) {
+    findings[candidate.score.effect->Finding()] += candidate.probability;
+    if (candidate.score.effect == own) present = &candidate;
+  }
+  if (present == nullptr) return nullptr;
+  const auto weight = [&](const FittedCandidate& candidate) {
+    return std::pair{findings[candidate.score.effect->Finding()], candidate.probability};
+  };
+  const FittedCandidate& best = *std::max_element(
+      place.candidates.begin(), place.candidates.end(),
+      [&](const FittedCandidate& a, const FittedCandidate& b) { return weight(a) < weight(b); });
+  const auto [best_finding, best_own] = weight(best);
+  const auto [own_finding, own_own] = weight(*present);
+  const bool same = best.score.effect->Finding() == own->Finding();
+  const double ratio = same ? best_own / own_own : best_finding / own_finding;
+  return std::log(ratio) > kClearly ? &best : nullptr;
 }
 
 }  // namespace

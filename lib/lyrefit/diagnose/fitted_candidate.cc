@@ -23,6 +23,11 @@ LogEvidence EvidenceOf(const WeightedData& weighted, const LawFit& base,
     const double size = LackOfFit(weighted, base, fit.current);
     departure.center = std::hypot(options.departure, kDepartureOfCauses * size);
     departure.width = kDepartureOfCausesWidth;
+    if (weighted.readings->traits.single) {
+      WeightedData rough = weighted;
+      for (double& sigma : rough.sigma) sigma = std::hypot(sigma, kRoughPartOfCauses * size);
+      return FindLogEvidence(rough, fit, departure);
+    }
   }
   return FindLogEvidence(weighted, fit, departure);
 }
@@ -59,6 +64,27 @@ void Temper(double part, std::vector<FittedCandidate>* candidates) {
   for (FittedCandidate& candidate : *candidates) candidate.log_posterior += sum - tempered;
 }
 
+// Part of a candidate's probability that belongs to the effect whose cells differ one by one. The
+// light that groups of cells miss is even between 0 and 1 by itself; that of cells which differ has
+// a half of Student's t with three degrees of freedom.
+double PartOfSlight(const FittedCandidate& candidate, const DataTraits& traits,
+                    const JudgeOptions& options) {
+  const LawFit& fit = candidate.fit;
+  const Effect& effect = *candidate.score.effect;
+  if (effect.light_missing == nullptr) return 0;
+  const auto odds_of = [&](const char* id) {
+    const double prior = options.priors.Of(id, options.module);
+    return prior / (1 - prior);
+  };
+  const int last = static_cast<int>(fit.law.effects.size()) - 1;
+  const double missing = effect.light_missing(fit.p.data() + fit.law.Offset(last), traits);
+  if (!std::isfinite(missing)) return 0;
+  const double z = missing / kUsualDimmest;
+  const double density = 12 * std::sqrt(3.0) / M_PI / kUsualDimmest / std::pow(3 + z * z, 2);
+  const double odds = odds_of(effect.slight_is) / odds_of(effect.id) * density;
+  return odds / (1 + odds);
+}
+
 }  // namespace
 
 void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions& options,
@@ -83,6 +109,9 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
   none.probability = std::exp(none.log_posterior - total);
   for (FittedCandidate& candidate : candidates) {
     candidate.probability = std::exp(candidate.log_posterior - total);
+    candidate.as_slight =
+        candidate.probability * PartOfSlight(candidate, weighted.readings->traits, options);
+    candidate.probability -= candidate.as_slight;
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const FittedCandidate& a, const FittedCandidate& b) {

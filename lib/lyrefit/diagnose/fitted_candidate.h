@@ -19,6 +19,7 @@ struct FittedCandidate {
   double log_prior = 0;              // ln of the prior odds of its effect
   double log_posterior = -HUGE_VAL;  // ln of prior times marginal likelihood, up to a constant
   double probability = 0;            // among the hypotheses compared
+  double as_slight = 0;              // probability that its curve is one of Effect::slight_is
   double material = 1;               // probability that its effect, if there, exceeds a floor
 
   // As log_posterior, if nothing unknown acts as well. An unknown departure bends to everything,

@@ -92,7 +92,8 @@ void Accept(const FittedCandidate& candidate, SelectionState* now) {
   now->fit = candidate.fit;
   now->causes.push_back({&effect, candidate.score});
   SettleNoise(now);
-  if (effect.momentary) FreeShape(effect, now);
+  // A free shape bends to much, so that it belongs only to what is certain without it.
+  if (effect.momentary && candidate.probability > now->options.probability) FreeShape(effect, now);
 }
 
 // Adds effects that were scored but not fitted.
@@ -115,9 +116,21 @@ EffectSize SizeOfCandidate(const SelectionState& now, const FittedCandidate& can
 double NothingMaterial(const Hypotheses& step) {
   double probability = step.none.probability;
   for (const FittedCandidate& candidate : step.candidates) {
-    probability += candidate.probability * (1 - candidate.material);
+    probability += (candidate.probability + candidate.as_slight) * (1 - candidate.material);
   }
   return probability;
+}
+
+// Least current by which one more cause must change a sweep of one direction. Unlike cells and light
+// that moves are described in part: what is small beside them may be how they are in detail.
+double LeastOfAnother(const SelectionState& now) {
+  const DataTraits& traits = now.weighted.readings->traits;
+  const bool in_part =
+      std::any_of(now.causes.begin(), now.causes.end(), [](const ChosenCause& cause) {
+        return cause.effect->groups || cause.effect->where == Where::kSweep;
+      });
+  if (!in_part || !traits.single || !traits.turns.empty()) return 0;
+  return kLeastPartOfAnother * LackOfFit(now.weighted, now.base, now.fit.current);
 }
 
 // Whether an effect below the floors is large enough to be mentioned.
@@ -174,6 +187,11 @@ void Extend(SelectionState* now, Selection* selection) {
   for (bool first = true;; first = false) {
     const std::vector<Score> scores = ScoreOpen(now);
     if (now->weighted.progress.Stopped()) return;
+    const Floors& floors = now->options.floors;
+    if (floors.Any() && MissedBy(now->weighted, now->fit) < LeastOfAnother(*now)) {
+      if (LeaveOutWrong(scores, {}, now)) continue;
+      return;  // no cause that is left can be large enough
+    }
     Hypotheses step = FitCandidates(*now, scores);
     if (first) {
       for (FittedCandidate& candidate : step.candidates) {
@@ -189,12 +207,12 @@ void Extend(SelectionState* now, Selection* selection) {
     if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
     const FittedCandidate& best = *MostProbable(step.candidates);
     if (!(best.LogComplete() > step.none.LogComplete() + least)) return;
-    const Floors& floors = now->options.floors;
     const EffectSize size = SizeOfCandidate(*now, best);
     if (floors.Any() && !ExceedsFloors(size, floors)) {
       if (IsWorthMention(size, floors)) selection->below = std::move(step);
       return;
     }
+    if (floors.Any() && size.current < LeastOfAnother(*now)) return;
     Accept(best, now);
     SwapCauses(now);
     if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);

@@ -76,6 +76,8 @@ bool LeaveOutFurthest(const std::vector<Score>& scores, const Hypotheses& step,
     const bool beaten = step.none.LogComplete() + odds < best.LogComplete();
     const bool alone = best.score.effect->momentary && IsAlone(*weighted, *fit, furthest->outlier);
     if (beaten && !alone) return false;
+  } else if (!fit->law.effects.empty() && !IsAlone(*weighted, *fit, furthest->outlier)) {
+    return false;  // the causes may miss it in part
   }
   WeightedData without = *weighted;
   without.used[furthest->outlier] = 0;

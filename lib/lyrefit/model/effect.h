@@ -362,6 +362,14 @@ struct Effect {
   // Whether one curve hides a part of the effect at these parameters, so that the power to gain is
   // at least what the effect takes. Null: never.
   bool (*hides)(const double* p, const DataTraits&) = nullptr;
+  // The largest part of their light that cells miss, where every substring has a light of its own:
+  // slight differences are then drawn alike by cells that differ one by one, the effect `slight_is`.
+  // NaN where substrings are alike. Null: never so.
+  double (*light_missing)(const double* p, const DataTraits&) = nullptr;
+  const char* slight_is = "";  // id of that effect
+  // Standard deviation of the power to gain, in parts of it, where the curve never shows the cells
+  // that would give it. 0: that of other causes.
+  double gain_scatter = 0;
   // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
   // covered and only the other groups generate. The effect begins in the first group. Returns false
   // if the effect vanishes. Null: the effect is the same in all cells.

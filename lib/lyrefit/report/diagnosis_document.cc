@@ -162,7 +162,7 @@ double MaxPower(const Diagnosis& diagnosis) {
   return kUnknown;
 }
 
-// "16.7 W (15.1 to 18.3), 7 % of Pmax"; empty without power to gain.
+// "16.7 W (15.1 to 18.3), 7 % of Pmax", "180 W, 1.5 times what it gives now"; empty without power to gain.
 std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_least) {
   if (at_least) return "a part of the loss at least: what all cells lose alike does not show";
   if (!std::isfinite(power.value)) return "";
@@ -172,8 +172,10 @@ std::string PowerText(const Diagnosis& diagnosis, const Sized& power, bool at_le
                      : size < 1  ? WithInterval(power, 1e3, "mW")
                                  : WithInterval(power, 1, "W");
   const double all = MaxPower(diagnosis);
-  if (all > 0) text += ", " + ShortPercent(power.value / all) + " of Pmax";
-  return text;
+  if (!(all > 0)) return text;
+  const double part = power.value / all;
+  return text + (part < 1 ? ", " + ShortPercent(part) + " of Pmax"
+                          : fmt::format(", {:.1f} times what it gives now", part));
 }
 
 // What else could stand in the place of a cause: with probabilities if they are known.

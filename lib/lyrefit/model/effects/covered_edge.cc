@@ -188,6 +188,12 @@ Effect CoveredEdge() {
   e.parameters = CoveredEdgeParameters();
   e.cell = [](const auto* p, auto* cell) { SetCoveredEdge(p, cell); };
   e.groups = true;
+  e.light_missing = [](const double* p, const DataTraits&) {
+    double missing = 0;
+    for (int k = 0; k < kMostEdges; ++k) missing = std::max(missing, p[2 * k]);
+    return missing;
+  };
+  e.slight_is = "scatter";
   e.covered = CoveredEdgeLeft;
   e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
     return CoveredEdgeStarts(shape, traits);

@@ -23,7 +23,7 @@ Effect Drift() {
                       .BelowUpper()
                       .Usual(0.03),
                   Parameter("k", "curvature", "how much faster the light changes late than early")
-                      .Between(-2, 2)
+                      .Between(-4, 4)
                       .Usual(0.5)
                       .FixedByDefault()
                       .AbsentAt(0),

@@ -71,6 +71,7 @@ Effect OpenSubstring() {
       "the circuit of a substring or a module is broken, and its bypass diodes carry all current";
   e.needs = "a curve of a module of known cells, bypass diodes and temperature";
   e.acts = "at open circuit: the share of the open substrings is missing, and the end is rounded";
+  e.gain_scatter = 0.08;  // `fault_study field`, modules of two to four substrings
   e.confused_with = {"bypass_short", "temperature_or_cells", "shading"};
   e.separate_by =
       "a thermal image: the bypass diodes of the open substrings are hot; a shorted diode is cold";

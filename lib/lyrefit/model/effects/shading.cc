@@ -96,6 +96,12 @@ Effect Shading() {
     cell->bypass = p[2];
   };
   e.groups = true;
+  // Of two substrings the brighter one may be covered as well.
+  e.hides = [](const double*, const DataTraits& traits) { return SubstringsOf(traits) == 2; };
+  e.light_missing = [](const double* p, const DataTraits& traits) {
+    return SubstringsOf(traits) == 2 ? p[0] : kUnknown;
+  };
+  e.slight_is = "scatter";
   e.covered = SecondIsShare;
   e.why_not = NeedsBypassDiodes;
   e.probes = [](const DataTraits& traits) {

@@ -231,6 +231,15 @@ Effect Substrings() {
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
   e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };
   e.groups = true;
+  e.light_missing = [](const double* p, const DataTraits& traits) {
+    if (!LeavesOneBright(p, traits)) return kUnknown;
+    double missing = 0;
+    for (int k = 0; k < kGroups; ++k) {
+      if (p[2 * k + 1] > 0) missing = std::max(missing, p[2 * k]);
+    }
+    return missing;
+  };
+  e.slight_is = "scatter";
   e.hides = LeavesOneBright;
   e.covered = SubstringsCovered;
   e.starts = SubstringStarts;

@@ -14,7 +14,7 @@ constexpr double kNothing = 1e-9;  // added to z^2: keeps its logarithm finite
 Effect Transient() {
   Effect e;
   e.id = "transient";
-  e.title = "passing dip of the irradiance";
+  e.title = "passing dip or peak of the irradiance";
   e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 - a exp(-|z|^q / 2)), z = (x - c) / (w (1 + k sign(x - c)))";
   e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";

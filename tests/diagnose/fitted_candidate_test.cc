@@ -112,7 +112,8 @@ TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
 }
 
 // The part of a shading's probability that cells which differ one by one have.
-double PartOfScatter(double light_missing, int substrings) {
+double PartOfScatter(double light_missing, int substrings,
+                     const std::vector<const Effect*>& candidates = {}) {
   SyntheticData made = OnTheData(SyntheticCurve({}));
   Readings readings = made.measurement.readings;
   readings.traits.substrings = substrings;
@@ -124,6 +125,7 @@ double PartOfScatter(double light_missing, int substrings) {
   hypotheses.candidates = {shading, With(made, hypotheses.none.fit, "irr_step")};
   JudgeOptions options;
   options.priors.given = {{"shading", 0.1}, {"scatter", 0.1}};
+  options.candidates = candidates;
   Judge(made.weighted, hypotheses.none.fit, options, &hypotheses);
   double part = kUnknown, sum = hypotheses.none.probability;
   for (const FittedCandidate& candidate : hypotheses.candidates) {
@@ -145,6 +147,9 @@ TEST(JudgeTest, SlightDifferencesOfLightMayBeCellsThatDiffer) {
   EXPECT_NEAR(PartOfScatter(0.05, 2), density / (1 + density), 1e-9);
   EXPECT_LT(PartOfScatter(0.5, 2), 0.02);
   EXPECT_EQ(PartOfScatter(0.05, 3), 0);  // two of three substrings alike
+  // Only what is asked for is named.
+  EXPECT_EQ(PartOfScatter(0.05, 2, {FindEffect("shading"), FindEffect("irr_step")}), 0);
+  EXPECT_GT(PartOfScatter(0.05, 2, {FindEffect("shading"), FindEffect("scatter")}), 0.8);
 }
 
 // Evidence that readings which alternate by 0.01 A about a step of the light take from the step.

@@ -231,6 +231,7 @@ SelectOptions MakeSelectOptions(const PreparedDiagnosis& prepared,
   select.floors = {options.floor_current, options.floor_power};
   select.base = StartingLaw(readings, options.base);
   select.candidates = Candidates(prepared.known, readings.traits, options);
+  select.judge.candidates = select.candidates;
   select.progress = progress;
   return select;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "lyrefit/diagnose/decision_constants.h"
 
@@ -72,6 +73,12 @@ double PartOfSlight(const FittedCandidate& candidate, const DataTraits& traits,
   const LawFit& fit = candidate.fit;
   const Effect& effect = *candidate.score.effect;
   if (effect.light_missing == nullptr) return 0;
+  const auto& open = options.candidates;
+  if (!open.empty() && std::none_of(open.begin(), open.end(), [&](const Effect* other) {
+        return std::string_view(effect.slight_is) == other->id;
+      })) {
+    return 0;
+  }
   const auto odds_of = [&](const char* id) {
     const double prior = options.priors.Of(id, options.module);
     return prior / (1 - prior);

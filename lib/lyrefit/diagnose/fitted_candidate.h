@@ -43,6 +43,7 @@ struct JudgeOptions {
   double departure_width = 0;  // see DeparturePrior
   CausePriors priors;
   bool module = false;
+  std::vector<const Effect*> candidates = {};  // that may be named; empty: all
 };
 
 // Sets evidence and probability of every hypothesis and sorts the candidates. `base`: the fit

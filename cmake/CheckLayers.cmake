@@ -7,23 +7,23 @@ cmake_minimum_required(VERSION 3.25)
 
 # folder -> the modules of lib/lyrefit, or their folders, that its files may include, besides itself
 set(ALLOWED_base)
-set(ALLOWED_curve base)
-set(ALLOWED_model base curve)
-set(ALLOWED_model/effects base curve model)  # independent of fitting
+set(ALLOWED_read base)
+set(ALLOWED_model base read)
+set(ALLOWED_model/effects base read model)  # independent of fitting
 set(ALLOWED_search base)  # independent of photovoltaics
-set(ALLOWED_estimate/refine base curve model)
-set(ALLOWED_estimate/fit base curve model model/effects search estimate/refine)
-set(ALLOWED_estimate/family base curve model model/effects search estimate/refine estimate/fit)
-set(ALLOWED_certify base curve model estimate/refine estimate/fit)
-set(ALLOWED_diagnose base curve model model/effects search estimate certify)
-set(ALLOWED_translate base curve model model/effects estimate/fit estimate/family diagnose)
+set(ALLOWED_estimate/refine base read model)
+set(ALLOWED_estimate/fit base read model model/effects search estimate/refine)
+set(ALLOWED_estimate/family base read model model/effects search estimate/refine estimate/fit)
+set(ALLOWED_certify base read model estimate/refine estimate/fit)
+set(ALLOWED_diagnose base read model model/effects search estimate certify)
+set(ALLOWED_translate base read model model/effects estimate/fit estimate/family diagnose)
 # Computes nothing.
-set(ALLOWED_report base curve model search estimate/fit estimate/family certify diagnose translate)
+set(ALLOWED_report base read model search estimate/fit estimate/family certify diagnose translate)
 # A separate library with its own writers in study/report. The core's writers do not depend on it.
-set(ALLOWED_study base curve model model/effects search estimate certify report)
+set(ALLOWED_study base read model model/effects search estimate certify report)
 # A separate library for many curves, their rows and their page.
-set(ALLOWED_batch base curve model model/effects estimate/fit estimate/family certify diagnose translate report)
-set(FOLDERS base curve model model/effects search estimate/refine estimate/fit estimate/family certify diagnose
+set(ALLOWED_batch base read model model/effects estimate/fit estimate/family certify diagnose translate report)
+set(FOLDERS base read model model/effects search estimate/refine estimate/fit estimate/family certify diagnose
     translate report study batch)
 # A folder that is named in FOLDERS, or the module: that of "study/report/plots.h" is study.
 set(IN_FOLDER "^lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")

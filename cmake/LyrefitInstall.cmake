@@ -45,8 +45,8 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/translate_options.h
   translate/uncertainty_options.h
   # records that these functions return
-  curve/curve_set.h
-  curve/iv_curve.h
+  read/curve_set.h
+  read/iv_curve.h
   diagnose/diagnosis.h
   diagnose/reference_comparison.h
   diagnose/plan.h
@@ -59,16 +59,22 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/field_test.h
   translate/translation_report.h
   # readers, and the writer of curves
-  curve/assumption.h
-  curve/bare_curve.h
-  curve/check_readings.h
-  curve/condition_options.h
-  curve/curve_files.h
-  curve/nearest_curve.h
-  curve/number_text.h
-  curve/read_curve.h
-  curve/write_curve.h
+  read/assumption.h
+  read/bare_curve.h
+  read/batch_source.h
+  read/check_readings.h
+  read/condition_options.h
+  read/curve_files.h
+  read/nearest_curve.h
+  read/number_text.h
+  read/read_curve.h
+  read/spreadsheet_text.h
+  read/write_curve.h
+  estimate/family/module_sheet.h
+  estimate/family/read_module.h
   estimate/family/read_pvlib.h
+  estimate/family/simulate_module.h
+  estimate/family/write_pan.h
   # writers of the records
   report/csv.h
   report/document.h
@@ -95,7 +101,7 @@ set(LYREFIT_PUBLIC_HEADERS
   model/string_layout.h
   model/term.h
   model/translation.h
-  curve/key_points.h
+  read/key_points.h
   # headers that all others share
   base/constants.h
   base/dual.h
@@ -106,7 +112,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/numbers.h
   base/observer.h
   base/option.h
-  curve/setting_text.h
+  read/setting_text.h
   estimate/fit/effect_text.h
   base/parallel.h
   base/portable_exp.h
@@ -136,7 +142,6 @@ set(LYREFIT_BATCH_PUBLIC_HEADERS
   batch.h
   batch/batch.h
   batch/batch_options.h
-  batch/batch_source.h
   batch/batch_task.h
   batch/pack.h
   batch/history.h

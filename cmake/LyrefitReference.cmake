@@ -15,7 +15,7 @@ endif()
 
 set(LYREFIT_REFERENCE_DIR "${PROJECT_BINARY_DIR}/reference")
 set(REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/README.md")
-foreach(module base curve model model/effects search estimate estimate/refine estimate/fit estimate/family certify
+foreach(module base read model model/effects search estimate estimate/refine estimate/fit estimate/family certify
         diagnose translate report study batch)
   list(APPEND REFERENCE_PAGES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${module}/README.md")
 endforeach()

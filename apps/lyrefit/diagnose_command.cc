@@ -53,6 +53,7 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
       .ReadsCurves();
   verb->AddSwitch("--together", &request->together,
                   "all files are one measurement: lit and dark, up and down, a family");
+  request->reading.keep_limited = true;  // a limit of the instrument is a finding
   AddColumnFlags(verb, &request->reading, &request->list_columns);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   AddTableFlags(verb, kDiagnoseOptionTable, &request->options);

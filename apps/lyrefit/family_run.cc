@@ -6,10 +6,11 @@
 
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/family/fit_individually.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/estimate/family/write_pan.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -50,7 +51,14 @@ Expected<void> WritePvlib(const FamilyReport& report, const CurveSet& set,
                       CecRow(report.translation, report.refined, report.name, technology)));
 }
 
-// Writes the output for pvlib last: it may fail, and all other files are then complete.
+Expected<void> WritePan(const FamilyReport& report, const CurveSet& set, const std::string& file) {
+  const PanNotes notes = NotesOf(report.name, set.curves.front().notes);
+  const auto text = PanText(report.translation, report.refined, notes);
+  return text ? WriteOutput(file, *text) : Fail("--pan: " + text.error().message);
+}
+
+// Writes the outputs for pvlib and PVsyst last: they may fail, and all other files are then
+// complete.
 Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const CurveSet& set,
                      const FamilyFlags& flags, const ReportFlags& output) {
   TRY(WriteWanted(output.json_file, [&] { return FamilyJson(report); }));
@@ -61,7 +69,8 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(FamilyDocument(report, set), FamilyJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
-  return flags.pvlib_file.empty() ? Expected<void>() : WritePvlib(report, set, flags.pvlib_file);
+  if (!flags.pvlib_file.empty()) TRY(WritePvlib(report, set, flags.pvlib_file));
+  return flags.pan_file.empty() ? Expected<void>() : WritePan(report, set, flags.pan_file);
 }
 
 }  // namespace
@@ -89,7 +98,8 @@ Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
   if (ReadCurve(flags.file, first)) how = "choose one with --column NAME|N (see --list-columns)";
   if (folder) how = "give one of its files";
   return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
-                      "desoto|pvsyst|free|auto",
+                      "desoto|pvsyst|free|auto if they are of one device, or each by itself with "
+                      "lyrefit batch",
                       set->curves.size(), how),
           flags.file};
 }

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/curve/curve_files.h"
+#include "lyrefit/read/curve_files.h"
 #include "lyrefit/report/plots.h"
 
 namespace lyrefit {

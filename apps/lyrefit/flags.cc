@@ -4,9 +4,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/plots.h"
 
 namespace lyrefit {

@@ -13,10 +13,10 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
-#include "lyrefit/curve/condition_options.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/condition_options.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/figure.h"
 #include "lyrefit/report/json.h"
 #include "output.h"
@@ -193,7 +193,8 @@ Expected<IvCurve> ReadFlaggedCurve(const CurveFlags& flags);
 
 inline constexpr char kModuleHelp[] =
     "JSON with what the sheet of a module says: rated_power_W, gamma_pmp_percent_K, "
-    "technology and coefficients; flags go before it";
+    "technology and coefficients; or a PVsyst .PAN file, or a row of SAM's library of modules "
+    "(FILE#NAME); flags go before it";
 
 // Output flags of a verb with a report.
 struct ReportFlags {

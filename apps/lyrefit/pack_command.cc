@@ -8,8 +8,8 @@
 #include "interrupt.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/pack.h"
+#include "lyrefit/read/batch_source.h"
 #include "verbs.h"
 
 namespace lyrefit {

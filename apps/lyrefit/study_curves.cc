@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/nearest_curve.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/nearest_curve.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
 #include "study_flags.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "errors.h"
-#include "lyrefit/curve/number_text.h"
+#include "lyrefit/read/number_text.h"
 #include "result.h"
 
 namespace lyrefit::python {

@@ -4,7 +4,7 @@
 #include "curves.h"
 #include "docs.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/curve/write_curve.h"
+#include "lyrefit/read/write_curve.h"
 #include "result.h"
 #include "work.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fit.h"
-#include "lyrefit/curve/bare_curve.h"
+#include "lyrefit/read/bare_curve.h"
 #include "work.h"
 
 namespace lyrefit::python {

@@ -8,10 +8,10 @@
 
 #include "columns.h"
 #include "keywords.h"
-#include "lyrefit/curve/condition_options.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/condition_options.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit::python {
 

@@ -178,7 +178,8 @@ py::object DiagnoseOne(py::handle curves, py::handle current, const py::kwargs& 
   const py::object reference = keywords.Take("reference").value_or(py::none());
   const auto module = keywords.Take("module");
   const DiagnoseAsked asked = ReadDiagnoseKeywords(&keywords);
-  const CurveKeywords said = ReadCurveKeywords(&keywords);
+  CurveKeywords said = ReadCurveKeywords(&keywords);
+  said.reading.keep_limited = true;  // a limit of the instrument is a finding
   keywords.Finish();
   const bool outlier = module && TruthOf("module", *module);
   if (outlier && !reference.is_none()) Raise({"only one of healthy and module", {}});

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "lyrefit/report/csv.h"
+#include "lyrefit/read/spreadsheet_text.h"
 
 // pandas frames of results; pandas is imported at the first call.
 namespace lyrefit::python {

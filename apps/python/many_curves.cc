@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "curves.h"
-#include "lyrefit/batch/batch_source.h"
+#include "lyrefit/read/batch_source.h"
 #include "work.h"
 
 namespace lyrefit::python {

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/curve/condition_options.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/estimate/fit/fit_options.h"
+#include "lyrefit/read/condition_options.h"
+#include "lyrefit/read/read_curve.h"
 #include "table_options.h"
 
 namespace lyrefit {

@@ -18,10 +18,10 @@
 //   }
 
 #include "lyrefit/batch/batch.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/history.h"
 #include "lyrefit/batch/pack.h"
 #include "lyrefit/batch/plant_page.h"
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/batch/sparkline.h"
+#include "lyrefit/read/batch_source.h"

@@ -25,20 +25,22 @@
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
+// estimate/family/read_module.h reads modules of pvlib, PVsyst and SAM, simulate_module.h beside it
+// simulates one, write_pan.h writes one for PVsyst.
 // estimate/family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
 // curve and proves the floor of its RMSE. diagnose/reference.h compares a sweep with reference
 // sweeps of its module. study.h, of the separate library lyrefit::study, compares searches and
 // checks publications.
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/curve/read_curve.h"
-#include "lyrefit/curve/write_curve.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"

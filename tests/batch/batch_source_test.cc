@@ -1,4 +1,4 @@
-#include "lyrefit/batch/batch_source.h"
+#include "lyrefit/read/batch_source.h"
 
 #include <sys/stat.h>
 
@@ -186,10 +186,12 @@ TEST(JsonList, GivesObjectsOfAListAndSaysWhereItIsCut) {
       ElementsAre("a: ok", HasSubstr("it is cut off"), HasSubstr("the list of curves is cut off")));
 }
 
-TEST(JsonWhole, GivesAllCurvesOfADocumentOfAnyShape) {
+TEST(WholeFile, GivesAllCurvesOfADocumentOrTableOfAnyShape) {
   const std::string data = std::string(LYREFIT_DATA_DIR) + "/formats/";
-  const auto items = ReadBatch({data + "nomad.json", data + "records.json", data + "plain.csv"});
-  ASSERT_EQ(items.size(), 4U);
+  const auto items = ReadBatch({data + "nomad.json", data + "records.json", data + "plain.csv",
+                                data + "sweeps_of_directions.json", data + "named_lists.json",
+                                data + "pixels_names_units.txt", data + "matrix_wide.csv"});
+  ASSERT_EQ(items.size(), 14U);
   for (const ReadItem& one : items) EXPECT_TRUE(one.curve.curve) << MessageOf(one.curve.curve);
 }
 

@@ -1,4 +1,4 @@
-#include "lyrefit/batch/list_text.h"
+#include "lyrefit/read/list_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace lyrefit {
 namespace {
 
 std::vector<double> Values(std::string_view text) {
-  RowList list;
+  Record list;
   ParseList(text, 1, &list);
   return list.values;
 }
@@ -26,7 +26,7 @@ TEST(ParseList, TakesEverySeparator) {
 }
 
 TEST(ParseList, RemembersTheFirstThatIsNoNumber) {
-  RowList list;
+  Record list;
   ParseList("0;;x;3", 7, &list);
   ASSERT_EQ(list.values.size(), 4U);
   EXPECT_TRUE(std::isnan(list.values[1]) && std::isnan(list.values[2]));
@@ -45,13 +45,13 @@ TEST(IsList, TellsListsFromOtherFields) {
 
 TEST(ParsePairs, TakesVoltageAndCurrentFromOneField) {
   for (const char* text : {"V*I#0*8#1*7#", "0*8#1*7", "I*V#8*0#7*1", "0:8;1:7", "0:8 1:7"}) {
-    RowFields fields;
+    Records fields;
     ASSERT_TRUE(ParsePairs(text, 1, &fields)) << text;
     const bool turned = fields.lists[0].name == "I";
     EXPECT_EQ(fields.lists[turned ? 1 : 0].values, (std::vector<double>{0, 1})) << text;
     EXPECT_EQ(fields.lists[turned ? 0 : 1].values, (std::vector<double>{8, 7})) << text;
   }
-  RowFields fields;
+  Records fields;
   for (const char* text : {"", "NA", "0 1 2", "V*I#"}) {
     EXPECT_FALSE(ParsePairs(text, 1, &fields)) << text;
   }

@@ -1,4 +1,4 @@
-#include "lyrefit/batch/natural_order.h"
+#include "lyrefit/read/natural_order.h"
 
 #include <gtest/gtest.h>
 

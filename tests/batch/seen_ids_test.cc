@@ -1,4 +1,4 @@
-#include "lyrefit/batch/seen_ids.h"
+#include "lyrefit/read/seen_ids.h"
 
 #include <gtest/gtest.h>
 

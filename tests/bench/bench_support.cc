@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/search_space.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit::bench {
 namespace {

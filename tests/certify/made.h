@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/certify/mixture.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/model/kernel.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 

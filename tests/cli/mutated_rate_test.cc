@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cli/run_app.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "estimate/family/synthetic_effects.h"
-#include "lyrefit/curve/write_curve.h"
+#include "lyrefit/read/write_curve.h"
 #include "repeats.h"
 #include "run_app.h"
 #include "same_curve.h"

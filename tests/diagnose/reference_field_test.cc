@@ -15,9 +15,9 @@
 #include "../repeats.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/diagnose/sweep_state.h"
+#include "lyrefit/read/curve_set.h"
 
 namespace lyrefit {
 namespace {

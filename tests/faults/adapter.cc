@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/priors.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/read/curve_set.h"
 
 namespace faults {
 namespace {

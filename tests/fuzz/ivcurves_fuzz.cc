@@ -1,5 +1,5 @@
 #include "fuzz_file.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 // Reader of an ivcurves JSON file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

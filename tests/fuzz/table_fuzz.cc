@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "fuzz_file.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;

@@ -6,8 +6,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

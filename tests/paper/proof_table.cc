@@ -7,9 +7,9 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

@@ -13,10 +13,10 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 namespace {

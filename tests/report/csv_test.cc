@@ -1,4 +1,5 @@
 #include "lyrefit/report/csv.h"
+#include "lyrefit/read/spreadsheet_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

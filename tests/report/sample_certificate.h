@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 

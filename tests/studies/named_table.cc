@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/curve/number_text.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/curve/table_lines.h"
+#include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
 

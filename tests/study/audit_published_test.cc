@@ -9,10 +9,10 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
-#include "lyrefit/curve/table_lines.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/table_lines.h"
 #include "lyrefit/study/audit.h"
 #include "repeats.h"
 

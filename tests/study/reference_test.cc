@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 namespace {

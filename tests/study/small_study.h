@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 

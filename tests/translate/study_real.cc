@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/translate.h"
 #include "translate/carried.h"

@@ -10,8 +10,8 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/read/batch_source.h"
 #include "lyrefit/report/document.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

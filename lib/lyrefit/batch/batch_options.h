@@ -9,9 +9,9 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/string_pages.h"
-#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/read/batch_source.h"
+#include "lyrefit/read/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

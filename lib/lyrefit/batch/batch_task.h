@@ -11,10 +11,10 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/estimate/fit/fit_options.h"
+#include "lyrefit/read/batch_source.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 namespace {

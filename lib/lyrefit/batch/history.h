@@ -8,9 +8,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/diagnose/reference_options.h"
+#include "lyrefit/read/batch_source.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

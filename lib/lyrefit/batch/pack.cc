@@ -13,9 +13,9 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/row_curve.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/write_curve.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/row_curve.h"
+#include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/csv.h"
 
 namespace lyrefit {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/batch/batch_source.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/result_row.h"
+#include "lyrefit/read/batch_source.h"
 
 namespace lyrefit {
 

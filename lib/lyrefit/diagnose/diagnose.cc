@@ -9,8 +9,6 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/check_readings.h"
-#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/decision_constants.h"
@@ -28,6 +26,8 @@
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/read/check_readings.h"
+#include "lyrefit/read/sweep_order.h"
 
 namespace lyrefit {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 

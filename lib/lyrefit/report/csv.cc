@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/report/readable.h"
 #include "lyrefit/report/record_parts.h"
 
@@ -98,28 +98,6 @@ std::string CauseLine(const std::string& name, const Cause& cause, bool named) {
                   CsvField(cause.sentence)});
 }
 
-// Whether the text is a number of digits, signs, point and exponent.
-bool IsPlainNumber(std::string_view text) {
-  return text.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
-         ParseNumber(text).has_value();
-}
-
-// Whether a spreadsheet would run the text as a formula, ignoring apostrophes before it.
-bool RunsInSpreadsheets(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  constexpr std::string_view kSigns[] = {
-      "=", "+", "-", "@", "\xef\xbc\x9d", "\xef\xbc\x8b", "\xef\xbc\x8d", "\xef\xbc\xa0"};
-  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
-  if (text.empty()) return false;
-  const bool breaks = text.front() == '\t' || text.front() == '\r' || text.front() == '\n';
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  if (breaks || text.empty()) return breaks;
-  text = text.substr(0, text.find_last_not_of(kBlanks) + 1);
-  return std::any_of(std::begin(kSigns), std::end(kSigns), [text](std::string_view sign) {
-    return text.size() > sign.size() && text.substr(0, sign.size()) == sign && !IsPlainNumber(text);
-  });
-}
-
 }  // namespace
 
 std::string CsvField(const std::string& text, CsvTexts texts) {
@@ -132,11 +110,6 @@ std::string CsvField(const std::string& text, CsvTexts texts) {
     quoted += c;
   }
   return quoted + "\"";
-}
-
-std::string WithoutApostrophe(std::string text) {
-  if (!text.empty() && text.front() == '\'' && RunsInSpreadsheets(text)) text.erase(0, 1);
-  return text;
 }
 
 std::string CsvField(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }

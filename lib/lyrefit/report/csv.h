@@ -61,8 +61,6 @@ enum class CsvTexts {
 // looks like one with an added apostrophe. Numbers are unchanged. Bytes that are not UTF-8 are
 // replaced.
 std::string CsvField(const std::string& text, CsvTexts texts = CsvTexts::kSafe);
-// Reverses the apostrophe of CsvField.
-std::string WithoutApostrophe(std::string text);
 // The shortest text that reads back to the same number; empty for NaN and infinity.
 std::string CsvField(double value);
 // One line of fields, with its line end.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lyrefit/base/enum_text.h"
-#include "lyrefit/curve/json_text.h"
 #include "lyrefit/model/device_effects.h"
+#include "lyrefit/read/json_text.h"
 #include "lyrefit/report/json.h"
 
 // Conversion of records to JSON: a function to_json for each record, which nlohmann finds by type

@@ -8,8 +8,8 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/read/number_text.h"
 #include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_explain.h"

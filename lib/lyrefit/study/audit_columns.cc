@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_lines.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
 namespace {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "lyrefit/curve/key_points.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/read_curve.h"
-#include "lyrefit/curve/table_curve.h"
+#include "lyrefit/read/key_points.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/table_curve.h"
 
 namespace lyrefit {
 namespace {

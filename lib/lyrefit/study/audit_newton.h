@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/model/device.h"
+#include "lyrefit/read/iv_curve.h"
 
 namespace lyrefit {
 

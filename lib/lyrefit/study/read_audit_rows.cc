@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/curve/table_lines.h"
-#include "lyrefit/curve/text_encoding.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/table_lines.h"
+#include "lyrefit/read/text_encoding.h"
 #include "lyrefit/study/audit_columns.h"
 
 namespace lyrefit {

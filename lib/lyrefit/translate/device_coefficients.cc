@@ -10,9 +10,9 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/model/translation.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 namespace {

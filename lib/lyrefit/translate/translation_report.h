@@ -7,9 +7,9 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/key_points.h"
 #include "lyrefit/translate/checklist.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"

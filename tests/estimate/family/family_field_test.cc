@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/read/curve_set.h"
 #include "repeats.h"
 
 namespace lyrefit {

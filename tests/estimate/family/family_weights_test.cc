@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lyrefit/curve/key_points.h"
+#include "lyrefit/read/key_points.h"
 #include "lyrefit/report/documents.h"
 #include "quick.h"
 #include "repeats.h"

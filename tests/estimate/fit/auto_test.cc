@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "estimate/fit/simulated.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/held_out.h"
+#include "lyrefit/read/read_curve.h"
 #include "repeats.h"
 
 namespace lyrefit {

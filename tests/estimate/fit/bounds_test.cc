@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/fit/simulated.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

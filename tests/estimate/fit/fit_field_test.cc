@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 namespace {

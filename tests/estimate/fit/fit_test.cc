@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "estimate/fit/simulated.h"
-#include "lyrefit/curve/read_curve.h"
+#include "lyrefit/read/read_curve.h"
 #include "repeats.h"
 
 namespace lyrefit {

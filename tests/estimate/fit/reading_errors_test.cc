@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve.h"
 #include "repeats.h"
 #include "simulated.h"
 #include "temp_folder.h"

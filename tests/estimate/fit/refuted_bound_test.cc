@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve.h"
 #include "simulated.h"
 
 namespace lyrefit {

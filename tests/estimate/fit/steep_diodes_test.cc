@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/term.h"
+#include "lyrefit/read/read_curve.h"
 
 // Diodes with an n so small that their exponents are cut at a reading.
 namespace lyrefit {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "lyrefit/curve/read_curve.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/estimate/family/coefficients.h"
 #include "lyrefit/estimate/family/data_sheet_values.h"
 #include "lyrefit/estimate/family/family_of_sheet.h"
 #include "lyrefit/estimate/family/key_point_curve.h"
 #include "lyrefit/estimate/family/key_point_solver.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 namespace {

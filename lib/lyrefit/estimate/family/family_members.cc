@@ -10,10 +10,10 @@
 #include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/check_readings.h"
-#include "lyrefit/curve/dark.h"
-#include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/family/curve_subset.h"
+#include "lyrefit/read/check_readings.h"
+#include "lyrefit/read/dark.h"
+#include "lyrefit/read/key_points.h"
 
 namespace lyrefit {
 namespace {

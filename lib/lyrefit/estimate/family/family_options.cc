@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "lyrefit/curve/number_text.h"
 #include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 

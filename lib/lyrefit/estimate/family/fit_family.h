@@ -3,10 +3,10 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/estimate/family/family_options.h"
 #include "lyrefit/estimate/family/family_report.h"
 #include "lyrefit/model/translation.h"
+#include "lyrefit/read/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

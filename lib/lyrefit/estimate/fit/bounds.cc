@@ -8,8 +8,8 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
-#include "lyrefit/curve/key_points.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/key_points.h"
 
 namespace lyrefit {
 namespace {

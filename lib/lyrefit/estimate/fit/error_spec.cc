@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 

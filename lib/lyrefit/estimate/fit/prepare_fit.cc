@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/distinct_readings.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/variant_problem.h"
@@ -15,6 +14,7 @@
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
 #include "lyrefit/model/term.h"
+#include "lyrefit/read/check_readings.h"
 
 namespace lyrefit {
 

@@ -8,9 +8,9 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/curve/json_text.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 namespace {

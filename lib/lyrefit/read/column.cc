@@ -1,0 +1,412 @@
+#include "lyrefit/read/column.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/read/label.h"
+#include "lyrefit/read/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+struct Name {
+  std::string_view text;  // letters and digits only, lower case
+  ColumnKind kind;
+};
+
+constexpr Name kNames[] = {
+    {"v", ColumnKind::kVoltage},
+    {"u", ColumnKind::kVoltage},
+    {"voltage", ColumnKind::kVoltage},
+    {"voltages", ColumnKind::kVoltage},
+    {"potential", ColumnKind::kVoltage},
+    {"ewe", ColumnKind::kVoltage},  // working electrode
+    {"vf", ColumnKind::kVoltage},   // "full", the measured voltage of potentiostats
+    {"vm", ColumnKind::kVoltage},
+    {"spannung", ColumnKind::kVoltage},
+    {"tension", ColumnKind::kVoltage},
+    {"tensione", ColumnKind::kVoltage},
+    {"voltaje", ColumnKind::kVoltage},
+    {"i", ColumnKind::kCurrent},
+    {"im", ColumnKind::kCurrent},
+    {"current", ColumnKind::kCurrent},
+    {"currents", ColumnKind::kCurrent},
+    {"strom", ColumnKind::kCurrent},
+    {"stromst\u00e4rke", ColumnKind::kCurrent},
+    {"courant", ColumnKind::kCurrent},
+    {"corrente", ColumnKind::kCurrent},
+    {"corriente", ColumnKind::kCurrent},
+    {"sigma", ColumnKind::kSigma},
+    {"sigmai", ColumnKind::kSigma},
+    {"currentsigma", ColumnKind::kSigma},
+    {"sigmacurrent", ColumnKind::kSigma},
+    {"uncertainty", ColumnKind::kSigma},
+    {"currentuncertainty", ColumnKind::kSigma},
+    {"time", ColumnKind::kTime},
+    {"elapsedtime", ColumnKind::kTime},
+    {"t", ColumnKind::kTime},
+    {"sweep", ColumnKind::kSweep},
+    {"scan", ColumnKind::kSweep},
+    {"direction", ColumnKind::kSweep},
+    {"scandirection", ColumnKind::kSweep},
+    {"sweepdirection", ColumnKind::kSweep},
+    {"curve", ColumnKind::kCurve},
+    {"irradiance", ColumnKind::kIrradiance},
+    {"irrad", ColumnKind::kIrradiance},
+    {"effectiveirradiance", ColumnKind::kIrradiance},
+    {"intensity", ColumnKind::kIrradiance},
+    {"g", ColumnKind::kIrradiance},
+    {"poa", ColumnKind::kIrradiance},
+    {"poairradiance", ColumnKind::kIrradiance},
+    {"irradiancepoa", ColumnKind::kIrradiance},
+    {"temperature", ColumnKind::kTemperature},
+    {"temp", ColumnKind::kTemperature},
+    {"tcell", ColumnKind::kTemperature},
+    {"tc", ColumnKind::kTemperature},
+    {"tmodule", ColumnKind::kTemperature},
+    {"modt", ColumnKind::kTemperature},
+    {"j", ColumnKind::kCurrentDensity},
+    {"currentdensity", ColumnKind::kCurrentDensity},
+};
+
+// Words that say where a quantity was measured, not which one. A single letter may carry them:
+// "Vmeas", "Idc".
+constexpr std::string_view kQualifiers[] = {
+    "pv",   "module", "cell",      "panel",    "array", "string", "load",
+    "bias", "dut",    "device",    "measured", "meas",  "dc",     "output",
+    "in",   "opc",    "electrode", "we",       "smu",   "corr",   "corrected"};
+
+// Words that a number makes one of several: "Ch2 voltage", "PV1 current".
+constexpr std::string_view kChannels[] = {"ch",     "channel", "px",   "pixel", "pv",
+                                          "string", "str",     "mppt", "input"};
+
+// Unsupported units. They mark "voltage_percent" as a voltage with a wrong unit; "voltage_set" is
+// no voltage.
+constexpr std::string_view kForeignUnits[] = {"percent", "pct", "pu",  "w",         "mw", "kw",
+                                              "ohm",     "db",  "f",   "degf",      "h",  "lux",
+                                              "adc",     "raw", "bit", "fahrenheit"};
+
+template <std::size_t N>
+bool IsAmong(const std::string_view (&list)[N], std::string_view text) {
+  return std::find(std::begin(list), std::end(list), text) != std::end(list);
+}
+
+bool IsDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+const Name* FindName(std::string_view text) {
+  for (const Name& name : kNames) {
+    if (name.text == text) return &name;
+  }
+  return nullptr;
+}
+
+bool IsElectrical(ColumnKind kind) {
+  return kind == ColumnKind::kVoltage || kind == ColumnKind::kCurrent ||
+         kind == ColumnKind::kCurrentDensity;
+}
+
+void DropQualifiers(std::vector<LabelWord>* words) {
+  if (words->size() < 2) return;
+  std::vector<LabelWord> kept;
+  for (const LabelWord& word : *words) {
+    if (!IsAmong(kQualifiers, word.text)) kept.push_back(word);
+  }
+  if (!kept.empty()) *words = kept;
+}
+
+// Shortens "vmeas" to "v", since "meas" is a qualifier.
+void CutQualifierOffLetter(LabelWord* word) {
+  if (word->text.size() < 3 || FindName(word->text) != nullptr) return;
+  const Name* letter = FindName(word->text.substr(0, 1));
+  if (letter == nullptr || !IsElectrical(letter->kind)) return;
+  if (IsAmong(kQualifiers, std::string_view(word->text).substr(1))) word->text.resize(1);
+}
+
+// Removes the number of a pixel, channel or unit from the words and returns it: "I1", "Ch2
+// voltage", "Current 1 (A)". The 2 of "mA cm-2" is not such a number.
+std::string TakeNumber(std::vector<LabelWord>* words) {
+  std::string number;
+  const auto add = [&number](std::string_view digits) {
+    if (!number.empty()) number += '.';
+    number += digits;
+  };
+  std::vector<LabelWord> kept;
+  for (LabelWord word : *words) {
+    const bool of_a_unit = !kept.empty() && (kept.back().text == "cm" || kept.back().text == "m" ||
+                                             kept.back().text == "mm");
+    if (IsDigits(word.text) && !of_a_unit) {
+      add(word.text);
+      continue;
+    }
+    const std::size_t letters = word.text.find_last_not_of("0123456789") + 1;
+    const std::string front = word.text.substr(0, letters);
+    const bool channel = IsAmong(kChannels, front);
+    const Name* name = FindName(front);
+    const bool named = name != nullptr && IsElectrical(name->kind);
+    if (letters < word.text.size() && (named || channel)) {
+      add(std::string_view(word.text).substr(letters));
+      word.text = front;
+    }
+    if (!channel) kept.push_back(word);
+  }
+  if (kept.empty()) return "";
+  *words = kept;
+  return number;
+}
+
+// Directions, lights and averages, as labels name them. "up" and "down" also stand alone.
+constexpr std::pair<std::string_view, SweepDirection> kDirections[] = {
+    {"forward", SweepDirection::kForward},  {"fwd", SweepDirection::kForward},
+    {"for", SweepDirection::kForward},      {"fw", SweepDirection::kForward},
+    {"up", SweepDirection::kForward},       {"reverse", SweepDirection::kReverse},
+    {"backward", SweepDirection::kReverse}, {"back", SweepDirection::kReverse},
+    {"bwd", SweepDirection::kReverse},      {"rev", SweepDirection::kReverse},
+    {"rv", SweepDirection::kReverse},       {"down", SweepDirection::kReverse}};
+constexpr std::pair<std::string_view, SweepLight> kLights[] = {
+    {"dark", SweepLight::kDark},
+    {"light", SweepLight::kLight},
+    {"lit", SweepLight::kLight},
+    {"illuminated", SweepLight::kLight},
+    {"illumination", SweepLight::kLight}};
+constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
+
+template <class T, std::size_t N>
+const T* FindWord(const std::pair<std::string_view, T> (&list)[N], std::string_view text) {
+  for (const auto& [word, value] : list) {
+    if (word == text) return &value;
+  }
+  return nullptr;
+}
+
+// Records one word of a tag; false if it is none. "forD" is a direction with the letter of a light.
+bool TakeTagWord(const LabelWord& word, ColumnTag* tag) {
+  if (const auto* direction = FindWord(kDirections, word.text)) {
+    tag->direction = *direction;
+    return true;
+  }
+  if (const auto* light = FindWord(kLights, word.text)) {
+    tag->light = *light;
+    return true;
+  }
+  if (IsAmong(kAverages, word.text)) return tag->average = true;
+  const std::string_view original = word.original;
+  if (original.size() < 3 || (original.back() != 'D' && original.back() != 'L')) return false;
+  const auto* direction = FindWord(kDirections, word.text.substr(0, word.text.size() - 1));
+  if (direction == nullptr) return false;
+  tag->direction = *direction;
+  tag->light = original.back() == 'D' ? SweepLight::kDark : SweepLight::kLight;
+  return true;
+}
+
+// Removes the words of direction, light and average, also those joined to a letter: "Vdark".
+ColumnTag TakeTag(std::vector<LabelWord>* words) {
+  ColumnTag tag;
+  std::vector<LabelWord> kept;
+  for (LabelWord word : *words) {
+    if (TakeTagWord(word, &tag)) continue;
+    const Name* letter = FindName(std::string_view(word.text).substr(0, 1));
+    const bool electrical = letter != nullptr && IsElectrical(letter->kind);
+    if (electrical && word.text.size() > 3 && FindName(word.text) == nullptr &&
+        TakeTagWord({word.text.substr(1), word.original.substr(1), false}, &tag)) {
+      word.text.resize(1);
+      word.original.resize(1);
+    }
+    kept.push_back(word);
+  }
+  *words = kept;
+  return tag;
+}
+
+void TakeUnit(const Unit& unit, Column* column) {
+  column->unit = unit.text;
+  column->factor = unit.factor;
+  column->offset = unit.offset;
+}
+
+bool IsPerArea(std::string_view unit) {
+  return (unit.size() > 2 && unit.substr(unit.size() - 2) == "m2" && unit[0] != 'w');
+}
+
+void RefuseUnit(const std::string& unit, Column* column) {
+  column->unit = unit;
+  column->refusal = fmt::format("column {} is in {}: expected {}", Quoted(column->label),
+                                Quoted(unit), ExpectedUnits(column->kind));
+}
+
+// Interprets the words after the name. False if they turn it into the name of another quantity.
+bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* column) {
+  const std::string rest = JoinWords(words, from, words.size());
+  if (rest.empty()) return true;
+  if (const Unit* unit = FindUnit(column->kind, rest)) {
+    TakeUnit(*unit, column);
+    return true;
+  }
+  if (column->kind == ColumnKind::kCurrent && IsPerArea(rest)) {
+    column->kind = ColumnKind::kCurrentDensity;
+    return TakeRest(words, from, column);
+  }
+  if (column->kind == ColumnKind::kSweep || column->kind == ColumnKind::kCurve) {
+    return rest == "number" || rest == "index" || rest == "no" || rest == "id";
+  }
+  if (!IsAmong(kForeignUnits, rest) && !words[from].marked_as_unit) return false;
+  RefuseUnit(rest, column);
+  return true;
+}
+
+// A single T is a temperature and a single t a time, unless the unit decides otherwise.
+ColumnKind TimeOrTemperature(const std::vector<LabelWord>& words) {
+  const std::string unit = JoinWords(words, 1, words.size());
+  if (FindUnit(ColumnKind::kTime, unit) != nullptr) return ColumnKind::kTime;
+  if (FindUnit(ColumnKind::kTemperature, unit) != nullptr) return ColumnKind::kTemperature;
+  return words[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
+}
+
+// "Intensity" denotes an irradiance only if the unit confirms it.
+bool IsVague(const Column& column, std::string_view name) {
+  return name == "intensity" && (column.unit.empty() || !column.refusal.empty());
+}
+
+// A current density without a unit is assumed in mA/cm2, the usual unit.
+void SettleDensity(Column* column) {
+  if (column->kind != ColumnKind::kCurrentDensity || !column->unit.empty()) return;
+  column->factor = FindUnit(ColumnKind::kCurrentDensity, "macm2")->factor;
+}
+
+Column Recognise(std::string_view label, std::vector<LabelWord> words) {
+  Column column;
+  column.label = std::string(label);
+  if (words.size() == 1) {
+    if (const Unit* unit = FindUnitHeader(words[0].text)) {
+      column.kind = unit->kind;
+      TakeUnit(*unit, &column);
+      return column;
+    }
+  }
+  if (!words.empty()) CutQualifierOffLetter(&words.front());
+  for (std::size_t count = words.size(); count > 0; --count) {
+    const Name* known = FindName(JoinWords(words, 0, count));
+    if (known == nullptr) continue;
+    column.kind = known->text == "t" ? TimeOrTemperature(words) : known->kind;
+    const bool named = TakeRest(words, count, &column) && !IsVague(column, known->text);
+    if (!named) column.kind = ColumnKind::kUnrecognised;
+    SettleDensity(&column);
+    return column;
+  }
+  return column;
+}
+
+// The length of the longest unit of `kind` that begins at `from`, in words; 0: none.
+std::size_t UnitLength(const std::vector<LabelWord>& words, std::size_t from, ColumnKind kind,
+                       const Unit** unit) {
+  for (std::size_t to = words.size(); to > from; --to) {
+    *unit = FindUnit(kind, JoinWords(words, from, to));
+    if (*unit != nullptr) return to - from;
+  }
+  return 0;
+}
+
+// Interprets a label whose words of direction and light were taken out. Name and unit come first,
+// and what follows is the device: "Voltage (V) a". A label may also consist of a device and a unit:
+// "b [mA/cm2]".
+Column RecogniseTagged(std::string_view label, const std::vector<LabelWord>& words,
+                       const ColumnTag& tag) {
+  Column column = Recognise(label, words);
+  column.tag = tag;
+  if (IsElectrical(column.kind) && column.refusal.empty()) return column;
+  const auto device = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      column.tag.device += (column.tag.device.empty() ? "" : " ") + words[i].original;
+    }
+  };
+  const Unit* unit = nullptr;
+  for (std::size_t count = words.size(); count > 0; --count) {
+    const Name* known = FindName(JoinWords(words, 0, count));
+    if (known == nullptr || !IsElectrical(known->kind)) continue;
+    for (const ColumnKind kind : {known->kind, ColumnKind::kCurrentDensity}) {
+      if (kind != known->kind && known->kind != ColumnKind::kCurrent) continue;
+      const std::size_t length = UnitLength(words, count, kind, &unit);
+      if (length == 0) continue;
+      column = {kind, std::string(label), {}, 1, 0, {}, tag};
+      TakeUnit(*unit, &column);
+      device(count + length, words.size());
+      return column;
+    }
+  }
+  for (std::size_t at = 0; at < words.size(); ++at) {
+    if (!words[at].marked_as_unit) continue;
+    for (const ColumnKind kind :
+         {ColumnKind::kVoltage, ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
+      if (at + UnitLength(words, at, kind, &unit) != words.size() || unit == nullptr) continue;
+      column = {kind, std::string(label), {}, 1, 0, {}, tag};
+      TakeUnit(*unit, &column);
+      device(0, at);
+      return column;
+    }
+    break;
+  }
+  column.kind = ColumnKind::kUnrecognised;
+  return column;
+}
+
+}  // namespace
+
+ColumnTag ReadTag(std::string_view text) {
+  std::vector<LabelWord> words = SplitLabel(text);
+  ColumnTag tag = TakeTag(&words);
+  for (const LabelWord& word : words) {
+    if (word.text == "txt" || word.text == "csv" || word.text == "dat") continue;
+    tag.device += (tag.device.empty() ? "" : " ") + word.original;
+  }
+  return tag;
+}
+
+Column RecogniseColumn(std::string_view label) {
+  std::vector<LabelWord> words = SplitLabel(label);
+  DropQualifiers(&words);
+  Column column = Recognise(label, words);
+  if (column.kind != ColumnKind::kUnrecognised && column.refusal.empty()) return column;
+  const ColumnTag tag = TakeTag(&words);
+  if (StatesSweep(tag) || tag.average) {
+    Column tagged = RecogniseTagged(label, words, tag);
+    if (IsElectrical(tagged.kind)) return tagged;
+  }
+  const std::string number = TakeNumber(&words);
+  if (number.empty()) return column;
+  Column numbered = Recognise(label, words);
+  if (!IsElectrical(numbered.kind)) return column;
+  if (column.kind != ColumnKind::kUnrecognised && !numbered.refusal.empty()) return column;
+  numbered.tag = tag;
+  numbered.tag.device = number;
+  return numbered;
+}
+
+Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
+  Column column = RecogniseColumn(label);
+  const bool as_said = column.kind == kind ||
+                       (kind == ColumnKind::kCurrent && column.kind == ColumnKind::kCurrentDensity);
+  if (as_said) return column;
+  column = {};
+  column.label = std::string(label);
+  column.kind = kind;
+  const std::vector<LabelWord> words = SplitLabel(label);
+  for (std::size_t from = 0; from < words.size(); ++from) {
+    const std::string unit = JoinWords(words, from, words.size());
+    for (const ColumnKind as : {kind, ColumnKind::kCurrentDensity}) {
+      if (as != kind && kind != ColumnKind::kCurrent) continue;
+      const Unit* found = FindUnit(as, unit);
+      // A single "A" may be a name as well as a unit.
+      if (found == nullptr || (from == 0 && words.size() == 1)) continue;
+      column.kind = as;
+      TakeUnit(*found, &column);
+      return column;
+    }
+  }
+  return column;
+}
+
+}  // namespace lyrefit

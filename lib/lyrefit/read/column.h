@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lyrefit {
+
+enum class ColumnKind {
+  kUnrecognised,
+  kVoltage,
+  kCurrent,
+  kSigma,
+  kTime,
+  kSweep,  // sweep of one measurement: up, down, light, dark
+  kCurve,  // one of several measurements in a file
+  kIrradiance,
+  kTemperature,
+  kCurrentDensity,  // converted to a current by the area of the cell
+  kArea,            // stated in the head of a table, never a column
+};
+
+// Direction of a sweep: towards higher voltages or towards lower ones.
+enum class SweepDirection { kUnknown, kForward, kReverse };
+
+// Light during a sweep, as far as a label states it.
+enum class SweepLight { kUnknown, kDark, kLight };
+
+// What tells columns of one quantity apart: "a_Forward_Dark", "Pixel 2", "Current 1 (A)".
+struct ColumnTag {
+  std::string device;  // "a", "Pixel 2", "1"; empty if the label names none
+  SweepDirection direction = SweepDirection::kUnknown;
+  SweepLight light = SweepLight::kUnknown;
+  bool average = false;  // of other columns
+};
+
+// Direction and light that the words of a text state. The other words, joined by blanks, are the
+// device.
+ColumnTag ReadTag(std::string_view text);
+
+// Whether the tag names a direction or a light.
+inline bool StatesSweep(const ColumnTag& tag) {
+  return tag.direction != SweepDirection::kUnknown || tag.light != SweepLight::kUnknown;
+}
+
+// Interpretation of a header cell. A value of the file is converted as factor * value + offset. The
+// result is in V, A, A/cm2, s, W/m2 or degrees Celsius.
+struct Column {
+  ColumnKind kind = ColumnKind::kUnrecognised;
+  std::string label;  // as in the file
+  std::string unit;   // as recognised; empty if the label names none
+  double factor = 1;
+  double offset = 0;
+  std::string refusal;  // why the column cannot be used; empty if it can
+  ColumnTag tag;        // of one of several voltages or currents
+  bool light = false;   // light of a Suns-Voc trace in place of a current; see suns_voc.h
+};
+
+// Recognises labels such as "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)". Case and
+// punctuation are ignored, except that a lone t is a time and a lone T a temperature.
+Column RecogniseColumn(std::string_view label);
+
+// Interprets the label of a column that the user has declared a voltage or a current. Only the unit
+// is read from the label.
+Column ColumnSaidToBe(ColumnKind kind, std::string_view label);
+
+}  // namespace lyrefit

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include <zlib.h>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/batch_input.h"
+#include "lyrefit/read/curve_text.h"
+#include "lyrefit/read/json_curves.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/line_scanner.h"
+#include "lyrefit/read/row_names.h"
+#include "lyrefit/read/table_curve.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file with one curve, read by ReadCurve.
+class OneCurve : public BatchInput {
+ public:
+  OneCurve(std::string path, const ReadOptions& options)
+      : path_(std::move(path)), options_(options), size_(SizeOfFile(path_) + 1) {}
+
+  Expected<std::optional<FoundCurve>> Next() override {
+    if (done_) return std::optional<FoundCurve>();
+    done_ = true;
+    FoundCurve found;
+    found.id = IdOfPath(path_);
+    found.end = size_;
+    return std::optional<FoundCurve>(std::move(found));
+  }
+
+  BatchCurve Read(const BatchItem& item) const override {
+    return {item.id, ReadCurve(path_, options_), {}};
+  }
+
+  std::int64_t size() const override { return size_; }
+  Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
+    if (until <= 0) return {};
+    TRY(sum->AddFile(path_, size_));
+    const fs::path sidecar = fs::path(path_).replace_extension(".json");
+    return IsFile(sidecar) ? sum->AddFile(sidecar.string(), SizeOfFile(sidecar.string()))
+                           : Expected<void>();
+  }
+  void AddRemarks(std::vector<std::string>*) const override {}
+
+ private:
+  const std::string path_;
+  const ReadOptions options_;
+  const std::int64_t size_;
+  bool done_ = false;
+};
+
+// A file with several curves, which is read completely at the first call of Next().
+class WholeFile : public BatchInput {
+ public:
+  WholeFile(std::string path, const ReadOptions& options)
+      : path_(std::move(path)), options_(options), size_(SizeOfFile(path_) + 1) {}
+
+  Expected<std::optional<FoundCurve>> Next() override {
+    if (next_ == 0) Load();
+    if (next_ == curves_.size()) return std::optional<FoundCurve>();
+    const auto count = static_cast<std::int64_t>(curves_.size());
+    FoundCurve found;
+    found.number = static_cast<std::int64_t>(next_++);
+    found.id = IdOfPath(path_);
+    const std::string& name = curves_[found.number].id;
+    if (count > 1) found.id += "/" + (name.empty() ? std::to_string(found.number + 1) : name);
+    found.begin = size_ * found.number / count;
+    found.end = size_ * (found.number + 1) / count;
+    return std::optional<FoundCurve>(std::move(found));
+  }
+
+  BatchCurve Read(const BatchItem& item) const override {
+    Expected<IvCurve> curve = curves_[item.number].curve;
+    if (curve) curve->name = item.id;
+    return {item.id, std::move(curve), {}};
+  }
+
+  std::int64_t size() const override { return size_; }
+  Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
+    return until > 0 ? sum->AddFile(path_, size_) : Expected<void>();
+  }
+  void AddRemarks(std::vector<std::string>*) const override {}
+
+ private:
+  struct NamedCurve {
+    std::string id;  // in the file
+    Expected<IvCurve> curve;
+  };
+
+  void Load() {
+    const auto text = ReadDecodedFile(path_, options_.largest_file_bytes);
+    if (!text) return Refuse(text.error());
+    const auto document = DocumentIn(text->text, path_);
+    if (!document) return Refuse(document.error());
+    if (!*document) return LoadTable(*text);
+    auto curves = FindJsonCurves(**document, path_, options_);
+    if (!curves) return Refuse(curves.error());
+    for (RawCurve& raw : *curves) {
+      const std::string id = raw.curve.name;
+      curves_.push_back({id, FinishCurve(std::move(raw), options_)});
+    }
+  }
+
+  void LoadTable(const DecodedText& text) {
+    Expected<CurveSet> set = CurveSetOfFile(text, path_, options_);
+    if (!set) return Refuse(set.error());
+    for (IvCurve& curve : set->curves) {
+      curve.assumptions.insert(curve.assumptions.begin(), set->assumptions.begin(),
+                               set->assumptions.end());
+      curves_.push_back({AsLevel(curve.name), std::move(curve)});
+    }
+    for (const RejectedCurve& rejected : set->rejected) {
+      curves_.push_back({AsLevel(rejected.id), tl::unexpected(rejected.error)});
+    }
+  }
+
+  void Refuse(const Error& error) { curves_.push_back({"", tl::unexpected(error)}); }
+
+  const std::string path_;
+  const ReadOptions options_;
+  const std::int64_t size_;
+  std::vector<NamedCurve> curves_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchInput> OneCurveInput(const std::string& path, const ReadOptions& options) {
+  return std::make_unique<OneCurve>(path, options);
+}
+
+std::unique_ptr<BatchInput> WholeFileInput(const std::string& path, const ReadOptions& options) {
+  return std::make_unique<WholeFile>(path, options);
+}
+
+void ByteSum::Add(std::string_view text) {
+  crc = ::crc32_z(crc, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  bytes += static_cast<std::int64_t>(text.size());
+}
+
+Expected<void> ByteSum::AddFile(const std::string& path, std::int64_t limit) {
+  ByteInput file(path);
+  std::vector<char> block(1U << 20);
+  while (limit > 0) {
+    const auto wanted = std::min<std::int64_t>(limit, static_cast<std::int64_t>(block.size()));
+    TRY(const std::size_t got, file.Read(block.data(), static_cast<std::size_t>(wanted)));
+    if (got == 0) break;
+    Add(std::string_view(block.data(), got));
+    limit -= static_cast<std::int64_t>(got);
+  }
+  return {};
+}
+
+std::string IdOfPath(const std::string& path) {
+  fs::path plain = fs::path(path).lexically_normal();
+  if (!plain.has_filename()) plain = plain.parent_path();
+  if (plain.filename() == "curve.csv") plain = plain.parent_path();
+  if (!IsFolder(path)) plain.replace_extension();
+  std::string id;
+  for (const fs::path& part : plain.relative_path()) {
+    if (part != ".." && part != ".") id += (id.empty() ? "" : "/") + part.string();
+  }
+  return id;
+}
+
+bool IsReadOnce(const std::string& path) { return path == "-" || IsStream(path); }
+
+std::string StemOf(const std::string& path) {
+  return IsReadOnce(path) ? "input" : fs::path(path).stem().string();
+}
+
+std::int64_t SizeOfFile(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return 0;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,98 @@
+#include "lyrefit/read/iv_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "lyrefit/base/try.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<void> CheckColumn(const char* name, const std::vector<double>& values, std::size_t points,
+                           bool optional) {
+  if (optional && values.empty()) return {};
+  if (values.size() != points) {
+    return Fail(fmt::format("expected {} values of {}, found {}", points, name, values.size()));
+  }
+  for (std::size_t i = 0; i < points; ++i) {
+    if (std::isfinite(values[i])) continue;
+    return Fail(fmt::format("expected a finite {} at point {}, found {}", name, i + 1, values[i]));
+  }
+  return {};
+}
+
+Expected<void> CheckConditions(const Conditions& conditions) {
+  const double temperature_C = conditions.cell_temperature_K - kZeroCelsius_K;
+  if (!(temperature_C >= -100 && temperature_C <= 200)) {
+    return Fail(fmt::format("expected a cell temperature from -100 to 200 C, found {:.6g} C",
+                            temperature_C));
+  }
+  if (!(conditions.irradiance_W_m2 >= 0 && std::isfinite(conditions.irradiance_W_m2))) {
+    return Fail(
+        fmt::format("expected an irradiance from 0 W/m2 up, found {}", conditions.irradiance_W_m2));
+  }
+  if (conditions.cells_in_series < 1) {
+    return Fail(
+        fmt::format("expected at least 1 cell in series, found {}", conditions.cells_in_series));
+  }
+  if (conditions.strings_in_parallel < 1) {
+    return Fail(fmt::format("expected at least 1 string in parallel, found {}",
+                            conditions.strings_in_parallel));
+  }
+  return {};
+}
+
+}  // namespace
+
+bool IsThinFilm(const std::string& technology) {
+  std::string word;
+  for (const char c : technology) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  constexpr std::string_view kParts[] = {"cdte",      "cigs", "cis",        "a-si",
+                                         "amorphous", "thin", "perovskite", "organic",
+                                         "opv",       "dye",  "tandem"};
+  return std::any_of(std::begin(kParts), std::end(kParts), [&](const std::string_view part) {
+    return word.find(part) != std::string::npos;
+  });
+}
+
+Expected<void> Validate(const IvCurve& curve) {
+  const std::size_t points = curve.size();
+  const struct {
+    const char* name;
+    const std::vector<double>& values;
+    bool optional;
+  } columns[] = {{"current", curve.current_A, false},
+                 {"voltage", curve.voltage_V, false},
+                 {"sigma", curve.sigma_A, true},
+                 {"time", curve.time_s, true},
+                 {"irradiance", curve.irradiance_W_m2, true},
+                 {"temperature", curve.temperature_C, true}};
+  for (const auto& column : columns) {
+    TRY(CheckColumn(column.name, column.values, points, column.optional));
+  }
+  if (!curve.sweep.empty() && curve.sweep.size() != points) {
+    return Fail(fmt::format("expected {} values of sweep, found {}", points, curve.sweep.size()));
+  }
+  if (points < 2) return Fail(fmt::format("expected at least two points, found {}", points));
+  const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
+  if (*low == *high) {
+    return Fail(fmt::format("expected at least two different voltages, found {} V at all {} points",
+                            *low, points));
+  }
+  const auto sigma = std::find_if_not(curve.sigma_A.begin(), curve.sigma_A.end(),
+                                      [](double value) { return value > 0; });
+  if (sigma != curve.sigma_A.end()) {
+    return Fail(fmt::format("expected a positive sigma at point {}, found {}",
+                            sigma - curve.sigma_A.begin() + 1, *sigma));
+  }
+  return CheckConditions(curve.conditions);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,283 @@
+#include "lyrefit/read/key_point_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/curve_set_builder.h"
+#include "lyrefit/read/label.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/table_curve.h"
+#include "lyrefit/read/table_head.h"
+#include "lyrefit/read/table_header.h"
+#include "lyrefit/read/table_lines.h"
+
+namespace lyrefit {
+namespace {
+
+// A line of the table, for errors.
+struct LinePlace {
+  const std::string& file;
+  int line;
+  std::string_view text;
+};
+
+enum KeyPoint { kIsc, kVoc, kImp, kVmp, kKeyPoints };
+
+constexpr std::pair<std::string_view, KeyPoint> kPointNames[] = {
+    {"isc", kIsc}, {"voc", kVoc}, {"imp", kImp}, {"impp", kImp}, {"vmp", kVmp}, {"vmpp", kVmp}};
+
+// A column of key points and the factor to A or V.
+struct KeyPointColumn {
+  KeyPoint point;
+  double factor = 1;
+};
+
+// Interprets a label such as "i_sc_A" or "Isc (mA)".
+std::optional<KeyPointColumn> AsKeyPoint(std::string_view label) {
+  const std::vector<LabelWord> words = SplitLabel(label);
+  for (std::size_t count = std::min<std::size_t>(words.size(), 2); count > 0; --count) {
+    const std::string name = JoinWords(words, 0, count);
+    const auto* const found = std::find_if(std::begin(kPointNames), std::end(kPointNames),
+                                           [&](const auto& known) { return known.first == name; });
+    if (found == std::end(kPointNames)) continue;
+    const bool current = found->second == kIsc || found->second == kImp;
+    const std::string unit = JoinWords(words, count, words.size());
+    if (unit.empty()) return KeyPointColumn{found->second};
+    const Unit* known = FindUnit(current ? ColumnKind::kCurrent : ColumnKind::kVoltage, unit);
+    if (known != nullptr) return KeyPointColumn{found->second, known->factor};
+  }
+  return std::nullopt;
+}
+
+// One condition while the table is read.
+struct Condition {
+  double irradiance_W_m2 = 0;
+  double temperature_C = 0;
+  int line = 0;
+  std::array<std::optional<double>, kKeyPoints> points;
+};
+
+struct KeyPointTable {
+  std::vector<Condition> conditions;
+  TableHead head;
+  std::optional<Error> error;  // of the first invalid field
+};
+
+// The header of a long table.
+struct LongHeader {
+  char delimiter = ',';
+  std::vector<std::optional<KeyPointColumn>> points;
+  Column irradiance, temperature;
+  int irradiance_place = -1;
+  int temperature_place = -1;
+  Fields names;
+};
+
+std::optional<LongHeader> AsLongHeader(std::string_view line) {
+  for (const char delimiter : kDelimiters) {
+    const auto fields = SplitFields(line, delimiter);
+    if (!fields) continue;
+    LongHeader header;
+    header.delimiter = delimiter;
+    header.names = *fields;
+    int points = 0;
+    for (int i = 0; i < static_cast<int>(fields->size()); ++i) {
+      header.points.push_back(AsKeyPoint((*fields)[i]));
+      if (header.points.back()) ++points;
+      const Column column = RecogniseColumn((*fields)[i]);
+      if (!column.refusal.empty()) continue;
+      if (column.kind == ColumnKind::kIrradiance && header.irradiance_place == -1) {
+        header.irradiance = column;
+        header.irradiance_place = i;
+      } else if (column.kind == ColumnKind::kTemperature && header.temperature_place == -1) {
+        header.temperature = column;
+        header.temperature_place = i;
+      }
+    }
+    if (points >= 3 && header.irradiance_place != -1 && header.temperature_place != -1) {
+      return header;
+    }
+  }
+  return std::nullopt;
+}
+
+// The number in a field. Empty for a missing value; other text is recorded as the table's error.
+std::optional<double> NumberIn(const Fields& fields, std::size_t place, const LongHeader& header,
+                               const LinePlace& at, KeyPointTable* table) {
+  if (place >= fields.size() || IsMissingReading(fields[place], header.delimiter != ',')) {
+    return std::nullopt;
+  }
+  const auto number = ParseNumber(fields[place], header.delimiter != ',');
+  if (!number && !table->error) {
+    table->error = Error{fmt::format("expected a number in column {}, found {}",
+                                     header.names[place], Quoted(fields[place])),
+                         at.file, at.line, FieldColumn(at.text, header.delimiter, place)};
+  }
+  return number;
+}
+
+void ReadLongRow(const LongHeader& header, const LinePlace& at, KeyPointTable* table) {
+  const auto fields = SplitFields(at.text, header.delimiter);
+  if (!fields || fields->size() < 2) return;
+  Condition condition;
+  condition.line = at.line;
+  const auto number = [&](int place) {
+    return NumberIn(*fields, static_cast<std::size_t>(place), header, at, table);
+  };
+  const auto irradiance = number(header.irradiance_place);
+  const auto temperature = number(header.temperature_place);
+  if (!irradiance || !temperature) return;
+  condition.irradiance_W_m2 = *irradiance * header.irradiance.factor + header.irradiance.offset;
+  condition.temperature_C = *temperature * header.temperature.factor + header.temperature.offset;
+  for (std::size_t i = 0; i < header.points.size(); ++i) {
+    if (!header.points[i]) continue;
+    const auto value = number(static_cast<int>(i));
+    if (value) condition.points[header.points[i]->point] = *value * header.points[i]->factor;
+  }
+  table->conditions.push_back(condition);
+}
+
+// The number at the beginning of a text such as "25 C" or "1000 W/m2".
+std::optional<double> LeadingNumber(const std::string& text, char delimiter) {
+  const std::size_t end = text.find_first_not_of("+-.,0123456789eE");
+  return ParseNumber(std::string_view(text).substr(0, end), delimiter != ',');
+}
+
+// Reads wide tables line by line: a name, a row of temperatures, rows of irradiances.
+class WideReader {
+ public:
+  explicit WideReader(KeyPointTable* table) : table_(table) {}
+
+  // True if the line belongs to a wide table.
+  bool Take(const LinePlace& at) {
+    for (const char delimiter : {'\t', ';', ','}) {
+      const auto fields = SplitFields(at.text, delimiter);
+      if (!fields || fields->empty()) continue;
+      if (fields->size() == 1) {
+        const auto point = AsKeyPoint(fields->front());
+        if (!point) continue;
+        point_ = point;
+        temperatures_.clear();
+        return true;
+      }
+      if (point_ && TakeRow(*fields, delimiter, at.line)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool TakeRow(const Fields& fields, char delimiter, int line) {
+    std::vector<std::optional<double>> numbers;
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      numbers.push_back(LeadingNumber(fields[i], delimiter));
+    }
+    if (temperatures_.empty()) {
+      const bool header = !ParseNumber(fields[0]) &&
+                          std::all_of(numbers.begin(), numbers.end(),
+                                      [](const auto& number) { return number.has_value(); });
+      for (const auto& number : numbers) temperatures_.push_back(number.value_or(0));
+      if (!header) temperatures_.clear();
+      return header;
+    }
+    const auto irradiance = LeadingNumber(fields[0], delimiter);
+    if (!irradiance || numbers.size() > temperatures_.size()) return false;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!numbers[i]) continue;
+      Condition& condition = At(*irradiance, temperatures_[i], line);
+      condition.points[point_->point] = *numbers[i] * point_->factor;
+    }
+    return true;
+  }
+
+  Condition& At(double irradiance_W_m2, double temperature_C, int line) {
+    const auto found = std::find_if(table_->conditions.begin(), table_->conditions.end(),
+                                    [&](const Condition& condition) {
+                                      return condition.irradiance_W_m2 == irradiance_W_m2 &&
+                                             condition.temperature_C == temperature_C;
+                                    });
+    if (found != table_->conditions.end()) return *found;
+    table_->conditions.push_back({irradiance_W_m2, temperature_C, line, {}});
+    return table_->conditions.back();
+  }
+
+  KeyPointTable* table_;
+  std::optional<KeyPointColumn> point_;
+  std::vector<double> temperatures_;
+};
+
+KeyPointTable Parse(const std::string& text, const std::string& path) {
+  KeyPointTable table;
+  WideReader wide(&table);
+  std::optional<LongHeader> header;
+  LineReader lines(text);
+  for (std::string_view line; lines.NextContent(&line);) {
+    const LinePlace at{path, lines.number(), line};
+    if (header) {
+      ReadLongRow(*header, at, &table);
+    } else if (table.conditions.empty() && (header = AsLongHeader(line))) {
+      continue;
+    } else if (!wide.Take(at)) {
+      ReadHeadLine(line, at.line, HeadLine::kComment, &table.head);
+    }
+  }
+  return table;
+}
+
+// The readings of a condition; a key point that is missing leaves its reading out.
+IvCurve CurveOf(const Condition& condition) {
+  IvCurve curve;
+  const auto add = [&curve](std::optional<double> voltage_V, std::optional<double> current_A) {
+    if (!voltage_V || !current_A) return;
+    curve.voltage_V.push_back(*voltage_V);
+    curve.current_A.push_back(*current_A);
+  };
+  add(0.0, condition.points[kIsc]);
+  add(condition.points[kVmp], condition.points[kImp]);
+  add(condition.points[kVoc], 0.0);
+  return curve;
+}
+
+}  // namespace
+
+bool HoldsKeyPoints(const std::string& text, const std::string& path) {
+  return Parse(text, path).conditions.size() > 1;
+}
+
+Expected<CurveSet> ReadKeyPoints(const DecodedText& text, const std::string& path,
+                                 const std::string& common, const ReadOptions& options) {
+  const KeyPointTable table = Parse(text.text, path);
+  if (table.error) return tl::unexpected(*table.error);
+  CurveSetBuilder builder(std::filesystem::path(path).stem().string(), path, options);
+  if (!text.remark.empty()) builder.Assume({text.remark});
+  TRY(builder.ReadCommon(common, SidecarOf::kSet));
+  builder.TakeHead(table.head.said);
+  builder.Assume(table.head.assumptions);
+  builder.Assume({fmt::format(
+      "key points of {} conditions, each read as the readings (0, Isc), (Vmp, Imp) and (Voc, 0)",
+      table.conditions.size())});
+  std::map<std::string, int> ids;
+  for (const Condition& condition : table.conditions) {
+    RawCurve raw;
+    raw.curve = CurveOf(condition);
+    raw.curve.source = path;
+    raw.curve.name =
+        fmt::format("{:g} W/m2, {:g} C", condition.irradiance_W_m2, condition.temperature_C);
+    if (const int again = ++ids[raw.curve.name]; again > 1) {
+      raw.curve.name += fmt::format(" ({})", again);
+    }
+    raw.stated.irradiance_W_m2 = condition.irradiance_W_m2;
+    raw.stated.temperature_C = condition.temperature_C;
+    builder.Add(std::move(raw), condition.line);
+  }
+  return builder.Finish();
+}
+
+}  // namespace lyrefit

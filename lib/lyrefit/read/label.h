@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/read/column.h"
+
+namespace lyrefit {
+
+// A word of a label such as "Voltage (mV)".
+struct LabelWord {
+  std::string text;      // lower case, letters and digits only
+  std::string original;  // as written
+  bool marked_as_unit;   // preceded by a bracket, slash or comma
+};
+
+// The words of a label; none if the text is too long for a label. Words after "vs." are dropped:
+// they name the reference of a potential.
+std::vector<LabelWord> SplitLabel(std::string_view label);
+
+// Concatenates the words from `from` up to, not including, `to`.
+std::string JoinWords(const std::vector<LabelWord>& words, std::size_t from, std::size_t to);
+
+// A unit. factor * value + offset converts to the unit of IvCurve, a current density to A/cm2, an
+// area to cm2.
+struct Unit {
+  ColumnKind kind;
+  std::string_view text;
+  double factor;
+  double offset;
+  bool is_a_header;  // valid as a whole header: "Volts", "mA"
+};
+
+// The unit of `kind` called `text`; nullptr if there is none.
+const Unit* FindUnit(ColumnKind kind, std::string_view text);
+
+// The unit that `text` names if it is a whole header; nullptr if none.
+const Unit* FindUnitHeader(std::string_view text);
+
+// Accepted units as text, for errors.
+std::string_view ExpectedUnits(ColumnKind kind);
+
+}  // namespace lyrefit

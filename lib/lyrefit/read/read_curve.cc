@@ -1,0 +1,158 @@
+#include "lyrefit/read/read_curve.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/curve_text.h"
+#include "lyrefit/read/json_curves.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_ivcurves_json.h"
+#include "lyrefit/read/rewrite_table.h"
+#include "lyrefit/read/table_curve.h"
+#include "lyrefit/read/table_layout.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A curve of a document and its number: the Index of an ivcurves file, else its place.
+struct NumberedCurve {
+  std::string number;
+  RawCurve raw;
+  bool settled = false;  // the reader has determined the conditions
+};
+
+Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::string& path,
+                                              const ReadOptions& options) {
+  std::vector<NumberedCurve> numbered;
+  if (IsIvCurves(document)) {
+    TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
+    for (IvCurvesEntry& entry : entries) {
+      if (!entry.curve) return tl::unexpected(entry.curve.error());
+      numbered.push_back({entry.id, {std::move(*entry.curve), {}, false}, true});
+    }
+    return numbered;
+  }
+  TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
+  for (RawCurve& raw : curves) {
+    const std::string id = raw.curve.name;
+    raw.curve.name = fs::path(path).stem().string();
+    if (curves.size() > 1 && !id.empty()) raw.curve.name += "_" + id;
+    numbered.push_back({std::to_string(numbered.size() + 1), std::move(raw), false});
+  }
+  return numbered;
+}
+
+Expected<IvCurve> FromDocument(const json& document, const std::string& path,
+                               const ReadOptions& options) {
+  Expected<std::vector<NumberedCurve>> curves = CurvesOf(document, path, options);
+  if (!curves) return tl::unexpected(curves.error());
+  constexpr std::size_t kLongestList = 200;
+  std::string numbers;
+  NumberedCurve* chosen = curves->size() == 1 && !options.curve ? &curves->front() : nullptr;
+  for (NumberedCurve& curve : *curves) {
+    if (options.curve && curve.number == std::to_string(*options.curve)) chosen = &curve;
+    if (numbers.size() > kLongestList) continue;
+    numbers += (numbers.empty() ? "" : ", ") + curve.number;
+    if (!curve.settled) numbers += " " + Quoted(curve.raw.curve.name);
+  }
+  if (chosen == nullptr && options.curve) {
+    return Fail(fmt::format("curve {} was asked for, but the file holds {} curves ({} ...)",
+                            *options.curve, curves->size(), numbers),
+                path);
+  }
+  if (chosen == nullptr) {
+    return Fail(fmt::format("expected one curve, found {} ({} ...): choose one with --curve INDEX",
+                            curves->size(), numbers),
+                path);
+  }
+  if (chosen->settled) return std::move(chosen->raw.curve);
+  return FinishCurve(std::move(chosen->raw), options);
+}
+
+Expected<IvCurve> FromTable(RawCurve raw, const ReadOptions& options) {
+  Expected<IvCurve> curve = FinishCurve(std::move(raw), options);
+  if (curve && options.curve) curve->name += "_" + std::to_string(*options.curve);
+  return curve;
+}
+
+// One condition of a table of key points.
+Expected<IvCurve> CurveOfKeyPoints(const DecodedText& text, const std::string& path,
+                                   const ReadOptions& options) {
+  const std::string sidecar = fs::path(path).replace_extension(".json").string();
+  TRY(CurveSet set, ReadKeyPoints(text, path, sidecar, options));
+  const int count = static_cast<int>(set.curves.size());
+  if (options.curve && *options.curve >= 1 && *options.curve <= count) {
+    IvCurve curve = std::move(set.curves[*options.curve - 1]);
+    curve.assumptions.insert(curve.assumptions.begin(), set.assumptions.begin(),
+                             set.assumptions.end());
+    return curve;
+  }
+  return Fail(fmt::format("expected one curve, found the key points of {} conditions (1 {}, ...): "
+                          "choose one with --curve INDEX",
+                          count, Quoted(set.curves.front().name)),
+              path);
+}
+
+}  // namespace
+
+Expected<IvCurve> CurveOfFile(const DecodedText& text, const std::string& path,
+                              const ReadOptions& options) {
+  TRY(const std::optional<json> document, DocumentIn(text.text, path));
+  if (document) {
+    Expected<IvCurve> curve = FromDocument(*document, path, options);
+    const fs::path table = fs::path(path).replace_extension(".csv");
+    if (curve || curve.error().line != 0 || !IsJson(path) || !IsFile(table)) return curve;
+    return Fail(curve.error().message +
+                    fmt::format(" (for the curve beside it, name {})", table.filename().string()),
+                path);
+  }
+  Expected<RawCurve> raw = TableCurveOfFile(text, path, options);
+  if (!raw && HoldsKeyPoints(text.text, path)) return CurveOfKeyPoints(text, path, options);
+  if (!raw) return tl::unexpected(raw.error());
+  return FromTable(std::move(*raw), options);
+}
+
+Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options) {
+  const fs::path file = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
+  if (file.empty()) {
+    return Fail(
+        "expected a file, or a folder that holds curve.csv or a table of the folder's own name, "
+        "found a folder without it",
+        path);
+  }
+  TRY(const DecodedText text, ReadDecodedFile(file.string(), options.largest_file_bytes));
+  return CurveOfFile(text, file.string(), options);
+}
+
+Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
+                                const ReadOptions& options) {
+  TRY(const DecodedText decoded, DecodeText(std::move(text), name));
+  TRY(const std::optional<json> document, DocumentIn(decoded.text, name));
+  if (document) return FromDocument(*document, name, options);
+  Expected<RawCurve> read = TableCurveFromText(decoded, name, options);
+  if (!read && HoldsKeyPoints(decoded.text, name)) return CurveOfKeyPoints(decoded, name, options);
+  TRY(RawCurve raw, std::move(read));
+  raw.curve.name = name;
+  raw.curve.source = name;
+  return FinishCurve(std::move(raw), options);
+}
+
+Expected<std::vector<ColumnNote>> ListColumns(const std::string& path, const ReadOptions& options) {
+  const fs::path inside = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
+  if (inside.empty()) return Fail("expected a file, found a folder", path);
+  TRY(const DecodedText text, ReadDecodedFile(inside.string(), options.largest_file_bytes));
+  return ListTableColumns(RewriteTable(text).text, inside.string(), options);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/current_sign.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/curve_set_builder.h"
+#include "lyrefit/read/curve_text.h"
+#include "lyrefit/read/json_curves.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_ivcurves_json.h"
+#include "lyrefit/read/read_table.h"
+#include "lyrefit/read/rewrite_table.h"
+#include "lyrefit/read/select_sweep.h"
+#include "lyrefit/read/table_curve.h"
+#include "lyrefit/read/table_layout.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A curve of a table, and the line of its first row.
+struct TablePart {
+  IvCurve curve;
+  int line;
+};
+
+void AppendRow(const IvCurve& all, std::size_t row, IvCurve* curve) {
+  curve->voltage_V.push_back(all.voltage_V[row]);
+  curve->current_A.push_back(all.current_A[row]);
+  curve->sweep.push_back(all.sweep[row]);
+  for (const auto column :
+       {&IvCurve::sigma_A, &IvCurve::time_s, &IvCurve::irradiance_W_m2, &IvCurve::temperature_C}) {
+    if (!(all.*column).empty()) (curve->*column).push_back((all.*column)[row]);
+  }
+}
+
+// The curves of a table in order of their first rows, without those that have invalid rows.
+std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
+  std::vector<TablePart> parts;
+  std::map<int, std::size_t> places;
+  for (std::size_t row = 0; row < table.curve.size(); ++row) {
+    const int number = table.curve.sweep[row];
+    if (table.broken.count(number) != 0) continue;
+    const auto [place, is_new] = places.try_emplace(number, parts.size());
+    if (is_new) {
+      parts.push_back({{}, table.lines[row]});
+      parts.back().curve.name = std::to_string(number);
+      parts.back().curve.source = path;
+      parts.back().curve.voltage_unit_known = table.curve.voltage_unit_known;
+      parts.back().curve.current_unit_known = table.curve.current_unit_known;
+    }
+    AppendRow(table.curve, row, &parts[place->second].curve);
+  }
+  return parts;
+}
+
+// Number of voltage-current pairs side by side.
+Expected<std::size_t> CountChannels(std::string_view text, const std::string& path,
+                                    const ReadOptions& options) {
+  ReadOptions first = options;
+  if (first.column.empty()) first.column = "1";
+  TRY(const TableLayout layout, FindTableLayout(text, path, first));
+  return layout.channels.size();
+}
+
+// Adds each voltage-current pair as a curve, named by its current.
+Expected<void> AddChannels(std::string_view text, const std::string& path, std::size_t channels,
+                           const ReadOptions& options, CurveSetBuilder* builder) {
+  std::set<std::string> ids;
+  for (std::size_t i = 1; i <= channels; ++i) {
+    if (StoppableReads::Stopped()) return FailAsStopped(path);
+    ReadOptions one = options;
+    one.column = std::to_string(i);
+    TRY(Table table, ReadTable(text, path, one));
+    RawCurve raw{std::move(table.curve), table.head, table.per_area};
+    raw.curve.source = path;
+    raw.curve.name = table.name;
+    if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i);
+    if (auto whole = SelectSweep(std::nullopt, table.holds_curves, &raw.curve); !whole) {
+      builder->Reject(raw.curve.name, {whole.error().message, path});
+      continue;
+    }
+    TurnLoadSign(&raw.curve);
+    builder->Add(std::move(raw), 0);
+  }
+  return {};
+}
+
+// Adds a curve for each number in the column curve or sweep, and for each further table below.
+Expected<void> AddSweeps(std::string_view text, const std::string& path, const fs::path& index,
+                         const ReadOptions& options, CurveSetBuilder* builder) {
+  TRY(const Table table, ReadTable(text, path, options, BrokenRows::kSetAside));
+  if (table.curve.sweep.empty() && table.broken.empty()) {
+    return Fail("expected a column curve or sweep that tells several curves apart, found none",
+                path);
+  }
+  builder->Assume(table.curve.assumptions);
+  builder->TakeHead(table.head);
+  TRY(builder->ReadIndex(index.string(), IndexIds::kNumbers));
+  std::set<std::string> ids;
+  for (TablePart& part : SplitTable(table, path)) {
+    ids.insert(part.curve.name);
+    TurnLoadSign(&part.curve);
+    builder->Add({std::move(part.curve), {}, table.per_area}, part.line);
+  }
+  for (const auto& [number, error] : table.broken) {
+    ids.insert(std::to_string(number));
+    builder->Reject(std::to_string(number), error);
+  }
+  return builder->CheckIndex(ids);
+}
+
+// `path` is the table; `source` is the path that the caller gave, the table or its folder.
+Expected<CurveSet> SetFromTable(const DecodedText& decoded, const std::string& path,
+                                const std::string& source, const ReadOptions& options) {
+  const DecodedText text = RewriteTable(decoded);
+  const fs::path file(path);
+  const bool in_folder = file.filename() == kCurvesName;
+  const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
+  CurveSetBuilder builder(name, source, options);
+  if (!text.remark.empty()) builder.Assume({text.remark});
+  const fs::path common =
+      in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
+  const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
+  const Expected<std::size_t> counted = CountChannels(text.text, path, options);
+  if (!counted && HoldsKeyPoints(text.text, path)) {
+    return ReadKeyPoints(text, path, common.string(), options);
+  }
+  TRY(const std::size_t channels, counted);
+  TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
+  auto added = channels > 1 && options.column.empty()
+                   ? AddChannels(text.text, path, channels, options, &builder)
+                   : AddSweeps(text.text, path, index, options, &builder);
+  if (!added) return tl::unexpected(added.error());
+  return builder.Finish();
+}
+
+Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,
+                                    const ReadOptions& options) {
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  return SetFromTable(text, path, source, options);
+}
+
+Expected<void> AddFromFile(const fs::path& table, const std::string& id, const ReadOptions& options,
+                           CurveSetBuilder* builder) {
+  TRY(CheckIsNoStream(table));
+  TRY(RawCurve raw, ReadTableCurve(table.string(), options));
+  raw.curve.name = id;
+  builder->Add(std::move(raw), 0);
+  return {};
+}
+
+Expected<CurveSet> ReadFromTables(const std::string& folder, const ReadOptions& options) {
+  const std::vector<fs::path> tables = TablesIn(folder);
+  if (tables.empty()) {
+    std::error_code error;
+    return Fail(
+        fmt::format("expected curves.csv or tables of one curve each (.csv, .tsv, .txt, ...), "
+                    "found {}",
+                    fs::is_empty(folder, error) ? "an empty folder" : "a folder without"),
+        folder);
+  }
+  const fs::path inside(folder);
+  CurveSetBuilder builder(FolderNameOf(inside / kCurvesName), folder, options);
+  auto read =
+      builder.ReadCommon((inside / kDatasetName).lexically_normal().string(), SidecarOf::kSet);
+  if (read) {
+    read = builder.ReadIndex((inside / kIndexName).lexically_normal().string(), IndexIds::kFiles);
+  }
+  if (!read) return tl::unexpected(read.error());
+  std::set<std::string> ids;
+  for (const fs::path& table : tables) {
+    const std::string id = table.stem().string();
+    if (!ids.insert(id).second) {
+      return Fail(
+          fmt::format("expected one table a curve, found a second one of curve {}", Quoted(id)),
+          table.string());
+    }
+  }
+  TRY(builder.CheckIndex(ids));
+  for (const fs::path& table : tables) {
+    const std::string id = table.stem().string();
+    const auto added = AddFromFile(table, id, options, &builder);
+    if (!added) builder.Reject(id, added.error());
+  }
+  return builder.Finish();
+}
+
+Expected<CurveSet> SetFromJson(const nlohmann::json& document, const std::string& path,
+                               const ReadOptions& options) {
+  CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
+  if (!IsIvCurves(document)) {
+    TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
+    for (RawCurve& raw : curves) builder.Add(std::move(raw), 0);
+    return builder.Finish();
+  }
+  TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
+  for (IvCurvesEntry& entry : entries) {
+    if (entry.curve) {
+      entry.curve->name = entry.id;
+      builder.AddSettled(std::move(*entry.curve));
+    } else {
+      builder.Reject(entry.id, entry.curve.error());
+    }
+  }
+  return builder.Finish();
+}
+
+}  // namespace
+
+Expected<CurveSet> CurveSetOfFile(const DecodedText& text, const std::string& path,
+                                  const ReadOptions& options) {
+  TRY(const std::optional<nlohmann::json> document, DocumentIn(text.text, path));
+  return document ? SetFromJson(*document, path, options) : SetFromTable(text, path, path, options);
+}
+
+Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options) {
+  if (options.curve) {
+    return Fail(
+        fmt::format("a set is read whole, but curve {} alone was asked for", *options.curve), path);
+  }
+  if (!IsFolder(path)) {
+    TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+    return CurveSetOfFile(text, path, options);
+  }
+  const fs::path curves = fs::path(path) / kCurvesName;
+  if (IsFile(curves)) return ReadSetFromTable(curves.lexically_normal().string(), path, options);
+  if (const fs::path one = CurveInFolder(path); !one.empty()) {
+    return Fail(fmt::format("expected several curves, found a folder of one (it holds {})",
+                            one.filename().string()),
+                path);
+  }
+  return ReadFromTables(path, options);
+}
+
+}  // namespace lyrefit

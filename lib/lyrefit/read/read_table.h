@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/sidecar.h"
+
+namespace lyrefit {
+
+// The columns of a table: every row in file order, converted to the units of IvCurve, with the
+// currents' original sign.
+struct Table {
+  IvCurve curve;                // columns and assumptions only
+  bool holds_curves = false;    // `sweep` comes from a column named curve
+  std::vector<int> lines;       // line of each row in the file
+  std::vector<int> skipped;     // lines of missing readings that were left out
+  std::map<int, Error> broken;  // first error of each sweep with an invalid row
+  Sidecar head;                 // conditions stated in lines before the header
+  bool per_area = false;        // the currents are in A/cm2
+  std::string name;             // of the measurement, by its columns: ChannelName
+};
+
+enum class BrokenRows {
+  kRefuse,   // the first one is the error of the table
+  kSetAside  // record it in `broken` if the row's sweep can be read
+};
+
+// Reads a table and further tables below it, which become separate sweeps. Text below the last row
+// is ignored, and `assumptions` mentions it. `file` is only used in errors.
+Expected<Table> ReadTable(std::string_view text, const std::string& file,
+                          const ReadOptions& options = {},
+                          BrokenRows broken_rows = BrokenRows::kRefuse);
+
+}  // namespace lyrefit

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+
+namespace lyrefit {
+
+// What every layout is parsed to: names with scalars or with lists of readings. One function
+// (make_curve.h) makes a curve of them.
+
+// A value beside the readings.
+struct RecordScalar {
+  std::string name;
+  std::string text;      // without quotes; a number as written
+  bool is_text = false;  // marked as text, not a number
+  int column = 0;        // in its line, from 1
+};
+
+// A list of readings.
+struct Record {
+  std::string name;
+  std::vector<double> values;  // NaN where one is missing
+  int column = 0;
+  std::string bad;  // the first value that is no finite number, as written
+  std::size_t bad_at = 0;
+  int bad_column = 0;         // its column in the line, from 1; 0: unknown
+  std::int64_t bad_line = 0;  // its line, if each reading has a line of its own
+  bool has_bad = false;       // whether there is such a value
+  bool bad_is_text = false;   // true: it is text and cannot be treated as missing
+};
+
+struct Records {
+  std::vector<RecordScalar> scalars;
+  std::vector<Record> lists;
+  std::vector<std::string> assumptions;  // assumptions made when the row was packed
+  bool nested = false;                   // has values that are neither scalars nor lists of scalars
+};
+
+// Adds one item to a list: a number, a missing value, or an invalid text.
+void AddReading(std::string_view text, bool decimal_comma, int column, Record* list);
+
+}  // namespace lyrefit

@@ -1,0 +1,149 @@
+#include "lyrefit/read/results_above.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "lyrefit/base/median.h"
+#include "lyrefit/read/label.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/table_columns.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr char kResultsDelimiter = '\t';
+
+// The name of a result without its unit, in small letters: "jsc" of "JSC [mA/cm2]".
+std::string ResultName(std::string_view label) {
+  const std::vector<LabelWord> words = SplitLabel(label);
+  std::size_t end = 0;
+  while (end < words.size() && !words[end].marked_as_unit) ++end;
+  std::string name = JoinWords(words, 0, end);
+  return name == "isca" || name == "voca" ? name.substr(0, 3) : name;
+}
+
+int PlaceOf(const Fields& names, std::string_view wanted) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (ResultName(names[i]) == wanted) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// Median of |reading / stated value| over the sweeps; 0 if there is none.
+double SizeOver(const ResultsAbove& results, int place, const Fields& readings) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < results.rows.size(); ++i) {
+    const auto stated = ParseNumber(results.rows[i][place]);
+    const auto read = ParseNumber(readings[i + 1]);
+    if (stated && read && *stated != 0) ratios.push_back(std::abs(*read / *stated));
+  }
+  return ratios.empty() ? 0 : UpperMedian(ratios);
+}
+
+// The unit of the currents: that of the stated Jsc or Isc, whichever is nearer to the readings.
+Column UnitByResults(const ResultsAbove& results, const Fields& readings) {
+  constexpr double kFarthest = 100;
+  Column nearest;
+  double distance = std::log(kFarthest);
+  for (const auto& [name, kind] :
+       {std::pair("jsc", ColumnKind::kCurrentDensity), std::pair("isc", ColumnKind::kCurrent)}) {
+    const int place = PlaceOf(results.names, name);
+    if (place == -1) continue;
+    const std::vector<LabelWord> words = SplitLabel(results.names[place]);
+    const Unit* unit = nullptr;
+    for (std::size_t from = 1; from < words.size() && unit == nullptr; ++from) {
+      unit = FindUnit(kind, JoinWords(words, from, words.size()));
+    }
+    const double away = std::abs(std::log(SizeOver(results, place, readings)));
+    if (unit == nullptr || !(away < distance)) continue;
+    distance = away;
+    nearest.kind = kind;
+    nearest.unit = unit->text;
+    nearest.factor = unit->factor;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+bool AreKeyPoints(const Fields& names) {
+  static constexpr std::string_view kPoints[] = {"isc", "jsc",  "voc",  "imp",
+                                                 "vmp", "impp", "vmpp", "pmp"};
+  const auto found = std::count_if(names.begin(), names.end(), [](const std::string& name) {
+    const std::string result = ResultName(name);
+    return std::find(std::begin(kPoints), std::end(kPoints), result) != std::end(kPoints);
+  });
+  return found >= 3;
+}
+
+bool TakeResults(std::string_view line, int number, ResultsAbove* results, TableHead* head) {
+  auto fields = SplitFields(line, kResultsDelimiter);
+  if (!fields || fields->size() < 3) return false;
+  if (AreKeyPoints(*fields)) {
+    *results = {std::move(*fields), {}};
+    return true;
+  }
+  if (results->names.empty() || fields->size() != results->names.size()) return false;
+  if (!ParseNumber((*fields)[0])) return false;
+  results->rows.push_back(std::move(*fields));
+  if (results->rows.size() > 1) return true;
+  for (std::size_t i = 0; i < results->names.size(); ++i) {
+    const auto value = ParseNumber(results->rows[0][i]);
+    const std::string source = fmt::format("line {} {}", number, Quoted(results->names[i]));
+    if (value && std::isfinite(*value)) TakeStatement(results->names[i], *value, source, head);
+  }
+  return true;
+}
+
+TableLine HeaderBelowResults(const ResultsAbove& results, std::string_view line,
+                             std::string_view next_line) {
+  const auto fields = SplitFields(line, kResultsDelimiter);
+  const auto readings = SplitFields(next_line, kResultsDelimiter);
+  if (!fields || !readings || results.rows.empty()) return {};
+  const std::size_t sweeps = results.rows.size();
+  if (fields->size() != sweeps + 1 || readings->size() != sweeps + 1) return {};
+  const auto is_number = [](const std::string& field) { return ParseNumber(field).has_value(); };
+  if (!std::all_of(readings->begin(), readings->end(), is_number)) return {};
+  if (!std::all_of(fields->begin() + 1, fields->end(), is_number)) return {};
+  const Column voltage = RecogniseColumn(fields->front().substr(0, fields->front().find('/')));
+  const Column current = UnitByResults(results, *readings);
+  if (voltage.kind != ColumnKind::kVoltage || current.kind == ColumnKind::kUnrecognised) return {};
+  TableLine header{kResultsDelimiter, {}, {voltage}, true};
+  for (const Fields& row : results.rows) {
+    Column column = current;
+    column.label = row.back();
+    column.tag = ReadTag(row.back());
+    header.columns.push_back(column);
+  }
+  for (const Column& column : header.columns) header.fields.push_back(column.label);
+  return header;
+}
+
+void TakeGroupNames(std::string_view above, TableLine* header) {
+  const std::vector<Channel> channels = FindChannels(header->columns);
+  if (channels.size() < 2) return;
+  std::vector<Column>& columns = header->columns;
+  if (columns[channels[0].current].label != columns[channels[1].current].label) return;
+  const auto fields = SplitFields(above, header->delimiter);
+  if (!fields) return;
+  std::set<std::string> names;
+  for (const Channel& channel : channels) {
+    const auto place = static_cast<std::size_t>(std::min(channel.voltage, channel.current));
+    if (place >= fields->size() || (*fields)[place].empty()) return;
+    if (ParseNumber((*fields)[place]) || !names.insert((*fields)[place]).second) return;
+  }
+  for (const Channel& channel : channels) {
+    const std::string& name = (*fields)[std::min(channel.voltage, channel.current)];
+    for (const int place : {channel.voltage, channel.current}) {
+      columns[place].tag = ReadTag(name);
+      columns[place].label = name + " " + columns[place].label;
+    }
+  }
+}
+
+}  // namespace lyrefit

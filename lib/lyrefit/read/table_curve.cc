@@ -1,0 +1,138 @@
+#include "lyrefit/read/table_curve.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/current_sign.h"
+#include "lyrefit/read/equal_readings.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/read_table.h"
+#include "lyrefit/read/rewrite_table.h"
+#include "lyrefit/read/select_sweep.h"
+#include "lyrefit/read/settle_conditions.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string EffectsOf(const fs::path& path) { return LowerCase(path.extension().string()); }
+
+}  // namespace
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_directory(path, error);
+}
+
+Expected<void> CheckIsNoStream(const fs::path& path) {
+  if (!IsStream(path.string())) return {};
+  return Fail("expected a file, found a pipe, a socket or a device", path.string());
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsJson(const fs::path& path) { return EffectsOf(path) == ".json"; }
+
+bool IsTable(const fs::path& path) {
+  const std::string extension = EffectsOf(path);
+  constexpr const char* kEndings[] = {".csv", ".tsv", ".txt", ".dat", ".asc",
+                                      ".dta", ".mpt", ".lvm", ".prn"};
+  return std::find(std::begin(kEndings), std::end(kEndings), extension) != std::end(kEndings);
+}
+
+std::string FolderNameOf(const fs::path& path) {
+  std::error_code error;
+  return fs::absolute(path, error).lexically_normal().parent_path().filename().string();
+}
+
+fs::path CurveInFolder(const fs::path& folder) {
+  const fs::path plain = folder / "curve.csv";
+  if (IsFile(plain)) return plain.lexically_normal();
+  const std::string name = FolderNameOf(plain);
+  for (const char* ending : {".csv", ".txt"}) {
+    const fs::path own = folder / (name + ending);
+    if (!name.empty() && IsFile(own)) return own.lexically_normal();
+  }
+  return {};
+}
+
+std::vector<fs::path> TablesIn(const fs::path& folder) {
+  std::vector<fs::path> tables;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const bool hidden = path.filename().string().front() == '.';
+    const bool is_curve = IsTable(path) && !hidden && path.filename() != kIndexName;
+    if (is_curve && IsFile(path)) tables.push_back(path.lexically_normal());
+  }
+  std::sort(tables.begin(), tables.end());
+  return tables;
+}
+
+Expected<RawCurve> TableCurveFromText(const DecodedText& decoded, const std::string& path,
+                                      const ReadOptions& options) {
+  const DecodedText text = RewriteTable(decoded);
+  TRY(Table table, ReadTable(text.text, path, options));
+  RawCurve raw;
+  raw.curve = std::move(table.curve);
+  raw.stated = std::move(table.head);
+  raw.per_area = table.per_area;
+  if (!text.remark.empty()) {
+    raw.curve.assumptions.insert(raw.curve.assumptions.begin(), text.remark);
+  }
+  if (auto selected = SelectSweep(options.curve, table.holds_curves, &raw.curve); !selected) {
+    return Fail(selected.error().message, path);
+  }
+  TurnLoadSign(&raw.curve);
+  return raw;
+}
+
+Expected<RawCurve> ReadTableCurve(const std::string& path, const ReadOptions& options) {
+  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
+  return TableCurveOfFile(text, path, options);
+}
+
+Expected<RawCurve> TableCurveOfFile(const DecodedText& text, const std::string& path,
+                                    const ReadOptions& options) {
+  Expected<RawCurve> raw = TableCurveFromText(text, path, options);
+  if (!raw) return raw;
+  raw->curve.source = path;
+  // A table "curve.csv" is named after its folder.
+  const fs::path file(path);
+  const std::string folder = file.filename() == "curve.csv" ? FolderNameOf(file) : "";
+  raw->curve.name = folder.empty() ? file.stem().string() : folder;
+  TRY(Sidecar beside, ReadSidecarBeside(path, options));
+  raw->stated = MergeHead(std::move(beside), raw->stated);
+  return raw;
+}
+
+Expected<IvCurve> FinishCurve(RawCurve raw, const ReadOptions& options) {
+  IvCurve curve = std::move(raw.curve);
+  const std::string source = curve.source;
+  if (raw.per_area) {
+    auto settled = SettleArea(options, raw.stated, &curve);
+    if (!settled) return Fail(settled.error().message, source);
+  }
+  SettleConditions(raw.stated, &curve);
+  if (options.area_cm2) curve.notes.area_cm2 = options.area_cm2;
+  if (!options.keep_limited) LeaveOutLimited(&curve);
+  if (auto valid = Validate(curve); !valid) return Fail(valid.error().message, source);
+  return curve;
+}
+
+Expected<Sidecar> ReadSidecarBeside(const std::string& path, const ReadOptions& options) {
+  const fs::path sidecar = fs::path(path).replace_extension(".json");
+  if (!IsFile(sidecar)) return Sidecar{};
+  TRY(CheckIsNoStream(sidecar));
+  return ReadSidecar(sidecar.string(), options.largest_file_bytes);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/read/column.h"
+#include "lyrefit/read/sidecar.h"
+
+namespace lyrefit {
+
+// A short-circuit current stated in the head of a table. It identifies the unit of a current column
+// that names none.
+struct StatedCurrent {
+  double value;     // in the stated unit
+  ColumnKind kind;  // a current or a current density
+  double factor;    // converts to A or A/cm2
+  std::string source;
+};
+
+// Statements in the lines before the header of a table.
+struct TableHead {
+  Sidecar said;
+  std::vector<Assumption> assumptions;  // values taken, with their source
+  std::vector<std::string> left;        // lines with a number that was not understood
+  std::optional<StatedCurrent> short_circuit;
+};
+
+enum class HeadLine {
+  kText,
+  kComment  // only a clear statement counts; other text is a remark
+};
+
+// Records the statements of `line`: irradiance, cell temperature, number of cells, area,
+// compliance, date. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". The
+// first of two statements about one quantity is kept.
+void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head);
+
+// Records a named value, as JSON files state it. False if it was not understood.
+bool TakeStatement(std::string_view label, double value, const std::string& source,
+                   TableHead* head);
+
+// Sentences about the head: the values taken, and some of the lines not understood.
+std::vector<Assumption> HeadSentences(const TableHead& head);
+
+}  // namespace lyrefit

@@ -1,0 +1,278 @@
+#include "lyrefit/read/table_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/stoppable_reads.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/header_layout.h"
+#include "lyrefit/read/number_text.h"
+#include "lyrefit/read/results_above.h"
+#include "lyrefit/read/table_header.h"
+#include "lyrefit/read/table_lines.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kLargestPreamble = 200;  // lines of text before the header
+
+const char* NameOf(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::kSigma:
+      return "standard deviation of the current";
+    case ColumnKind::kTime:
+      return "time";
+    case ColumnKind::kSweep:
+    case ColumnKind::kCurve:
+      return "number of the sweep or curve";
+    case ColumnKind::kIrradiance:
+      return "irradiance";
+    case ColumnKind::kTemperature:
+      return "cell temperature";
+    default:
+      return "used";
+  }
+}
+
+// Error for a file without a recognised table, at the line most similar to a header. The message
+// lists the line's fields, split at the first delimiter that yields several.
+Error NoLayout(std::string_view line, int number, const std::string& file) {
+  const std::string expected =
+      "expected a header with a voltage and a current, such as voltage_V,current_A";
+  if (number == 0) return Error{"the file holds no data, only blank lines and comments", file};
+  TableLine best;
+  for (const char delimiter : kDelimiters) {
+    const auto fields = SplitFields(line, delimiter);
+    if (!fields || fields->size() < 2) continue;
+    best = {delimiter, *fields, RecogniseAll(*fields)};
+    break;  // in order of trial: blanks also separate words
+  }
+  if (best.delimiter == 0) {
+    const char* what = ParseNumber(line, true) ? "a table of one column" : "one field";
+    return Error{fmt::format("{}, found {}: {}", expected, what, Quoted(line)), file, number, 1};
+  }
+  if (AreKeyPoints(best.fields)) {
+    return Error{fmt::format("expected the points of a curve, found its key points alone ({}): "
+                             "`lyrefit datasheet` makes parameters of them",
+                             ListOf(best.fields)),
+                 file, number, 1};
+  }
+  std::string missing = "neither";
+  if (HasKind(best.columns, ColumnKind::kVoltage)) missing = "no current";
+  if (HasKind(best.columns, ColumnKind::kCurrent)) missing = "no voltage";
+  return Error{fmt::format("{}, found {} among {}; name the columns with --voltage-column and "
+                           "--current-column (name or number)",
+                           expected, missing, ListOf(best.fields)),
+               file, number, 1};
+}
+
+struct SkippedLine {
+  std::string_view line;
+  int number = 0;
+};
+
+// State of the search for the header or, without one, the first row.
+struct LayoutSearch {
+  LineReader lines;
+  const std::string& file;
+  HeaderRules rules;
+  std::string_view line = {};
+  std::string_view comment = {};
+  Fields names = {};  // of columns, each given on a separate line
+  SkippedLine first_text = {};
+  SkippedLine last_text = {};
+  SkippedLine text_before_row = {};
+  bool row_after_text = false;
+  bool demand_header = false;  // accept only a header with numbers below it
+  bool found_header = false;   // a header with numbers below it
+  std::optional<Expected<TableLayout>> second_best = {};
+  TableHead head = {};
+  ResultsAbove results = {};
+  int skipped = 0;  // lines of text, not counting comments
+};
+
+HeaderPlace PlaceOfHeader(const LayoutSearch& search, const TableLine& found) {
+  return {search.file, search.lines.number(), search.line, found.delimiter};
+}
+
+// Whether the options select columns by place, so that no header is needed.
+bool WishesArePlaces(const LayoutSearch& search) {
+  return ParseNumber(search.rules.options.voltage_column) &&
+         ParseNumber(search.rules.options.current_column);
+}
+
+Expected<TableLayout> Finished(const LayoutSearch& search, Expected<TableLayout> layout,
+                               std::size_t offset, int lines_before) {
+  if (!layout) return layout;
+  layout->first_row_offset = offset;
+  layout->first_row_line = lines_before;
+  layout->head = search.head;
+  std::vector<Assumption> about_head;
+  if (search.skipped > 0) {
+    about_head.push_back(fmt::format("{} line{} before the header in line {} skipped",
+                                     search.skipped, search.skipped == 1 ? "" : "s",
+                                     search.lines.number()));
+  }
+  const std::vector<Assumption> sentences = HeadSentences(search.head);
+  about_head.insert(about_head.end(), sentences.begin(), sentences.end());
+  layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
+  return layout;
+}
+
+std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
+  LineReader ahead = search->lines;
+  std::string_view units;
+  do {
+    if (!ahead.Next(&units)) return std::nullopt;
+  } while (units.find_first_not_of(" \t") == std::string_view::npos);
+  const std::string joined = WithUnits(search->line, units);
+  if (joined.empty()) return std::nullopt;
+  const LineReader below = ahead;
+  std::string_view next_line;
+  ahead.NextContent(&next_line);
+  TableLine header = AsHeader(joined, next_line, search->rules);
+  if (header.delimiter == 0 || !header.fits) return std::nullopt;
+  TakeGroupNames(search->last_text.line, &header);
+  auto layout =
+      LayoutOfHeader(header, PlaceOfHeader(*search, header), next_line, search->rules.options);
+  search->lines = below;
+  return Finished(*search, std::move(layout), search->lines.offset(), search->lines.number());
+}
+
+// Interprets the line as a header, alone or with a line of units below it. A header without numbers
+// below it is kept as second best: its rows produce a more specific error than no header would.
+std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
+  if (auto with_units = TryHeaderWithUnits(search)) return with_units;
+  std::string_view next_line;
+  LineReader ahead = search->lines;
+  ahead.NextContent(&next_line);
+  TableLine header = AsHeader(search->line, next_line, search->rules);
+  if (header.delimiter == 0) header = HeaderBelowResults(search->results, search->line, next_line);
+  if (header.delimiter == 0 || (!header.fits && search->second_best)) return std::nullopt;
+  TakeGroupNames(search->last_text.line, &header);
+  search->found_header = search->found_header || header.fits;
+  auto layout = Finished(
+      *search,
+      LayoutOfHeader(header, PlaceOfHeader(*search, header), next_line, search->rules.options),
+      search->lines.offset(), search->lines.number());
+  if (header.fits) return layout;
+  search->second_best = std::move(layout);
+  return std::nullopt;
+}
+
+// Moves to the next line with content, like LineReader::NextContent. It also records comments and
+// the offset of the line.
+bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
+  while (true) {
+    *offset = search->lines.offset();
+    if (!search->lines.Next(&search->line)) return false;
+    const std::size_t first = search->line.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    if (!BeginsComment(search->line[first])) return true;
+    search->comment = search->line;
+    ReadHeadLine(search->line, search->lines.number(), HeadLine::kComment, &search->head);
+  }
+}
+
+void SkipLine(LayoutSearch* search) {
+  search->last_text = {search->line, search->lines.number()};
+  if (search->skipped++ == 0) search->first_text = search->last_text;
+  TakeColumnName(search->line, &search->names);
+  if (TakeResults(search->line, search->lines.number(), &search->results, &search->head)) return;
+  ReadHeadLine(search->line, search->lines.number(), HeadLine::kText, &search->head);
+}
+
+Expected<TableLayout> LayoutFromRow(const LayoutSearch& search, const TableLine& row) {
+  const TableLine header = HeaderInComment(search.comment, search.line, search.rules);
+  if (header.delimiter == 0)
+    return LayoutWithoutHeader(row, PlaceOfHeader(search, row), search.rules.options);
+  Expected<TableLayout> layout =
+      LayoutOfHeader(header, PlaceOfHeader(search, header), search.line, search.rules.options);
+  if (layout) {
+    layout->assumptions.push_back("column names taken from the comment above the numbers");
+  }
+  return layout;
+}
+
+Expected<TableLayout> FindLayout(LayoutSearch* search) {
+  std::size_t offset = 0;
+  while (search->skipped <= kLargestPreamble && NextLineOf(search, &offset)) {
+    if (StoppableReads::Stopped()) return FailAsStopped(search->file);
+    if (auto header = TryHeader(search)) return *header;
+    const TableLine row = AsRow(search->line);
+    if (const TableLine header = HeaderOfNames(search->names, row, search->rules);
+        header.delimiter != 0) {
+      Expected<TableLayout> layout = LayoutOfHeader(header, PlaceOfHeader(*search, header),
+                                                    search->line, search->rules.options);
+      if (layout) {
+        layout->assumptions.push_back("column names taken from the lines that number them");
+      }
+      return Finished(*search, std::move(layout), offset, search->lines.number() - 1);
+    }
+    if (row.delimiter != 0 && !search->row_after_text && !search->demand_header) {
+      if (search->skipped == 0 || WishesArePlaces(*search)) {
+        return Finished(*search, LayoutFromRow(*search, row), offset, search->lines.number() - 1);
+      }
+      // Numbers may occur in text that a tracer writes before the header, so a header may still
+      // follow.
+      search->row_after_text = true;
+      search->text_before_row = search->last_text;
+    }
+    SkipLine(search);
+  }
+  if (search->second_best && !search->demand_header) return *search->second_best;
+  const SkippedLine& shown = search->row_after_text ? search->text_before_row : search->first_text;
+  return tl::unexpected(NoLayout(shown.line, shown.number, search->file));
+}
+
+}  // namespace
+
+Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
+                                      const ReadOptions& options) {
+  LayoutSearch known{LineReader(text), file, {options, false}};
+  Expected<TableLayout> layout = FindLayout(&known);
+  if (layout) return layout;
+  LayoutSearch guessed{LineReader(text), file, {options, true}};
+  Expected<TableLayout> guess = FindLayout(&guessed);
+  return guess || guessed.found_header ? guess : layout;
+}
+
+Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
+                                     const ReadOptions& options) {
+  LayoutSearch search{lines, file, {options, false}};
+  search.demand_header = true;
+  return FindLayout(&search);
+}
+
+Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
+                                                   const ReadOptions& options) {
+  ReadOptions any = options;
+  if (any.column.empty()) any.column = "1";
+  TRY(const TableLayout layout, FindTableLayout(text, file, any));
+  std::vector<ColumnNote> notes;
+  for (int i = 0; i < static_cast<int>(layout.columns.size()); ++i) {
+    std::string use;
+    const bool several = layout.channels.size() > 1;
+    for (std::size_t k = 0; k < layout.channels.size() && use.empty(); ++k) {
+      const Channel& channel = layout.channels[k];
+      const bool shared = several && layout.channels[0].voltage == layout.channels[1].voltage;
+      std::vector<ColumnPair> sweeps = {channel};
+      sweeps.insert(sweeps.end(), channel.more.begin(), channel.more.end());
+      for (std::size_t n = 0; n < sweeps.size() && use.empty(); ++n) {
+        std::string which = several ? fmt::format(" {}", k + 1) : "";
+        if (sweeps[n].voltage == i) use = "voltage" + (shared ? "" : which);
+        if (sweeps.size() > 1) which += fmt::format(", sweep {}", n + 1);
+        if (sweeps[n].current == i)
+          use = (layout.per_area() ? "current density" : "current") + which;
+      }
+    }
+    if (use.empty()) use = IsUsed(layout, i) ? NameOf(layout.columns[i].kind) : "not used";
+    notes.push_back({i + 1, layout.columns[i].label, use});
+  }
+  return notes;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,218 @@
+#include "lyrefit/read/read_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "error_of.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::AllOf;
+
+using ::testing::Contains;
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(ReadTableTest, ReadsEveryWayToWriteTheSameTable) {
+  for (const char* text : {
+           "voltage_V,current_A\n-0.5,2\n0,1.5\n",
+           "voltage_V,current_A\r\n-0.5,2\r\n0,1.5\r\n",
+           "voltage_V,current_A\r-0.5,2\r0,1.5",
+           "# remark\n\nvoltage_V,current_A\n# remark\n-0.5,2\n\n0,1.5\n# end",
+           "voltage_V,current_A,\n-0.5,2,\n0,1.5,\n",
+           "voltage_V,current_A\n-0.5,2,,\n0,1.5\n",
+           "\"voltage_V\",\"current_A\"\n\"-0.5\",\"2\"\n\"0\",\"1.5\"\n",
+           "V I\n-0.5 2\n 0   1.5 \n",
+           "V\tI\n-0.5\t2\n0\t1.5\n",
+           "V;I\n-0,5;2\n0;1,5\n",
+           "V\tI\n-0,5\t2\n0\t1,5\n",
+           "V,I\n-5e-1,+2.0E0\n0,1.5\n",
+           "V,I\n\u22120.5,2\n0,1.5\n",
+           "Voltage (mV),Current (mA)\n-500,2000\n0,1500\n",
+           "Volts, Amps, Watts, Ohms\n-0.5, 2, -1, -0.25\n0, 1.5, 0, 0\n",
+           "I,V\n2,-0.5\n1.5,0\n",
+           "-0.5,2.0\n0,1.5\n",
+           "-0.5 2\n0 1.5\n",
+           "-0,5;2\n0;1,5\n",
+           "Tracer X\nModule: 7\n\nVoltage [V];Current [A]\n-0.5;2\n0;1.5\n",
+       }) {
+    SCOPED_TRACE(text);
+    const auto table = ReadTable(text, "f.csv");
+    ASSERT_TRUE(table) << table.error().ToString();
+    EXPECT_THAT(table->curve.voltage_V, ElementsAre(-0.5, 0));
+    EXPECT_THAT(table->curve.current_A, ElementsAre(2, 1.5));
+  }
+}
+
+TEST(ReadTableTest, ReadsTheOptionalColumns) {
+  const auto table = ReadTable(
+      "V,I,sigma_mA,time_ms,sweep,irradiance_kW/m2,temperature_K\n0,1,2,500,3,0.8,298.15\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->curve.sigma_A, ElementsAre(2e-3));
+  EXPECT_THAT(table->curve.time_s, ElementsAre(0.5));
+  EXPECT_THAT(table->curve.sweep, ElementsAre(3));
+  EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(800));
+  EXPECT_THAT(table->curve.temperature_C, ElementsAre(25));
+  EXPECT_FALSE(table->holds_curves);
+  EXPECT_THAT(SentencesOf(table->curve.assumptions),
+              ::testing::Contains(HasSubstr("converted from kelvin")));
+}
+
+TEST(ReadTableTest, ColumnNamedCurveTellsCurvesApart) {
+  const auto table = ReadTable("curve,V,I\n4,0,1\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->holds_curves);
+  EXPECT_THAT(table->curve.sweep, ElementsAre(4));
+}
+
+TEST(ReadTableTest, KeepsOrderAndDuplicates) {
+  const auto table = ReadTable("V,I\n0.5,1\n0,2\n0.5,1\n0.3,1.5\n", "");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0.5, 0, 0.5, 0.3));
+}
+
+struct BadTable {
+  const char* text;
+  int line;
+  int column;
+  const char* phrase;
+};
+
+TEST(ReadTableTest, ErrorsNameLineColumnAndWhatWasExpected) {
+  const BadTable kCases[] = {
+      {"voltage_V,current_A\n0,1\n0.1,abc\n", 3, 5,
+       "expected a number in column current_A, found 'abc'"},
+      {"V,I\nabc,1\n0.1,2\n", 2, 1, "expected a number in column V, found 'abc'"},
+      {"id,V,I\nA,0;1;2,2;1;0\n", 2, 3, "found a list of 3: write one reading a line"},
+      {"V,I\n0,1\n0.1,\n", 3, 5, "expected a number in column I, found an empty field"},
+      {"V,I\n0,1\n,1\n", 3, 1, "found an empty field"},
+      {"V,I\n0,1\n0.1\n", 3, 1, "expected 2 fields as in the first line of the table, found 1"},
+      {"V,I\n0,1\n0.1,2,3\n", 3, 7, "expected 2 fields as in the first line of the table, found 3"},
+      {"V,I\n0,5,3,2\n", 2, 5, "with a decimal comma"},
+      {"V,I\n0,nan\n", 2, 3, "expected a finite number in column I, found 'nan'"},
+      {"V,I\n0,1\ninf,1\n", 3, 1, "expected a finite number in column V"},
+      {"V,I\n0,1e999\n", 2, 3, "expected a number"},
+      {"V,I (kA)\n0,1e308\n", 2, 3, "expected a finite number"},
+      {"V,I\n0,\"1\n", 2, 1, "expected closed quotes"},
+      {"V,I\n", 1, 0, "expected rows of numbers below the header"},
+      {"V,I,sigma\n0,1,0\n", 2, 5, "expected a positive number in column sigma, found '0'"},
+      {"V,I,sigma\n0,1,-0.1\n", 2, 5, "expected a positive number"},
+      {"V,I,sweep\n0,1,left\n", 2, 5, "expected a number in column sweep, found 'left'"},
+      {"V,I,sweep\n0,1,1.5\n", 2, 5, "expected a whole number in column sweep"},
+      {"V,I,temperature_C\n0,1,298.15\n", 2, 5, "looks like kelvin"},
+      {"V,I,temperature_C\n0,1,-101\n", 2, 5, "too cold for a cell"},
+      {"V,I,temperature_K\n0,1,25\n", 2, 5, "too cold for a cell"},
+      {"0.0,1\n0.1,x\n", 2, 5, "expected a number in column 2, found 'x'"},
+      {"V;I\n0.5;1\n0,6;1\n", 3, 1, "a number with decimal '.' as above"},
+      {"V;I\n0,5;1\n0.6;1\n", 3, 1, "a number with decimal ',' as above"},
+      {"V,I\n0,1\n0.1,\xb5\n", 3, 5, "UTF-8"},
+      {"# r\r\nV,I\r\n0,1\r\n0.1,x\r\n", 4, 5, "found 'x'"},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.text);
+    ExpectErrorAt(ReadTable(c.text, "f.csv"), "f.csv", c.line, c.column, c.phrase);
+  }
+}
+
+TEST(ReadTableTest, ASecondTableBelowIsASecondSweep) {
+  const auto table = ReadTable(
+      "Irradiance (W/m2),1000\nV,I\n0,2\n0.5,1\n\nIrradiance (W/m2),500\nsecond\nV,I\n0,1\n0.4,0\n",
+      "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.sweep, ElementsAre(1, 1, 2, 2));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(2, 1, 1, 0));
+  EXPECT_THAT(table->curve.irradiance_W_m2, ElementsAre(1000, 1000, 500, 500));
+  EXPECT_THAT(SentencesOf(table->curve.assumptions), Contains(HasSubstr("read as sweeps 1 to 2")));
+  EXPECT_FALSE(ReadTable("V,I\n0,2\n0.5,1\nV,I,t\n0,1,0\n", "f"));
+}
+
+TEST(ReadTableTest, TextBelowTheTableIsLeftAndSaid) {
+  for (const char* text :
+       {"V,I\n0,2\n0.5,1\n,,\nIsc,8.9\nVoc,36\n", "V,I\n0,2\n0.5,1\nIsc,8.9\nend\n"}) {
+    const auto table = ReadTable(text, "f");
+    ASSERT_TRUE(table) << table.error().ToString();
+    EXPECT_EQ(table->curve.size(), 2U);
+    EXPECT_THAT(
+        SentencesOf(table->curve.assumptions),
+        Contains(AllOf(HasSubstr("2 lines of text below the table"), HasSubstr("'Isc,8.9'"))));
+  }
+}
+
+TEST(ReadTableTest, NoPointIsTakenForText) {
+  for (const char* text :
+       {"V,I\n0,2\n0.5,1\n0.6\n", "V,I\n0,2\n0.5,1\nNA,0.5\n", "V,I\n0,2\nend\n0.5,1\n",
+        "V,I\n0,2\n0.5,1\n1.2.3,0.5\n", "V,I\n0,2\n0.5,1\nnan,0.5\n",
+        "V,I\n0,2\n0.5,1\n0.6,x\nV,I\n0,1\n", "V,I\n0,2\n0.5,1\n,0.5\n"}) {
+    EXPECT_FALSE(ReadTable(text, "f")) << text;
+  }
+}
+
+TEST(ReadTableTest, PairsSideBySideMayEndEarly) {
+  ReadOptions options;
+  options.column = "2";
+  const auto table = ReadTable("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,0.5\n0.6,0,,\n", "f", options);
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 0.4));
+  EXPECT_EQ(table->name, "I2");
+  EXPECT_FALSE(ReadTable("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,\n", "f", options));
+}
+
+TEST(ReadTableTest, DensitiesAreInAmperePerSquareCentimetre) {
+  const auto table = ReadTable("V,J (mA/cm2)\n0,40\n0.5,20\n", "f");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->per_area);
+  EXPECT_THAT(table->curve.current_A, ElementsAre(0.04, 0.02));
+}
+
+TEST(ReadTableTest, TheHeadTellsTheUnitOfAColumnThatNamesNone) {
+  const auto table = ReadTable("Jsc (mA/cm2),38\nVoltage,Current1\n0,-38.1\n0.5,-20\n", "f");
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(table->per_area);
+  EXPECT_NEAR(table->curve.current_A[0], -0.0381, 1e-12);
+  const auto other = ReadTable("Jsc (mA/cm2),20\nVoltage,Current1\n0,-38.1\n0.5,-20\n", "f");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->curve.current_A[0], -38.1);
+}
+
+TEST(ReadTableTest, DirectionsOfOneDeviceAreSweepsInTheirOrder) {
+  const auto table = ReadTable("V (V),a_for [A],a_rev [A]\n0,3,4\n1,2,3\n2,0,1\n", "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 1, 2, 2, 1, 0));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(3, 2, 0, 1, 3, 4));
+  EXPECT_THAT(table->curve.sweep, ElementsAre(1, 1, 1, 2, 2, 2));
+  EXPECT_THAT(table->lines, ElementsAre(2, 3, 4, 4, 3, 2));
+}
+
+TEST(ReadTableTest, ASweepStoredInTheOrderOfItsScanIsTurned) {
+  // The reverse currents begin at the highest voltage, although the voltages rise.
+  const auto table = ReadTable("V (V),a_for [A],a_rev [A]\n0,3,1\n1,2,3\n2,0,4\n", "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 1, 2, 2, 1, 0));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(3, 2, 0, 1, 3, 4));
+}
+
+TEST(ReadTableTest, AnAverageIsNotUsedAndItsPartsAreSweeps) {
+  const auto table =
+      ReadTable("V (V),I [1] (A),I [2] (A),Average I (A)\n2,0,1,0.5\n1,2,3,2.5\n0,3,4,3.5\n", "f");
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_THAT(table->curve.voltage_V, ElementsAre(2, 1, 0, 0, 1, 2));
+  EXPECT_THAT(table->curve.current_A, ElementsAre(0, 2, 3, 4, 3, 1));
+}
+
+TEST(ReadTableTest, ADarkMeasurementHasNoLight) {
+  ReadOptions options;
+  options.column = "1";
+  const auto table = ReadTable(
+      "Irradiance (W/m2): 1000\nVdark,Jdark,Vlight,Jlight\n0,0,0,9\n1,1,1,3\n", "f", options);
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_EQ(table->head.irradiance_W_m2, 0);
+  options.column = "2";
+  EXPECT_EQ(ReadTable("Vdark,Jdark,Vlight,Jlight\n0,0,0,9\n1,1,1,3\n", "f", options)
+                ->head.irradiance_W_m2,
+            std::nullopt);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,102 @@
+#include "lyrefit/read/settle_conditions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(SettleConditionsTest, SaysEverythingItHasToAssume) {
+  IvCurve curve;
+  SettleConditions({}, &curve);
+  EXPECT_EQ(curve.conditions.cells_in_series, 1);
+  EXPECT_EQ(curve.conditions.cell_temperature_K, 298.15);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              ElementsAre(kCellsAssumed, kTemperatureAssumed, kIrradianceAssumed));
+  EXPECT_FALSE(curve.temperature_known);
+  EXPECT_FALSE(curve.irradiance_known);
+}
+
+TEST(SettleConditionsTest, TakesTheSidecarAsItIs) {
+  IvCurve curve;
+  curve.name = "file";
+  Sidecar sidecar;
+  sidecar.name = "module";
+  sidecar.cells_in_series = 36;
+  sidecar.strings_in_parallel = 2;
+  sidecar.temperature_C = 45;
+  sidecar.irradiance_W_m2 = 0;
+  sidecar.notes.technology = "CdTe";
+  SettleConditions(sidecar, &curve);
+  EXPECT_EQ(curve.name, "module");
+  EXPECT_EQ(curve.conditions.cells_in_series, 36);
+  EXPECT_EQ(curve.conditions.strings_in_parallel, 2);
+  EXPECT_EQ(curve.conditions.cell_temperature_K, 318.15);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
+  EXPECT_EQ(curve.notes.technology, "CdTe");
+  EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
+}
+
+TEST(SettleConditionsTest, ColumnsStandInForAMissingSidecar) {
+  IvCurve curve;
+  curve.temperature_C = {30, 30};
+  curve.irradiance_W_m2 = {799, 801};
+  SettleConditions({}, &curve);
+  EXPECT_EQ(curve.conditions.cell_temperature_K, 303.15);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 800);
+  EXPECT_THAT(SentencesOf(curve.assumptions), ElementsAre(kCellsAssumed));
+}
+
+Sidecar StandardCell() {
+  Sidecar sidecar;
+  sidecar.cells_in_series = 1;
+  sidecar.temperature_C = 25;
+  sidecar.irradiance_W_m2 = 1000;
+  return sidecar;
+}
+
+TEST(SettleConditionsTest, ColumnThatAgreesLeavesTheRoundFigure) {
+  IvCurve curve;
+  curve.temperature_C = {25.03, 25.07};
+  curve.irradiance_W_m2 = {1003, 1004};
+  SettleConditions(StandardCell(), &curve);
+  EXPECT_EQ(curve.conditions.cell_temperature_K, 298.15);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 1000);
+  EXPECT_THAT(SentencesOf(curve.assumptions), IsEmpty());
+}
+
+TEST(SettleConditionsTest, ColumnThatDiffersCountsAndIsSaid) {
+  IvCurve curve;
+  curve.temperature_C = {55, 55};
+  curve.irradiance_W_m2 = {0, 0};
+  SettleConditions(StandardCell(), &curve);
+  EXPECT_EQ(curve.conditions.cell_temperature_K, 328.15);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              ElementsAre(HasSubstr("the cell temperature in the table (55 C) differs"),
+                          HasSubstr("the irradiance in the table (0 W/m2) differs")));
+}
+
+TEST(SettleConditionsTest, ColumnThatVariesIsSaid) {
+  IvCurve curve;
+  curve.irradiance_W_m2 = {900, 1000};
+  SettleConditions({}, &curve);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 950);
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              ::testing::Contains(HasSubstr("irradiance varies from 900 to 1000 W/m2")));
+}
+
+TEST(SettleConditionsTest, DarkOffsetOfTheSensorIsNoNegativeIrradiance) {
+  IvCurve curve;
+  curve.irradiance_W_m2 = {-0.4, -0.4};
+  SettleConditions({}, &curve);
+  EXPECT_EQ(curve.conditions.irradiance_W_m2, 0);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,100 @@
+#include "lyrefit/read/table_head.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TableHead Head(const char* line, HeadLine kind = HeadLine::kText) {
+  TableHead head;
+  ReadHeadLine(line, 3, kind, &head);
+  return head;
+}
+
+TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
+  for (const char* line : {"Measured Irradiance (W/m^2),912", "Irr:\t912", "POA 912 W/m2",
+                           "E(kW/m2),0.912", "Irr [W/m2];912,0", "G = 912 W/m2",
+                           "Light intensity (mW/cm2): 91.2", "Irradiance: 0.912 suns"}) {
+    EXPECT_NEAR(Head(line).said.irradiance_W_m2.value_or(0), 912, 1e-9) << line;
+  }
+  for (const char* line : {"Measured Cell Temp (C),47.3", "Tc [\u00b0C];47,3", "Tmod:\t47.3",
+                           "Module temperature = 47.3 C", "cell_temperature_K,320.45"}) {
+    EXPECT_NEAR(Head(line).said.temperature_C.value_or(0), 47.3, 1e-9) << line;
+  }
+  for (const char* line : {"Number of cells,60", "Cells in series: 60", "Ns = 60", "cells\t60"}) {
+    EXPECT_EQ(Head(line).said.cells_in_series.value_or(0), 60) << line;
+  }
+  for (const char* line : {"Cell area (cm2)\t4", "Device Area = 4 cm2", "area_mm2: 400",
+                           "AREA\tQUANT\t4.00000E+000\tSample Area (cm^2)"}) {
+    EXPECT_NEAR(Head(line).said.notes.area_cm2.value_or(0), 4, 1e-9) << line;
+  }
+  for (const char* line : {"Compliance (mA): 100", "Current limit: 0.1 A"}) {
+    EXPECT_NEAR(Head(line).said.notes.compliance_A.value_or(0), 0.1, 1e-12) << line;
+  }
+  for (const char* line : {"Date,6/21/2015", "Date: 6/21/2015", "DATE\t6/21/2015"}) {
+    EXPECT_EQ(Head(line).said.notes.date, "6/21/2015") << line;
+  }
+}
+
+TEST(ReadHeadLineTest, AValueForEachPixelCountsIfAllAreEqual) {
+  TableHead head;
+  ReadHeadLine("active area [cm2]:\t0.16\t0.16\t0.16", 1, HeadLine::kText, &head);
+  ReadHeadLine("compliance [mA/cm2]:\t30", 2, HeadLine::kText, &head);
+  EXPECT_EQ(head.said.notes.area_cm2, 0.16);
+  EXPECT_NEAR(head.said.notes.compliance_A.value_or(0), 0.0048, 1e-12);
+  for (const char* line : {"Cell area(cm^2)\t[0.16, 0.16]", "Cell area(cm^2)\t0.16"}) {
+    EXPECT_EQ(Head(line).said.notes.area_cm2, 0.16) << line;
+  }
+  EXPECT_FALSE(Head("active area [cm2]:\t0.16\t0.2").said.notes.area_cm2);
+  EXPECT_EQ(Head("Power Density (mW/cm^2)\t100").said.irradiance_W_m2, 1000);
+  EXPECT_EQ(Head("Parallel_Strings: 2").said.strings_in_parallel, 2);
+}
+
+TEST(ReadHeadLineTest, LeavesWhatIsNotClear) {
+  for (const char* line :
+       {"Temp1 47.3", "T1(C),47.3", "Ambient temperature (C),20", "GHI (W/m2),800",
+        "Number of modules in series,1", "Reference irradiance (W/m2): 1000", "Pmax (W),240",
+        "Cells in parallel: 2", "Isc 8.90 Voc 36.0", "Area: 4", "Temperature: 320",
+        "Irradiance (W/m2): -5", "Number of cells: 2.5", "Light: 1"}) {
+    const TableHead head = Head(line);
+    EXPECT_THAT(SentencesOf(head.assumptions), IsEmpty()) << line;
+    EXPECT_THAT(head.left, ElementsAre(HasSubstr("line 3 '"))) << line;
+  }
+  for (const char* line :
+       {"Tracer", "Serial,AB-12-C", "Time,12:34:56", "Version,3.6.1120", ",,", ""}) {
+    EXPECT_THAT(Head(line).left, IsEmpty()) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, CommentsAreRemarksUnlessClear) {
+  EXPECT_EQ(Head("# irradiance: 912 W/m2", HeadLine::kComment).said.irradiance_W_m2, 912);
+  EXPECT_THAT(Head("# run 12 of 30", HeadLine::kComment).left, IsEmpty());
+}
+
+TEST(ReadHeadLineTest, TheFirstStatementCounts) {
+  TableHead head;
+  ReadHeadLine("Irradiance (W/m2),912", 1, HeadLine::kText, &head);
+  ReadHeadLine("Irradiance (W/m2),1000", 2, HeadLine::kText, &head);
+  EXPECT_EQ(head.said.irradiance_W_m2, 912);
+  EXPECT_THAT(head.left, ElementsAre("line 2 'Irradiance (W/m2),1000'"));
+}
+
+TEST(HeadSentencesTest, ShowSomeOfTheLinesThatWereLeft) {
+  TableHead head;
+  ReadHeadLine("Irradiance (W/m2),912", 1, HeadLine::kText, &head);
+  for (int i = 2; i < 12; ++i) ReadHeadLine("Foo: 12", i, HeadLine::kText, &head);
+  EXPECT_THAT(
+      SentencesOf(HeadSentences(head)),
+      ElementsAre("irradiance 912 W/m2 taken from line 1 'Irradiance (W/m2),912'",
+                  "not understood, and not used: line 2 'Foo: 12', line 3 'Foo: 12', line 4 "
+                  "'Foo: 12', line 5 'Foo: 12', line 6 'Foo: 12', line 7 'Foo: 12' and 4 "
+                  "more"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -70,7 +70,7 @@ InstallPackages() {
 Configure() {
   local generator=()
   [[ -f $1/CMakeCache.txt ]] || generator=(-G Ninja)
-  Modules "$LYREFIT_ROOT/cmake/plotly" "$1/plotly"
+  Modules "$LYREFIT_ROOT/cmake/page_parts" "$1/page_parts"
   Modules "$LYREFIT_ROOT/tests/pages" "$1/tests/pages"
   Say "Configuring $1"
   cmake -S "$LYREFIT_ROOT" -B "$1" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "${@:2}"

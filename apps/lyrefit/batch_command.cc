@@ -143,6 +143,7 @@ Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& reque
   if (request.reference_inputs.empty()) return task;
   BatchReadOptions reading = request.reading;
   reading.shard = {};
+  reading.reading.keep_limited = request.task == "diagnose";
   TRY(const auto source, OpenBatch(request.reference_inputs, reading));
   ConditionOptions module = request.conditions;  // without the conditions of today's sweep
   module.irradiance_W_m2.reset();
@@ -174,6 +175,7 @@ Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   const BatchOptions options = Settled(verb, request);
   BatchReadOptions reading = request.reading;
   reading.shard = options.shard;
+  reading.reading.keep_limited = request.task == "diagnose";
   const InterruptGuard guard;
   TRY(const BatchTaskType task, MakeTask(verb, request));
   TRY(const auto source, OpenBatch(request.inputs, reading));
@@ -182,7 +184,7 @@ Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
                TerminalObserver({"batch", "Ctrl-C keeps the rows that are done for --resume"})));
   PrintRemarks(source->Remarks());
   if (!request.html_file.empty() && !summary.interrupted) {
-    TRY(WritePlantPageOf(options.folder, request.html_file, PlantName(request)));
+    TRY(WritePlantPage(options.folder, request.html_file, PlantName(request)));
   }
   TRY(WriteText(verb, [&] { return BatchText(summary); }));
   return ExitCode(summary);

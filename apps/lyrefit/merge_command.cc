@@ -38,8 +38,8 @@ Expected<int> RunMerge(VerbLine& verb, MergeRequest& request) {
   TRY(verb.CheckFiles());
   TRY(const BatchSummary summary, MergeShards(request.folders, request.options));
   if (!request.html_file.empty()) {
-    TRY(WritePlantPageOf(request.options.folder, request.html_file,
-                         request.plant.empty() ? "Plant" : request.plant));
+    TRY(WritePlantPage(request.options.folder, request.html_file,
+                       request.plant.empty() ? "Plant" : request.plant));
   }
   TRY(WriteText(verb, [&] { return BatchText(summary); }));
   return kExitFine;

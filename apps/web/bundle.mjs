@@ -36,7 +36,7 @@ const parts = {
   DATA: [packed('engine-script', readFileSync(given.SCRIPT)), packed('engine-wasm', readFileSync(given.WASM)),
          packedJson('examples', examples), packedJson('licences', licences),
          unread('worker-script', page('worker.js'))].join('\n'),
-  SCRIPTS: [report('page.js'), ...['engine', 'curve_picture', 'form', 'read_view', 'report_view', 'app'].map(
+  SCRIPTS: [report('page.js'), ...['engine', 'form', 'read_view', 'report_view', 'app'].map(
       (name) => page(`${name}.js`))].join('\n'),
 };
 for (const script of [parts.SCRIPTS, page('worker.js')]) {

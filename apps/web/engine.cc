@@ -46,13 +46,6 @@ Observer ProgressObserver() {
   };
 }
 
-// Pictures are interactive charts, since the page has no gnuplot.
-PageOptions InPage() {
-  PageOptions options;
-  options.stills = false;
-  return options;
-}
-
 Expected<ordered_json> RunFit(const PageRequest& request) {
   TRY(const FitForm form, ReadFitForm(request.form));
   TRY(IvCurve curve, ReadCurve(request.file, form.file.reading));
@@ -71,7 +64,8 @@ Expected<ordered_json> RunFit(const PageRequest& request) {
 }
 
 Expected<ordered_json> RunDiagnose(const PageRequest& request) {
-  TRY(const DiagnoseForm form, ReadDiagnoseForm(request.form));
+  TRY(DiagnoseForm form, ReadDiagnoseForm(request.form));
+  form.file.reading.keep_limited = true;  // a limit of the instrument is a finding
   TRY(const CurveSet set, ReadStated(request.file, form.file));
   Expected<Diagnosis> found = Diagnose(set, form.options, ProgressObserver());
   if (!found && found.error().file.empty()) found.error().file = request.file;

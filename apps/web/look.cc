@@ -9,14 +9,16 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/report/figure.h"
 
 namespace lyrefit {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostPoints = 1000;  // of a curve shown before its fit
 constexpr std::size_t kMostCurves = 30;
+constexpr std::size_t kFewPoints = 400;  // of a curve whose points are marked
+constexpr std::size_t kFewCurves = 6;    // of a picture with a legend
 
 ordered_json CurveJson(const IvCurve& curve) {
   const auto known = [](bool is, double value) {
@@ -29,15 +31,38 @@ ordered_json CurveJson(const IvCurve& curve) {
   json["temperature_C"] =
       known(curve.temperature_known, curve.conditions.cell_temperature_K - kZeroCelsius_K);
   json["irradiance_Wm2"] = known(curve.irradiance_known, curve.conditions.irradiance_W_m2);
-  const std::size_t step = std::max<std::size_t>(1, (curve.size() + kMostPoints - 1) / kMostPoints);
-  std::vector<double> voltage_V, current_A;
-  for (std::size_t i = 0; i < curve.size(); i += step) {
-    voltage_V.push_back(curve.voltage_V[i]);
-    current_A.push_back(curve.current_A[i]);
-  }
-  json["voltage_V"] = voltage_V;
-  json["current_A"] = current_A;
   return json;
+}
+
+// A page with a picture of the readings and nothing else.
+std::string PicturePage(const std::vector<IvCurve>& curves) {
+  Panel panel = {"", {"Voltage (V)"}, {"Current (A)"}};
+  block::Figure shown;
+  std::size_t readings = 0;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const IvCurve& curve = curves[c];
+    const bool few = curve.size() <= kFewPoints;
+    Series series = {few ? SeriesKind::kLineAndPoints : SeriesKind::kLine,
+                     LookOf(static_cast<int>(c)), 1, 0.6};
+    series.name = curve.name;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      series.Add(curve.voltage_V[i], curve.current_A[i]);
+    }
+    readings += curve.size();
+    const bool named = curves.size() > 1 && curves.size() <= kFewCurves;
+    if (named) shown.figure.legend.push_back({curve.name, series.look, LegendMark::kLine});
+    panel.series.push_back(std::move(series));
+  }
+  panel.zero_line = true;
+  panel.height = 250;
+  shown.figure.title = "Readings";
+  shown.figure.panels = {std::move(panel)};
+  shown.caption = fmt::format("{} readings of {} curve{}.", readings, curves.size(),
+                              curves.size() == 1 ? "" : "s");
+  Document document;
+  document.head.heading = "Readings";
+  AddFigure(std::move(shown), &document.head);
+  return DrawPage(document, "", InPage());
 }
 
 ordered_json ColumnsJson(const std::string& file, const ReadOptions& reading) {
@@ -63,6 +88,12 @@ Expected<CurveSet> ReadStated(const std::string& file, const ReadingForm& form) 
   return set;
 }
 
+PageOptions InPage() {
+  PageOptions options;
+  options.stills = false;
+  return options;
+}
+
 std::string StemOf(const std::string& file) { return std::filesystem::path(file).stem().string(); }
 
 Expected<ordered_json> LookAt(const PageRequest& request) {
@@ -80,9 +111,11 @@ Expected<ordered_json> LookAt(const PageRequest& request) {
     return json;
   }
   json["count"] = set->curves.size();
-  for (std::size_t i = 0; i < std::min(kMostCurves, set->curves.size()); ++i) {
-    json["curves"].push_back(CurveJson(set->curves[i]));
-  }
+  const std::size_t count = std::min(kMostCurves, set->curves.size());
+  const std::vector<IvCurve> shown(set->curves.begin(),
+                                   set->curves.begin() + static_cast<std::ptrdiff_t>(count));
+  for (const IvCurve& curve : shown) json["curves"].push_back(CurveJson(curve));
+  json["picture_html"] = PicturePage(shown);
   std::vector<std::string> sentences = SentencesOf(set->assumptions);
   if (set->curves.size() == 1) sentences = SentencesOf(set->curves.front().assumptions);
   for (const RejectedCurve& bad : set->rejected) sentences.push_back(bad.error.ToString());

@@ -17,7 +17,7 @@ TEST(UrlFrom, LeadsFromAPageToAFolder) {
             "../my%20results%231/");
 }
 
-TEST(WritePlantPageOf, SaysWhatTheRunWasAndHowToReachThePages) {
+TEST(WritePlantPage, SaysWhatTheRunWasAndHowToReachThePages) {
   const TempFolder folder;
   BatchOptions options = Into(folder.Path("out"));
   options.seed = 4242;
@@ -25,7 +25,7 @@ TEST(WritePlantPageOf, SaysWhatTheRunWasAndHowToReachThePages) {
   BatchTaskType task = CountTask();
   task.options = {{"tracer", "PVA-1500", ""}, {"modules", "20", "1"}};
   ASSERT_TRUE(RunOn(folder.Write("s.jsonl", ManyRows(9)), task, options));
-  const auto rows = WritePlantPageOf(folder.Path("out"), folder.Path("elm.html"), "Elm & Son");
+  const auto rows = WritePlantPage(folder.Path("out"), folder.Path("elm.html"), "Elm & Son");
   ASSERT_TRUE(rows) << rows.error().ToString();
   EXPECT_EQ(*rows, 9);
   const std::string html = FileText(folder.Path("elm.html"));
@@ -33,7 +33,7 @@ TEST(WritePlantPageOf, SaysWhatTheRunWasAndHowToReachThePages) {
   EXPECT_THAT(html, HasSubstr("<dt>Instrument</dt><dd>PVA-1500</dd>"));
   EXPECT_THAT(html, HasSubstr("<dt>Options</dt><dd>pages = all, modules = 20</dd>"));
   EXPECT_THAT(html, HasSubstr("<dt>Seed</dt><dd>4242</dd>"));
-  EXPECT_THAT(html, HasSubstr("id=\"results\">\"out/\"</script>"));
+  EXPECT_THAT(html, HasSubstr("\"links\":\"out/\""));
 }
 
 }  // namespace

@@ -1,63 +1,61 @@
-// Writes the page of a synthetic plant, for the tests in a browser:
-//   synthetic_plant_page ROWS PAGE [DIGITS [ROWS_FILE]]
-// ROWS_FILE receives the rows as JSON Lines.
-#include <chrono>
+// Writes the results of a synthetic plant and their page, for the tests in a browser:
+//   synthetic_plant_page ROWS FOLDER PAGE
+// FOLDER receives results.csv, results.jsonl and results.schema.json. ROWS is a number, or "hostile" for rows whose
+// texts try to be more than texts.
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <filesystem>
 
+#include "batch/plant_results.h"
 #include "batch/synthetic_rows.h"
 #include "lyrefit/batch/plant_page.h"
 
 namespace lyrefit {
 namespace {
 
-std::string JsonLine(const std::vector<ResultColumn>& columns, const ResultRow& row) {
-  nlohmann::ordered_json json;
+// A row with this text in the place of its names.
+ResultRow Hostile(std::int64_t row, const std::string& text) {
+  ResultRow made = SyntheticPlantResult(1, row);
+  const auto columns = SyntheticPlantColumns();
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    std::visit(
-        [&](const auto& value) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
-            json[columns[c].name] = nullptr;
-          } else {
-            json[columns[c].name] = value;
-          }
-        },
-        row.cells[c]);
+    const std::string& name = columns[c].name;
+    if (name == "id") made.cells[c] = text + "/" + std::to_string(row);
+    if (name == "cause_title" || name == "cause" || name == "page") made.cells[c] = text;
   }
-  return json.dump() + "\n";
+  return made;
 }
 
-int MakePage(std::int64_t rows, const std::string& file, int digits, const char* rows_file) {
-  PlantPageOptions options;
-  options.plant = "Synthetic-up plant";
-  options.digits = digits;
-  options.facts = {{"Instrument", "curve tracer, 100 points"},
-                   {"Options", "field test, tolerance 5 %"},
-                   {"Seed", "1"}};
-  const auto columns = SyntheticPlantColumns();
-  auto page = PlantPage::Open(file, columns, options);
-  std::ofstream beside;
-  if (rows_file) beside.open(rows_file);
-  Expected<void> done;
-  for (std::int64_t row = 0; page && done && row < rows; ++row) {
-    const ResultRow made = SyntheticPlantResult(1, row);
-    done = (*page)->Add(made);
-    if (rows_file) beside << JsonLine(columns, made);
-  }
-  if (page && done) done = (*page)->Finish();
-  if (page && done) return 0;
-  std::fprintf(stderr, "%s\n", (page ? done.error() : page.error()).ToString().c_str());
-  return 1;
-}
+constexpr const char* kHostile[] = {"<img src=x onerror=alert(1)>",
+                                    "</script><script>alert(1)</script>",
+                                    "=1+cmd|' /C calc'!A0",
+                                    "a,\"b\"\nc",
+                                    "../../etc/passwd",
+                                    "javascript:alert(1)",
+                                    "%{x} &amp; {{y}}",
+                                    "\xe5\xa4\xaa\xe9\x99\xbd \xc3\x9c"
+                                    "ber \xf0\x9f\x8c\x9e",
+                                    "__proto__"};
 
 }  // namespace
 }  // namespace lyrefit
 
 int main(int count, char** arguments) {
-  if (count < 3) return 1;
-  return lyrefit::MakePage(std::atoll(arguments[1]), arguments[2],
-                           count > 3 ? std::atoi(arguments[3]) : 0,
-                           count > 4 ? arguments[4] : nullptr);
+  if (count != 4) return 1;
+  const std::string folder = arguments[2];
+  std::filesystem::create_directories(folder);
+  {
+    lyrefit::PlantResults results(
+        folder, lyrefit::SyntheticPlantColumns(),
+        {{"options", {{"tracer", "100 points"}, {"seed", "1"}}}, {"task", "field-test"}});
+    for (std::int64_t row = 0; row < std::atoll(arguments[1]); ++row) {
+      results.Add(lyrefit::SyntheticPlantResult(1, row));
+    }
+    std::int64_t row = 0;
+    for (const char* text : lyrefit::kHostile) {
+      if (arguments[1] == std::string("hostile")) results.Add(lyrefit::Hostile(row++, text));
+    }
+  }
+  const auto rows = lyrefit::WritePlantPage(folder, arguments[3], "Synthetic plant");
+  if (!rows) std::fprintf(stderr, "%s\n", rows.error().ToString().c_str());
+  return rows ? 0 : 1;
 }

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   if (!done) return std::puts(done.error().ToString().c_str()), 1;
   std::fputs(lyrefit::BatchText(*done).c_str(), stdout);
   const auto rows =
-      lyrefit::WritePlantPage(options.folder + "/results.jsonl", options.folder + "/plant.html");
+      lyrefit::WritePlantPage(options.folder, options.folder + "/plant.html", "Plant");
   if (!rows) return std::puts(rows.error().ToString().c_str()), 1;
   return *rows == done->rows && done->rows > 0 && done->statuses.count("broken") == 0 ? 0 : 1;
 }

@@ -296,9 +296,10 @@ test('a plant leads to the page of a string, wherever both lie', async () => {
                      '--effects', 'clip', '--pages', 'all', '--force', '--quiet',
                      '--out', file('my results #1'), '--html', file('two.html')]);
   const {page, close} = await open(browser, file('two.html'));
-  await page.waitForSelector('html[data-ready]', {state: 'attached'});
-  for (const link of ['#table-body td a', '#still-worst a']) {
-    const [href, id] = await page.$eval(link, (each) => [each.href, each.closest('tr').querySelector('th').textContent]);
+  await page.evaluate(() => document.getElementById('rows-table').scrollIntoView());
+  await page.waitForSelector('html[data-rows]', {state: 'attached'});
+  for (const link of ['.tabulator-row a', 'section th a']) {
+    const [href, id] = await page.$eval(link, (each) => [each.href, each.closest('tr, .tabulator-row').firstElementChild.textContent]);
     const string = await page.context().newPage();
     await string.goto(href);
     assert.ok((await string.textContent('h1')).startsWith(id), href);

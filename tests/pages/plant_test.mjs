@@ -1,4 +1,4 @@
-// The page of a plant in a browser, of made rows (tests/batch/synthetic_plant.h):
+// The page of a plant in a browser, of made rows (tests/batch/synthetic_rows.h):
 //   SYNTHETIC_PLANT_PAGE=synthetic_plant_page CHROMIUM=chromium OUT=folder node --test plant_test.mjs
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -6,51 +6,65 @@ import {mkdirSync, readFileSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 
-import {barriers, kLooks, launch, open} from './browser.mjs';
+import {barriers, cells, chartsReady, kLooks, launch, open} from './browser.mjs';
 
 const {SYNTHETIC_PLANT_PAGE, CHROMIUM, OUT} = process.env;
 const kMegabyte = 1e6;
-const kSizes = [0, 1, 5, 500, 10000, 100000];
-const file = (rows, end = 'html') => join(OUT, `plant_${rows}.${end}`);
-const rowsOf = (rows) => readFileSync(file(rows, 'jsonl'), 'utf8').split('\n').filter(Boolean).map((line) => JSON.parse(line));
+const kPlants = [0, 1, 5, 500, 10000, 100000, 'hostile'];
+const page = (plant) => join(OUT, `plant_${plant}.html`);
+const results = (plant, name) => readFileSync(join(OUT, `plant_${plant}`, name), 'utf8');
+const rowsOf = (plant) => results(plant, 'results.jsonl').split('\n').filter(Boolean).map((line) => JSON.parse(line));
 
 let browser;
 before(async () => {
   mkdirSync(OUT, {recursive: true});
-  for (const rows of kSizes) execFileSync(SYNTHETIC_PLANT_PAGE, [rows, file(rows), 0, file(rows, 'jsonl')]);
+  for (const plant of kPlants) execFileSync(SYNTHETIC_PLANT_PAGE, [plant, join(OUT, `plant_${plant}`), page(plant)]);
   browser = await launch(CHROMIUM);
 });
 after(() => browser?.close());
 
-// With everything drawn.
-async function openPlant(rows, look) {
-  const opened = await open(browser, file(rows), look);
-  await opened.page.waitForSelector('html[data-ready]', {state: 'attached'});
+// With every picture drawn, and the table of rows, which is filled when its place comes near.
+async function openPlant(plant, look) {
+  const opened = await open(browser, page(plant), look);
+  await opened.page.waitForFunction(() => document.readyState === 'complete');
+  if (await opened.page.$('figure')) await chartsReady(opened.page);
+  if (await opened.page.$('#rows-table')) {
+    await opened.page.evaluate(() => document.getElementById('rows-table').scrollIntoView());
+    await opened.page.waitForSelector('html[data-rows]', {state: 'attached'});
+  }
   return opened;
 }
 
-const tableIds = (page) => page.$$eval('#table-body th', (all) => all.map((cell) => cell.textContent));
-const column = (page, name) => page.$$eval('#table-head th', (all, wanted) =>
-    all.findIndex((cell) => cell.querySelector('button').dataset.sort === wanted), name);
-const cellsOf = async (page, name) => page.$$eval('#table-body tr', (all, at) =>
-    all.map((row) => row.cells[at].textContent), await column(page, name));
-const waitForState = (page, text) => page.waitForFunction(
-    (words) => document.getElementById('live-state').textContent.startsWith(words), text);
+// What the table shows of a column.
+const column = (page, name) => page.evaluate((wanted) => {
+  const heads = [...document.querySelectorAll('.tabulator-col')].filter((each) => each.offsetParent);
+  const field = heads.find((each) => each.querySelector('[data-sort]').dataset.sort === wanted).getAttribute('tabulator-field');
+  return [...document.querySelectorAll(`.tabulator-row [tabulator-field="${field}"]`)].map((cell) => cell.textContent.trim());
+}, name);
+const waitForState = (page, words) => page.waitForFunction(
+    (text) => document.querySelector('.rows-tools [role=status]').textContent === text, words);
+async function filter(page, name, text) {
+  await page.focus(`[aria-label="Filter ${name}"]`);
+  await page.keyboard.press('Control+A');
+  await page.keyboard.press('Delete');
+  await page.keyboard.insertText(text.slice(0, 1));  // typed, an exclamation mark would have the code of another key
+  await page.keyboard.type(text.slice(1));
+}
+const button = (page, name) => page.locator('#rows-table').getByRole('button', {name, exact: true});
 
-for (const rows of [0, 1, 5, 500]) {
+for (const plant of kPlants.filter((each) => each !== 100000 && each !== 10000)) {
   for (const [look, settings] of Object.entries(kLooks)) {
-    if (rows < 500 && look !== 'phone') continue;  // few rows have the colours of many
-    test(`${rows} strings, ${look}: nothing fetched, nothing complained of, no barrier, no overflow`, async () => {
-      const {page, complaints, close} = await openPlant(rows, settings);
-      await page.screenshot({path: join(OUT, `plant_${rows}_${look}.png`), fullPage: true});
-      for (const summary of await page.$$('summary')) await summary.click();
-      assert.deepEqual(await barriers(page, look), []);
-      const [width, most] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    if (plant !== 500 && look !== 'phone') continue;  // few rows have the colours of many
+    test(`${plant} strings, ${look}: nothing fetched, nothing complained of, no barrier, no overflow`, async () => {
+      const {page: tab, complaints, close} = await openPlant(plant, settings);
+      for (const summary of await tab.$$('summary')) await summary.click();
+      assert.deepEqual(await barriers(tab, look), []);
+      const [width, most] = await tab.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
       assert.ok(width <= most, `${width} pixels wide, ${most} to see`);
-      if (rows > 0) {
-        await page.click('#table-body th button');
-        await page.waitForSelector('#detail[open]');
-        assert.deepEqual(await barriers(page, look), []);
+      if (plant !== 0) {
+        await tab.click('.tabulator-row button.link');
+        await tab.waitForSelector('dialog[open]');
+        assert.deepEqual(await barriers(tab, look), []);
       }
       assert.deepEqual(complaints, []);
       await close();
@@ -58,229 +72,200 @@ for (const rows of [0, 1, 5, 500]) {
   }
 }
 
-test('every column is unpacked to the rows that were written', async () => {
-  const rows = rowsOf(10000);
-  const {page, close} = await openPlant(10000);
-  for (const name of Object.keys(rows[0])) {
-    const values = await page.evaluate(async (wanted) => Array.from(await load(wanted),
-        (value) => (Number.isNaN(value) ? null : value)), name);
-    const given = rows.map((row) => (typeof row[name] === 'boolean' ? Number(row[name]) : row[name]));
-    assert.deepEqual(values, given, name);
-  }
+test('the file of the results is in the page, byte for byte', async () => {
+  const {page: tab, close} = await openPlant(500);
+  assert.equal(await tab.evaluate(() => lyrefit.text('rows')), results(500, 'results.csv'));
+  const waiting = tab.waitForEvent('download');
+  await tab.click('[data-page=save]');
+  assert.equal(readFileSync(await (await waiting).path(), 'utf8'), results(500, 'results.csv'));
   await close();
 });
 
-test('the table shows the rows, to five digits, and the panel all of them', async () => {
+test('the table shows the rows, to five digits, and a dialog all cells of one', async () => {
   const rows = rowsOf(500);
-  const {page, close} = await openPlant(500);
-  assert.deepEqual(await tableIds(page), rows.slice(0, 25).map((row) => row.id));
+  const {page: tab, close} = await openPlant(500);
+  assert.deepEqual(await column(tab, 'id'), rows.slice(0, 25).map((row) => row.id));
   for (const name of ['performance_factor', 'Pmax_stc_W', 'group_deviation_percent']) {
-    (await cellsOf(page, name)).forEach((text, i) => {
+    (await column(tab, name)).forEach((text, i) => {
       const value = rows[i][name];
       if (value === null) return assert.equal(text, '');
       assert.ok(Math.abs(Number(text) - value) <= 0.6e-4 * Math.max(1, Math.abs(value)), `${name}: ${text} for ${value}`);
     });
   }
-  await page.click('#table-body tr:nth-child(3) th button');
-  await page.waitForSelector('#detail[open]');
-  const panel = await page.$$eval('#detail tbody tr', (all) => all.map((row) => [row.cells[0].textContent, row.cells[1].textContent]));
-  for (const [name, text] of panel) {
-    const value = rows[2][name];
-    const said = value === null ? 'not known' : typeof value === 'boolean' ? (value ? 'yes' : 'no') : String(value);
-    assert.equal(text, said, name);
-  }
-  assert.equal(panel.length, Object.keys(rows[0]).length - 1);  // all but the sparkline
-  await page.keyboard.press('Escape');
-  const ill = rows.find((row) => row.cause_sentence && row.performance_factor < 0.95);
-  await page.click(`.card:has-text("${ill.id}")`);
-  await page.waitForSelector('#detail[open]');
-  assert.deepEqual(await page.$$eval('#detail > p', (all) => all.map((each) => each.textContent)),
-                   [ill.cause_sentence, 'The page of this string']);
+  await tab.click('.tabulator-row:nth-child(3) button.link');
+  await tab.waitForSelector('dialog[open]');
+  const shown = await tab.$$eval('dialog tr', (all) => all.map((row) => [row.cells[0].textContent, row.cells[1].textContent]));
+  const known = Object.entries(rows[2]).filter(([, value]) => value !== null && value !== '').map(([name, value]) => [name, String(value)]);
+  assert.deepEqual(new Map(shown), new Map(known));
   await close();
 });
 
-test('verdict, zones and causes count the rows', async () => {
+test('verdict, zones and causes count the rows, and the worst are the worst', async () => {
   const rows = rowsOf(500).filter((row) => row.status === 'fine');
-  const {page, close} = await openPlant(500);
+  const {page: tab, close} = await openPlant(500);
   const passed = rows.filter((row) => row.zone.startsWith('pass')).length;
-  const inNeed = rows.length - passed;
-  assert.ok((await page.textContent('.verdict')).startsWith(`${passed} of 500 strings pass; ${inNeed} need work: `));
-  const counts = await page.$$eval('tr[data-column]', (all) => all.map((row) => [row.dataset.column, row.dataset.value, Number(row.cells[1].textContent)]));
-  for (const [name, value, count] of counts.filter(([each]) => each === 'zone')) {
-    assert.equal(count, rows.filter((row) => row[name] === value).length, value);
-  }
-  const causes = counts.filter(([each]) => each === 'cause').reduce((sum, [, , count]) => sum + count, 0);
-  assert.equal(causes, rows.filter((row) => row.cause !== 'none').length);
+  assert.ok((await tab.textContent('.verdict p')).startsWith(`${passed} of 500 strings pass; ${rows.length - passed} need work: `));
+  const counts = (await cells(tab, 'What was found')).map(([name, count]) => [name, Number(count)]);
+  for (const [zone, count] of counts.slice(0, 4)) assert.equal(count, rows.filter((row) => row.zone === zone).length, zone);
+  assert.equal(counts.slice(4).reduce((sum, [, count]) => sum + count, 0), rows.filter((row) => row.cause !== 'none').length);
+  const worst = rows.sort((a, b) => a.performance_factor - b.performance_factor).slice(0, 100);
+  assert.deepEqual((await cells(tab, 'Which strings')).map(([id]) => id), worst.map((row) => row.id));
+  const links = await tab.$$eval('section th a', (all) => all.map((link) => [link.textContent, link.getAttribute('href')]));
+  const [id, href] = links.find(([text]) => text === worst[0].id);
+  assert.equal(href, `./plant_500/${worst[0].page}`, id);
   await close();
 });
 
 test('sorting by keyboard: unknown last either way, said to screen readers, the focus stays', async () => {
   const rows = rowsOf(500);
-  const known = rows.filter((row) => row.performance_factor !== null)
-      .sort((a, b) => a.performance_factor - b.performance_factor);
-  const {page, complaints, close} = await openPlant(500);
-  await page.focus('[data-sort=performance_factor]');
+  const known = rows.filter((row) => row.performance_factor !== null).sort((a, b) => a.performance_factor - b.performance_factor);
+  const {page: tab, complaints, close} = await openPlant(500);
+  await tab.focus('[data-sort=performance_factor]');
   for (const [direction, first] of [['ascending', known[0]], ['descending', known.at(-1)]]) {
-    await page.keyboard.press('Enter');
-    await page.waitForSelector(`th[aria-sort=${direction}]`);
-    assert.equal((await tableIds(page))[0], first.id);
-    assert.equal(await page.evaluate(() => document.activeElement.dataset.sort), 'performance_factor');
-    await page.selectOption('.pager select', '100');
-    while (await page.isEnabled('#page-on')) await page.click('#page-on');
-    const last = await cellsOf(page, 'performance_factor');
-    assert.equal(last.at(-1), '');
-    await page.focus('[data-sort=performance_factor]');
+    await tab.keyboard.press('Enter');
+    await tab.waitForSelector(`.tabulator-col[aria-sort=${direction}]`);
+    assert.equal((await column(tab, 'id'))[0], first.id);
+    assert.equal(await tab.evaluate(() => document.activeElement.dataset.sort), 'performance_factor');
+    await button(tab, 'Last Page').click();
+    assert.equal((await column(tab, 'performance_factor')).at(-1), '');
+    await button(tab, 'First Page').click();
+    await tab.focus('[data-sort=performance_factor]');
   }
   assert.deepEqual(complaints, []);
   await close();
 });
 
-test('filters by keyboard: text, word, number, their removal', async () => {
+test('search and filters by keyboard, and their removal', async () => {
   const rows = rowsOf(500);
-  const {page, complaints, close} = await openPlant(500);
-  await page.focus('#search');
-  await page.keyboard.type('INV02/comb3');
+  const {page: tab, complaints, close} = await openPlant(500);
+  await tab.focus('input[type=search]');
+  await tab.keyboard.type('INV02/comb3');
   const inside = rows.filter((row) => row.id.includes('inv02/comb3'));
-  await waitForState(page, `${inside.length} of 500`);
-  assert.deepEqual(await tableIds(page), inside.slice(0, 25).map((row) => row.id));
-  await page.focus('#chips button');
-  await page.keyboard.press('Enter');
-  await waitForState(page, 'All 500');
-  assert.equal(await page.evaluate(() => document.activeElement.id), 'search');
+  await waitForState(tab, `${inside.length} of 500 rows`);
+  assert.deepEqual(await column(tab, 'id'), inside.map((row) => row.id));
+  await button(tab, 'Reset').focus();
+  await tab.keyboard.press('Enter');
+  await waitForState(tab, 'All 500 rows');
 
-  await page.focus('tr[data-value=fail] button');
-  await page.keyboard.press('Enter');
-  const failed = rows.filter((row) => row.zone === 'fail');
-  await waitForState(page, `${failed.length} of 500`);
-  assert.deepEqual(await cellsOf(page, 'zone').then((all) => all.map((text) => text.slice(1))), failed.map(() => 'fail'));
-
-  await page.focus('.toolbox summary');
-  await page.keyboard.press('Enter');
-  await page.selectOption('.toolbox form select', 'performance_factor');
-  await page.fill('#range-high', '0.9');
-  await page.keyboard.press('Enter');
-  const worst = failed.filter((row) => row.performance_factor <= 0.9);
-  await waitForState(page, `${worst.length} of 500`);
-  assert.deepEqual(await tableIds(page), worst.map((row) => row.id));
+  const count = async (name, text, expected) => {
+    await filter(tab, name, text);
+    await waitForState(tab, `${expected} of 500 rows`);
+  };
+  await count('zone', '=fail', rows.filter((row) => row.zone === 'fail').length);
+  await count('zone', 'FAIL', rows.filter((row) => row.zone?.includes('fail')).length);
+  await count('zone', '!pass', rows.filter((row) => !row.zone?.includes('pass')).length);
+  await count('zone', 'fail', rows.filter((row) => row.zone?.includes('fail')).length);
+  await count('performance_factor', '<=0.9', rows.filter((row) => row.performance_factor !== null && row.performance_factor <= 0.9).length);
+  await filter(tab, 'zone', '');
+  await count('performance_factor', '0.92..1', rows.filter((row) => row.performance_factor >= 0.92 && row.performance_factor <= 1).length);
+  await count('performance_factor', '>1.01', rows.filter((row) => row.performance_factor > 1.01).length);
   assert.deepEqual(complaints, []);
   await close();
 });
 
-test('the panel opens and closes by keyboard and gives the focus back', async () => {
-  const {page, close} = await openPlant(500);
-  await page.focus('#table-body th button');
-  await page.keyboard.press('Enter');
-  await page.waitForSelector('#detail[open]');
-  assert.equal(await page.textContent('#detail-h'), 'site1/inv01/comb1/str01');
-  await page.keyboard.press('Escape');
-  await page.waitForSelector('#detail:not([open])', {state: 'attached'});
-  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'site1/inv01/comb1/str01');
-  await close();
-});
-
-test('links go to the pages of strings that have one', async () => {
-  const row = rowsOf(500).find((each) => each.page);
-  const {page, close} = await openPlant(500);
-  await page.fill('#search', row.id);
-  await waitForState(page, '1 of 500');
-  await page.click('#table-body th button');
-  await page.waitForSelector('#detail[open]');
-  assert.equal(await page.getAttribute('#detail a', 'href'), `./pages/${row.id}.html`);
-  await close();
-});
-
-test('the tree: down by keyboard, back, and its strings alone', async () => {
-  const rows = rowsOf(10000);
-  const {page, complaints, close} = await openPlant(10000);
-  const below = () => page.evaluate(() => document.querySelector('#live-map .crumbs strong').textContent);
-  assert.equal(await below(), 'The plant (10,000)');
-  for (const part of ['site2', 'inv01']) {
-    await page.focus('#live-map summary');
-    await page.keyboard.press('Enter');
-    await page.focus(`#live-map td button, #live-map th button:text-is("${part}")`);
-    await page.keyboard.press('Enter');
-    await page.waitForFunction((name) => document.activeElement.textContent.startsWith(name), part);
-  }
-  const inside = rows.filter((row) => row.id.startsWith('site2/inv01/'));
-  assert.equal(await below(), `inv01 (${inside.length})`);
-  await page.click('text=Show only these strings');
-  await waitForState(page, `${inside.length} of 10,000`);
-  assert.equal((await tableIds(page))[0], inside[0].id);
-  assert.deepEqual(complaints, []);
-  await close();
-});
-
-test('a part of the plant says its lowest, mean and highest', async () => {
-  const rows = rowsOf(10000).filter((row) => row.id.startsWith('site2/') && row.performance_factor !== null)
-      .map((row) => row.performance_factor);
-  const {page, close} = await openPlant(10000);
-  const cells = await page.$$eval('#live-map details tbody tr', (all) => [...all.find((row) => row.cells[0].textContent === 'site2').cells].map((cell) => cell.textContent));
-  const mean = rows.reduce((sum, value) => sum + value, 0) / rows.length;
-  [Math.min(...rows), mean, Math.max(...rows)].forEach((value, i) => assert.ok(Math.abs(Number(cells[2 + i]) - value) < 1e-4));
-  await close();
-});
-
-test('the worst are the worst', async () => {
-  const rows = rowsOf(500).filter((row) => row.performance_factor !== null).sort((a, b) => a.performance_factor - b.performance_factor);
-  const {page, close} = await openPlant(500);
-  const shown = await page.$$eval('.card .name', (all) => all.map((each) => each.textContent));
-  assert.deepEqual(shown, rows.slice(0, 24).map((row) => row.id));
-  await close();
-});
-
-test('rows are saved as they are shown', async () => {
+test('columns are chosen, and rows are saved as they are shown', async () => {
   const rows = rowsOf(500).filter((row) => row.zone === 'fail');
-  const {page, close} = await openPlant(500);
-  await page.click('tr[data-value=fail] button');
-  await waitForState(page, `${rows.length} of 500`);
-  const waiting = page.waitForEvent('download');
-  await page.click('text=Save these rows');
-  const lines = readFileSync(await (await waiting).path(), 'utf8').trim().split('\n');
-  const at = lines[0].split(',').indexOf('id');
-  assert.deepEqual(lines.slice(1).map((line) => line.split(',')[at]), rows.map((row) => row.id));
+  const {page: tab, close} = await openPlant(500);
+  await tab.click('#rows-table summary');
+  await tab.getByLabel('Rsh_ohm', {exact: true}).check();
+  await tab.getByLabel('status', {exact: true}).uncheck();
+  await filter(tab, 'zone', '=fail');
+  await waitForState(tab, `${rows.length} of 500 rows`);
+  const waiting = tab.waitForEvent('download');
+  await button(tab, 'Save these rows as CSV').click();
+  const lines = readFileSync(await (await waiting).path(), 'utf8').trim().split('\n').map((line) => line.split(',').map((text) => text.replaceAll('"', '')));
+  assert.ok(lines[0].includes('Rsh_ohm') && !lines[0].includes('status'), lines[0].join());
+  for (const name of ['id', 'Rsh_ohm']) {
+    const at = lines[0].indexOf(name);
+    assert.deepEqual(lines.slice(1).map((line) => line[at]), rows.map((row) => String(row[name])));
+  }
+  await close();
+});
+
+test('the dialog opens and closes by keyboard, links to the page of its string, and gives the focus back', async () => {
+  const row = rowsOf(500).find((each) => each.page);
+  const {page: tab, close} = await openPlant(500);
+  await tab.fill('input[type=search]', row.id);
+  await waitForState(tab, '1 of 500 rows');
+  assert.equal(await tab.getAttribute('.tabulator-row a', 'href'), `./plant_500/${row.page}`);
+  await tab.focus('.tabulator-row button.link');
+  await tab.keyboard.press('Enter');
+  await tab.waitForSelector('dialog[open]');
+  assert.equal(await tab.textContent('dialog h2'), row.id);
+  assert.equal(await tab.getAttribute('dialog a', 'href'), `./plant_500/${row.page}`);
+  await tab.keyboard.press('Escape');
+  await tab.waitForSelector('dialog', {state: 'detached'});
+  assert.equal(await tab.evaluate(() => document.activeElement.textContent), row.id);
+  await close();
+});
+
+test('hostile texts are texts, in pictures, tables, filters, links and saved rows', async () => {
+  const rows = rowsOf('hostile');
+  const {page: tab, complaints, close} = await openPlant('hostile');
+  const shown = (text) => text.trim().replaceAll(/\s+/g, ' ');
+  assert.deepEqual((await column(tab, 'id')).map(shown), rows.map((row) => shown(row.id.startsWith('=') ? `'${row.id}` : row.id)));
+  for (const link of await tab.$$eval('a[href]', (all) => all.map((each) => each.getAttribute('href')))) assert.match(link, /^(#|\.\/)[^:]*$/);
+  assert.equal(await tab.$$eval('main :is(img, script)', (all) => all.length), 0);
+  await filter(tab, 'cause_title', '=<img src=x onerror=alert(1)>');
+  await waitForState(tab, `1 of ${rows.length} rows`);
+  await tab.click('.tabulator-row button.link');
+  await tab.waitForSelector('dialog[open]');
+  assert.equal(await tab.textContent('dialog h2'), rows[0].id);
+  await tab.keyboard.press('Escape');
+  await button(tab, 'Reset').click();
+  for (const head of await tab.$$('[data-sort]')) if (await head.isVisible()) await head.click();
+  const waiting = tab.waitForEvent('download');
+  await button(tab, 'Save these rows as CSV').click();
+  assert.ok(readFileSync(await (await waiting).path(), 'utf8').includes(`"'=1+cmd`));
+  for (const bars of await tab.$$('figure .bars .point path')) await bars.hover({force: true});
+  assert.deepEqual(complaints, []);
   await close();
 });
 
 test('reads without scripts and on paper', async () => {
-  const still = await open(browser, file(500), {...kLooks.light, javaScriptEnabled: false});
-  for (const words of ['Strings by zone', 'The 25 worst strings', 'Why there is no result']) {
+  const still = await open(browser, page(500), {...kLooks.light, javaScriptEnabled: false});
+  for (const words of ['Strings by zone', 'The 100 worst strings', 'Why there is no result']) {
     assert.ok(await still.page.isVisible(`text=${words}`), words);
   }
-  assert.equal(await still.page.$$eval('svg', (all) => all.length), 2);
-  assert.ok(!await still.page.isVisible('#strings'));
+  assert.match(await still.page.innerText('noscript p'), /^The table of all rows needs scripts/);
+  assert.equal(await still.page.$$eval('.still svg', (all) => all.length), 5);
+  assert.equal((await cells(still.page, 'Which strings')).length, 100);
   assert.deepEqual(still.complaints, []);
-  await still.page.screenshot({path: join(OUT, 'plant_still.png'), fullPage: true});
   await still.close();
 
-  const {page, close} = await openPlant(500, kLooks.dark);
-  await page.emulateMedia({media: 'print'});
-  assert.ok(await page.isVisible('#still-map svg'));
-  assert.ok(await page.isVisible('#still-worst table'));
-  assert.ok(!await page.isVisible('button[data-page]'));
-  assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
-  writeFileSync(join(OUT, 'plant_500.pdf'), await page.pdf({preferCSSPageSize: true}));
+  const {page: tab, close} = await openPlant(500, kLooks.dark);
+  await tab.emulateMedia({media: 'print'});
+  assert.equal(await tab.$$eval('.still', (all) => all.filter((each) => each.offsetParent).length), 5);
+  assert.equal(await tab.$$eval('.box.long tbody tr', (all) => all.filter((row) => row.offsetParent).length), 100);
+  assert.ok(!await tab.isVisible('#rows-table'));
+  assert.ok(!await tab.isVisible('button[data-page]'));
+  assert.equal(await tab.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
+  writeFileSync(join(OUT, 'plant_500.pdf'), await tab.pdf({preferCSSPageSize: true}));
   await close();
 });
 
-for (const [rows, mostMegabytes] of [[500, 1], [10000, 6], [100000, 40]]) {
+for (const [rows, mostMegabytes] of [[500, 1.5], [10000, 5], [100000, 40]]) {
   test(`size, first paint and memory at ${rows} strings`, async (context) => {
-    const size = statSync(file(rows)).size;
-    const {page, complaints, close} = await openPlant(rows);
-    const ready = await page.evaluate(() => performance.now());
-    const paint = await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0].startTime);
-    const session = await page.context().newCDPSession(page);
+    const size = statSync(page(rows)).size;
+    const {page: tab, complaints, close} = await open(browser, page(rows));
+    await chartsReady(tab);
+    const drawn = await tab.evaluate(() => performance.now());
+    const paint = await tab.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0].startTime);
+    const start = Date.now();
+    await tab.evaluate(() => document.getElementById('rows-table').scrollIntoView());
+    await tab.waitForSelector('html[data-rows]', {state: 'attached'});
+    const filled = Date.now();
+    await tab.click('[data-sort=Pmax_stc_W]');
+    await tab.waitForSelector('.tabulator-col[aria-sort=ascending]');
+    const sorted = Date.now();
+    const session = await tab.context().newCDPSession(tab);
     await session.send('Performance.enable');
     const {metrics} = await session.send('Performance.getMetrics');
     const heap = metrics.find(({name}) => name === 'JSHeapUsedSize').value;
-    const start = Date.now();
-    await page.focus('[data-sort=Pmax_stc_W]');
-    await page.keyboard.press('Enter');
-    await page.waitForSelector('th[aria-sort=ascending]');
-    const sorted = Date.now() - start;
-    context.diagnostic(`${(size / kMegabyte).toFixed(2)} MB, first paint ${paint.toFixed(0)} ms, all drawn within ` +
-                       `${ready.toFixed(0)} ms, sorted in ${sorted} ms, heap ${(heap / kMegabyte).toFixed(0)} MB`);
+    context.diagnostic(`${(size / kMegabyte).toFixed(2)} MB, first paint ${paint.toFixed(0)} ms, pictures drawn within ${drawn.toFixed(0)} ms, ` +
+                       `rows filled in ${filled - start} ms, sorted in ${sorted - filled} ms, heap ${(heap / kMegabyte).toFixed(0)} MB`);
     assert.ok(size < mostMegabytes * kMegabyte);
-    assert.ok(heap < 400 * kMegabyte);
+    assert.ok(heap < 500 * kMegabyte);
     assert.deepEqual(complaints, []);
     await close();
   });

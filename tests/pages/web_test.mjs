@@ -117,7 +117,11 @@ for (const [look, settings] of Object.entries(kLooks)) {
     await check('empty');
     await page.click('#open-paste');
     await drop(page, kFiles.shaded);
-    await page.waitForSelector('#picture svg');
+    const picture = await (await page.waitForSelector('#picture iframe')).contentFrame();
+    await chartsReady(picture);
+    assert.ok(await picture.isVisible('.js-plotly-plot'));
+    assert.ok(!await picture.isVisible('footer'));
+    assert.deepEqual(await barriers(picture), []);
     await check('read');
     for (const summary of await page.$$('main summary')) await summary.click();
     await check('options');
@@ -178,7 +182,7 @@ test('rows pasted from a spreadsheet', async () => {
   await page.click('#open-paste');
   await page.fill('#pasted', rows);
   await page.click('#take-paste');
-  await page.waitForSelector('#picture svg');
+  await page.waitForSelector('#picture iframe');
   assert.match(await page.textContent('#files'), /pasted\.txt\s*26 readings/);
   assert.ok(await page.isVisible('[data-name=cells].unknown'));
   // The same by the keyboard's paste, anywhere.
@@ -325,7 +329,7 @@ test('keyboard alone', async () => {
   assert.equal(await page.evaluate(() => document.activeElement.className), 'skip');
   await page.focus('[data-example^=rtc]');
   await page.keyboard.press('Enter');
-  await page.waitForSelector('#picture svg');
+  await page.waitForSelector('#picture iframe');
   await page.focus('[data-verb=fit]');
   await page.keyboard.press('Enter');
   await page.waitForSelector('#report iframe');
@@ -345,7 +349,7 @@ test('size, time to the first result, memory', async (context) => {
     const {page, close} = await begin();
     const ready = await page.evaluate(() => performance.now());
     await drop(page, files);
-    await page.waitForSelector('#picture svg');
+    await page.waitForSelector('#picture iframe');
     const seconds = [];
     for (let i = 0; i < 3; ++i) {
       await work(page, verb);

@@ -18,6 +18,19 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+TEST(DrawHtml, LinksRowsOfATable) {
+  Document document;
+  Section section = {"Strings"};
+  block::Table table = {"lr", {{"string", "value"}}, {{"a", "1"}, {"b", "2"}, {"c"}}};
+  table.links = {"./pages/a.html?\"", ""};
+  AddTable(table, &section);
+  AddSections({section}, &document);
+  const std::string html = DrawHtml(document);
+  EXPECT_THAT(html, HasSubstr("<a href=\"./pages/a.html?&quot;\">a</a></th>"));
+  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">b</th>"));
+  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">c</th>"));
+}
+
 TEST(DrawHtml, IsAPageOfPlainElements) {
   Document document;
   document.banners = {"INTERRUPTED: early."};

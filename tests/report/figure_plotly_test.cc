@@ -97,6 +97,27 @@ TEST(PlotlyJson, DrawsBoxesFromQuartilesAndWhatLiesFarOut) {
   EXPECT_DOUBLE_EQ(traces[1].at("y").back(), 100);
 }
 
+TEST(PlotlyJson, DrawsBarsFromZeroAndCellsAroundTheirPlace) {
+  Series bars = Steps(SeriesKind::kBars);
+  bars.texts = {"one", "<b>two", "three", "four"};
+  const std::vector<Json> one = Traces(Chart(OnePanel(bars)));
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].at("type"), "bar");
+  EXPECT_EQ(one[0].at("y"), Json({1, 4, 9, 16}));
+  EXPECT_EQ(one[0].at("width"), 1.5);
+  EXPECT_EQ(one[0].at("marker").at("color"), kBlue);
+  EXPECT_EQ(one[0].at("hovertext")[1], "&lt;b&gt;two");
+  Series cells{SeriesKind::kCells, {""}, 0.9};
+  cells.Add(0, 1, 20);
+  cells.Add(1, 1, 40);
+  Figure figure = OnePanel(cells);
+  figure.colour_bar = ColourBar{"temperature (C)", 20, 40};
+  const Json cell = Traces(Chart(figure)).at(0);
+  EXPECT_DOUBLE_EQ(cell.at("base")[0], 1 - 0.5 * kCellHeight);
+  EXPECT_DOUBLE_EQ(cell.at("y")[0], kCellHeight);
+  EXPECT_EQ(cell.at("marker").at("color"), Json({"#0072b2", "#d55e00"}));
+}
+
 TEST(PlotlyJson, ColoursLinesAndPointsByTheirThirdNumber) {
   const SampleFamily family = MakeSampleFamily(8);
   const Json chart = Chart(FamilyFigure(family.report, family.set));
@@ -164,6 +185,24 @@ TEST(PlotlyJson, MakesRoomBeyondTheDataWhereTheFigureDoes) {
   const Json range = Chart(figure).at("layout").at("yaxis").at("range");
   EXPECT_DOUBLE_EQ(range[0], 1 - 0.2 * 15);
   EXPECT_DOUBLE_EQ(range[1], 16);
+}
+
+TEST(PlotlyJson, KeepsASingleEndOfAnAxis) {
+  Figure figure = OnePanel(Steps(SeriesKind::kBars));
+  figure.panels[0].y.low = 0;
+  const Json axis = Chart(figure).at("layout").at("yaxis");
+  EXPECT_EQ(axis.at("range"), Json({0.0, nullptr}));
+  EXPECT_EQ(axis.at("autorangeoptions").at("minallowed"), 0.0);
+}
+
+TEST(PlotlyJson, StandsSlantedNamesUprightInNarrowPages) {
+  Figure figure = OnePanel(Steps(SeriesKind::kBars));
+  figure.panels[0].x.slanted = true;
+  figure.room_below = 50;
+  const Json chart = Chart(figure);
+  EXPECT_FALSE(chart.at("wide").contains("xaxis.tickangle"));
+  EXPECT_EQ(chart.at("narrow").at("xaxis.tickangle"), -90);
+  EXPECT_GT(chart.at("narrow").at("height"), chart.at("wide").at("height"));
 }
 
 // Panels do not overlap, in one column or in several.

@@ -51,14 +51,15 @@ TEST(Figure, ChoosesTheTerminal) {
 TEST(Figure, DrawsEveryKindOfSeriesAndAllBesideThem) {
   Figure figure = SampleFigure();
   Panel& panel = figure.panels[0];
-  for (const SeriesKind kind :
-       {SeriesKind::kPoints, SeriesKind::kLineAndPoints, SeriesKind::kStems, SeriesKind::kBox}) {
+  for (const SeriesKind kind : {SeriesKind::kPoints, SeriesKind::kLineAndPoints, SeriesKind::kStems,
+                                SeriesKind::kBox, SeriesKind::kBars, SeriesKind::kCells}) {
     panel.series.push_back(panel.series[0]);
     panel.series.back().kind = kind;
     panel.series.back().name = "series " + std::to_string(static_cast<int>(kind));
   }
   panel.series[1].look.colour = "";
   panel.series[2].right_axis = true;
+  panel.series[6].look.colour = "";
   panel.right = Axis{"right label"};
   panel.x.label = "x label";
   panel.y.label = "y label";

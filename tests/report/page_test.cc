@@ -86,7 +86,7 @@ TEST(DrawPage, HoldsTheRecord) {
 TEST(DrawPage, PacksALargeRecord) {
   const std::string json = "[\"" + std::string(300000, 'x') + "\"]";
   const std::string html = DrawPage(FitDocument(SampleReport()), json);
-  EXPECT_EQ(ScriptOf(html, "record"), Base64(Gzipped(json)));
+  EXPECT_EQ(ScriptOf(html, "record"), Packed(json));
 }
 
 TEST(DrawPage, HasAChartForEveryPictureUnlessItIsToStandStill) {
@@ -100,6 +100,30 @@ TEST(DrawPage, HasAChartForEveryPictureUnlessItIsToStandStill) {
   EXPECT_THAT(html, Not(HasSubstr("figure-1-chart")));
   EXPECT_THAT(html, Not(HasSubstr("id=\"plotly\"")));
   EXPECT_THAT(html, HasSubstr("<svg "));
+}
+
+TEST(DrawPage, HasAPlaceForTheRowsOfALongTable) {
+  Document document;
+  document.head.heading = "rows";
+  block::LongTable table;
+  table.links = "results/";
+  table.columns = {{"<b>", "what it is", true, false}};
+  document.sections = {{"All rows", {table}}};
+  const std::string html = DrawPage(document, "");
+  EXPECT_EQ(Count(html, kRowsElement), 1);
+  EXPECT_THAT(html, HasSubstr("<div id=\"rows-table\">"));
+  const auto known = nlohmann::json::parse(ScriptOf(html, "rows-columns"));
+  EXPECT_EQ(known.at("links"), "results/");
+  EXPECT_EQ(
+      known.at("columns")[0],
+      (nlohmann::json{{"name", "<b>"}, {"doc", "what it is"}, {"number", true}, {"shown", false}}));
+  EXPECT_EQ(DrawText(document).find("All rows"), std::string::npos);
+  EXPECT_THAT(DrawHtml(document), Not(HasSubstr("rows-table")));
+  EXPECT_THAT(DrawMarkdown(document), HasSubstr("All rows"));
+  if (TabulatorIsEmbedded()) {
+    EXPECT_THAT(html, HasSubstr("Permission is hereby granted"));
+  }
+  EXPECT_EQ(Count(html, "id=\"tabulator\">H4sI"), TabulatorIsEmbedded() ? 1 : 0);
 }
 
 TEST(DrawPage, ShowsThePictureInNumbers) {

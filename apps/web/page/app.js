@@ -155,8 +155,9 @@
     const {look: found} = file;
     element('read-title').textContent = `What was read: ${file.name}`;
     readView.showError(element('read-error'), found.error ? {text: found.error, line: found.line} : null, file);
-    element('picture').replaceChildren(...(found.curves.length > 0 ? [curvePicture(found.curves)] : []));
-    element('picture').hidden = found.curves.length === 0;
+    found.picture ??= found.picture_html ? reportView.pictureOf(found.picture_html) : null;
+    if (element('picture').firstChild !== found.picture) element('picture').replaceChildren(...(found.picture ? [found.picture] : []));
+    element('picture').hidden = !found.picture;
     readView.fill(element('conditions'), readView.conditionFields(file, forms.fit, () => look(file)));
     readView.fill(element('reading'), readView.readingFields(file, forms.fit, () => look(file)));
     element('columns').replaceChildren(...(found.columns.length > 0 ? [readView.columnTable(found.columns)] : []));

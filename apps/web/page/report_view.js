@@ -1,4 +1,4 @@
-// Display and saving of a report. Defines reportView: frameOf(result), followTheme(frame), save(result, verb, what).
+// Display and saving of a report. Defines reportView: frameOf(result), pictureOf(html), followTheme(frame), save(result, verb, what).
 const reportView = (() => {
   function followHeight(frame) {
     const page = frame.contentDocument;
@@ -18,16 +18,26 @@ const reportView = (() => {
     if (now !== wanted) button.click();
   }
 
-  // A frame with the report, as high as its content.
-  function frameOf(result) {
+  // A frame with a page, without some of its elements, as high as its content.
+  function frameWith(title, html, without) {
     const frame = document.createElement('iframe');
-    frame.title = `Report of ${result.name}`;
-    frame.srcdoc = result.page_html;
+    frame.title = title;
+    frame.srcdoc = html;
     frame.addEventListener('load', () => {
-      frame.contentDocument.querySelector('header .tools').hidden = true;  // the page has its own
+      for (const each of frame.contentDocument.querySelectorAll(without)) each.hidden = true;
       followTheme(frame);
       followHeight(frame);
     });
+    return frame;
+  }
+
+  // The report; the page has tools of its own.
+  const frameOf = (result) => frameWith(`Report of ${result.name}`, result.page_html, 'header .tools');
+
+  // The picture of the readings; screen readers alone get its heading.
+  function pictureOf(html) {
+    const frame = frameWith('Picture of the readings', html, '.skip, header .tools, footer');
+    frame.addEventListener('load', () => frame.contentDocument.querySelector('header').classList.add('skip'));
     return frame;
   }
 
@@ -45,5 +55,5 @@ const reportView = (() => {
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
-  return {frameOf, followTheme, save};
+  return {frameOf, pictureOf, followTheme, save};
 })();

@@ -5,286 +5,191 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/batch/plant_picture.h"
-#include "lyrefit/curve/number_text.h"
-#include "lyrefit/report/html_parts.h"
-#include "lyrefit/report/text_layout.h"
+#include "lyrefit/batch/plant_figures.h"
+#include "lyrefit/batch/plant_text.h"
 
 namespace lyrefit {
 namespace {
 
 using Shares = std::map<std::string, PlantShare>;
 
+constexpr int kColumnsShown = 11;
+constexpr const char* kFirstColumns[] = {"id",
+                                         "page",
+                                         "status",
+                                         "zone",
+                                         "cause_title",
+                                         "performance_factor",
+                                         "Pmax_stc_W",
+                                         "group_deviation_percent",
+                                         "recoverable_power_W",
+                                         "group_outlier",
+                                         "date",
+                                         "cause",
+                                         "Pmax_W",
+                                         "FF",
+                                         "Isc_A",
+                                         "Voc_V",
+                                         "Rs_ohm",
+                                         "n1",
+                                         "irradiance_Wm2",
+                                         "temperature_C",
+                                         "reason"};
+
 std::string Number(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
-}
-
-std::string Power(double watts) {
-  if (watts >= 999500) return Significant(watts / 1e6, 3) + " MW";
-  if (watts >= 9999.5) return Significant(watts / 1000, 3) + " kW";
-  return watts >= 999.5 ? Significant(watts / 1000, 2) + " kW" : fmt::format("{:.0f} W", watts);
 }
 
 std::string Share(std::int64_t part, std::int64_t all) {
   return all > 0 ? fmt::format("{:.1f} %", 100.0 * part / all) : "";
 }
 
-// 1234567 as 1,234,567.
-std::string Counted(std::int64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t place = text.size(); place > 3;) text.insert(place -= 3, ",");
-  return text;
-}
-
-// By decreasing count.
-std::vector<std::pair<std::string, PlantShare>> Ordered(const Shares& shares) {
-  std::vector<std::pair<std::string, PlantShare>> ordered(shares.begin(), shares.end());
-  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& one, const auto& other) {
-    return one.second.rows > other.second.rows;
-  });
-  return ordered;
-}
-
-std::string Title(const std::pair<std::string, PlantShare>& cause) {
-  return cause.second.title.empty() ? cause.first : cause.second.title;
-}
-
-std::string Listed(const Shares& shares, std::size_t most) {
-  std::string text;
-  const auto ordered = Ordered(shares);
-  std::int64_t rest = 0;
-  for (std::size_t c = 0; c < ordered.size(); ++c) {
-    if (c >= most) {
-      rest += ordered[c].second.rows;
-      continue;
-    }
-    text += fmt::format("{}{} ({})", c == 0 ? "" : ", ", LowerCase(Title(ordered[c])),
-                        Counted(ordered[c].second.rows));
-  }
-  return rest > 0 ? text + fmt::format(", others ({})", Counted(rest)) : text;
-}
-
-struct Row {
-  std::vector<std::string> cells;  // escaped HTML
-  // The filter that a script sets when the row's name is pressed: column and value.
-  std::string column = {};
-  std::string value = {};
-};
-
-std::string RowStart(const Row& row) {
-  if (row.column.empty()) return "<tr>";
-  return fmt::format("<tr data-column=\"{}\" data-value=\"{}\">", row.column,
-                     HtmlEscaped(row.value));
-}
-
-// The first cell of a row is its header. Columns with alignment 'r' are numbers.
-std::string Table(const std::string& caption, const std::string& alignment,
-                  const std::vector<std::string>& head, const std::vector<Row>& rows) {
-  std::string html = fmt::format(
-      "<div class=\"box\" role=\"region\" tabindex=\"0\" aria-label=\"{0}\"><table>\n"
-      "<caption>{0}</caption>\n<thead><tr>",
-      HtmlEscaped(caption));
-  for (std::size_t c = 0; c < head.size(); ++c) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>",
-                        alignment[c] == 'r' ? " class=\"number\"" : "", HtmlEscaped(head[c]));
-  }
-  html += "</tr></thead>\n<tbody>\n";
-  for (const Row& row : rows) {
-    html += RowStart(row);
-    for (std::size_t c = 0; c < row.cells.size(); ++c) {
-      const char* tag = c == 0 ? "th" : "td";
-      html += fmt::format("<{0}{1}{2}>{3}</{0}>", tag, c == 0 ? " scope=\"row\"" : "",
-                          alignment[c] == 'r' ? " class=\"number\"" : "", row.cells[c]);
-    }
-    html += "</tr>\n";
-  }
-  return html + "</tbody>\n</table></div>\n";
-}
-
-std::string PlantPart(const std::string& id, const std::string& heading, const std::string& html) {
-  if (html.empty()) return "";
-  return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-h\">\n<h2 id=\"{0}-h\">{1}</h2>\n",
-                     id, heading) +
-         html + "</section>\n";
-}
-
-std::string ZonesTable(const PlantSummary& summary) {
-  if (summary.zones.empty()) return "";
-  std::vector<Row> rows;
+block::Table ZonesTable(const PlantSummary& summary) {
+  block::Table table = {"lrr", {{"zone", "strings", "of all"}}};
+  table.caption = "Strings by zone";
+  const auto add = [&](const std::string& zone, std::int64_t rows) {
+    table.rows.push_back({zone, Counted(rows), Share(rows, summary.rows)});
+  };
+  std::map<std::string, PlantShare> others = summary.zones;
   for (const char* zone : {"pass", "pass within uncertainty", "fail within uncertainty", "fail"}) {
-    const auto at = summary.zones.find(zone);
-    const std::int64_t count = at == summary.zones.end() ? 0 : at->second.rows;
-    rows.push_back(
-        {{ZoneMark(zone) + zone, Counted(count), Share(count, summary.rows)}, "zone", zone});
+    add(zone, others[zone].rows);
+    others.erase(zone);
   }
-  for (const auto& [zone, share] : summary.zones) {
-    if (ZoneMark(zone).empty()) {
-      rows.push_back({{HtmlEscaped(zone), Counted(share.rows), Share(share.rows, summary.rows)},
-                      "zone",
-                      zone});
-    }
-  }
-  return "<div>" + Table("Strings by zone", "lrr", {"Zone", "Strings", "of all"}, rows) + "</div>";
+  for (const auto& [zone, share] : others) add(zone, share.rows);
+  return table;
 }
 
-std::string CausesTable(const std::string& caption, const Shares& causes) {
-  std::vector<Row> rows;
+void AddCauses(const std::string& caption, const Shares& causes, Section* section) {
+  if (causes.empty()) return;
+  block::Table table = {"lrr", {{"cause", "strings", "power to recover"}}};
+  table.caption = caption;
   for (const auto& cause : Ordered(causes)) {
     const double power = cause.second.recoverable_power_W;
-    rows.push_back(
-        {{HtmlEscaped(Title(cause)), Counted(cause.second.rows), power > 0 ? Power(power) : ""},
-         cause.first == kNoCause ? "" : "cause",
-         cause.first});
+    table.rows.push_back({Title(cause), Counted(cause.second.rows), power > 0 ? Power(power) : ""});
   }
-  if (rows.empty()) return "";
-  return "<div>" + Table(caption, "lrr", {"Cause", "Strings", "Power to recover"}, rows) + "</div>";
+  AddTable(std::move(table), section);
 }
 
-// The row's name, with a link to its page if it has one. Only paths in the form of StringPagePath
-// are linked, since files may hold any text.
-std::string Linked(const PlantRow& row, const std::string& results) {
+// A link to the row's page. Only paths in the form of StringPagePath are linked, since files may
+// hold any text.
+std::string LinkOf(const PlantRow& row, const std::string& results) {
   const bool safe = row.page.rfind("pages/", 0) == 0 && row.page.find("..") == std::string::npos;
-  if (!safe) return HtmlEscaped(row.id);
-  return "<a href=\"./" + HtmlEscaped(results + row.page) + "\">" + HtmlEscaped(row.id) + "</a>";
+  return safe ? "./" + results + row.page : "";
 }
 
-std::string WorstTable(const PlantSummary& summary, const std::string& results) {
-  if (summary.worst.empty()) return "";
-  std::vector<Row> rows;
+block::Table WorstTable(const PlantSummary& summary, const std::string& results) {
+  block::Table table = {"lrrllr",
+                        {{"string", "performance factor", "Pmax at STC (W)", "zone", "cause",
+                          "power to recover (W)"}}};
+  table.caption =
+      fmt::format("The {} worst strings, by {}", summary.worst.size(), summary.worst_by);
   for (const PlantRow& row : summary.worst) {
-    const std::string& cause = row.cause_title.empty() ? row.cause : row.cause_title;
-    rows.push_back({{Linked(row, results), Number(row.performance_factor, 3),
-                     Number(row.Pmax_stc_W, 0), ZoneMark(row.zone) + HtmlEscaped(row.zone),
-                     HtmlEscaped(cause), Number(row.recoverable_power_W, 0)}});
+    table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),
+                          row.zone, row.cause_title.empty() ? row.cause : row.cause_title,
+                          Number(row.recoverable_power_W, 0)});
+    table.links.push_back(LinkOf(row, results));
   }
-  return Table(
-      fmt::format("The {} worst strings, by {}", rows.size(), summary.worst_by), "lrrllr",
-      {"String", "Performance factor", "Pmax at STC (W)", "Zone", "Cause", "Power to recover (W)"},
-      rows);
+  return table;
 }
 
-std::string BrokenTables(const PlantSummary& summary) {
-  if (summary.reasons.empty()) return "";
-  std::vector<Row> reasons;
+block::Table OutliersTable(const PlantSummary& summary, const std::string& results) {
+  block::Table table = {"lw", {{"string", "differs in"}}};
+  table.caption = "Strings that differ most from those of the same combiner";
+  for (const PlantRow& row : summary.outliers) {
+    table.rows.push_back(
+        {row.id, row.outlier.empty() ? Number(row.deviation_percent, 2) + " %" : row.outlier});
+    table.links.push_back(LinkOf(row, results));
+  }
+  return table;
+}
+
+Section NotJudged(const PlantSummary& summary) {
+  Section section = {"Not judged"};
+  if (summary.reasons.empty()) return section;
+  block::Table reasons = {"wr", {{"reason", "strings"}}};
+  reasons.caption = "Why there is no result";
   for (const auto& [reason, share] : Ordered(summary.reasons)) {
-    reasons.push_back({{HtmlEscaped(reason), Counted(share.rows)}});
+    reasons.rows.push_back({reason, Counted(share.rows)});
   }
-  std::vector<Row> rows;
-  for (const PlantRow& row : summary.broken) {
-    rows.push_back({{HtmlEscaped(row.id), HtmlEscaped(row.reason)}});
-  }
-  const std::string first =
-      static_cast<std::int64_t>(rows.size()) < summary.rows - summary.fine
-          ? fmt::format("The first {} of {}", rows.size(), Counted(summary.rows - summary.fine))
-          : "All of them";
-  return Table("Why there is no result", "lr", {"Reason", "Strings"}, reasons) +
-         Table(first, "ll", {"String", "Reason"}, rows);
+  AddTable(std::move(reasons), &section);
+  block::Table rows = {"lw", {{"string", "reason"}}};
+  const std::int64_t all = summary.rows - summary.fine;
+  const auto listed = static_cast<std::int64_t>(summary.broken.size());
+  rows.caption =
+      listed < all ? fmt::format("The first {} of {}", listed, Counted(all)) : "All of them";
+  for (const PlantRow& row : summary.broken) rows.rows.push_back({row.id, row.reason});
+  AddTable(std::move(rows), &section);
+  return section;
 }
 
-std::string Facts(const PlantSummary& summary, const PlantPageOptions& options) {
-  std::vector<PlantFact> facts = options.facts;
-  std::string html = "<dl>";
+// The table of all rows. It shows first what tells most.
+block::LongTable AllRows(const PlantContent& content) {
+  std::vector<std::string> shown;
+  const auto show = [&](const std::string& name) {
+    const auto there = [&](const ResultColumn& column) { return column.name == name; };
+    const auto& columns = content.columns;
+    const bool is = std::any_of(columns.begin(), columns.end(), there) &&
+                    std::find(shown.begin(), shown.end(), name) == shown.end();
+    if (is && shown.size() < std::size_t{kColumnsShown}) shown.push_back(name);
+  };
+  for (const char* name : kFirstColumns) show(name);
+  for (const ResultColumn& column : content.columns) {
+    if (column.name != "sparkline") show(column.name);
+  }
+  block::LongTable table;
+  table.links = content.results;
+  const auto place = [&shown](const std::string& name) {
+    return std::find(shown.begin(), shown.end(), name) - shown.begin();
+  };
+  for (const ResultColumn& column : content.columns) {
+    const bool number = column.type == CellType::kNumber || column.type == CellType::kWhole;
+    const std::string doc =
+        column.unit.empty() ? column.doc : column.doc + " (" + column.unit + ")";
+    table.columns.push_back({column.name, doc, number, place(column.name) < kColumnsShown});
+  }
+  std::stable_sort(table.columns.begin(), table.columns.end(),
+                   [&](const auto& a, const auto& b) { return place(a.name) < place(b.name); });
+  return table;
+}
+
+Section AboutPage(const PlantContent& content) {
+  Section section = {"About this page"};
+  const PlantSummary& summary = content.summary;
   if (!summary.last_date.empty()) {
-    html +=
-        "<dt>Measured</dt><dd>" + HtmlEscaped(summary.first_date) +
-        (summary.first_date == summary.last_date ? "" : " to " + HtmlEscaped(summary.last_date)) +
-        "</dd>\n";
+    const bool one = summary.first_date == summary.last_date;
+    AddField("Measured", summary.first_date + (one ? "" : " to " + summary.last_date), &section);
   }
-  for (const PlantFact& fact : facts) {
-    html += HtmlElement("dt", fact.name) + HtmlElement("dd", fact.text) + "\n";
-  }
-  return html + "</dl>\n";
-}
-
-std::string Plural(std::int64_t count, const std::string& what) {
-  return fmt::format("{} {}{}", Counted(count), what, count == 1 ? "" : "s");
+  for (const block::Field& fact : content.facts) AddField(fact.name, fact.text, &section);
+  return section;
 }
 
 }  // namespace
 
-std::string PlantVerdict(const PlantSummary& summary) {
-  if (summary.rows == 0) return "No strings.";
-  const std::string all = Plural(summary.rows, "string");
-  const char* verb = summary.rows == 1 ? "s" : "";
-  if (summary.judged_by.empty()) {
-    return fmt::format("{} of {} ha{} a result.", Counted(summary.fine), all,
-                       summary.rows == 1 ? "s" : "ve");
-  }
-  std::string text =
-      summary.judged_by == "zone"
-          ? fmt::format("{} of {} pass{}", Counted(summary.passed), all, *verb ? "es" : "")
-          : fmt::format("{} of {} show{} no cause",
-                        Counted(summary.fine - summary.in_need - summary.to_repeat), all, verb);
-  if (summary.in_need > 0) {
-    text += fmt::format("; {} need{} work: {}", Counted(summary.in_need),
-                        summary.in_need == 1 ? "s" : "", Listed(summary.causes, 6));
-  }
-  if (summary.in_need > 0 && summary.recoverable_power_W > 0) {
-    text += ", worth about " + Power(summary.recoverable_power_W);
-  }
-  if (summary.in_need > 0 && summary.below_rating_W > 0) {
-    text += fmt::format(". They are {} below their rating at standard conditions",
-                        Power(summary.below_rating_W));
-  }
-  text += ".";
-  if (summary.to_repeat > 0) {
-    text += fmt::format(" {} {} to be measured again, for a cause of the measurement alone: {}.",
-                        Counted(summary.to_repeat), summary.to_repeat == 1 ? "has" : "have",
-                        Listed(summary.causes_to_repeat, 6));
-  }
-  std::int64_t beside = 0;
-  for (const auto& [cause, share] : summary.causes_of_passed) beside += share.rows;
-  if (beside > 0) {
-    text += fmt::format(" Of those that pass, {} show{} a cause all the same: {}.", Counted(beside),
-                        beside == 1 ? "s" : "", Listed(summary.causes_of_passed, 6));
-  }
-  if (summary.passed_outlier > 0) {
-    text += fmt::format(" {} that need{} no work by this differ{} from the strings of {} combiner.",
-                        Counted(summary.passed_outlier), summary.passed_outlier == 1 ? "s" : "",
-                        summary.passed_outlier == 1 ? "s" : "",
-                        summary.passed_outlier == 1 ? "its" : "their");
-  }
-  if (summary.fine < summary.rows) {
-    text += fmt::format(" {} could not be judged.", Counted(summary.rows - summary.fine));
-  }
-  return text;
-}
-
-std::string PlantHead(const PlantSummary& summary) {
-  return "<div class=\"verdict\">" + HtmlElement("p", PlantVerdict(summary)) +
-         "</div>\n<nav class=\"contents\" aria-label=\"Sections\"><ul>"
-         "<li><a href=\"#map\">Plant</a></li><li><a href=\"#strings\">All strings</a></li>"
-         "<li><a href=\"#worst\">Worst</a></li><li><a href=\"#spread\">Distributions</a></li>"
-         "<li><a href=\"#cloud\">One over another</a></li><li><a href=\"#trend\">Over time</a></li>"
-         "<li><a href=\"#about\">About</a></li></ul></nav>\n";
-}
-
-std::string PlantBody(const PlantSummary& summary, const PlantPageOptions& options) {
-  const std::string tables =
-      ZonesTable(summary) + CausesTable("Causes of those that need work", summary.causes) +
-      CausesTable("Causes of the measurement alone: to be taken again", summary.causes_to_repeat) +
-      CausesTable("Causes of those that pass", summary.causes_of_passed);
-  std::string html =
-      "<noscript><p>The table of all strings and what can be chosen need scripts, which do not run "
-      "here.</p></noscript>\n";
-  html += "<p id=\"live-state\" role=\"status\"></p>\n<div id=\"live-filter\"></div>\n";
-  html += PlantPart("summary", "What was found",
-                    tables.empty() ? "" : "<div class=\"columns\">" + tables + "</div>\n");
-  html += PlantPart(
-      "map", "The plant",
-      "<div id=\"live-map\"></div>\n<div id=\"still-map\">" + MapPicture(summary) + "</div>\n");
-  html += PlantPart("strings", "All strings", "<div id=\"live-table\"></div>\n");
-  html += PlantPart("worst", "Worst strings",
-                    "<div id=\"live-worst\"></div>\n<div id=\"still-worst\">" +
-                        WorstTable(summary, options.results) + "</div>\n");
-  html += PlantPart("spread", "Distributions",
-                    "<div id=\"live-spread\"></div>\n<div id=\"still-spread\">" +
-                        PerformancePicture(summary) + "</div>\n");
-  html += PlantPart("cloud", "One quantity over another", "<div id=\"live-cloud\"></div>\n");
-  html += PlantPart("trend", "Over time", "<div id=\"live-trend\"></div>\n");
-  html += PlantPart("broken", "Not judged", BrokenTables(summary));
-  html += PlantPart("about", "About this page", Facts(summary, options));
-  return html;
+Document PlantDocument(const PlantContent& content) {
+  const PlantSummary& summary = content.summary;
+  Document document;
+  document.head.heading = content.plant;
+  document.verdict = PlantVerdict(summary);
+  AddFigure(GroupsFigure(summary), &document.head);
+  AddFigure(MapFigure(summary), &document.head);
+  Section found = {"What was found"};
+  if (!summary.zones.empty()) AddTable(ZonesTable(summary), &found);
+  AddCauses("Causes of those that need work", summary.causes, &found);
+  AddCauses("Causes of the measurement alone: to be taken again", summary.causes_to_repeat, &found);
+  AddCauses("Causes of those that pass", summary.causes_of_passed, &found);
+  Section worst = {"Which strings to visit first"};
+  if (!summary.worst.empty()) AddTable(WorstTable(summary, content.results), &worst);
+  AddFigure(CurvesFigure(summary), &worst);
+  Section all = {"All strings"};
+  if (summary.rows > 0) all.blocks.emplace_back(AllRows(content));
+  Section spreads = {"Distributions"};
+  AddFigure(SpreadsFigure(summary), &spreads);
+  Section neighbours = {"Against the neighbours"};
+  if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
+  AddFigure(NeighboursFigure(summary), &neighbours);
+  AddSections({found, worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)},
+              &document);
+  return document;
 }
 
 }  // namespace lyrefit

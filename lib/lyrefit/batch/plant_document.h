@@ -1,22 +1,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "lyrefit/batch/plant_page.h"
 #include "lyrefit/batch/plant_summary.h"
+#include "lyrefit/report/document.h"
 
 namespace lyrefit {
 
-// The summary as a sentence: "488 of 500 strings pass; 12 need work: 5 partial shading, ..., worth
-// about 3.2 kW."
-std::string PlantVerdict(const PlantSummary& summary);
+// What the page of a plant is made of.
+struct PlantContent {
+  std::string plant;                  // its name
+  PlantSummary summary;               // of the rows
+  std::vector<ResultColumn> columns;  // of the table of all rows
+  std::vector<block::Field> facts;    // about the whole plant: an instrument, an option, the seed
+  std::string results;                // prefix from the page to the folder of the results
+};
 
-// PlantVerdict as HTML, for the place below the title.
-std::string PlantHead(const PlantSummary& summary);
-
-// The parts of the page that need no script, as HTML. They are zones, causes, the tree, the
-// distribution, the worst and the broken strings, and the measurement settings. Elements whose ids
-// begin with "live-" are empty and are filled by the script.
-std::string PlantBody(const PlantSummary& summary, const PlantPageOptions& options);
+// Verdict, pictures and tables: what is lost where, which strings to visit first, all strings,
+// distributions, neighbours, strings without a result.
+Document PlantDocument(const PlantContent& content);
 
 }  // namespace lyrefit

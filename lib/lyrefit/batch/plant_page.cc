@@ -1,98 +1,138 @@
 #include "lyrefit/batch/plant_page.h"
 
-#include <cerrno>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <system_error>
+#include <fmt/format.h>
 
-#include "lyrefit/base/descriptor.h"
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/batch/plant_assets.h"
 #include "lyrefit/batch/plant_document.h"
-#include "lyrefit/batch/plant_summary.h"
-#include "lyrefit/batch/plant_table.h"
+#include "lyrefit/batch/row_text.h"
+#include "lyrefit/batch/write_results.h"
+#include "lyrefit/report/page.h"
 #include "lyrefit/report/page_shell.h"
 
 namespace lyrefit {
 namespace {
 
-tl::unexpected<Error> CannotWrite(const std::string& path) {
-  return Fail("cannot write the page: " + std::generic_category().message(errno), path);
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestResultsSchema = 16U << 20;
+
+std::string Text(const CheckpointHead& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-constexpr char kRowsHere[] = "<!--rows-->";  // no row can contain this text, since rows are escaped
-
-class StreamedPage : public PlantPage {
- public:
-  StreamedPage(const std::string& path, std::vector<ResultColumn> columns, PlantPageOptions options)
-      : path_(path),
-        page_(path),
-        rows_(OpenScratch(path)),
-        options_(std::move(options)),
-        counter_(columns),
-        table_(std::move(columns), options_.digits) {}
-
-  Expected<void> Begin() { return rows_.open() ? page_.Begin() : CannotWrite(path_); }
-
-  Expected<void> Add(const ResultRow& row) override {
-    counter_.Add(row);
-    return table_.Add(row) ? WriteGroup() : Expected<void>();
+// Facts about the run, from the schema.
+std::vector<block::Field> FactsOf(const CheckpointHead& run) {
+  std::vector<block::Field> facts;
+  const CheckpointHead options = run.value("options", CheckpointHead::object());
+  const auto take = [&](const char* name, const CheckpointHead& from, const char* key) {
+    if (from.contains(key)) facts.push_back({name, Text(from[key])});
+  };
+  take("Instrument", options, "tracer");
+  take("Serial number", options, "serial");
+  take("Calibration", options, "calibration");
+  take("Measured by", options, "operator");
+  take("Irradiance from", options, "irradiance-from");
+  take("Temperature from", options, "temperature-from");
+  take("Remark", options, "remark");
+  take("Task", run, "task");
+  std::string others;
+  for (const auto& [key, value] : options.items()) {
+    bool known = key == "seed" || key == "group-level" || key == "like-light";
+    for (const char* fact : {"tracer", "serial", "calibration", "operator", "irradiance-from",
+                             "temperature-from", "remark"}) {
+      known = known || key == fact;
+    }
+    if (!known) others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", key, Text(value));
   }
+  if (!others.empty()) facts.push_back({"Options", others});
+  take("Seed", options, "seed");
+  take("lyrefit", run, "version");
+  take("Digest of the input", run, "input");
+  return facts;
+}
 
-  Expected<void> Finish() override {
-    TRY(WriteGroup());
-    const std::string shell = Shell();
-    const std::size_t rows = shell.find(kRowsHere);
-    TRY(page_.Write(shell.substr(0, rows)));
-    TRY(page_.WriteFrom(rows_));
-    TRY(page_.Write(shell.substr(rows)));
-    return page_.Commit();
+// Escapes the bytes that have a meaning in a URL.
+std::string UrlOf(const std::string& path) {
+  std::string url;
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.' || c == '~' || c == '/';
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
+  return url;
+}
 
- private:
-  std::string Shell() const {
-    const PlantSummary summary = counter_.Summary();
-    PageShell shell;
-    shell.title = options_.plant;
-    shell.summary = PlantHead(summary);
-    shell.body = PlantBody(summary, options_) + kRowsHere;
-    shell.style = PlantStyle();
-    shell.scripts = {std::string(PlantScript())};
-    shell.data = {{"table", table_.Index()}, {"results", nlohmann::json(options_.results).dump()}};
-    return DrawShell(shell);
+// Summary of results.jsonl, read line by line.
+Expected<PlantSummary> SummaryOf(const std::string& path,
+                                 const std::vector<ResultColumn>& columns) {
+  std::ifstream file(path);
+  if (!file) return Fail("cannot open the results", path);
+  PlantCounter counter(columns);
+  int line = 0;
+  for (std::string text; std::getline(file, text);) {
+    ++line;
+    const auto row = nlohmann::json::parse(text, nullptr, false);
+    if (!row.is_object()) return Fail("expected a JSON object, a row of results", path, line);
+    counter.Add(RowOf(columns, row));
   }
+  return counter.Summary();
+}
 
-  Expected<void> WriteGroup() {
-    const std::string group = table_.TakeGroup();
-    if (group.empty()) return {};
-    const bool written =
-        rows_.Write("<script type=\"text/plain\" class=\"rows\">" + group + "</script>\n");
-    return written ? Expected<void>() : CannotWrite(path_);
+// Writes a file into the page, compressed part by part.
+Expected<void> WritePacked(const std::string& path, NewFile* page) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Fail("cannot open the results", path);
+  PackedText packed;
+  std::string part(1 << 20, '\0');
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0) {
+    const auto size = static_cast<std::size_t>(file.gcount());
+    TRY(page->Write(packed.Add(std::string_view(part).substr(0, size))));
   }
-
-  const std::string path_;
-  NewFile page_;
-  const Descriptor rows_;
-  PlantPageOptions options_;
-  PlantCounter counter_;
-  PlantTable table_;
-};
+  return page->Write(packed.End());
+}
 
 }  // namespace
 
-Expected<std::unique_ptr<PlantPage>> PlantPage::Open(const std::string& file,
-                                                     std::vector<ResultColumn> columns,
-                                                     PlantPageOptions options) {
-  if (columns.empty()) return Fail("a plant's page needs at least one column", file);
+std::string UrlFrom(const std::string& file, const std::string& folder) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    return Fail("expected a file for the page, found a folder", file);
-  }
-  auto page = std::make_unique<StreamedPage>(file, std::move(columns), std::move(options));
-  TRY(page->Begin());
-  return page;
+  const fs::path from = fs::weakly_canonical(fs::absolute(file, error), error).parent_path();
+  const fs::path to = fs::weakly_canonical(fs::absolute(folder, error), error);
+  const fs::path way = to.lexically_relative(from);
+  if (way.empty() || way == ".") return "";
+  const std::string url = UrlOf(way.generic_string());
+  return url.back() == '/' ? url : url + "/";
+}
+
+Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::string& file,
+                                      const std::string& plant) {
+  const std::string schema_file = (fs::path(folder) / "results.schema.json").string();
+  TRY(const std::string text, ReadTextFile(schema_file, kLargestResultsSchema));
+  const CheckpointHead schema = CheckpointHead::parse(text, nullptr, false);
+  if (!schema.is_object()) return Fail("expected the schema of results", schema_file);
+  PlantContent content;
+  TRY(content.columns, ReadColumns(schema.value("fields", CheckpointHead())));
+  content.plant = plant;
+  content.facts = FactsOf(schema.value("lyrefit", CheckpointHead::object()));
+  content.results = UrlFrom(file, folder);
+  TRY(content.summary, SummaryOf((fs::path(folder) / "results.jsonl").string(), content.columns));
+  NewFile page(file);
+  TRY(page.Begin());
+  const std::string html = DrawPage(PlantDocument(content), "");
+  const std::size_t rows = html.find(kRowsElement);
+  const std::size_t here = rows == std::string::npos ? 0 : rows + std::strlen(kRowsElement);
+  TRY(page.Write(std::string_view(html).substr(0, here)));
+  if (here > 0) TRY(WritePacked((fs::path(folder) / "results.csv").string(), &page));
+  TRY(page.Write(std::string_view(html).substr(here)));
+  TRY(page.Commit());
+  return content.summary.rows;
 }
 
 }  // namespace lyrefit

@@ -21,7 +21,9 @@ constexpr const char* kNames[] = {"id",
                                   "lack_of_fit_percent",
                                   "page",
                                   "below_rating_W",
-                                  "group_flag"};
+                                  "group_flag",
+                                  "group_outlier",
+                                  "sparkline"};
 
 PlantShare& ShareOf(const std::string& word, std::map<std::string, PlantShare>* shares) {
   if (shares->size() < kPlantMostWords || shares->count(word)) return (*shares)[word];
@@ -34,16 +36,45 @@ void Count(const std::string& word, const PlantRow& row,
   PlantShare& share = ShareOf(word, shares);
   ++share.rows;
   if (row.recoverable_power_W > 0) share.recoverable_power_W += row.recoverable_power_W;
+  if (row.below_rating_W > 0) share.below_rating_W += row.below_rating_W;
   if (share.title.empty()) share.title = row.cause_title;
+}
+
+// The title of a row's cause.
+std::string TitleOf(const PlantRow& row) {
+  if (IsNoCause(row.cause)) return kNoCause;
+  return row.cause_title.empty() ? row.cause : row.cause_title;
 }
 
 bool Passes(const std::string& zone) { return zone.rfind("pass", 0) == 0; }
 
 bool IsFine(const std::string& status) { return status.empty() || status == "fine"; }
 
-// Order of a heap with the least bad row on top.
-bool Worse(const std::pair<double, PlantRow>& one, const std::pair<double, PlantRow>& other) {
+// Order of a heap with the smallest key on top.
+bool Larger(const std::pair<double, PlantRow>& one, const std::pair<double, PlantRow>& other) {
   return one.first > other.first;
+}
+
+// Keeps at most `most` rows, those of the largest keys.
+void Rank(double key, const PlantRow& row, std::size_t most,
+          std::vector<std::pair<double, PlantRow>>* ranked) {
+  if (!std::isfinite(key)) return;
+  if (ranked->size() == most && !(key > ranked->front().first)) return;
+  ranked->emplace_back(key, row);
+  std::push_heap(ranked->begin(), ranked->end(), Larger);
+  if (ranked->size() <= most) return;
+  std::pop_heap(ranked->begin(), ranked->end(), Larger);
+  ranked->pop_back();
+}
+
+std::vector<PlantRow> InOrder(std::vector<std::pair<double, PlantRow>> ranked) {
+  std::sort(ranked.begin(), ranked.end(), [](const auto& one, const auto& other) {
+    return one.first != other.first ? one.first > other.first : one.second.id < other.second.id;
+  });
+  std::vector<PlantRow> rows;
+  rows.reserve(ranked.size());
+  for (auto& row : ranked) rows.push_back(std::move(row.second));
+  return rows;
 }
 
 }  // namespace
@@ -52,7 +83,7 @@ bool IsNoCause(const std::string& cause) {
   return cause.empty() || cause == "none" || cause == "clean" || cause == "reference";
 }
 
-PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) {
+PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) : sampler_(columns) {
   for (int known = 0; known < kColumns; ++known) {
     const auto at = std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) {
       return column.name == kNames[known];
@@ -73,11 +104,7 @@ std::string PlantCounter::Text(const ResultRow& row, Known column) const {
 }
 
 double PlantCounter::Number(const ResultRow& row, Known column) const {
-  const std::size_t place = places_[column];
-  if (!Has(column) || place >= row.cells.size()) return kUnknown;
-  if (const double* number = std::get_if<double>(&row.cells[place])) return *number;
-  const auto* whole = std::get_if<std::int64_t>(&row.cells[place]);
-  return whole ? static_cast<double>(*whole) : kUnknown;
+  return Has(column) ? NumberAt(row, places_[column]) : kUnknown;
 }
 
 // By the zone of a field test if there is one, else by the existence of a cause.
@@ -116,6 +143,7 @@ void PlantCounter::CountTree(const PlantRow& row, bool needs_work) {
     PlantNode& node = nodes[row.id.substr(0, end)];
     ++node.rows;
     node.in_need += needs_work ? 1 : 0;
+    if (needs_work) Count(TitleOf(row), row, &node.causes);
     // The comparison is false if one side is NaN.
     if (!(node.lowest_performance <= row.performance_factor) &&
         std::isfinite(row.performance_factor)) {
@@ -134,7 +162,7 @@ void PlantCounter::CountWords(const PlantRow& row, const std::string& status, bo
   Count(status, row, &sum_.status);
   if (!IsFine(status)) {
     Count(row.reason.empty() ? "no reason given" : row.reason, row, &sum_.reasons);
-    if (sum_.broken.size() < kPlantWorst) sum_.broken.push_back(row);
+    if (sum_.broken.size() < kPlantListed) sum_.broken.push_back(row);
     return;
   }
   Count(row.zone, row, &sum_.zones);
@@ -149,16 +177,6 @@ void PlantCounter::CountDate(const std::string& date) {
   sum_.last_date = std::max(sum_.last_date, date);
 }
 
-void PlantCounter::CountWorst(double badness, const PlantRow& row) {
-  if (!std::isfinite(badness)) return;
-  if (worst_.size() == kPlantWorst && !(badness > worst_.front().first)) return;
-  worst_.emplace_back(badness, row);
-  std::push_heap(worst_.begin(), worst_.end(), Worse);
-  if (worst_.size() <= kPlantWorst) return;
-  std::pop_heap(worst_.begin(), worst_.end(), Worse);
-  worst_.pop_back();
-}
-
 void PlantCounter::Add(const ResultRow& row) {
   PlantRow named;
   named.id = Text(row, kId);
@@ -167,6 +185,10 @@ void PlantCounter::Add(const ResultRow& row) {
   named.cause_title = Text(row, kCauseTitle);
   named.reason = Text(row, kReason);
   named.page = Text(row, kPage);
+  named.outlier = Text(row, kOutlier);
+  named.sparkline = Text(row, kSparkline);
+  named.below_rating_W = Number(row, kBelow);
+  named.deviation_percent = Number(row, kDeviation);
   named.performance_factor = Number(row, kPerformance);
   named.Pmax_stc_W = Number(row, kPower);
   named.recoverable_power_W = Number(row, kRecoverable);
@@ -185,25 +207,23 @@ void PlantCounter::Add(const ResultRow& row) {
     sum_.recoverable_power_W += named.recoverable_power_W;
   }
   if (fine && !needs_work && Differs(row)) ++sum_.passed_outlier;
-  const double below_W = Number(row, kBelow);
-  if (needs_work && below_W > 0) sum_.below_rating_W += below_W;
-  if (std::isfinite(named.performance_factor)) {
-    const double step = std::clamp(std::floor(named.performance_factor * 100 + 1e-9), 0.0, 150.0);
-    ++sum_.performance[static_cast<std::size_t>(step)];
-  }
+  if (needs_work && named.below_rating_W > 0) sum_.below_rating_W += named.below_rating_W;
   CountWords(named, status, needs_work, to_repeat);
   CountDate(Text(row, kDate));
   CountTree(named, needs_work);
-  if (fine) CountWorst(Badness(row), named);
+  if (!fine) return;
+  Rank(Badness(row), named, kPlantWorst, &worst_);
+  sampler_.Add(row, Differs(row));
+  if (!Differs(row)) return;
+  const double by = std::fabs(named.deviation_percent);
+  Rank(std::isfinite(by) ? by : 0, named, kPlantListed, &outliers_);
 }
 
 PlantSummary PlantCounter::Summary() const {
   PlantSummary summary = sum_;
-  auto worst = worst_;
-  std::sort(worst.begin(), worst.end(), [](const auto& one, const auto& other) {
-    return one.first != other.first ? one.first > other.first : one.second.id < other.second.id;
-  });
-  for (auto& row : worst) summary.worst.push_back(std::move(row.second));
+  summary.sample = sampler_.sample();
+  summary.worst = InOrder(worst_);
+  summary.outliers = InOrder(outliers_);
   return summary;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/plant_sample.h"
 #include "lyrefit/batch/result_row.h"
 
 namespace lyrefit {
@@ -17,15 +18,18 @@ namespace lyrefit {
 
 // A row as listed in the tables that need no script.
 struct PlantRow {
-  std::string id, zone, cause, cause_title, reason, page;
+  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline;
   double performance_factor = kUnknown;
   double Pmax_stc_W = kUnknown;
   double recoverable_power_W = kUnknown;
+  double below_rating_W = kUnknown;
+  double deviation_percent = kUnknown;
 };
 
 struct PlantShare {
   std::int64_t rows = 0;
   double recoverable_power_W = 0;
+  double below_rating_W = 0;
   std::string title;  // title of a cause, if the rows have one
 };
 
@@ -34,6 +38,7 @@ struct PlantNode {
   std::int64_t rows = 0;
   std::int64_t in_need = 0;  // number of strings that need work
   double lowest_performance = kUnknown;
+  std::map<std::string, PlantShare> causes = {};  // of strings that need work, by title
 };
 
 struct PlantSummary {
@@ -54,17 +59,19 @@ struct PlantSummary {
   // Number of rows that need no work but differ from their neighbours.
   std::int64_t passed_outlier = 0;
   std::string first_date, last_date;
-  std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
-  std::string worst_by;          // the column that ranks them
-  std::vector<PlantRow> broken;  // the first kPlantWorst rows that are not fine
+  std::vector<PlantRow> worst;     // at most kPlantWorst, the worst first
+  std::string worst_by;            // the column that ranks them
+  std::vector<PlantRow> broken;    // the first kPlantListed rows that are not fine
+  std::vector<PlantRow> outliers;  // at most kPlantListed that differ from their neighbours, those
+                                   // that differ most first
   // Nodes by depth: [0] the first levels of the ids, [1] the first two, ... A depth with more than
   // kPlantMostNodes nodes is dropped.
   std::vector<std::map<std::string, PlantNode>> levels;
-  // Histogram of the performance factor in steps of 0.01. The last bin includes all larger values.
-  std::array<std::int64_t, 151> performance{};
+  PlantSample sample;
 };
 
-constexpr std::size_t kPlantWorst = 25;
+constexpr std::size_t kPlantWorst = 100;
+constexpr std::size_t kPlantListed = 25;
 constexpr std::size_t kPlantMostNodes = 2000;
 // Different statuses, causes, ...; further ones are counted as "others".
 constexpr std::size_t kPlantMostWords = 200;
@@ -97,8 +104,12 @@ class PlantCounter {
     kPage,
     kBelow,
     kDiffers,
+    kOutlier,
+    kSparkline,
     kColumns
   };
+  // Rows with a key, a heap with the smallest on top.
+  using Ranked = std::vector<std::pair<double, PlantRow>>;
   std::string Text(const ResultRow& row, Known column) const;
   double Number(const ResultRow& row, Known column) const;
   bool Has(Known column) const { return places_[column] >= 0; }
@@ -109,12 +120,12 @@ class PlantCounter {
   void CountWords(const PlantRow& row, const std::string& status, bool needs_work, bool to_repeat);
   void CountDate(const std::string& date);
   void CountTree(const PlantRow& row, bool needs_work);
-  void CountWorst(double badness, const PlantRow& row);
 
   std::array<int, kColumns> places_{};
   PlantSummary sum_;
-  std::size_t deepest_ = 8;                         // number of tree levels that are counted
-  std::vector<std::pair<double, PlantRow>> worst_;  // a heap, the least bad on top
+  std::size_t deepest_ = 8;  // number of tree levels that are counted
+  Ranked worst_, outliers_;
+  PlantSampler sampler_;
 };
 
 // True if `cause` means that no cause was found, in any of its notations.

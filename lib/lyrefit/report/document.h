@@ -67,6 +67,8 @@ struct Table {
   std::vector<Row> rows = {};  // below it
   std::string caption = {};
   std::vector<Span> spans = {};
+  // Relative URLs to which pages link the first cells of the rows; missing and empty ones: no link.
+  std::vector<std::string> links = {};
 };
 
 // Lines whose blanks are significant, each with its newline.
@@ -83,9 +85,23 @@ struct Figure {
   Table readings = {};
 };
 
+// A table of many rows, which are in a CSV file. Only pages show it, with search, filters and a
+// choice of columns (DrawPage() of page.h); a document has one at most.
+struct LongTable {
+  // A column of the file.
+  struct Column {
+    std::string name;     // in the head of the file
+    std::string doc;      // description in one line
+    bool number = false;  // sorted as numbers
+    bool shown = true;    // before another choice
+  };
+  std::vector<Column> columns;  // as they are shown; in any order
+  std::string links = {};       // prefix of the relative paths in the column "page"
+};
+
 // Any block.
 using Any = std::variant<Field, Sentence, Legend, Conclusion, Warning, List, Entry, Table,
-                         Preformatted, Figure>;
+                         Preformatted, Figure, LongTable>;
 
 }  // namespace block
 

@@ -1,12 +1,13 @@
 #include <string_view>
 
-#include "lyrefit/curve/number_text.h"
+#include "lyrefit/read/number_text.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/html_parts.h"
 
 namespace lyrefit {
 namespace {
 
+constexpr std::size_t kManyRows = 40;                // scripts show longer tables in parts
 constexpr const char* kUnreadable = "\xef\xbf\xbd";  // U+FFFD, for characters illegal in a page
 
 std::string HtmlText(const block::Field& field) {
@@ -42,7 +43,8 @@ std::string HtmlText(const block::Entry& entry) {
 }
 
 // A table row. The first cell of a row and each non-empty cell of the head are header cells.
-std::string HtmlRow(const std::string& alignment, const block::Table::Row& row, bool head) {
+std::string HtmlRow(const std::string& alignment, const block::Table::Row& row, bool head,
+                    const std::string& link = "") {
   std::string html = "<tr>";
   for (std::size_t c = 0; c < alignment.size(); ++c) {
     const std::string text = c < row.size() ? row[c] : "";
@@ -52,7 +54,9 @@ std::string HtmlRow(const std::string& alignment, const block::Table::Row& row, 
     if (names) html += head ? " scope=\"col\"" : " scope=\"row\"";
     if (alignment[c] == 'r') html += " class=\"number\"";
     if (alignment[c] == 'w') html += " class=\"words\"";
-    html += ">" + HtmlEscaped(text) + "</" + tag + ">";
+    const bool linked = c == 0 && !link.empty();
+    if (linked) html.append("><a href=\"").append(HtmlEscaped(link)).append("\"");
+    html += ">" + HtmlEscaped(text) + (linked ? "</a></" : "</") + tag + ">";
   }
   return html + "</tr>\n";
 }
@@ -69,6 +73,8 @@ std::string HtmlText(const block::Figure& figure) {
   return "<figure>" + picture + HtmlElement("figcaption", figure.caption) + "</figure>\n";
 }
 
+std::string HtmlText(const block::LongTable&) { return ""; }
+
 // Draws a block; tables and figures also depend on the page's options.
 struct Draw {
   const HtmlLooks& looks;
@@ -76,6 +82,9 @@ struct Draw {
   std::string operator()(const block::Table& table) const { return HtmlTable(table, looks); }
   std::string operator()(const block::Figure& figure) const {
     return looks.figure ? looks.figure(figure) : HtmlText(figure);
+  }
+  std::string operator()(const block::LongTable& table) const {
+    return looks.long_table ? looks.long_table(table) : HtmlText(table);
   }
   template <typename Block>
   std::string operator()(const Block& any) const {
@@ -162,13 +171,15 @@ std::string HtmlTable(const block::Table& table, const HtmlLooks& looks) {
       html += "<tr><th scope=\"colgroup\" colspan=\"" + std::to_string(table.alignment.size()) +
               "\">" + HtmlEscaped(span.title) + "</th></tr>\n";
     }
-    html += HtmlRow(table.alignment, table.rows[r], false);
+    html += HtmlRow(table.alignment, table.rows[r], false,
+                    r < table.links.size() ? table.links[r] : "");
   }
   html += "</tbody>\n</table>\n";
   if (!looks.boxes) return html;
   const std::string name = table.caption.empty() ? "Table" : HtmlEscaped(table.caption);
-  return "<div class=\"box\" role=\"group\" tabindex=\"0\" aria-label=\"" + name + "\">\n" + html +
-         "</div>\n";
+  const char* const kind = table.rows.size() > kManyRows ? "box long" : "box";
+  return std::string("<div class=\"") + kind + "\" role=\"group\" tabindex=\"0\" aria-label=\"" +
+         name + "\">\n" + html + "</div>\n";
 }
 
 // Adjacent fields and entries form one list.

@@ -129,6 +129,8 @@ struct Markdown {
     return "![" + caption + "](" + figure.file + ")\n";
   }
 
+  std::string operator()(const block::LongTable&) const { return ""; }
+
   // Adjacent blocks of one type are not separated by a blank line; others are.
   std::string operator()(const Section& section, const std::string& marks) const {
     std::string text;

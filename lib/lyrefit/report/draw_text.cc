@@ -77,6 +77,8 @@ std::string TerminalText(const block::Preformatted& text) { return text.lines; }
 
 std::string TerminalText(const block::Figure&) { return ""; }  // shown by the other formats
 
+std::string TerminalText(const block::LongTable&) { return ""; }
+
 std::string TerminalText(const std::vector<block::Any>& blocks) {
   std::string text;
   for (const block::Any& one : blocks) {
@@ -94,9 +96,11 @@ std::string DrawText(const Document& document) {
   text += (head.heading.empty() ? "" : head.heading + "\n") + TerminalText(head.blocks);
   for (const Section& section : document.sections) {
     const bool seen =
-        std::any_of(section.blocks.begin(), section.blocks.end(),
-                    [](const auto& one) { return !std::holds_alternative<block::Figure>(one); });
-    if (!seen && !section.blocks.empty()) continue;  // figures only
+        std::any_of(section.blocks.begin(), section.blocks.end(), [](const block::Any& any) {
+          return !std::holds_alternative<block::Figure>(any) &&
+                 !std::holds_alternative<block::LongTable>(any);
+        });
+    if (!seen && !section.blocks.empty()) continue;  // nothing that a terminal shows
     if (!text.empty()) text += "\n";
     if (!section.heading.empty()) text += Heading(section.heading);
     text += TerminalText(section.blocks);

@@ -89,6 +89,12 @@ std::string Drawn(const Series& series, double point_size) {
       return fmt::format("using {} with linespoints {} {} {}", columns, line, point, colour);
     case SeriesKind::kStems:
       return fmt::format("using {} with impulses {} {}", columns, line, colour);
+    case SeriesKind::kBars:
+      return fmt::format("using 1:2:({}) with boxes fs solid noborder {}", series.width, colour);
+    case SeriesKind::kCells:
+      return fmt::format("using 1:2:({}):({}){} with boxxyerror fs solid noborder {}",
+                         0.5 * series.width, 0.5 * kCellHeight, look.colour.empty() ? ":3" : "",
+                         colour);
     case SeriesKind::kBox:
       return fmt::format("using ({}):2:({}) with boxplot fs solid 0.45 {}", series.rows[0][0],
                          series.width, colour);

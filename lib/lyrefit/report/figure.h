@@ -38,18 +38,25 @@ enum class SeriesKind {
   kLineAndPoints,
   kStems,  // from y = 0
   kBox,    // quartiles of all y at the x of the first row, whiskers and outliers
+  kBars,   // from y = 0, of the series' width along x
+  kCells,  // rectangles around x and y, of the series' width along x and `kCellHeight` along y
 };
+
+// Height of a cell; the rest of 1 is the gap between cells.
+inline constexpr double kCellHeight = 0.9;
 
 // Points or a line of a panel.
 struct Series {
   SeriesKind kind = SeriesKind::kLine;
   Look look = {};                                // colour, dash and symbol
-  double width = 1;                              // of lines, and of boxes along x
+  double width = 1;                              // of lines; of boxes, bars and cells along x
   double size = 1;                               // of points
   bool right_axis = false;                       // y refers to the right axis
   std::string name = {};                         // shown by viewers under the pointer
   std::vector<std::array<double, 3>> rows = {};  // x, y and the value for the colour bar
   std::vector<std::size_t> ends = {};            // rows at which a line is interrupted
+  // Shown by viewers under the pointer in place of x and y, for each row of bars and cells; or none.
+  std::vector<std::string> texts = {};
 
   void Add(double x, double y, double colour = 0);  // ignores rows that are not finite
   // Later rows are not joined to the previous ones.
@@ -120,7 +127,7 @@ struct Panel {
 };
 
 // Symbol beside a name in the legend.
-enum class LegendMark { kLine, kPoint, kLineAndPoint, kBox };
+enum class LegendMark { kLine, kPoint, kLineAndPoint, kBox, kBar };
 
 // An entry of the legend.
 struct LegendEntry {

@@ -16,7 +16,10 @@ constexpr int kLegendRow = 24;
 constexpr int kPanelTitle = 34;
 constexpr int kAxis = 64;  // below a panel
 constexpr int kColourBarRoom = 60;
-constexpr int kLine = 36;  // length of a line sample in the legend
+constexpr int kBarAbove = 54;  // the lower end of the picture
+constexpr int kBarHeight = 12;
+constexpr int kBarLabel = 9;  // above the lower end of the picture, below the bar's numbers
+constexpr int kLine = 36;     // length of a line sample in the legend
 constexpr int kLetter = 9;
 
 std::string Terminal(const PageLayout& page, const std::string& terminal) {
@@ -45,11 +48,12 @@ std::string Legend(const Figure& figure, const PageLayout& page) {
     const double y = 1 - (kTitle + kLegendRow * (row + 0.5)) / h;
     const double end = (x + kLine) / w;
     const std::string& colour = entry.look.colour;
-    if (entry.mark == LegendMark::kBox) {
+    if (entry.mark == LegendMark::kBox || entry.mark == LegendMark::kBar) {
       script += fmt::format(
           "set object {} rectangle from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} "
-          "fc rgb '{}' fs solid 0.45 border lc rgb '{}'\n",
-          1001 + i, x / w, y - 6 / h, end, y + 6 / h, colour, colour);
+          "fc rgb '{}' fs solid {} border lc rgb '{}'\n",
+          1001 + i, x / w, y - 6 / h, end, y + 6 / h, colour,
+          entry.mark == LegendMark::kBox ? 0.45 : 1, colour);
     } else if (entry.mark != LegendMark::kPoint) {
       script += fmt::format(
           "set arrow {} from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} nohead lw 2 lc rgb '{}' "
@@ -67,14 +71,15 @@ std::string Legend(const Figure& figure, const PageLayout& page) {
   return script;
 }
 
-std::string ColourBarCommands(const ColourBar& bar) {
+std::string ColourBarCommands(const ColourBar& bar, const PageLayout& page) {
   return fmt::format(
       "set palette defined (0 '#0072B2', 0.5 '#8C8C8C', 1 '#D55E00')\n"
       "set cbrange [{:g}:{:g}]\n"
-      "set colorbox horizontal user origin screen 0.36, screen 0.105 size screen 0.28, screen "
-      "0.025\n"
-      "set cblabel {} offset 0,0.4\n",
-      bar.low, bar.high, GnuplotText(bar.label));
+      "set colorbox horizontal user origin screen 0.36, screen {:.5f} size screen 0.28, screen "
+      "{:.5f}\n"
+      "set label 1002 {} at screen 0.5,{:.5f} center noenhanced\n",
+      bar.low, bar.high, kBarAbove / page.height, kBarHeight / page.height, GnuplotText(bar.label),
+      kBarLabel / page.height);
 }
 
 }  // namespace
@@ -119,7 +124,7 @@ std::string PageCommands(const Figure& figure, const PageLayout& page,
   script += fmt::format("set label 1001 {} at screen 0.5,{:.5f} center noenhanced\n",
                         GnuplotText(figure.title), 1 - 22 / page.height);
   script += Legend(figure, page);
-  if (figure.colour_bar) script += ColourBarCommands(*figure.colour_bar);
+  if (figure.colour_bar) script += ColourBarCommands(*figure.colour_bar, page);
   return script;
 }
 

@@ -17,7 +17,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kTitleRoom = 36;  // pixels above a panel
 constexpr double kNarrowTitleRoom = 64;
-constexpr double kAxisRoom = 58;  // below a panel
+constexpr double kNoTitleRoom = 14;
+constexpr double kAxisRoom = 58;      // below a panel
+constexpr double kUprightRoom = 1.6;  // of upright names, relative to that of slanted ones
 constexpr double kColourRoom = 76;
 constexpr double kColumnGap = 0.08;  // relative to the width
 
@@ -71,6 +73,11 @@ Json AxisJson(const Axis& axis, const Ends& data, bool labelled) {
   }
   const Json range = RangeOf(axis, data);
   if (!range[0].is_null() || !range[1].is_null()) json["range"] = range;
+  // Plotly forgets a single end when it makes room for the axis, unless it is stated here too.
+  if (!axis.log && range[0].is_null() != range[1].is_null()) {
+    json["autorangeoptions"] =
+        range[0].is_null() ? Json{{"maxallowed", range[1]}} : Json{{"minallowed", range[0]}};
+  }
   if (axis.log) {
     json["type"] = "log";
     json["exponentformat"] = "power";
@@ -150,20 +157,24 @@ void AddShapes(const Panel& panel, const PlotlyAxes& at, Json* layout) {
   }
 }
 
-// Positions of the panels for a number of columns and a height of titles, as the page changes them
-// with its width. The legend is above the panels.
-Json Places(const Figure& figure, int columns, double title_room) {
+// Positions of the panels for a number of columns, as the page changes them with its width. The
+// legend is above the panels. In a narrow page slanted names of ticks stand upright.
+Json Places(const Figure& figure, int columns, bool narrow) {
   const int panels = static_cast<int>(figure.panels.size());
+  const bool titled = std::any_of(figure.panels.begin(), figure.panels.end(),
+                                  [](const Panel& panel) { return !panel.title.empty(); });
+  const double title_room = !titled ? kNoTitleRoom : narrow ? kNarrowTitleRoom : kTitleRoom;
+  const double room_below = figure.room_below * (narrow ? kUprightRoom : 1);
   std::vector<double> top;
   double height = 0;
   for (int p = 0; p < panels; ++p) {
     const bool begins = p % columns == 0;
     top.push_back(begins ? height + title_room : top.back());
     if (begins) {
-      height += title_room + figure.panels[p].height + kAxisRoom + figure.room_below;
+      height += title_room + figure.panels[p].height + kAxisRoom + room_below;
     }
   }
-  const double last_axis = kAxisRoom + figure.room_below;
+  const double last_axis = kAxisRoom + room_below;
   const double area = std::max(1.0, height - last_axis);
   const double width = (1 - (columns - 1) * kColumnGap) / columns;
   Json places = Json::object();
@@ -173,6 +184,7 @@ Json Places(const Figure& figure, int columns, double title_room) {
     const std::string number = std::to_string(p + 1);
     places[Named("xaxis", number) + ".domain"] = {left, std::min(1.0, left + width)};
     places[Named("yaxis", number) + ".domain"] = {std::max(0.0, below), 1 - top[p] / area};
+    if (narrow && figure.panels[p].x.slanted) places[Named("xaxis", number) + ".tickangle"] = -90;
   }
   const double under = last_axis + (figure.colour_bar ? kColourRoom : 0);
   places["height"] = std::round(area + under);
@@ -234,6 +246,7 @@ std::string PlotlyJson(const Figure& figure) {
   const int columns = std::max(1, std::min(figure.columns, panels));
   Json layout = {{"shapes", Json::array()}, {"annotations", Json::array()}};
   layout["hovermode"] = "closest";
+  layout["barmode"] = "overlay";
   layout["dragmode"] = "zoom";
   layout["margin"] = {{"l", 56}, {"r", 20}, {"t", 8}, {"b", kAxisRoom}};
   const MostRows most = MostOf(figure);
@@ -251,8 +264,8 @@ std::string PlotlyJson(const Figure& figure) {
                      {"columns", columns},
                      {"data", data},
                      {"layout", layout},
-                     {"wide", Places(figure, columns, kTitleRoom)},
-                     {"narrow", Places(figure, 1, kNarrowTitleRoom)}};
+                     {"wide", Places(figure, columns, false)},
+                     {"narrow", Places(figure, 1, true)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -65,7 +65,9 @@ std::vector<std::vector<FigureRow>> RowsToDraw(const Panel& panel, const Series&
                                                const MostRows& most) {
   std::size_t each = HasMarks(series) ? most.marks : most.corners;
   if (series.kind == SeriesKind::kStems) each = std::min(each, most.marks);  // drawn with marks
-  if (series.kind == SeriesKind::kBox) each = kAllRows;  // quartiles require all rows
+  const bool whole = series.kind == SeriesKind::kBox || series.kind == SeriesKind::kBars ||
+                     series.kind == SeriesKind::kCells;
+  if (whole) each = kAllRows;  // quartiles require all rows; a bar without its neighbours is a gap
   std::vector<std::vector<FigureRow>> stretches;
   std::size_t begin = 0;
   for (const std::size_t end : series.ends) {

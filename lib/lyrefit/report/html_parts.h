@@ -23,6 +23,8 @@ struct HtmlLooks {
   bool boxes = false;  // tables in scrolling boxes that the keyboard can focus
   // The element of a picture; without it the picture's file, or the caption alone.
   std::function<std::string(const block::Figure&)> figure = {};
+  // The element of a table of many rows; without it nothing.
+  std::function<std::string(const block::LongTable&)> long_table = {};
 };
 
 std::string HtmlTable(const block::Table& table, const HtmlLooks& looks);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -49,7 +50,7 @@ std::string FigureElement(const block::Figure& figure, const std::string& id,
                       HtmlEscaped(figure.caption));
   if (!figure.readings.rows.empty()) {
     html += "<details class=\"readings\"><summary>The picture in numbers</summary>\n" +
-            HtmlTable(figure.readings, {true, {}}) + "</details>\n";
+            HtmlTable(figure.readings, {true, {}, {}}) + "</details>\n";
   }
   return html + "</figure>\n";
 }
@@ -113,12 +114,31 @@ PageParts Arrange(const Document& document) {
   for (const Section& section : document.sections) {
     if (section.warns) {
       parts.summary += "<div role=\"note\">\n<h2>Warnings</h2>\n" +
-                       HtmlBlocks(section.blocks, {true, {}}) + "</div>\n";
+                       HtmlBlocks(section.blocks, {true, {}, {}}) + "</div>\n";
     } else if (!IsVerdict(section, document.verdict)) {
       parts.sections.push_back(&section);
     }
   }
   return parts;
+}
+
+// The place of a table of many rows, which a script fills.
+constexpr char kLongTable[] =
+    "<noscript><p role=\"note\">The table of all rows needs scripts, which do not run here; the "
+    "tables and pictures above hold what matters most.</p></noscript>\n"
+    "<div id=\"rows-table\"></div>\n";
+
+// What the script of the table has to know.
+std::string LongTableJson(const block::LongTable& table) {
+  nlohmann::ordered_json json = {{"links", table.links},
+                                 {"columns", nlohmann::ordered_json::array()}};
+  for (const block::LongTable::Column& column : table.columns) {
+    json["columns"].push_back({{"name", column.name},
+                               {"doc", column.doc},
+                               {"number", column.number},
+                               {"shown", column.shown}});
+  }
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string Contents(const std::vector<const Section*>& sections) {
@@ -145,12 +165,18 @@ std::string DrawPage(const Document& document, const std::string& json,
                      const PageOptions& options) {
   const std::vector<const block::Figure*> figures = FiguresOf(document);
   const auto elements = DrawFigures(figures, options);
-  const HtmlLooks looks = {true, [&elements](const block::Figure& figure) {
+  PageShell page;
+  const HtmlLooks looks = {true,
+                           [&elements](const block::Figure& figure) {
                              const auto found = elements.find(&figure);
                              return found == elements.end() ? std::string() : found->second;
+                           },
+                           [&page](const block::LongTable& table) {
+                             page.table = true;
+                             page.data.push_back({"rows-columns", LongTableJson(table)});
+                             return std::string(kLongTable);
                            }};
   const PageParts parts = Arrange(document);
-  PageShell page;
   page.title = document.head.heading;
   page.summary = parts.summary;
   // Pictures first, then the fields of the measurement.

@@ -18,6 +18,7 @@ struct PageOptions {
 // Draws the document's verdict first, then its warnings and pictures, then the rest in order. One
 // run of gnuplot draws all pictures, for paper and for browsers without scripts; without gnuplot
 // the page states that they are missing. `json` is the record, which the page embeds and can save.
+// A block::LongTable is drawn without its rows, which batch/plant_page.h adds.
 std::string DrawPage(const Document& document, const std::string& json,
                      const PageOptions& options = {});
 

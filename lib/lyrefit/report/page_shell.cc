@@ -1,6 +1,6 @@
 #include "lyrefit/report/page_shell.h"
 
-#include <zlib.h>
+#include <utility>
 
 #include "lyrefit/base/version.h"
 #include "lyrefit/report/html_parts.h"
@@ -25,25 +25,42 @@ constexpr char kTools[] =
 std::string DataElement(const PageData& data) {
   const std::string id = HtmlEscaped(data.id);
   if (data.packed) {
-    return "<script type=\"application/gzip\" id=\"" + id + "\">" + Base64(Gzipped(data.json)) +
+    return "<script type=\"application/gzip\" id=\"" + id + "\">" + Packed(data.json) +
            "</script>\n";
   }
   return "<script type=\"application/json\" id=\"" + id + "\">" + ScriptSafe(data.json) +
          "</script>\n";
 }
 
-// Plotly with its licence, which must accompany every copy.
-std::string PlotlyElements() {
-  return "<details class=\"licence\"><summary>Parts by others</summary>\n<p>Charts: plotly.js "
-         "(basic bundle), under the MIT licence.</p>\n<pre>" +
-         HtmlLines(std::string(PlotlyLicence())) +
-         "</pre></details>\n<script type=\"application/gzip\" id=\"plotly\">" +
-         Base64(PackedPlotly()) + "</script>\n";
+// Parts by others, each with its licence, which must accompany every copy.
+std::string PartsByOthers(bool plotly, bool table) {
+  if (!plotly && !table) return "";
+  std::string licences, elements;
+  const auto packed = [&elements](const char* id, std::string_view bytes) {
+    elements += std::string("<script type=\"application/gzip\" id=\"") + id + "\">" +
+                Base64(bytes) + "</script>\n";
+  };
+  const auto named = [&licences](const char* what, std::string_view licence) {
+    licences += HtmlElement("p", what) + "\n<pre>" + HtmlLines(std::string(licence)) + "</pre>\n";
+  };
+  if (plotly) {
+    named("Charts: plotly.js (basic bundle), under the MIT licence.", PlotlyLicence());
+    packed("plotly", PackedPlotly());
+  }
+  if (table) {
+    named("Table: Tabulator and Papa Parse, both under the MIT licence.", TabulatorLicence());
+    packed("tabulator", PackedTabulator());
+    packed("tabulator-style", PackedTabulatorStyle());
+  }
+  return "<details class=\"licence\"><summary>Parts by others</summary>\n" + licences +
+         "</details>\n" + elements;
 }
 
 }  // namespace
 
 bool PlotlyIsEmbedded() { return !PackedPlotly().empty(); }
+
+bool TabulatorIsEmbedded() { return !PackedTabulator().empty(); }
 
 std::string DrawShell(const PageShell& shell) {
   const std::string title = shell.title.empty() ? "lyrefit" : shell.title;
@@ -59,8 +76,11 @@ std::string DrawShell(const PageShell& shell) {
           HtmlElement("p", std::string("Made by lyrefit ") + Version() +
                                ". All that the page shows is in this file.");
   for (const PageData& data : shell.data) html += DataElement(data);
-  if (shell.plotly && PlotlyIsEmbedded()) html += PlotlyElements();
+  if (shell.table) html += std::string(kRowsElement) + "</script>\n";
+  const bool table = shell.table && TabulatorIsEmbedded();
+  html += PartsByOthers(shell.plotly && PlotlyIsEmbedded(), table);
   html += "</footer>\n<script>\n" + std::string(PageScript()) + "</script>\n";
+  if (table) html += "<script>\n" + std::string(TableScript()) + "</script>\n";
   for (const std::string& script : shell.scripts) html += "<script>\n" + script + "</script>\n";
   return html + "</body>\n</html>\n";
 }
@@ -78,19 +98,32 @@ std::string ScriptSafe(std::string_view json) {
   return safe;
 }
 
-std::string Gzipped(std::string_view text) {
+PackedText::PackedText() {
   constexpr int kGzip = 15 + 16;  // the largest window, and a gzip header without a time
-  z_stream stream = {};
-  deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
-  std::string packed(deflateBound(&stream, text.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
+  deflateInit2(&stream_, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
+}
+
+std::string PackedText::Pack(std::string_view text, int flush) {
+  std::string block(1 << 16, '\0');
+  std::string bytes = std::move(waiting_);
+  stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  stream_.avail_in = static_cast<uInt>(text.size());
+  do {
+    stream_.next_out = reinterpret_cast<Bytef*>(block.data());
+    stream_.avail_out = static_cast<uInt>(block.size());
+    deflate(&stream_, flush);
+    bytes.append(block, 0, block.size() - stream_.avail_out);
+  } while (stream_.avail_out == 0);
+  const std::size_t whole = flush == Z_FINISH ? bytes.size() : bytes.size() / 3 * 3;
+  waiting_ = bytes.substr(whole);
+  bytes.resize(whole);
+  return Base64(bytes);
+}
+
+std::string Packed(std::string_view text) {
+  PackedText packed;
+  const std::string first = packed.Add(text);
+  return first + packed.End();
 }
 
 std::string Base64(std::string_view bytes) {

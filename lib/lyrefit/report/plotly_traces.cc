@@ -163,6 +163,27 @@ void AddBox(const Series& series, const Json& empty, Json* data) {
   data->push_back(marks);
 }
 
+// Bars from zero, or cells, which are bars from a base.
+void AddBars(const Figure& figure, const Series& series, const Json& empty, Json* data) {
+  const bool cells = series.kind == SeriesKind::kCells;
+  Json trace = empty;
+  trace["type"] = "bar";
+  trace["width"] = series.width;
+  Json colours = Json::array();
+  for (const FigureRow& row : series.rows) {
+    Append(row[0], cells ? kCellHeight : row[1], &trace);
+    if (cells) trace["base"].push_back(row[1] - 0.5 * kCellHeight);
+    colours.push_back(BarColour(figure.colour_bar.value_or(ColourBar()), row[2]));
+  }
+  trace["marker"] = {{"color", series.look.colour.empty() ? colours : Json(series.look.colour)},
+                     {"line", {{"width", 0}}}};
+  if (series.texts.size() == series.rows.size()) {
+    for (const std::string& text : series.texts) trace["hovertext"].push_back(PlotlyText(text));
+    trace["hovertemplate"] = "%{hovertext}<extra></extra>";
+  }
+  data->push_back(trace);
+}
+
 void AddSeries(const Figure& figure, const Panel& panel, const Series& series, const Json& empty,
                const MostRows& most, Json* data) {
   const Look& look = series.look;
@@ -234,7 +255,7 @@ std::string PlotlyDash(int dash) {
 Json PlotlyLegend(const Figure& figure) {
   Json data = Json::array();
   for (const LegendEntry& entry : figure.legend) {
-    const bool box = entry.mark == LegendMark::kBox;
+    const bool box = entry.mark == LegendMark::kBox || entry.mark == LegendMark::kBar;
     const bool point = entry.mark == LegendMark::kPoint;
     Json trace = {{"type", "scatter"},
                   {"x", Json::array({nullptr})},
@@ -262,6 +283,8 @@ void AddPlotlyTraces(const Figure& figure, const Panel& panel, const PlotlyAxes&
     const Json empty = EmptyTrace(figure, panel, series, axes);
     if (series.kind == SeriesKind::kBox) {
       AddBox(series, empty, data);
+    } else if (series.kind == SeriesKind::kBars || series.kind == SeriesKind::kCells) {
+      AddBars(figure, series, empty, data);
     } else {
       AddSeries(figure, panel, series, empty, most, data);
     }
@@ -291,7 +314,7 @@ Json PlotlyColourBar(const ColourBar& bar) {
            Json::array({Json::array({0, kBarColours[0]}), Json::array({0.5, kBarColours[1]}),
                         Json::array({1, kBarColours[2]})})},
           {"colorbar",
-           {{"title", {{"text", PlotlyText(bar.label)}, {"side", "top"}}},
+           {{"title", {{"text", PlotlyText(bar.label)}, {"side", "bottom"}}},
             {"orientation", "h"},
             {"thickness", 10},
             {"len", 0.5},

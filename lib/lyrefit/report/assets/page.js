@@ -1,5 +1,5 @@
 // Interactive functions of a page, which is readable without scripts. Defines `lyrefit` for later
-// scripts: data(id), bytes(id) and plotly(), which return promises; colour(hex); onTheme(function).
+// scripts: data(id), bytes(id), text(id), plotly() and tabulator(), which return promises; colour(hex); onTheme(function).
 'use strict';
 const lyrefit = (() => {
   const root = document.documentElement;
@@ -12,31 +12,35 @@ const lyrefit = (() => {
     return new Response(stream);
   }
 
-  // The bytes of a packed script element.
+  // The bytes and the text of a packed script element.
   const bytes = (id) => unpacked(document.getElementById(id).textContent).arrayBuffer();
+  const text = (id) => unpacked(document.getElementById(id).textContent).text();
 
   // The data of a script element, packed or not.
   async function data(id) {
     const element = document.getElementById(id);
-    const packed = element.type === 'application/gzip';
-    return JSON.parse(packed ? await unpacked(element.textContent).text() : element.textContent);
+    return JSON.parse(element.type === 'application/gzip' ? await text(id) : element.textContent);
   }
 
-  // Plotly, unpacked at the first call; null if the page has none.
-  let plotlyPromise = null;
-  function plotly() {
-    plotlyPromise ??= (async () => {
-      const element = document.getElementById('plotly');
-      if (!element || typeof DecompressionStream === 'undefined') return null;
-      const script = document.createElement('script');
-      script.textContent = await unpacked(element.textContent).text();
-      element.remove();
-      document.head.append(script);
-      script.remove();
-      return window.Plotly ?? null;
-    })();
-    return plotlyPromise;
+  // Packed code becomes an element of this tag, which takes effect. False if the page has none.
+  async function adopt(id, tag) {
+    const packed = document.getElementById(id);
+    if (!packed || typeof DecompressionStream === 'undefined') return false;
+    const element = document.createElement(tag);
+    element.textContent = await text(id);
+    packed.remove();
+    document.head.prepend(element);
+    return true;
   }
+
+  // A part by others, unpacked at the first call; null if the page has none.
+  const once = (load) => {
+    let promise = null;
+    return () => promise ??= load();
+  };
+  const plotly = once(async () => ((await adopt('plotly', 'script')) ? window.Plotly : null));
+  const tabulator = once(async () =>
+    ((await adopt('tabulator-style', 'style')) && (await adopt('tabulator', 'script')) ? window.Tabulator : null));
 
   // A figure's colour in the current theme; `letters`: for text.
   function colour(hex, letters = false) {
@@ -66,10 +70,12 @@ const lyrefit = (() => {
     return `${words.slice(0, 80) || 'lyrefit'}.${extension}`;
   }
 
-  async function saveRecord() {
-    const text = JSON.stringify(await data('record'), null, 2);
-    const url = URL.createObjectURL(new Blob([text], {type: 'application/json'}));
-    save(fileName('json'), url);
+  // The record of the page, or the file of its rows.
+  async function saveData() {
+    const rows = document.getElementById('rows');
+    const content = rows ? await text('rows') : JSON.stringify(await data('record'), null, 2);
+    const url = URL.createObjectURL(new Blob([content], {type: rows ? 'text/csv' : 'application/json'}));
+    save(fileName(rows ? 'csv' : 'json'), url);
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
@@ -91,14 +97,14 @@ const lyrefit = (() => {
       root.dataset.theme = isDark() ? 'light' : 'dark';
       themeChanged();
     },
-    save: saveRecord,
+    save: saveData,
     print: () => window.print(),
   };
 
   // Rows of a long table, 25 at a time.
-  function addPager(details) {
+  function addPager(box) {
     const kRows = 25;
-    const rows = [...details.querySelectorAll('tbody tr')];
+    const rows = [...box.querySelectorAll('tbody tr')];
     const pages = Math.ceil(rows.length / kRows);
     if (pages < 2) return;
     const pager = document.createElement('div');
@@ -124,13 +130,13 @@ const lyrefit = (() => {
       page += i === 0 ? -1 : 1;
       show();
     }));
-    details.append(pager);
+    box.after(pager);
     show();
   }
 
   function start() {
     const tools = document.querySelector('header .tools');
-    const record = document.getElementById('record');
+    const record = document.getElementById('record') ?? document.getElementById('rows');
     for (const button of tools.querySelectorAll('button')) {
       button.addEventListener('click', pageActions[button.dataset.page]);
       if (button.dataset.page === 'save') button.hidden = !record;
@@ -138,12 +144,12 @@ const lyrefit = (() => {
     tools.hidden = false;
     darkWanted.addEventListener('change', themeChanged);
     addEventListener('beforeprint', dressForPaper);
-    for (const details of document.querySelectorAll('details.readings')) addPager(details);
+    for (const box of document.querySelectorAll('details.readings .box, .box.long')) addPager(box);
     themeChanged();
   }
 
   start();
-  return {data, bytes, plotly, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
+  return {data, bytes, text, plotly, tabulator, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
 })();
 
 // Charts replace the static pictures, with equal rows, colours, bands and notes.
@@ -182,33 +188,18 @@ const lyrefit = (() => {
     at[last] = value;
   }
 
-  const kSvg = 'http://www.w3.org/2000/svg';
-
-  // The symbol of a legend entry.
-  function swatch(trace) {
-    const svg = document.createElementNS(kSvg, 'svg');
-    svg.setAttribute('viewBox', '0 0 34 14');
-    svg.setAttribute('aria-hidden', 'true');
-    const add = (tag, attributes) => {
-      const element = document.createElementNS(kSvg, tag);
-      for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-      svg.append(element);
-    };
-    const dashes = {dash: '6 4', dot: '2 3', dashdot: '6 3 2 3', longdashdot: '9 3 2 3'};
-    if (trace.mode.includes('lines')) {
-      add('path', {d: 'M0 7H34', 'stroke-width': 2.2, stroke: trace.line.color, fill: 'none',
-                   'stroke-dasharray': dashes[trace.line.dash] ?? 'none'});
-    }
-    if (trace.mode.includes('markers')) {
-      const {symbol, color} = trace.marker;
-      const look = {stroke: color, 'stroke-width': 1.4, fill: symbol.endsWith('open') ? 'none' : color};
-      const shapes = {triangle: 'M17 2L22.5 11.5H11.5Z', diamond: 'M17 1.5L22.5 7L17 12.5L11.5 7Z',
-                      square: 'M12 2H22V12H12Z', x: 'M13 3L21 11M21 3L13 11', cross: 'M17 2V12M12 7H22'};
-      const shape = shapes[symbol.split('-')[0]];
-      if (shape) add('path', {d: shape, ...look});
-      else add('circle', {cx: 17, cy: 7, r: 4.5, ...look});
-    }
-    return svg;
+  // The symbol of a legend entry, as letters: a line, a mark, or both.
+  function swatch({mode, line, marker}) {
+    const span = document.createElement('span');
+    span.className = 'swatch';
+    span.ariaHidden = 'true';
+    const stroke = {dash: '╌', dot: '┈', dashdot: '┄', longdashdot: '┄'}[line?.dash] ?? '─';
+    const marks = {circle: '●○', square: '■□', 'triangle-up': '▲△', 'triangle-down': '▼▽', diamond: '◆◇', x: '✕✕', cross: '++'};
+    const [full, empty] = marks[marker?.symbol.replace(/-(thin|open).*/, '')] ?? '●○';
+    const mark = mode.includes('markers') ? (/-open$/.test(marker.symbol) ? empty : full) : '';
+    span.textContent = mode.includes('lines') ? stroke + (mark || stroke) + stroke : mark;
+    span.style.color = (line ?? marker).color;
+    return span;
   }
 
   // The legend: one button for each entry, which hides and shows the traces of its name.

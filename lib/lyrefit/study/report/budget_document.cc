@@ -70,38 +70,34 @@ std::optional<std::int64_t> EnoughFor(const SearchRow& row, const Level& level) 
   return enough;
 }
 
+ColumnOf<SearchRow> NamesOfRows() {
+  return {"algorithm", [](const SearchRow& row) { return row.algorithm; }};
+}
+
 block::Table HitTable(const std::vector<SearchRow>& rows, const Level& level, std::string caption) {
-  block::Table table = {
-      "l" + std::string(rows[0].cells.size(), 'r'), {{"algorithm"}}, {}, std::move(caption)};
-  for (const AlgorithmResult* cell : rows[0].cells) {
-    table.heads[0].push_back(std::to_string(cell->search.max_evaluations));
+  std::vector<ColumnOf<SearchRow>> columns = {NamesOfRows()};
+  for (const AlgorithmResult* head_cell : rows[0].cells) {
+    const std::int64_t budget = head_cell->search.max_evaluations;
+    columns.push_back({std::to_string(budget), [&level, budget](const SearchRow& row) {
+                         for (const AlgorithmResult* cell : row.cells) {
+                           if (cell->search.max_evaluations != budget) continue;
+                           return std::to_string((cell->*level.stage).*level.hits);
+                         }
+                         return std::string("-");  // the study was stopped before
+                       }});
   }
-  for (const SearchRow& row : rows) {
-    block::Table::Row line = {row.algorithm};
-    for (const AlgorithmResult* head_cell : rows[0].cells) {
-      const auto cell = std::find_if(row.cells.begin(), row.cells.end(), [&](const auto* other) {
-        return other->search.max_evaluations == head_cell->search.max_evaluations;
-      });
-      const bool done = cell != row.cells.end();  // false if the study was stopped before
-      line.push_back(done ? std::to_string(((*cell)->*level.stage).*level.hits) : "-");
-    }
-    table.rows.push_back(std::move(line));
-  }
-  return table;
+  return TableOf(rows, columns, std::move(caption));
 }
 
 block::Table EnoughTable(const std::vector<SearchRow>& rows, std::string caption) {
-  block::Table table = {"lrrrr", {{"algorithm"}}, {}, std::move(caption)};
-  for (const Level& level : kLevels) table.heads[0].emplace_back(level.column);
-  for (const SearchRow& row : rows) {
-    block::Table::Row line = {row.algorithm};
-    for (const Level& level : kLevels) {
-      const auto enough = EnoughFor(row, level);
-      line.push_back(enough ? std::to_string(*enough) : "-");
-    }
-    table.rows.push_back(std::move(line));
+  std::vector<ColumnOf<SearchRow>> columns = {NamesOfRows()};
+  for (const Level& level : kLevels) {
+    columns.push_back({level.column, [&level](const SearchRow& row) {
+                         const auto enough = EnoughFor(row, level);
+                         return enough ? std::to_string(*enough) : "-";
+                       }});
   }
-  return table;
+  return TableOf(rows, columns, std::move(caption));
 }
 
 // "mlo and de from 1000, lo from 10000; not random"

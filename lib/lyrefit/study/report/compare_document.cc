@@ -25,47 +25,57 @@ bool LongNames(const ProblemResult& problem) {
 // A count as whole number, "-" for NaN.
 std::string Whole(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
+using AlgorithmColumn = ColumnOf<AlgorithmResult>;
+
+AlgorithmColumn NameColumn() {
+  return {"algorithm", [](const auto& c) { return c.name; }};
+}
+
+AlgorithmColumn NumberColumn(const char* head, RunSpread AlgorithmResult::*stage,
+                             double RunSpread::*field, int digits, bool shown = true) {
+  return {head, [=](const auto& c) { return Scientific(c.*stage.*field, digits); }, shown};
+}
+
+AlgorithmColumn HitColumn(const char* head, RunSpread AlgorithmResult::*stage, int RunSpread::*hits,
+                          bool shown = true) {
+  return {head, [=](const auto& c) { return std::to_string(c.*stage.*hits); }, shown};
+}
+
+// The RMSEs of the runs at a stage.
+std::vector<AlgorithmColumn> SpreadColumns(RunSpread AlgorithmResult::*stage, int digits) {
+  return {NameColumn(),
+          NumberColumn("min", stage, &RunSpread::min, digits),
+          NumberColumn("mean", stage, &RunSpread::mean, digits),
+          NumberColumn("median", stage, &RunSpread::median, digits),
+          NumberColumn("max", stage, &RunSpread::max, digits),
+          NumberColumn("std", stage, &RunSpread::std, 2)};
+}
+
 block::Table SpreadTable(const ProblemResult& problem, RunSpread AlgorithmResult::*stage,
                          int digits, std::string caption) {
-  block::Table table = {"lrrrrrrr",
-                        {{"algorithm", "min", "mean", "median", "max", "std", "1e-9", "1e-6"}},
-                        {},
-                        std::move(caption)};
-  if (LongNames(problem)) digits = 5;
-  for (const AlgorithmResult& compared : problem.algorithms) {
-    const RunSpread& s = compared.*stage;
-    table.rows.push_back({compared.name, Scientific(s.min, digits), Scientific(s.mean, digits),
-                          Scientific(s.median, digits), Scientific(s.max, digits),
-                          Scientific(s.std, 2), std::to_string(s.within_1e9),
-                          std::to_string(s.within_1e6)});
-  }
-  return table;
+  std::vector<AlgorithmColumn> columns = SpreadColumns(stage, LongNames(problem) ? 5 : digits);
+  columns.push_back(HitColumn("1e-9", stage, &RunSpread::within_1e9));
+  columns.push_back(HitColumn("1e-6", stage, &RunSpread::within_1e6));
+  return TableOf(problem.algorithms, columns, std::move(caption));
 }
 
 block::Table CostTable(const CompareOptions& options, const ProblemResult& problem) {
   const bool polish = options.polish;
   const bool plain = options.plain_polish;
-  block::Table table = {
-      "lrrrrrrrr",
-      {{"algorithm", "evals", "to target", "hits", "search"}},
-      {},
+  const std::vector<AlgorithmColumn> columns = {
+      NameColumn(),
+      {"evals", [](const auto& c) { return Whole(c.evaluations); }},
+      {"to target", [](const auto& c) { return Whole(c.expected_evaluations); }},
+      {"hits", [](const auto& c) { return std::to_string(c.target_hits); }},
+      {"search", [](const auto& c) { return Duration(c.search_seconds); }},
+      {"polish", [](const auto& c) { return Duration(c.polish_seconds); }, polish},
+      HitColumn("all starts", &AlgorithmResult::polished, &RunSpread::within_1e9, polish),
+      HitColumn("best only", &AlgorithmResult::own_polished, &RunSpread::within_1e9, polish),
+      HitColumn("plain", &AlgorithmResult::plain_polished, &RunSpread::within_1e9, plain)};
+  return TableOf(
+      problem.algorithms, columns,
       fmt::format("Cost of a run, runs whose search hits the target{} ({})",
-                  polish || plain ? ", runs within 1e-9 by polish" : "", ObjectiveText(options))};
-  block::Table::Row& head = table.heads[0];
-  if (polish) head.insert(head.end(), {"polish", "all starts", "best only"});
-  if (plain) head.emplace_back("plain");
-  table.alignment.resize(head.size());
-  for (const AlgorithmResult& c : problem.algorithms) {
-    block::Table::Row row = {c.name, Whole(c.evaluations), Whole(c.expected_evaluations),
-                             std::to_string(c.target_hits), Duration(c.search_seconds)};
-    if (polish) {
-      row.insert(row.end(), {Duration(c.polish_seconds), std::to_string(c.polished.within_1e9),
-                             std::to_string(c.own_polished.within_1e9)});
-    }
-    if (plain) row.push_back(std::to_string(c.plain_polished.within_1e9));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
+                  polish || plain ? ", runs within 1e-9 by polish" : "", ObjectiveText(options)));
 }
 
 std::vector<Section> CompareSections(const Comparison& comparison, const ProblemResult& problem) {
@@ -90,40 +100,22 @@ bool ManyCurves(const Comparison& comparison) {
   });
 }
 
-block::Table::Row OverviewRow(const AlgorithmResult& compared, bool polish, bool brief) {
-  const RunSpread& s = compared.searched;
-  block::Table::Row row = {compared.name,
-                           Scientific(s.min, kOverviewDigits),
-                           Scientific(s.mean, kOverviewDigits),
-                           Scientific(s.median, kOverviewDigits),
-                           Scientific(s.max, kOverviewDigits),
-                           Scientific(s.std, 2)};
-  if (polish) {
-    const RunSpread& p = compared.polished;
-    row.push_back(Scientific(p.min, kOverviewDigits));
-    if (!brief) row.push_back(Scientific(p.max, kOverviewDigits));
-    row.push_back(std::to_string(p.within_1e9));
-  }
-  return row;
-}
-
 // Every curve, model and algorithm in one table, so that the columns of all curves are aligned.
 // Empty for a single curve.
 Section OverviewSection(const Comparison& comparison) {
   if (!ManyCurves(comparison)) return {};
   const bool polish = comparison.options.polish;
   const bool brief = LongNames(comparison.problems.front());
-  block::Table table = {"lrrrrrrrr", {{"algorithm", "min", "mean", "median", "max", "std"}}};
-  block::Table::Row& head = table.heads[0];
-  if (polish) head.emplace_back("polished");
-  if (polish && !brief) head.emplace_back("to max");
-  if (polish) head.emplace_back("1e-9");
-  table.alignment.resize(head.size());
+  std::vector<AlgorithmColumn> columns = SpreadColumns(&AlgorithmResult::searched, kOverviewDigits);
+  const auto polished = &AlgorithmResult::polished;
+  columns.push_back(NumberColumn("polished", polished, &RunSpread::min, kOverviewDigits, polish));
+  columns.push_back(
+      NumberColumn("to max", polished, &RunSpread::max, kOverviewDigits, polish && !brief));
+  columns.push_back(HitColumn("1e-9", polished, &RunSpread::within_1e9, polish));
+  block::Table table = TableOf({}, columns);
   for (const ProblemResult& problem : comparison.problems) {
     table.spans.push_back({table.rows.size(), ProblemTitle(problem)});
-    for (const AlgorithmResult& compared : problem.algorithms) {
-      table.rows.push_back(OverviewRow(compared, polish, brief));
-    }
+    AddRows(problem.algorithms, columns, &table);
   }
   return {fmt::format("All curves: RMSE in A ({}) of {} runs of the search alone{}",
                       ToText(comparison.options.objective), comparison.options.runs,

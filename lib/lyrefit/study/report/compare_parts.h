@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/report/document.h"
@@ -8,6 +10,41 @@
 
 // Elements shared by the documents on comparisons.
 namespace lyrefit {
+
+// A column of a table: its head, and the text of a row's cell. The first one is left-aligned.
+template <class Row>
+struct ColumnOf {
+  std::string head;
+  std::function<std::string(const Row&)> cell;
+  bool shown = true;  // columns that are not shown are not chosen
+};
+
+// Appends the rows' cells of the chosen columns.
+template <class Row>
+void AddRows(const std::vector<Row>& rows, const std::vector<ColumnOf<Row>>& columns,
+             block::Table* table) {
+  for (const Row& row : rows) {
+    block::Table::Row line;
+    for (const ColumnOf<Row>& column : columns) {
+      if (column.shown) line.push_back(column.cell(row));
+    }
+    table->rows.push_back(std::move(line));
+  }
+}
+
+// A table of the rows in the chosen columns.
+template <class Row>
+block::Table TableOf(const std::vector<Row>& rows, const std::vector<ColumnOf<Row>>& columns,
+                     std::string caption = {}) {
+  block::Table table = {"", {{}}, {}, std::move(caption)};
+  for (const ColumnOf<Row>& column : columns) {
+    if (!column.shown) continue;
+    table.alignment += table.alignment.empty() ? 'l' : 'r';
+    table.heads[0].push_back(column.head);
+  }
+  AddRows(rows, columns, &table);
+  return table;
+}
 
 // The objective and the effects of all models: "measured-current, ...".
 std::string ObjectiveText(const CompareOptions& options);

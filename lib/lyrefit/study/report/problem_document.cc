@@ -45,24 +45,31 @@ const LevelSummary* Cell(const ProblemSummary& summary, const std::string& algor
   return nullptr;
 }
 
+ColumnOf<std::string> NameOfAlgorithm() {
+  return {"algorithm", [](const std::string& name) { return name; }};
+}
+
 // Hits and median time of a run for some budgets.
 block::Table HitTable(const ProblemSummary& summary, PolishLevel level,
                       const std::vector<std::int64_t>& budgets) {
-  block::Table table = {"l" + std::string(budgets.size(), 'r'), {{"algorithm"}}};
+  std::vector<std::string> algorithms = AlgorithmsOf(summary);
+  const auto has_none = [&](const std::string& algorithm) {
+    return std::none_of(budgets.begin(), budgets.end(), [&](std::int64_t budget) {
+      return Cell(summary, algorithm, budget, level) != nullptr;
+    });
+  };
+  algorithms.erase(std::remove_if(algorithms.begin(), algorithms.end(), has_none),
+                   algorithms.end());
+  std::vector<ColumnOf<std::string>> columns = {NameOfAlgorithm()};
   for (const std::int64_t budget : budgets) {
-    table.heads[0].push_back(budget == 0 ? "as it is" : std::to_string(budget));
+    columns.push_back({budget == 0 ? "as it is" : std::to_string(budget),
+                       [&, budget](const std::string& algorithm) {
+                         const LevelSummary* cell = Cell(summary, algorithm, budget, level);
+                         return cell ? fmt::format("{} ({})", cell->hits, Duration(cell->seconds))
+                                     : "";
+                       }});
   }
-  for (const std::string& algorithm : AlgorithmsOf(summary)) {
-    block::Table::Row line = {algorithm};
-    bool any = false;
-    for (const std::int64_t budget : budgets) {
-      const LevelSummary* cell = Cell(summary, algorithm, budget, level);
-      any = any || cell;
-      line.push_back(cell ? fmt::format("{} ({})", cell->hits, Duration(cell->seconds)) : "");
-    }
-    if (any) table.rows.push_back(std::move(line));
-  }
-  return table;
+  return TableOf(algorithms, columns);
 }
 
 // Adds the hit tables of a level under one caption; nothing if no run has this level.
@@ -177,26 +184,23 @@ std::string FriedmanP(const Ranking& ranking) {
 
 // Mean ranks, one column for each budget.
 block::Table RankTable(const std::vector<SummaryRanking>& rankings) {
-  block::Table table = {"l" + std::string(rankings.size(), 'r'), {{"algorithm"}}};
   block::Table::Row last = {"p"};
   std::vector<std::string> names;
+  std::vector<ColumnOf<std::string>> columns = {NameOfAlgorithm()};
   for (const SummaryRanking& ranking : rankings) {
-    table.heads[0].push_back(std::to_string(ranking.budget));
     last.push_back(FriedmanP(ranking.searched) + " / " + FriedmanP(ranking.own));
     for (const std::string& name : ranking.names) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
+    columns.push_back({std::to_string(ranking.budget), [&ranking](const std::string& name) {
+                         const auto at =
+                             std::find(ranking.names.begin(), ranking.names.end(), name);
+                         if (at == ranking.names.end()) return std::string();
+                         const auto c = static_cast<std::size_t>(at - ranking.names.begin());
+                         return MeanRank(ranking.searched, c) + " / " + MeanRank(ranking.own, c);
+                       }});
   }
-  for (const std::string& name : names) {
-    block::Table::Row line = {name};
-    for (const SummaryRanking& ranking : rankings) {
-      const auto at = std::find(ranking.names.begin(), ranking.names.end(), name);
-      const auto c = static_cast<std::size_t>(at - ranking.names.begin());
-      const bool there = at != ranking.names.end();
-      line.push_back(there ? MeanRank(ranking.searched, c) + " / " + MeanRank(ranking.own, c) : "");
-    }
-    table.rows.push_back(std::move(line));
-  }
+  block::Table table = TableOf(names, columns);
   table.rows.push_back(std::move(last));
   return table;
 }

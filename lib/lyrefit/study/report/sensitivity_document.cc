@@ -26,25 +26,19 @@ using CellText = std::function<std::string(const AlgorithmResult&)>;
 
 // A table with Pm in rows and gamma in columns.
 block::Table Grid(const ProblemResult& problem, std::string caption, const CellText& cell) {
-  const std::vector<double> rates = ValuesOf(problem, &SearchOptions::memory_rate);
-  const std::vector<double> coefficients = ValuesOf(problem, &SearchOptions::distance_coefficient);
-  block::Table table = {
-      "l" + std::string(coefficients.size(), 'r'), {{""}}, {}, std::move(caption)};
-  for (const double gamma : coefficients) {
-    table.heads[0].push_back(fmt::format("gamma = {:g}", gamma));
+  using Rate = ColumnOf<double>;
+  std::vector<Rate> columns = {{"", [](double rate) { return fmt::format("Pm = {:g}", rate); }}};
+  for (const double gamma : ValuesOf(problem, &SearchOptions::distance_coefficient)) {
+    columns.push_back({fmt::format("gamma = {:g}", gamma), [&, gamma](double rate) {
+                         for (const AlgorithmResult& c : problem.algorithms) {
+                           const bool is = c.search.memory_rate == rate &&
+                                           c.search.distance_coefficient == gamma;
+                           if (is) return cell(c);
+                         }
+                         return std::string("-");
+                       }});
   }
-  for (const double rate : rates) {
-    block::Table::Row line = {fmt::format("Pm = {:g}", rate)};
-    for (const double gamma : coefficients) {
-      const auto found = std::find_if(
-          problem.algorithms.begin(), problem.algorithms.end(), [&](const AlgorithmResult& c) {
-            return c.search.memory_rate == rate && c.search.distance_coefficient == gamma;
-          });
-      line.push_back(found == problem.algorithms.end() ? "-" : cell(*found));
-    }
-    table.rows.push_back(std::move(line));
-  }
-  return table;
+  return TableOf(ValuesOf(problem, &SearchOptions::memory_rate), columns, std::move(caption));
 }
 
 // A sentence on the cell with the lowest mean, and on the hits after the polish.

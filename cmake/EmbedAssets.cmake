@@ -1,0 +1,47 @@
+# Writes files as functions of a source file, each of which returns the bytes of its files one after the other.
+#   cmake "-DFILES=Function=a.css|Packed=b.js,c.js|Missing=" -DHEADER=<header that declares them> -DOUT=<source> -P EmbedAssets.cmake
+# Files of a function whose name begins with Packed are compressed. A function without files returns no bytes.
+cmake_minimum_required(VERSION 3.25)
+
+# Appends a function that returns the bytes of a file.
+function(embed function file)
+  file(READ "${file}" bytes HEX)
+  if(file MATCHES "\\.gz$")  # without the time of the build, so that equal files give equal bytes
+    string(SUBSTRING "${bytes}" 0 8 before)
+    string(SUBSTRING "${bytes}" 16 -1 after)
+    set(bytes "${before}00000000${after}")
+  endif()
+  string(LENGTH "${bytes}" digits)
+  math(EXPR size "${digits} / 2")
+  string(REGEX REPLACE "(..)" "\\\\x\\1" bytes "${bytes}")
+  string(REPEAT "." 132 line)
+  string(REGEX REPLACE "(${line})" "\\1\"\n\"" bytes "${bytes}")
+  file(APPEND "${OUT}.new" "std::string_view ${function}() {\n  return {\"${bytes}\", ${size}};\n}\n\n")
+endfunction()
+
+file(WRITE "${OUT}.new" "// Written by cmake/EmbedAssets.cmake.\n#include \"${HEADER}\"\n\nnamespace lyrefit {\n\n")
+string(REPLACE "|" ";" FILES "${FILES}")
+foreach(entry IN LISTS FILES)
+  string(REGEX MATCH "^([A-Za-z]+)=(.*)$" entry "${entry}")
+  set(function "${CMAKE_MATCH_1}")
+  string(REPLACE "," ";" files "${CMAKE_MATCH_2}")
+  file(WRITE "${OUT}.part" "")
+  foreach(file IN LISTS files)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E cat "${file}" OUTPUT_FILE "${OUT}.one" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E cat "${OUT}.part" "${OUT}.one" OUTPUT_FILE "${OUT}.both"
+                    COMMAND_ERROR_IS_FATAL ANY)
+    file(RENAME "${OUT}.both" "${OUT}.part")
+    file(APPEND "${OUT}.part" "\n")
+  endforeach()
+  if(NOT files)
+    file(APPEND "${OUT}.new" "std::string_view ${function}() { return {}; }\n\n")
+  elseif(function MATCHES "^Packed")
+    file(ARCHIVE_CREATE OUTPUT "${OUT}.gz" PATHS "${OUT}.part" FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
+    embed(${function} "${OUT}.gz")
+  else()
+    embed(${function} "${OUT}.part")
+  endif()
+endforeach()
+file(REMOVE "${OUT}.part" "${OUT}.one" "${OUT}.gz")
+file(APPEND "${OUT}.new" "}  // namespace lyrefit\n")
+file(RENAME "${OUT}.new" "${OUT}")

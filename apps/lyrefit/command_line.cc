@@ -8,6 +8,7 @@
 #include "line_errors.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/estimate/family/read_module.h"
 
 namespace lyrefit {
 namespace {
@@ -212,6 +213,8 @@ FilePlan VerbLine::Files() const {
     if (!flag.reads) continue;
     for (const std::string& path : flag.option->results()) {
       plan.inputs.push_back({path, flag.curves});
+      const std::string file = FileOfModule(path);  // of FILE#NAME
+      if (file != path) plan.inputs.push_back({file, false});
     }
   }
   plan.outputs.insert(plan.outputs.end(), impl_->more_outputs.begin(), impl_->more_outputs.end());

@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "flags.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/iv_curve.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -20,6 +25,8 @@ constexpr char kDataSheetFooter[] =
     "      --cells 36\n"
     "  lyrefit datasheet --isc 9.05 --voc 37.8 --imp 8.58 --vmp 30.3 --alpha 0.06% --beta -0.31%\n"
     "      --gamma -0.41 --cells 60 --pvlib module.json\n"
+    "  lyrefit datasheet module.PAN\n"
+    "  lyrefit datasheet 'CEC Modules.csv#Acme 300' --beta -0.31%\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 2 no device gives all that the sheet prints.";
 
@@ -32,6 +39,7 @@ Expected<PrintedValue> ParsePrinted(const char* flag, const std::string& text, d
 }
 
 struct DataSheetRequest {
+  std::string file;
   // As printed: the digits give the rounding of each value.
   std::string isc;
   std::string voc;
@@ -40,7 +48,7 @@ struct DataSheetRequest {
   std::string alpha;
   std::string beta;
   std::string gamma;
-  std::string name = "module";
+  std::string name;
   std::string technology;
   int cells = 1;
   bool exact = false;
@@ -71,13 +79,31 @@ inline constexpr OptionRow<DataSheetRequest> kDataSheetTable[] = {
     {"technology", "TEXT", "of the module, for pvlib: Mono-c-Si", &Request::technology},
 };
 
+// The flags of printed values.
+struct PrintedFlag {
+  const char* flag;
+  std::string DataSheetRequest::*text;
+  double DataSheetValues::*field;
+  double DataSheetValues::*whole;  // base of a percentage; null: none
+};
+constexpr PrintedFlag kPrintedTable[] = {
+    {"--isc", &Request::isc, &DataSheetValues::short_circuit_current_A, nullptr},
+    {"--voc", &Request::voc, &DataSheetValues::open_circuit_voltage_V, nullptr},
+    {"--imp", &Request::imp, &DataSheetValues::max_power_current_A, nullptr},
+    {"--vmp", &Request::vmp, &DataSheetValues::max_power_voltage_V, nullptr},
+    {"--alpha", &Request::alpha, &DataSheetValues::alpha_sc_A_K,
+     &DataSheetValues::short_circuit_current_A},
+    {"--beta", &Request::beta, &DataSheetValues::beta_oc_V_K,
+     &DataSheetValues::open_circuit_voltage_V}};
+
 void DeclareDataSheet(VerbLine* verb, DataSheetRequest* request) {
   ReportFlags& output = request->output;
+  verb->AddOption("FILE", &request->file,
+                  "a module whose sheet is meant: a PVsyst .PAN file, a row of SAM's library of "
+                  "modules (FILE#NAME), what --pvlib wrote; the numbers given count before its own")
+      .Reads();
   ForRows(kDataSheetTable, [&](const OptionRow<Request>& row, const std::string& heading) {
-    Flag flag = AddRowFlag(verb, row, heading, request);
-    for (const char* needed : {"isc", "voc", "imp", "vmp", "alpha", "beta", "cells"}) {
-      if (row.name == std::string(needed)) flag.Required();
-    }
+    AddRowFlag(verb, row, heading, request);
   });
   verb->AddOption("--json", &output.json_file, "the answer as JSON; - for standard output, alone")
       .Writes();
@@ -92,50 +118,66 @@ void DeclareDataSheet(VerbLine* verb, DataSheetRequest* request) {
   verb->AddQuietSwitch();
 }
 
-Expected<DataSheet> Sheet(const DataSheetRequest& request) {
-  DataSheet sheet;
-  sheet.cells_in_series = request.cells;
-  DataSheetValues& values = sheet.values;
-  DataSheetValues& half = sheet.half_unit;
-  const struct {
-    const char* flag;
-    const std::string& text;
-    double DataSheetValues::*field;
-    double DataSheetValues::*whole;  // base of a percentage; null: none
-  } rows[] = {{"--isc", request.isc, &DataSheetValues::short_circuit_current_A, nullptr},
-              {"--voc", request.voc, &DataSheetValues::open_circuit_voltage_V, nullptr},
-              {"--imp", request.imp, &DataSheetValues::max_power_current_A, nullptr},
-              {"--vmp", request.vmp, &DataSheetValues::max_power_voltage_V, nullptr},
-              {"--alpha", request.alpha, &DataSheetValues::alpha_sc_A_K,
-               &DataSheetValues::short_circuit_current_A},
-              {"--beta", request.beta, &DataSheetValues::beta_oc_V_K,
-               &DataSheetValues::open_circuit_voltage_V}};
-  for (const auto& row : rows) {
-    const double whole = row.whole == nullptr ? 0 : values.*row.whole;
-    TRY(const PrintedValue printed, ParsePrinted(row.flag, row.text, whole));
-    values.*row.field = printed.value;
-    half.*row.field = request.exact ? 0 : printed.half_unit;
-  }
-  if (request.gamma.empty()) return sheet;
-  TRY(const PrintedValue gamma, ParsePrinted("--gamma", request.gamma));
-  sheet.gamma_pmp_percent_K = gamma.value;
-  return sheet;
+// The sheet of the file, or an empty one.
+Expected<ModuleSheet> SheetOfFile(const DataSheetRequest& request) {
+  if (!request.file.empty()) return ReadModuleSheet(request.file);
+  ModuleSheet module;
+  for (const auto& row : kPrintedTable) module.sheet.values.*row.field = kUnknown;
+  module.sheet.cells_in_series = 0;
+  return module;
 }
 
-Expected<std::string> PvlibText(const DataSheetRequest& request, const DataSheetFit& fit) {
+Error Missing(const DataSheetRequest& request, const char* flag) {
+  if (request.file.empty()) return {fmt::format("{} is required, without a FILE", flag), {}};
+  return {fmt::format("the file does not state the value: say {}", flag), request.file};
+}
+
+// The sheet of the flags and, for what they do not state, of the file.
+Expected<ModuleSheet> Sheet(const VerbLine& verb, const DataSheetRequest& request) {
+  TRY(ModuleSheet module, SheetOfFile(request));
+  DataSheet& sheet = module.sheet;
+  for (const auto& row : kPrintedTable) {
+    double& value = sheet.values.*row.field;
+    if (verb.Given(row.flag)) {
+      const double whole = row.whole == nullptr ? 0 : sheet.values.*row.whole;
+      TRY(const PrintedValue printed, ParsePrinted(row.flag, request.*row.text, whole));
+      value = printed.value;
+      sheet.half_unit.*row.field = printed.half_unit;
+    }
+    if (std::isnan(value)) return tl::unexpected(Missing(request, row.flag));
+  }
+  if (verb.Given("--cells")) sheet.cells_in_series = request.cells;
+  if (sheet.cells_in_series == 0) return tl::unexpected(Missing(request, "--cells"));
+  if (request.exact) sheet.half_unit = DataSheetValues();
+  if (!request.name.empty()) module.name = request.name;
+  if (!request.technology.empty()) module.technology = request.technology;
+  if (module.name.empty()) module.name = "module";
+  if (request.gamma.empty()) return module;
+  TRY(const PrintedValue gamma, ParsePrinted("--gamma", request.gamma));
+  sheet.gamma_pmp_percent_K = gamma.value;
+  return module;
+}
+
+Expected<std::string> PvlibText(const ModuleSheet& module, const DataSheetFit& fit) {
   TRY(const auto keywords, PvlibParameters(fit.translation, fit.shared));
-  const auto row = CecRow(fit.translation, fit.shared, request.name, request.technology);
-  return PvlibJson(request.name, fit.translation.spec.law, keywords, row);
+  const auto row = CecRow(fit.translation, fit.shared, module.name, module.technology);
+  return PvlibJson(module.name, fit.translation.spec.law, keywords, row);
 }
 
 Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
   TRY(verb.CheckFiles());
-  TRY(const DataSheet sheet, Sheet(request));
-  TRY(const DataSheetFit fit, FitDataSheet(sheet, request.constants));
+  TRY(const ModuleSheet module, Sheet(verb, request));
+  TRY(DataSheetFit fit, FitDataSheet(module.sheet, request.constants));
+  if (IsThinFilm(module.technology)) {
+    fit.warnings.push_back(
+        fmt::format("the sheet is of {}, the law's band gap of 1.121 eV of silicon: beta_oc picks "
+                    "another device than it would with the right one",
+                    module.technology));
+  }
   TRY(WriteWanted(request.output.json_file, [&] { return DataSheetJson(fit); }));
   TRY(WriteWanted(request.output.csv_file, [&] { return DataSheetCsv(fit); }));
   if (!request.pvlib_file.empty()) {
-    TRY(const std::string json, PvlibText(request, fit));
+    TRY(const std::string json, PvlibText(module, fit));
     TRY(WriteOutput(request.pvlib_file, json));
   }
   TRY(DrawWanted(request.output.plot_file,

@@ -27,7 +27,8 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
                 &flags->options);
   verb->AddOption("--against", &flags->against_files,
                   "parameters from elsewhere, tested on the same curves: what --pvlib writes here "
-                  "or in datasheet, or pvlib's own as JSON; once for each")
+                  "or in datasheet, pvlib's own as JSON, a PVsyst .PAN file, a row of SAM's "
+                  "library of modules (FILE#NAME); once for each")
       .OneEach()
       .Type("FILE")
       .Reads()
@@ -38,6 +39,10 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
       .Writes();
   verb->AddOption("--pvlib", &flags->pvlib_file,
                   "the shared parameters as pvlib takes them, JSON; - for standard output, alone")
+      .Writes();
+  verb->AddOption("--pan", &flags->pan_file,
+                  "the electrical model as a PVsyst .PAN file, by the law pvsyst; - for standard "
+                  "output, alone")
       .Writes();
 }
 

@@ -33,6 +33,7 @@ struct FamilyFlags {
   FamilyOptions options;  // targets of the flags
   std::vector<std::string> against_files;
   std::string pvlib_file;
+  std::string pan_file;
 };
 
 // Declares the flags of a set, and --csv, which curves fitted individually have too.

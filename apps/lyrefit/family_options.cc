@@ -3,6 +3,7 @@
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/estimate/family/read_module.h"
 
 namespace lyrefit {
 namespace {
@@ -27,7 +28,8 @@ constexpr const char* kShared[] = {"--shunt",
                                    "--temperature-accuracy",
                                    "--no-individual-fits",
                                    "--against",
-                                   "--pvlib"};
+                                   "--pvlib",
+                                   "--pan"};
 // Options that --family auto selects.
 constexpr const char* kChosenByAuto[] = {"--model", "--shunt", "--recombination"};
 
@@ -59,6 +61,21 @@ Expected<void> CheckLaw(const FamilyFlags& flags, const FamilyOptions& options) 
                             ToText(spec.law), ToText(own), ToText(spec.shunt)));
   }
   return {};
+}
+
+// Rejects, before any file is read, what a PAN file cannot state.
+Expected<void> CheckPan(const FamilyFlags& flags, const FamilyOptions& options) {
+  if (flags.pan_file.empty()) return {};
+  if (flags.family == Family::kDeSoto) {
+    return Fail("--pan: a PAN file takes the law pvsyst: expected --family pvsyst");
+  }
+  if (flags.family == Family::kPvsyst && options.model != Model::kSingleDiode) {
+    return Fail("--pan: a PAN file has one diode: expected --model sd");
+  }
+  if (options.fixed.count("EgRef") + options.fixed.count("Eg") > 0) return {};
+  return Fail(
+      "--pan: a PAN file implies the band gap of its technology: say --fix EgRef=1.12 for silicon, "
+      "1.03 for CIS or 1.5 for CdTe");
 }
 
 }  // namespace
@@ -110,8 +127,9 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const VerbLine& verb, const Famil
   if (joint && !verb.Given("--iterations")) options.search.iterations = usual.iterations;
   options.bounds = fit.bounds.overrides;
   TRY(CheckLaw(flags, options));
+  TRY(CheckPan(flags, options));
   for (const std::string& file : flags.against_files) {
-    TRY(NamedParameters other, ReadPvlibParameters(file));
+    TRY(NamedParameters other, ReadModuleParameters(file));
     options.against.push_back(std::move(other));
   }
   return options;

@@ -5,9 +5,11 @@
 #include "flags.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/read_curve.h"
-#include "lyrefit/curve/write_curve.h"
+#include "lyrefit/estimate/family/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
+#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/write_curve.h"
+#include "output.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -20,6 +22,7 @@ constexpr char kSimulateFooter[] =
     "  lyrefit simulate --from fit.json --voltages 0:0.6:61\n"
     "  lyrefit simulate --from fit.json --with shading:d=0.3,w=0.3333\n"
     "  lyrefit simulate --from fit.json --string half_cut.json\n"
+    "  lyrefit simulate --from module.PAN --irradiance-Wm2 800 --temperature-C 45\n"
     "\n"
     "Beside NAME.csv a file NAME.json holds the conditions; lyrefit fit NAME.csv reads both.";
 
@@ -51,7 +54,11 @@ struct SimulateRequest {
 
 void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
   AddNamedFlags(verb, kSimulateOptionTable, {"model", "set"}, &request->options);
-  verb->AddOption("--from", &request->from_file, "parameters and conditions of a JSON fit report")
+  verb->AddOption(
+          "--from", &request->from_file,
+          "parameters and conditions of a JSON fit report; or a module: pvlib's parameters as "
+          "JSON, a PVsyst .PAN file, a row of SAM's library of modules (FILE#NAME), by its "
+          "law at --irradiance-Wm2 and --temperature-C")
       .Group("Device")
       .Type("FILE")
       .Reads();
@@ -102,7 +109,12 @@ Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
     return Fail("--curve is about a report of many curves: it needs --from");
   }
   if (request.from_file.empty()) return {};
-  TRY(SimulateOptions fit, ReadFitForSimulation(request.from_file, request.from_curve));
+  IvCurve checked;
+  TRY(ApplyConditionFlags(request.conditions, &checked));
+  TRY(const DeviceToSimulate device,
+      ReadForSimulation(request.from_file, request.from_curve, request.conditions));
+  PrintRemarks(device.warnings);
+  SimulateOptions fit = device.options;
   for (const auto& [name, value] : options->parameters) fit.parameters[name] = value;
   options->parameters = fit.parameters;
   options->conditions = fit.conditions;
@@ -111,6 +123,7 @@ Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
   options->taken = fit.taken;
   options->shared = fit.shared;
   options->force_effects = fit.force_effects;
+  options->recombination = fit.recombination;
   if (!verb.Given("--model")) options->model = fit.model;
   if (!verb.Given("--constants")) options->constants = fit.constants;
   return {};

@@ -9,6 +9,8 @@
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/estimate/family/fit_individually.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/estimate/family/write_pan.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
@@ -121,7 +123,7 @@ FamilyAsked ReadFamilyKeywords(Keywords* keywords) {
   }
   if (const auto files = keywords->Take("against")) {
     for (const std::string& file : TextsOf("against", *files)) {
-      options.against.push_back(Must(ReadPvlibParameters(file)));
+      options.against.push_back(Must(ReadModuleParameters(file)));
     }
   }
   keywords->Read(kFamilyOptionTable, &options);
@@ -180,6 +182,12 @@ py::object PvlibOf(const FamilyResult& result) {
                    result.set().curves.front().notes.technology);
 }
 
+std::string PanOf(const FamilyResult& result) {
+  const FamilyReport& report = result.report();
+  return Must(PanText(report.translation, report.refined,
+                      NotesOf(report.name, result.set().curves.front().notes)));
+}
+
 constexpr char kFitFamilyDoc[] =
     "Fit one device to curves under different irradiance and temperature.\n\n"
     "Parameters\n----------\n"
@@ -223,6 +231,10 @@ void BindFamily(py::module_* module) {
           "pvlib", &PvlibOf,
           "dict: which function of pvlib takes the device, its keywords under 'parameters', and\n"
           "its row of SAM's library (--pvlib). lyrefit.Error where pvlib cannot take it.")
+      .def_property_readonly(
+          "pan", &PanOf,
+          "str: the electrical model as a PVsyst .PAN file (--pan). lyrefit.Error for another law\n"
+          "than 'pvsyst', and where EgRef is not fixed to the band gap of the technology.")
       .def_property_readonly(
           "usable", [](const FamilyResult& result) { return result.report().usable; }, "bool")
       .def(

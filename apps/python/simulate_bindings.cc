@@ -7,6 +7,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "lyrefit/base/constants.h"
+#include "lyrefit/estimate/family/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "result.h"
 #include "work.h"
@@ -22,6 +23,8 @@ constexpr char kSimulateDoc[] =
     "    saturation_current or Is1 in A, resistance_series or Rs and resistance_shunt or Rsh in\n"
     "    ohm, n or n1 per cell); nNsVth in V in the place of n. Or a fit: what fit() gave, or the\n"
     "    file of its JSON, whose conditions and effects then count. A shunt of inf is perfect.\n"
+    "    Or a module by its law at irradiance_Wm2 and temperature_C: a file of pvlib's parameters\n"
+    "    as JSON, a PVsyst .PAN file, a row of SAM's library of modules ('FILE#NAME').\n"
     "    Each may be a keyword of its own.\n"
     "voltage : array_like of shape (n,), optional\n"
     "    Where to solve, in V; else `points` even steps from 0 to 2 % beyond open circuit.\n"
@@ -57,7 +60,8 @@ void SetParameters(py::handle values, SimulateOptions* options) {
 }
 
 // The device to simulate, before the keywords are applied.
-SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id) {
+SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id,
+                         const ConditionOptions& told) {
   SimulateOptions options;
   if (parameters.is_none()) return options;
   if (py::isinstance<Result>(parameters)) {
@@ -65,7 +69,12 @@ SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id) {
     return Must(ReadFitTextForSimulation(json, "the fit", curve_id));
   }
   if (IsPath(parameters)) {
-    return Must(ReadFitForSimulation(TextOf("parameters", parameters), curve_id));
+    DeviceToSimulate device =
+        Must(ReadForSimulation(TextOf("parameters", parameters), curve_id, told));
+    for (const std::string& warning : device.warnings) {
+      if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
+    }
+    return std::move(device.options);
   }
   if (!py::hasattr(parameters, "keys")) {
     Raise({"parameters: expected a mapping, a fit or a path", {}});
@@ -94,7 +103,9 @@ void TakeLayout(Keywords* keywords, bool cells_told, SimulateOptions* options) {
 SimulateOptions ReadSimulateKeywords(py::handle parameters, Keywords* keywords, OwnEffects* own) {
   std::string curve_id;
   if (const auto id = keywords->Take("curve_id")) curve_id = TextOf("curve_id", *id);
-  SimulateOptions options = DeviceOf(parameters, curve_id);
+  ConditionOptions told;
+  keywords->Read(kConditionOptionTable, &told);
+  SimulateOptions options = DeviceOf(parameters, curve_id, told);
   const bool from_fit = options.taken.has_value() || options.shared.has_value() ||
                         (!parameters.is_none() && !py::hasattr(parameters, "keys")) ||
                         py::isinstance<Result>(parameters);
@@ -106,8 +117,6 @@ SimulateOptions ReadSimulateKeywords(py::handle parameters, Keywords* keywords, 
     for (EffectUse& use : effects.uses) options.with.push_back(std::move(use));
     *own = std::move(effects.own);
   }
-  ConditionOptions told;
-  keywords->Read(kConditionOptionTable, &told);
   TakeLayout(keywords, from_fit || told.cells.has_value(), &options);
   IvCurve conditions;
   conditions.conditions = options.conditions;

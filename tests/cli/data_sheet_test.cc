@@ -93,5 +93,36 @@ TEST(DataSheetVerb, WritesTheParametersAsATable) {
   }
 }
 
+TEST(DataSheetVerb, TakesTheSheetOfAModuleFile) {
+  const std::string pan = "datasheet '" + DataFolder("datasheet/invented.PAN") + "'";
+  const AppResult result = RunApp(pan + " --pvlib -");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json j = json::parse(result.out, nullptr, false);
+  EXPECT_EQ(j["name"], "Invented I-304 M60");
+  EXPECT_EQ(j["cells_in_series"], 60);
+  EXPECT_EQ(j["cec"]["Technology"], "mtSiMono");
+  EXPECT_NEAR(j["cec"]["I_mp_ref"].get<double>(), 9.192, 1e-9);
+  // What is said counts before the file, and the digits of the file give the rounding.
+  const json said = json::parse(RunApp(pan + " --voc 39.8 --json -").out, nullptr, false);
+  EXPECT_EQ(said["checks"]["Voc"]["printed"], 39.8);
+  EXPECT_FALSE(said["parameters"]["R_s"]["low"].is_null());
+  const json exact = json::parse(RunApp(pan + " --exact --json -").out, nullptr, false);
+  EXPECT_TRUE(exact["parameters"]["R_s"]["low"].is_null());
+  EXPECT_THAT(RunApp(kSheet + " --technology CdTe").out, HasSubstr("the sheet is of CdTe"));
+  const std::string library = DataFolder("datasheet/invented_cec.csv");
+  EXPECT_EQ(RunApp("datasheet '" + library + "#Invented I-304 M60' --quiet").exit_code, 0);
+  const TempFolder folder;
+  const std::string text = FileText(DataFolder("datasheet/invented.PAN"));
+  const std::string bare =
+      folder.Write("bare.PAN", std::string(text).replace(text.find("-122.5"), 6, "0.0"));
+  const std::string copy = folder.Write("copy.csv", FileText(library));
+  ExpectRefusals(
+      "datasheet ",
+      {{"'" + bare + "'", "bare.PAN: the file does not state the value: say --beta"},
+       {"'" + library + "'", "a library of 2 modules: choose one as FILE#NAME"},
+       {"'" + copy + "#Invented I-304 M60' --csv '" + copy + "'", "--csv: this run reads the file"},
+       {"'" + kRtc + "/curve.json'", "the data sheet of a module"}});
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -218,6 +218,22 @@ TEST_F(FamilyVerbOnASet, RefusesParametersOfAnotherModule) {
                 "--against is about what curves share");
 }
 
+TEST_F(FamilyVerbOnASet, WritesAPanFileThatItReadsBack) {
+  const std::string pan = folder_.Path("module.PAN"), fit = " --family pvsyst --fix EgRef=1.12";
+  const AppResult made =
+      RunApp("fit " + Set() + fit + " --quiet --pan '" + pan + "'" + kQuickFamily);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(FileText(pan), StartsWith("PVObject_=pvModule\r\n"));
+  const json j = FitJson(Set() + fit + " --against '" + pan + "'" + kQuickFamily);
+  EXPECT_EQ(j["against"][0]["name"], "module.PAN");
+  EXPECT_NEAR(j["against"][0]["rmse"]["solved_current_A"].get<double>(),
+              j["rmse"]["refined"]["solved_current_A"].get<double>(), 1e-9);
+  ExpectRefused(Set() + " --family desoto --pan x.PAN", "--pan: a PAN file takes the law pvsyst");
+  ExpectRefused(Set() + " --family pvsyst --pan x.PAN", "--pan: a PAN file implies the band gap");
+  ExpectRefused(Set() + fit + " --model dd --pan x.PAN", "--pan: a PAN file has one diode");
+  ExpectRefused(Set() + " --family free --pan x.PAN", "--pan is about what curves share");
+}
+
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {
   const json j = FitJson(Set() + " --family free");
   EXPECT_EQ(j["family"], "free");

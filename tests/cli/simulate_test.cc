@@ -158,5 +158,32 @@ TEST(Simulate, RefusesWhatItCannotSimulate) {
   EXPECT_FALSE(std::filesystem::exists(folder.Path("x.json")));
 }
 
+TEST(Simulate, TakesAModuleByItsLaw) {
+  const TempFolder folder;
+  const std::string from = "simulate --from '" + DataFolder("datasheet/invented.PAN") + "' ";
+  const AppResult result =
+      RunApp(from + "--irradiance-Wm2 800 --temperature-C 45 --voltages 0:37.0501844:2");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::vector<double> currents = Currents(result.out);  // of read_pan_reference.py
+  ASSERT_EQ(currents.size(), 2U);
+  EXPECT_NEAR(currents[0], 7.87001408, 1e-7);
+  EXPECT_NEAR(currents[1], 0, 1e-6);
+  const AppResult dimmed = RunApp(from + "--set Rs=0.5 --with shading:d=0.3,w=0.3333 --points 3");
+  EXPECT_EQ(dimmed.exit_code, 0) << dimmed.err;
+  const std::string library = DataFolder("datasheet/invented_cec.csv");
+  EXPECT_EQ(RunApp("simulate --from '" + library + "#Invented I-304 M60'").exit_code, 0);
+  ExpectSimulateRefused("simulate --from '" + library + "'", "FILE#NAME");
+  ExpectSimulateRefused(from + "--cells 72", "expected the 60 cells in series of the module");
+  ExpectSimulateRefused(from + "--temperature-C 300", "--temperature-C");
+  ExpectSimulateRefused(from + "--curve 2", "no curve 2");
+  const std::string text = FileText(DataFolder("datasheet/invented.PAN"));
+  const AppResult warned = RunApp(
+      "simulate --from " + folder.Write("m.PAN", std::string(text).replace(
+                                                     text.find("RSerie=0.218"), 12, "RSerie=0.4")));
+  EXPECT_EQ(warned.exit_code, 0);
+  EXPECT_THAT(warned.err, StartsWith("lyrefit: The model of m.PAN gives "));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -1,5 +1,6 @@
 """What the module gives is what the command writes, byte for byte; only clocks differ."""
 
+import pathlib
 import tempfile
 import unittest
 
@@ -69,6 +70,14 @@ class Equality(unittest.TestCase):
         named = lyrefit.simulate(photocurrent=0.7608, saturation_current=3.1e-7, n=1.477, resistance_series=0.0365,
                                  resistance_shunt=52.9, voltage=0.6 * np.arange(50) / 49)
         self.assertEqual(command("simulate", *sets, "--voltages", "0:0.6:50"), named.csv)
+        for module in (DATA / "datasheet" / "invented.PAN", f"{DATA}/datasheet/invented_cec.csv#Invented I-304 M60"):
+            at = ["--irradiance-Wm2", 800, "--temperature-C", 45, "--points", 20]
+            self.assertEqual(command("simulate", "--from", module, *at),
+                             lyrefit.simulate(module, irradiance_Wm2=800, temperature_C=45, points=20).csv)
+        with tempfile.TemporaryDirectory() as folder, self.assertWarnsRegex(UserWarning, "The model of other.PAN gives"):
+            other = pathlib.Path(folder) / "other.PAN"
+            other.write_text((DATA / "datasheet" / "invented.PAN").read_text().replace("RSerie=0.218", "RSerie=0.4"))
+            lyrefit.simulate(other)
         fitted = lyrefit.fit(DATA / "rtc_france")
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             file.write(fitted.json)

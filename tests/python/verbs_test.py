@@ -32,6 +32,11 @@ class Verbs(unittest.TestCase):
         self.assertEqual(list(joint.parameter_frame()["parameter"]), list(joint.parameters))
         self.assertEqual(joint.pvlib["parameters"]["R_s"], joint.parameters["R_s"])
         self.assertIn("Rs", joint._repr_html_())
+        with self.assertRaisesRegex(lyrefit.Error, "takes the law pvsyst"):
+            print(joint.pan)
+        quick = {"folds": 0, "individual_fits": False, "search_curves": 4, "fix": {"EgRef": 1.12}}
+        pvsyst = lyrefit.fit_family(FAMILY, family="pvsyst", **quick)
+        self.assertEqual(pvsyst.pan.splitlines()[0], "PVObject_=pvModule")
         free = lyrefit.fit_family(FAMILY, family="free", intervals=False)
         self.same(free, "fit", FAMILY, "--family", "free", "--intervals", "none")
         self.assertEqual(len(free.fit_frame()), len(free["curves"]))

@@ -66,5 +66,22 @@ TEST(ReadModule, TakesTheSheetOfAModuleWhereNothingWasSaid) {
   EXPECT_FALSE(ReadModule(folder.Write("text.json", R"({"rated_power_W": "many"})"), &options));
 }
 
+TEST(ReadModule, TakesTheSheetOfOtherPrograms) {
+  TranslateOptions options;
+  const std::string folder = std::string(LYREFIT_DATA_DIR) + "/datasheet/";
+  ASSERT_TRUE(ReadModule(folder + "invented.PAN", &options));
+  EXPECT_EQ(options.field_test.rated_W, 304);
+  EXPECT_EQ(options.field_test.power_coefficient_percent_K, -0.362);
+  EXPECT_EQ(options.technology, "mtSiMono");
+  EXPECT_NEAR(*options.coefficients.alpha_A_K, 0.00487, 1e-15);
+  EXPECT_NEAR(*options.coefficients.beta_V_K, -0.1225, 1e-15);
+  TranslateOptions said;
+  said.coefficients.beta_percent_K = -0.3;
+  ASSERT_TRUE(ReadModule(folder + "invented_cec.csv#Invented I-304 M60", &said));
+  EXPECT_EQ(said.field_test.rated_W, 304.2);
+  EXPECT_FALSE(said.coefficients.beta_V_K);
+  EXPECT_FALSE(ReadModule(folder + "invented_cec.csv", &said));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -7,8 +7,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
-#include "lyrefit/curve/number_text.h"
+#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 
@@ -44,7 +45,34 @@ std::vector<std::string> TargetTexts(const TranslateOptions& options) {
           NumberText(options.target.temperature_C)};
 }
 
+namespace {
+
+// Takes what options do not say yet from the sheet in a file of another program.
+Expected<void> TakeSheet(const std::string& file, TranslateOptions* options) {
+  TRY(const ModuleSheet module, ReadModuleSheet(file));
+  FieldTestOptions& test = options->field_test;
+  const DataSheetValues& values = module.sheet.values;
+  StatedCoefficients& stated = options->coefficients;
+  if (!test.rated_W) test.rated_W = module.rated_power_W;
+  if (!test.power_coefficient_percent_K) {
+    test.power_coefficient_percent_K = module.sheet.gamma_pmp_percent_K;
+  }
+  if (options->technology.empty()) options->technology = module.technology;
+  const auto known = [](double value) { return !std::isnan(value); };
+  if (!stated.alpha_A_K && !stated.alpha_percent_K && known(values.alpha_sc_A_K)) {
+    stated.alpha_A_K = values.alpha_sc_A_K;
+  }
+  if (!stated.beta_V_K && !stated.beta_percent_K && known(values.beta_oc_V_K)) {
+    stated.beta_V_K = values.beta_oc_V_K;
+  }
+  return {};
+}
+
+}  // namespace
+
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options) {
+  TRY(const bool other, HoldsModule(path));
+  if (other) return TakeSheet(path, options);
   constexpr std::uintmax_t kLargestFile = 1U << 20;
   TRY(const std::string text, ReadTextFile(path, kLargestFile));
   TRY(const nlohmann::json module, ParseJson(text, path));

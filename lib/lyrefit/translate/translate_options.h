@@ -6,8 +6,8 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/read/iv_curve.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"
@@ -84,8 +84,9 @@ inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {
 };
 
 // Reads a module's data sheet from JSON: rated_power_W, gamma_pmp_percent_K, technology,
-// modules_in_series, and the coefficients of ReadCoefficients. Options that are set already are
-// kept. Errors: no JSON object, a value of the wrong type.
+// modules_in_series, and the coefficients of ReadCoefficients; or from a .PAN file or a row of SAM's
+// library of modules (ReadModuleSheet), without modules_in_series. Options that are set already are
+// kept. Errors: neither of them, a value of the wrong type.
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options);
 
 // Errors: an option outside its range, implausible, or without another one that it needs.

@@ -34,7 +34,7 @@ NamedParameters DataSheetOfThePvue125() {
   sheet.cells_in_series = 36;
   const Expected<DataSheetFit> fit = FitDataSheet(sheet);
   EXPECT_TRUE(fit.has_value()) << fit.error().ToString();
-  return {"data sheet", fit->translation, fit->shared, true};
+  return {"data sheet", fit->translation, fit->shared, true, {}};
 }
 
 int Count(const FamilyReport& report, CurveRole role) {

@@ -183,9 +183,13 @@ TEST_F(BadPvlibFile, IsRefusedForValuesThatNoDeviceHas) {
 }
 
 TEST_F(BadPvlibFile, IsRefusedForAnUnknownLaw) {
-  const json wrapped = {{"function", "calcparams_cec"}, {"parameters", good_}};
-  EXPECT_THAT(Complaint(wrapped.dump(2)),
-              HasSubstr("bad.json:2:3: expected calcparams_desoto or calcparams_pvsyst"));
+  json wrapped = {{"function", "sapm"}, {"parameters", good_}};
+  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("bad.json:2:3: expected calcparams_desoto, "
+                                                    "calcparams_cec or calcparams_pvsyst"));
+  wrapped["function"] = "calcparams_cec";
+  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("a number for the key \"Adjust\""));
+  wrapped["parameters"]["Adjust"] = -101;
+  EXPECT_THAT(Complaint(wrapped.dump(2)), HasSubstr("Adjust"));
   EXPECT_THAT(With("gamma_ref", 1.1), HasSubstr("found the keys of two"));
   EXPECT_THAT(Complaint("{}"), HasSubstr("expected pvlib's parameters"));
 }

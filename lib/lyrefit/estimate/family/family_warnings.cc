@@ -67,6 +67,9 @@ void WarnOfOutlierCurves(const FamilyReport& report, std::vector<std::string>* w
 std::vector<std::string> FamilyWarnings(const FamilyReport& report, const FamilyOptions& options) {
   std::vector<std::string> warnings;
   if (report.interrupted) warnings.push_back("Interrupted: what follows is unfinished.");
+  for (const NamedParameters& other : options.against) {
+    warnings.insert(warnings.end(), other.warnings.begin(), other.warnings.end());
+  }
   for (const RejectedCurve& rejected : report.rejected) {
     warnings.push_back("Not read: " + rejected.error.ToString());
   }

@@ -9,9 +9,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/json_text.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 namespace {
@@ -60,14 +60,15 @@ class Reader {
   // Returns 0 if the keyword is missing.
   int TakeCells() {
     if (error_) return 0;
-    const Expected<std::optional<int>> cells = fields_.WholeNumber({"cells_in_series"});
+    const Expected<std::optional<int>> cells = fields_.WholeNumber({"cells_in_series", "N_s"});
     if (!cells) {
       Remember(cells.error());
       return 0;
     }
     if (!*cells) return 0;
     if (**cells >= 1 && **cells <= kMostCells) return **cells;
-    Remember(fields_.Refuse("cells_in_series", fmt::format("1 to {} cells", kMostCells)).value());
+    const char* key = dictionary_.contains("cells_in_series") ? "cells_in_series" : "N_s";
+    Remember(fields_.Refuse(key, fmt::format("1 to {} cells", kMostCells)).value());
     return 0;
   }
 
@@ -112,16 +113,20 @@ Expected<json> KeywordsIn(const json& document, const std::string& text, const s
   return keywords;
 }
 
+bool IsCec(const json& document) {
+  return document.contains("function") && document["function"] == "calcparams_cec";
+}
+
 Expected<TranslationLaw> LawOf(const json& document, const json& dictionary,
                                const std::string& text, const std::string& path) {
   const bool desoto = dictionary.contains("a_ref");
   const bool pvsyst = dictionary.contains("gamma_ref");
   if (document.contains("function")) {
     const json& function = document["function"];
-    if (function == "calcparams_desoto") return TranslationLaw::kDeSoto;
+    if (function == "calcparams_desoto" || IsCec(document)) return TranslationLaw::kDeSoto;
     if (function == "calcparams_pvsyst") return TranslationLaw::kPvsyst;
     return JsonFields(document, text, path)
-        .Refuse("function", "calcparams_desoto or calcparams_pvsyst");
+        .Refuse("function", "calcparams_desoto, calcparams_cec or calcparams_pvsyst");
   }
   if (desoto != pvsyst) return pvsyst ? TranslationLaw::kPvsyst : TranslationLaw::kDeSoto;
   return Fail(desoto ? "expected one law, found the keys of two: a_ref and gamma_ref"
@@ -150,7 +155,8 @@ Expected<void> TakeShared(const TranslationSpec& spec, const char* ideality, Rea
   return {};
 }
 
-Expected<void> TakeDeSoto(Reader* reader, NamedParameters* module) {
+// `usual_adjust` is the Adjust of a dictionary without one; NaN: it must have one.
+Expected<void> TakeDeSoto(double usual_adjust, Reader* reader, NamedParameters* module) {
   const int cells = reader->TakeCells();
   module->cells_stated = cells > 0;
   TranslationSpec spec;
@@ -160,6 +166,7 @@ Expected<void> TakeDeSoto(Reader* reader, NamedParameters* module) {
   std::vector<double>& p = module->shared;
   p[at.n] /= at.device.module_thermal_voltage_V;
   p[at.bandgap_slope] = reader->Take({"dEgdT", -kInfinity, true, kPvlibBandgapSlope_1_K});
+  p[at.alpha_sc] *= 1 - reader->Take({"Adjust", -100, false, usual_adjust}) / 100;
   return {};
 }
 
@@ -196,8 +203,10 @@ Expected<NamedParameters> ReadPvlibParameters(const std::string& path) {
   Reader reader(dictionary, text, path);
   reader.CheckReference("irrad_ref", kReferenceIrradiance_W_m2);
   reader.CheckReference("temp_ref", kReferenceTemperature_C);
-  const Expected<void> taken =
-      law == TranslationLaw::kPvsyst ? TakePvsyst(&reader, &module) : TakeDeSoto(&reader, &module);
+  const double usual_adjust = IsCec(document) ? kUnknown : 0;
+  const Expected<void> taken = law == TranslationLaw::kPvsyst
+                                   ? TakePvsyst(&reader, &module)
+                                   : TakeDeSoto(usual_adjust, &reader, &module);
   if (!taken) return Fail(taken.error().message, path);
   if (reader.error()) return tl::unexpected(*reader.error());
   // Rejects parameters that pvlib would compute differently, such as a shunt clipped at 0 ohm.

@@ -13,12 +13,14 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct NamedParameters {
   std::string name;  // file name without its folder
   Translation translation;
-  std::vector<double> shared;  // in the translation's order
-  bool cells_stated = true;    // if false, the device counts as one cell, with equal curves
+  std::vector<double> shared;         // in the translation's order
+  bool cells_stated = true;           // if false, the device counts as one cell, with equal curves
+  std::vector<std::string> warnings;  // sentences on what the source states and does not agree
 };
 
-// Reads parameters for pvlib's calcparams_desoto or calcparams_pvsyst, the inverse of
-// PvlibParameters. The file is one that PvlibJson writes, or the bare dictionary of keywords. A
+// Reads parameters for pvlib's calcparams_desoto, calcparams_cec or calcparams_pvsyst, the inverse
+// of PvlibParameters and CecRow. Adjust, in percent, of calcparams_cec and of a CEC row changes
+// alpha_sc to alpha_sc (1 - Adjust / 100), as there; its cells may be called N_s. The file is one that PvlibJson writes, or the bare dictionary of keywords. A
 // bare dictionary shows its law by its ideality (a_ref or gamma_ref). Values with a default in
 // pvlib may be missing. So may De Soto's cells_in_series, which its curves do not need (pvlib's
 // fit_desoto states none). R_sh_ref is infinite where it is null. Errors, with line and column if

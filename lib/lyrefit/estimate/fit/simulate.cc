@@ -69,6 +69,10 @@ Expected<void> CheckOptions(const SimulateOptions& options) {
   if (options.voltage_V.empty() && (options.points < 2 || options.points > 10'000'000)) {
     return Fail(fmt::format("expected 2 to 10000000 points, found {}", options.points));
   }
+  const bool more = !options.with.empty() || options.layout != nullptr || options.shared;
+  if (options.recombination && more) {
+    return Fail("no effects and no strings of unlike cells beside PVsyst's recombination loss");
+  }
   const Conditions& c = options.conditions;
   if (c.cells_in_series < 1 || !(c.cell_temperature_K > 0) ||
       !std::isfinite(c.cell_temperature_K)) {
@@ -185,6 +189,7 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
   TRY(CheckOptions(options));
   if (options.shared) return SimulateShared(options);
   Device device = MakeDevice(options.model, options.conditions, options.constants);
+  if (options.recombination) AddRecombination(&device);
   Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
   const bool as_taken = options.taken.has_value() && options.voltage_V.empty();

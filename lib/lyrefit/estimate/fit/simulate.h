@@ -10,12 +10,12 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/setting_text.h"
 #include "lyrefit/estimate/fit/effect_text.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/setting_text.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -44,6 +44,9 @@ struct SimulateOptions {
   std::optional<IvCurve> taken;
   // Replaces `taken`. `parameters` are then those at the reference, including alpha and EgRef.
   std::optional<SharedLaw> shared;
+  // PVsyst's recombination loss in the i-layer of thin films, with the parameters d2mutau and NsVbi
+  // (V). Not beside effects or a layout.
+  bool recombination = false;
   bool force_effects = false;  // also effects that the readings cannot show
   // Layout of unlike cells (model/string_layout.h); none: all cells have the parameters above.
   std::shared_ptr<const StringLayout> layout;

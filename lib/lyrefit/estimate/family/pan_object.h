@@ -1,0 +1,63 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "lyrefit/base/error.h"
+
+namespace lyrefit {
+
+// Value of one line KEY=VALUE, without blanks around it, and its position from 1.
+struct PanEntry {
+  std::string key;    // as written
+  std::string value;  // as written
+  int line = 0;
+  int column = 0;
+};
+
+// A number to look up: its key, what it is for messages, and its range.
+struct PanNumber {
+  const char* key;
+  const char* what;  // "a current in A"
+  double least = -std::numeric_limits<double>::infinity();
+  bool above_least = true;  // `least` itself is not allowed
+  double most = std::numeric_limits<double>::infinity();
+};
+
+// The entries of the module of a PVsyst .PAN file: those of the object pvModule itself and of its
+// pvCommercial, without those of other blocks inside (remarks, incidence angles, operating points).
+class PanObject {
+ public:
+  const PanEntry* Find(const std::string& key) const;  // null: no such key; case does not count
+
+  // The text of a key; empty if there is none.
+  std::string Text(const std::string& key) const;
+
+  // The number of a key, nullopt if there is none. Errors name the place and what was expected.
+  Expected<std::optional<double>> Number(const PanNumber& number) const;
+  // Number(), for a key that must be there.
+  Expected<double> Required(const PanNumber& number) const;
+
+  // Error at an entry: "expected <expected> in <key>, found '...'".
+  tl::unexpected<Error> Refuse(const PanEntry& entry, const std::string& expected) const;
+
+ private:
+  friend Expected<PanObject> ParsePan(const std::string& text, const std::string& path);
+
+  std::map<std::string, PanEntry> entries_;  // by key in lower case
+  std::string path_;
+  int last_line_ = 0;  // of "End of PVObject pvModule"
+};
+
+// Whether a text begins as PVsyst's component files do.
+bool IsPan(const std::string& text);
+
+// Parses the text of a .PAN file: lines KEY=VALUE in nested blocks, each from PVObject_NAME=TYPE,
+// NAME, Count=N or NAME, list of=N to "End of ...". Errors: another component than a module, such
+// as an inverter; a key of the module twice; a file that ends within a block. `path` is only used
+// in errors.
+Expected<PanObject> ParsePan(const std::string& text, const std::string& path);
+
+}  // namespace lyrefit

@@ -229,7 +229,9 @@ TEST(Batch, LosesNothingToAFullDisk) {
     // Rows are written in groups; if the first group does not fit, no checkpoint remains.
     const std::string part = options.folder + "/results.part";
     const bool kept = std::filesystem::exists(part);
-    if (kept) EXPECT_EQ(FileText(part).back(), '\n');
+    if (kept) {
+      EXPECT_EQ(FileText(part).back(), '\n');
+    }
     EXPECT_FALSE(std::filesystem::exists(options.folder + "/results.csv"));
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {

@@ -198,7 +198,7 @@ TEST(PlotlyJson, KeepsASingleEndOfAnAxis) {
 TEST(PlotlyJson, StandsSlantedNamesUprightInNarrowPages) {
   Figure figure = OnePanel(Steps(SeriesKind::kBars));
   figure.panels[0].x.slanted = true;
-  figure.room_below = 50;
+  figure.margin_below = 50;
   const Json chart = Chart(figure);
   EXPECT_FALSE(chart.at("wide").contains("xaxis.tickangle"));
   EXPECT_EQ(chart.at("narrow").at("xaxis.tickangle"), -90);

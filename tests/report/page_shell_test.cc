@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <nlohmann/json.hpp>
 
+#include "unpack.h"
 #include "well_formed.h"
 
 namespace lyrefit {
@@ -14,35 +14,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-std::string Unpacked(const std::string& packed, std::size_t size) {
-  std::string text(size + 1, '\0');
-  z_stream stream = {};
-  EXPECT_EQ(inflateInit2(&stream, 15 + 16), Z_OK);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(text.data());
-  stream.avail_out = static_cast<uInt>(text.size());
-  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
-  text.resize(stream.total_out);
-  inflateEnd(&stream);
-  return text;
-}
-
-std::string FromBase64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0;
-  int have = 0;
-  for (const char c : text) {
-    const std::size_t digit = digits.find(c);
-    if (digit == std::string::npos) break;
-    bits = bits << 6 | static_cast<unsigned>(digit);
-    have += 6;
-    if (have >= 8) bytes += static_cast<char>(bits >> (have -= 8) & 0xff);
-  }
-  return bytes;
-}
 
 TEST(PageShell, HoldsWhatItIsGivenAndFetchesNothing) {
   PageShell shell;
@@ -99,7 +70,7 @@ TEST(PackedText, IsUnpackedToTheSameInWhateverPartsItComes) {
   for (int i = 0; i < 5000; ++i) text += std::to_string(i * i) + "\n";
   const std::string whole = Packed(text);
   EXPECT_LT(whole.size(), text.size() * 2 / 3);
-  EXPECT_EQ(Unpacked(FromBase64(whole), text.size()), text);
+  EXPECT_EQ(unpack::Gunzipped(unpack::FromBase64(whole)), text);
   EXPECT_EQ(Packed(text), whole);
   for (const std::size_t size : {1, 7, 1000}) {
     PackedText packed;
@@ -108,7 +79,7 @@ TEST(PackedText, IsUnpackedToTheSameInWhateverPartsItComes) {
       parts += packed.Add(text.substr(at, size));
     EXPECT_EQ(parts + packed.End(), whole);
   }
-  EXPECT_EQ(Unpacked(FromBase64(Packed("")), 0), "");
+  EXPECT_EQ(unpack::Gunzipped(unpack::FromBase64(Packed(""))), "");
 }
 
 TEST(Base64, HasTheVectorsOfRfc4648) {

@@ -132,7 +132,7 @@ block::Figure GroupsFigure(const PlantSummary& summary) {
   shown.figure.legend = LegendOf(causes, LegendMark::kBar);
   shown.figure.panels = {StackedBars(groups, causes, loss)};
   shown.figure.panel_width = 760;
-  shown.figure.room_below = 70;
+  shown.figure.margin_below = 70;
   shown.readings.alignment = "l" + std::string(causes.size() + 1, 'r');
   shown.readings.heads = {{"group", fmt::format("all ({})", loss.Unit())}};
   shown.readings.caption = "The groups that lose most.";

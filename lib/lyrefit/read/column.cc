@@ -105,11 +105,6 @@ const Name* FindName(std::string_view text) {
   return nullptr;
 }
 
-bool IsElectrical(ColumnKind kind) {
-  return kind == ColumnKind::kVoltage || kind == ColumnKind::kCurrent ||
-         kind == ColumnKind::kCurrentDensity;
-}
-
 void DropQualifiers(std::vector<LabelWord>* words) {
   if (words->size() < 2) return;
   std::vector<LabelWord> kept;

@@ -19,6 +19,16 @@ enum class ColumnKind {
   kArea,            // stated in the head of a table, never a column
 };
 
+// Whether a kind is a current, per area or not.
+inline bool IsCurrent(ColumnKind kind) {
+  return kind == ColumnKind::kCurrent || kind == ColumnKind::kCurrentDensity;
+}
+
+// Whether a kind is a voltage or a current.
+inline bool IsElectrical(ColumnKind kind) {
+  return kind == ColumnKind::kVoltage || IsCurrent(kind);
+}
+
 // Direction of a sweep: towards higher voltages or towards lower ones.
 enum class SweepDirection { kUnknown, kForward, kReverse };
 

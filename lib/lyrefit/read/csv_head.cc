@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/json_row.h"
 #include "lyrefit/read/list_text.h"
 #include "lyrefit/read/number_text.h"
@@ -29,11 +30,6 @@ std::vector<std::string> Split(std::string_view line, char delimiter) {
   for (std::size_t i = 0; i < splitter.size(); ++i) fields.emplace_back(TrimBlanks(splitter[i]));
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
   return fields;
-}
-
-bool IsElectrical(ColumnKind kind) {
-  return kind == ColumnKind::kVoltage || kind == ColumnKind::kCurrent ||
-         kind == ColumnKind::kCurrentDensity;
 }
 
 // The names as columns, with the columns named by the options.

@@ -45,9 +45,7 @@ Expected<IvCurve> NestedCurve(std::string_view text, const RecordPlace& place,
 
 bool HasReadings(const Records& fields) {
   return std::any_of(fields.lists.begin(), fields.lists.end(), [](const Record& list) {
-    const ColumnKind kind = MeaningOf(list.name).column.kind;
-    return kind == ColumnKind::kVoltage || kind == ColumnKind::kCurrent ||
-           kind == ColumnKind::kCurrentDensity;
+    return IsElectrical(MeaningOf(list.name).column.kind);
   });
 }
 

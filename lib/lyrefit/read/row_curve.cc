@@ -11,6 +11,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/current_sign.h"
+#include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/number_text.h"
 #include "lyrefit/read/row_names.h"
 #include "lyrefit/read/select_sweep.h"
@@ -52,10 +53,8 @@ tl::unexpected<Error> RefuseNames(const RowReading& reading) {
     });
   };
   for (const Column& column : reading.columns) {
-    const bool wanted = column.kind == ColumnKind::kVoltage ||
-                        column.kind == ColumnKind::kCurrent ||
-                        column.kind == ColumnKind::kCurrentDensity;
-    if (wanted && !column.refusal.empty()) return reading.place.Refuse(column.refusal);
+    if (IsElectrical(column.kind) && !column.refusal.empty())
+      return reading.place.Refuse(column.refusal);
   }
   const bool current = has(ColumnKind::kCurrent) || has(ColumnKind::kCurrentDensity);
   const char* missing = "neither";

@@ -36,9 +36,7 @@ std::optional<SunsVocColumns> FindSunsVoc(const std::vector<std::string>& labels
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
     const Column column = RecogniseColumn(labels[i]);
     const NameAndUnit label = SplitUnit(labels[i]);
-    const bool current =
-        column.kind == ColumnKind::kCurrent || column.kind == ColumnKind::kCurrentDensity;
-    if (current && column.refusal.empty()) return std::nullopt;
+    if (IsCurrent(column.kind) && column.refusal.empty()) return std::nullopt;
     const Unit* volt = FindUnit(ColumnKind::kVoltage, label.unit);
     const Unit* ampere = FindUnit(ColumnKind::kCurrent, label.unit);
     const bool voc = label.name == "voc" && (label.unit.empty() || volt != nullptr);

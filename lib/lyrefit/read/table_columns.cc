@@ -3,210 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <string_view>
 
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
-#include "lyrefit/read/suns_voc.h"
 
 namespace lyrefit {
 namespace {
-
-// Suffixes of V and I for key points and for quantities that were not measured.
-constexpr std::string_view kNoReading[] = {
-    "sc",  "oc",       "mp",    "mpp",   "pm",   "max",    "min", "x",   "xx",    "pmax",
-    "set", "setpoint", "model", "fit",   "stc",  "ref",    "nom", "lim", "limit", "range",
-    "src", "source",   "step",  "start", "stop", "offset", "ph",  "d",   "rms",   "nominal"};
-
-bool IsCurrent(ColumnKind kind) {
-  return kind == ColumnKind::kCurrent || kind == ColumnKind::kCurrentDensity;
-}
-
-bool SameSide(ColumnKind a, ColumnKind b) { return a == b || (IsCurrent(a) && IsCurrent(b)); }
-
-// Interpretations of a column by its unit and by the first letter of its name.
-struct Guess {
-  ColumnKind by_unit = ColumnKind::kUnrecognised;
-  ColumnKind by_letter = ColumnKind::kUnrecognised;
-  std::string suffix;  // the name after the letter
-  const Unit* unit = nullptr;
-};
-
-Guess GuessAt(std::string_view label) {
-  Guess guess;
-  const std::vector<LabelWord> words = SplitLabel(label);
-  std::size_t name_words = 0;
-  while (name_words < words.size() && !words[name_words].marked_as_unit) ++name_words;
-  const std::string name = JoinWords(words, 0, name_words);
-  const std::string unit = JoinWords(words, name_words, words.size());
-  if (name.empty()) return guess;
-  guess.suffix = name.substr(1);
-  const bool no_reading =
-      std::find(std::begin(kNoReading), std::end(kNoReading), guess.suffix) != std::end(kNoReading);
-  if (no_reading) return guess;
-  for (const ColumnKind kind :
-       {ColumnKind::kVoltage, ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
-    const Unit* found = FindUnit(kind, unit);
-    if (found == nullptr) continue;
-    guess.by_unit = kind;
-    guess.unit = found;
-  }
-  const char letter = name[0];
-  ColumnKind by_letter = ColumnKind::kUnrecognised;
-  if (letter == 'v' || letter == 'u') by_letter = ColumnKind::kVoltage;
-  if (letter == 'i') by_letter = ColumnKind::kCurrent;
-  if (letter == 'j') by_letter = ColumnKind::kCurrentDensity;
-  const bool fits = unit.empty() || SameSide(guess.by_unit, by_letter);
-  if (!guess.suffix.empty() && fits) guess.by_letter = by_letter;
-  return guess;
-}
-
-void Become(ColumnKind kind, const Unit* unit, Column* column) {
-  const std::string label = column->label;
-  *column = {};
-  column->label = label;
-  column->kind = kind;
-  if (unit == nullptr) return;
-  column->unit = unit->text;
-  column->factor = unit->factor;
-}
-
-// Sets the two columns as voltage and current; other columns of these kinds are no longer used.
-void TakePair(const std::vector<Guess>& guesses, int voltage, int current,
-              std::vector<Column>* columns) {
-  for (Column& column : *columns) {
-    if (column.kind == ColumnKind::kVoltage || IsCurrent(column.kind)) {
-      column.kind = ColumnKind::kUnrecognised;
-    }
-  }
-  Become(ColumnKind::kVoltage, guesses[voltage].unit, &(*columns)[voltage]);
-  const Guess& guess = guesses[current];
-  const ColumnKind kind =
-      guess.by_unit != ColumnKind::kUnrecognised ? guess.by_unit : guess.by_letter;
-  Become(kind, guess.unit, &(*columns)[current]);
-}
-
-bool GuessByLetter(const std::vector<Guess>& guesses, std::vector<Column>* columns) {
-  std::map<std::string, std::pair<std::vector<int>, std::vector<int>>> pairs;
-  for (int i = 0; i < static_cast<int>(guesses.size()); ++i) {
-    if (guesses[i].by_letter == ColumnKind::kVoltage) pairs[guesses[i].suffix].first.push_back(i);
-    if (IsCurrent(guesses[i].by_letter)) pairs[guesses[i].suffix].second.push_back(i);
-  }
-  std::vector<std::pair<int, int>> found;
-  for (const auto& [suffix, sides] : pairs) {
-    const auto& [voltages, currents] = sides;
-    if (voltages.size() == 1 && currents.size() == 1) found.emplace_back(voltages[0], currents[0]);
-  }
-  if (found.size() != 1) return false;
-  TakePair(guesses, found[0].first, found[0].second, columns);
-  return true;
-}
-
-bool GuessByUnit(const std::vector<Guess>& guesses, std::vector<Column>* columns) {
-  const auto only = [&](ColumnKind kind) {
-    int place = -1;
-    for (int i = 0; i < static_cast<int>(guesses.size()); ++i) {
-      const bool known = (*columns)[i].kind == kind && (*columns)[i].refusal.empty();
-      if (!known && guesses[i].by_unit != kind) continue;
-      if (place != -1) return -1;
-      place = i;
-    }
-    return place;
-  };
-  const int voltage = only(ColumnKind::kVoltage);
-  int current = only(ColumnKind::kCurrent);
-  if (current == -1) current = only(ColumnKind::kCurrentDensity);
-  if (voltage == -1 || current == -1) return false;
-  const Column kept[] = {(*columns)[voltage], (*columns)[current]};
-  TakePair(guesses, voltage, current, columns);
-  if (kept[0].kind == ColumnKind::kVoltage) (*columns)[voltage] = kept[0];
-  if (IsCurrent(kept[1].kind)) (*columns)[current] = kept[1];
-  return true;
-}
-
-// Pairs of "a_rev_V" and "a_rev": the voltage has the name of its current. All columns must be such
-// pairs.
-bool GuessByVoltageName(std::vector<Column>* columns) {
-  constexpr std::string_view kEnding = "_v";
-  std::vector<ColumnPair> pairs;
-  for (int i = 0; i < static_cast<int>(columns->size()); ++i) {
-    const std::string name = LowerCase(TrimBlanks((*columns)[i].label));
-    if (name.size() <= kEnding.size() || name.substr(name.size() - kEnding.size()) != kEnding) {
-      continue;
-    }
-    const std::string current = name.substr(0, name.size() - kEnding.size());
-    for (int k = 0; k < static_cast<int>(columns->size()); ++k) {
-      if (LowerCase(TrimBlanks((*columns)[k].label)) == current) pairs.push_back({i, k});
-    }
-  }
-  if (pairs.empty() || 2 * pairs.size() != columns->size()) return false;
-  for (const ColumnPair& pair : pairs) {
-    const ColumnTag tag = ReadTag((*columns)[pair.current].label);
-    Become(ColumnKind::kVoltage, FindUnit(ColumnKind::kVoltage, "v"), &(*columns)[pair.voltage]);
-    Become(ColumnKind::kCurrent, nullptr, &(*columns)[pair.current]);
-    (*columns)[pair.voltage].tag = (*columns)[pair.current].tag = tag;
-  }
-  return true;
-}
-
-// Whether a name is a word with a number: "series1", "Pixel 3".
-bool IsNumberedName(const std::string& name) {
-  const std::size_t letters = name.find_first_not_of("abcdefghijklmnopqrstuvwxyz");
-  const std::size_t digits = name.find_first_of("0123456789");
-  return letters != std::string::npos && letters > 3 && digits != std::string::npos &&
-         digits <= letters + 1 && name.find_first_not_of("0123456789", digits) == std::string::npos;
-}
-
-// Open-circuit voltages over light. The light takes the place of the current.
-bool GuessSunsVoc(std::vector<Column>* columns) {
-  std::vector<std::string> labels;
-  for (const Column& column : *columns) labels.push_back(column.label);
-  const auto trace = FindSunsVoc(labels);
-  if (!trace) return false;
-  Become(ColumnKind::kVoltage, FindUnit(ColumnKind::kVoltage, "v"), &(*columns)[trace->voltage]);
-  (*columns)[trace->voltage].factor = trace->voltage_factor;
-  Become(ColumnKind::kCurrent, FindUnit(ColumnKind::kCurrent, "a"), &(*columns)[trace->light]);
-  (*columns)[trace->light].light = true;
-  return true;
-}
-
-// One voltage beside columns under the names of devices. They are currents if they share a unit of
-// current, or if there is only one of them and its name is a word with a number.
-bool GuessBesideVoltage(const std::vector<Guess>& guesses, std::vector<Column>* columns) {
-  int voltage = -1;
-  std::vector<int> others;
-  for (int i = 0; i < static_cast<int>(columns->size()); ++i) {
-    const Column& column = (*columns)[i];
-    const bool known = column.kind == ColumnKind::kVoltage && column.refusal.empty();
-    if (known || guesses[i].by_unit == ColumnKind::kVoltage) {
-      if (voltage != -1) return false;
-      voltage = i;
-    } else if (column.kind == ColumnKind::kUnrecognised) {
-      others.push_back(i);
-    } else {
-      return false;
-    }
-  }
-  if (voltage == -1 || others.empty()) return false;
-  const Guess& first = guesses[others[0]];
-  const std::string name = LowerCase(TrimBlanks((*columns)[others[0]].label));
-  const bool one_name = others.size() == 1 && columns->size() == 2 && IsNumberedName(name);
-  const bool share_unit = IsCurrent(first.by_unit) &&
-                          std::all_of(others.begin(), others.end(),
-                                      [&](int other) { return guesses[other].unit == first.unit; });
-  if (!one_name && !share_unit) return false;
-  if ((*columns)[voltage].kind != ColumnKind::kVoltage) {
-    Become(ColumnKind::kVoltage, guesses[voltage].unit, &(*columns)[voltage]);
-  }
-  for (const int other : others) {
-    const std::string& label = (*columns)[other].label;
-    const ColumnTag tag = ReadTag(std::string_view(label).substr(0, label.find_first_of("[(")));
-    Become(share_unit ? first.by_unit : ColumnKind::kCurrent, first.unit, &(*columns)[other]);
-    (*columns)[other].tag = tag;
-  }
-  return true;
-}
 
 std::vector<int> Usable(const std::vector<Column>& columns, ColumnKind kind) {
   std::vector<int> places;
@@ -294,7 +96,8 @@ void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns)
     const auto place = wish->empty() ? std::nullopt : FindColumn(*columns, *wish);
     if (!place) continue;
     for (Column& column : *columns) {
-      if (SameSide(column.kind, kind)) column.kind = ColumnKind::kUnrecognised;
+      if (column.kind == kind || (IsCurrent(column.kind) && IsCurrent(kind)))
+        column.kind = ColumnKind::kUnrecognised;
     }
     (*columns)[*place] = ColumnSaidToBe(kind, (*columns)[*place].label);
   }
@@ -340,14 +143,6 @@ Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channe
     }
   }
   return {};
-}
-
-bool GuessColumns(std::vector<Column>* columns) {
-  std::vector<Guess> guesses;
-  for (const Column& column : *columns) guesses.push_back(GuessAt(column.label));
-  return GuessByLetter(guesses, columns) || GuessByVoltageName(columns) ||
-         GuessByUnit(guesses, columns) || GuessSunsVoc(columns) ||
-         GuessBesideVoltage(guesses, columns);
 }
 
 std::vector<Channel> FindChannels(const std::vector<Column>& columns) {

@@ -34,13 +34,6 @@ void ApplyColumnWishes(const ReadOptions& options, std::vector<Column>* columns)
 Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channel,
                                std::vector<Column>* columns);
 
-// Guesses voltage and current from unrecognised names. First choice is the only pair of a letter
-// and a common suffix ("Vx", "Ix"), then pairs whose voltage has the name of its current and a "_V"
-// ("a_rev_V", "a_rev"), then the only columns in volt and in ampere, then a Suns-Voc
-// trace, then one voltage beside other columns that share a unit or, if there is one only, name
-// none. False if there is none of these.
-bool GuessColumns(std::vector<Column>* columns);
-
 // All channels. One voltage is paired with every current; several are paired with as many currents
 // by tag, else by order. Current densities are used if there is no current, and averages if there
 // is no other column. Pairs of one device and light in several directions are one channel, as are

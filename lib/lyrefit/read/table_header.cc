@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
 #include "lyrefit/read/table_columns.h"

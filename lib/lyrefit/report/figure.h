@@ -150,7 +150,7 @@ struct Figure {
   std::vector<Panel> panels = {};        // row by row from the upper left
   int columns = 1;                       // of panels
   int panel_width = 0;                   // pixels; 0: selected by the number of columns
-  int room_below = 0;                    // pixels below each panel, for slanted names
+  int margin_below = 0;                  // pixels below each panel, for slanted names
   std::optional<ColourBar> colour_bar = {};
 };
 

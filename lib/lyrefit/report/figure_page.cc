@@ -109,7 +109,7 @@ PageLayout LayOut(const Figure& figure) {
     const int first_of_row = p - p % page.columns;
     page.top.push_back(p == first_of_row ? page.height + kPanelTitle : page.top[first_of_row]);
     if (p != first_of_row) continue;
-    page.height += kPanelTitle + figure.panels[p].height + kAxis + figure.room_below +
+    page.height += kPanelTitle + figure.panels[p].height + kAxis + figure.margin_below +
                    (figure.colour_bar ? kColourBarRoom : 0);
   }
   return page;

@@ -164,17 +164,17 @@ Json Places(const Figure& figure, int columns, bool narrow) {
   const bool titled = std::any_of(figure.panels.begin(), figure.panels.end(),
                                   [](const Panel& panel) { return !panel.title.empty(); });
   const double title_room = !titled ? kNoTitleRoom : narrow ? kNarrowTitleRoom : kTitleRoom;
-  const double room_below = figure.room_below * (narrow ? kUprightRoom : 1);
+  const double margin_below = figure.margin_below * (narrow ? kUprightRoom : 1);
   std::vector<double> top;
   double height = 0;
   for (int p = 0; p < panels; ++p) {
     const bool begins = p % columns == 0;
     top.push_back(begins ? height + title_room : top.back());
     if (begins) {
-      height += title_room + figure.panels[p].height + kAxisRoom + room_below;
+      height += title_room + figure.panels[p].height + kAxisRoom + margin_below;
     }
   }
-  const double last_axis = kAxisRoom + room_below;
+  const double last_axis = kAxisRoom + margin_below;
   const double area = std::max(1.0, height - last_axis);
   const double width = (1 - (columns - 1) * kColumnGap) / columns;
   Json places = Json::object();

@@ -132,7 +132,7 @@ Figure BoxFigure(const Comparison& comparison) {
                             comparison.options.runs, kFloor),
                 LegendOf(legend, LegendMark::kBox)};
   figure.columns = Columns(comparison);
-  figure.room_below = std::max(0, 6 * static_cast<int>(longest) - 30);
+  figure.margin_below = std::max(0, 6 * static_cast<int>(longest) - 30);
   for (const ProblemResult& problem : comparison.problems) {
     figure.panels.push_back(BoxPanel(comparison, problem));
   }

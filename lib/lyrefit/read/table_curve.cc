@@ -77,16 +77,16 @@ std::vector<fs::path> TablesIn(const fs::path& folder) {
   return tables;
 }
 
-Expected<RawCurve> TableCurveFromText(const DecodedText& decoded, const std::string& path,
+Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,
                                       const ReadOptions& options) {
-  const DecodedText text = RewriteTable(decoded);
-  TRY(Table table, ReadTable(text.text, path, options));
+  const DecodedText rewritten = RewriteTable(text);
+  TRY(Table table, ReadTable(rewritten.text, path, options));
   RawCurve raw;
   raw.curve = std::move(table.curve);
   raw.stated = std::move(table.head);
   raw.per_area = table.per_area;
-  if (!text.remark.empty()) {
-    raw.curve.assumptions.insert(raw.curve.assumptions.begin(), text.remark);
+  if (!rewritten.remark.empty()) {
+    raw.curve.assumptions.insert(raw.curve.assumptions.begin(), rewritten.remark);
   }
   if (auto selected = SelectSweep(options.curve, table.holds_curves, &raw.curve); !selected) {
     return Fail(selected.error().message, path);

@@ -74,7 +74,9 @@ Expected<void> PickChannel(const ReadOptions& options, const HeaderPlace& place,
     const std::size_t blamed = options.column.empty() ? 1 : 0;
     return place.Refuse(chosen.error().message, layout->channels[blamed].current);
   }
-  TRY(ApplyUnitWishes(options, *chosen, &layout->columns));
+  for (const Channel& channel : layout->channels) {
+    TRY(ApplyUnitWishes(options, channel, &layout->columns));
+  }
   layout->voltage = chosen->voltage;
   layout->current = chosen->current;
   layout->more = chosen->more;

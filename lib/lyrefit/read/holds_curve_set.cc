@@ -14,7 +14,6 @@
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/select_sweep.h"
 #include "lyrefit/read/table_curve.h"
-#include "lyrefit/read/table_layout.h"
 
 namespace lyrefit {
 namespace {
@@ -37,13 +36,11 @@ bool JsonHoldsSet(const nlohmann::json& document, const std::string& path,
 }
 
 bool TableHoldsSet(const std::string& text, const fs::path& path, const ReadOptions& options) {
-  ReadOptions first = options;
-  if (first.column.empty()) first.column = "1";
-  const auto layout = FindTableLayout(text, path.string(), first);
-  if (!layout) return HoldsKeyPoints(text, path.string());
-  if (layout->channels.size() > 1 && options.column.empty()) return true;
-  const auto table = ReadTable(text, path.string(), options, BrokenRows::kSetAside);
-  if (!table) return false;
+  const auto tables = ReadTables(text, path.string(), options, BrokenRows::kSetAside);
+  if (!tables) return HoldsKeyPoints(text, path.string());
+  if (tables->size() > 1) return true;
+  const Table* const table = &tables->front();
+  if (table->error) return false;
   std::set<int> numbers(table->curve.sweep.begin(), table->curve.sweep.end());
   for (const auto& broken : table->broken) numbers.insert(broken.first);
   if (numbers.size() < 2) return false;

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/current_sign.h"
 #include "lyrefit/read/curve_set.h"
@@ -22,7 +21,6 @@
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/select_sweep.h"
 #include "lyrefit/read/table_curve.h"
-#include "lyrefit/read/table_layout.h"
 
 namespace lyrefit {
 namespace {
@@ -65,28 +63,19 @@ std::vector<TablePart> SplitTable(const Table& table, const std::string& path) {
   return parts;
 }
 
-// Number of voltage-current pairs side by side.
-Expected<std::size_t> CountChannels(std::string_view text, const std::string& path,
-                                    const ReadOptions& options) {
-  ReadOptions first = options;
-  if (first.column.empty()) first.column = "1";
-  TRY(const TableLayout layout, FindTableLayout(text, path, first));
-  return layout.channels.size();
-}
-
-// Adds each voltage-current pair as a curve, named by its current.
-Expected<void> AddChannels(std::string_view text, const std::string& path, std::size_t channels,
-                           const ReadOptions& options, CurveSetBuilder* builder) {
+// Adds each measurement side by side as a curve, named by its current.
+void AddChannels(std::vector<Table> tables, const std::string& path, CurveSetBuilder* builder) {
   std::set<std::string> ids;
-  for (std::size_t i = 1; i <= channels; ++i) {
-    if (StoppableReads::Stopped()) return FailAsStopped(path);
-    ReadOptions one = options;
-    one.column = std::to_string(i);
-    TRY(Table table, ReadTable(text, path, one));
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    Table& table = tables[i];
     RawCurve raw{std::move(table.curve), table.head, table.per_area};
     raw.curve.source = path;
     raw.curve.name = table.name;
-    if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i);
+    if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i + 1);
+    if (table.error) {
+      builder->Reject(raw.curve.name, *table.error);
+      continue;
+    }
     if (auto whole = SelectSweep(std::nullopt, table.holds_curves, &raw.curve); !whole) {
       builder->Reject(raw.curve.name, {whole.error().message, path});
       continue;
@@ -94,13 +83,12 @@ Expected<void> AddChannels(std::string_view text, const std::string& path, std::
     TurnLoadSign(&raw.curve);
     builder->Add(std::move(raw), 0);
   }
-  return {};
 }
 
 // Adds a curve for each number in the column curve or sweep, and for each further table below.
-Expected<void> AddSweeps(std::string_view text, const std::string& path, const fs::path& index,
-                         const ReadOptions& options, CurveSetBuilder* builder) {
-  TRY(const Table table, ReadTable(text, path, options, BrokenRows::kSetAside));
+Expected<void> AddSweeps(const Table& table, const std::string& path, const fs::path& index,
+                         CurveSetBuilder* builder) {
+  if (table.error) return tl::unexpected(*table.error);
   if (table.curve.sweep.empty() && table.broken.empty()) {
     return Fail("expected a column curve or sweep that tells several curves apart, found none",
                 path);
@@ -133,16 +121,17 @@ Expected<CurveSet> SetFromTable(const DecodedText& decoded, const std::string& p
   const fs::path common =
       in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
   const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
-  const Expected<std::size_t> counted = CountChannels(text.text, path, options);
-  if (!counted && HoldsKeyPoints(text.text, path)) {
+  auto read = ReadTables(text.text, path, options, BrokenRows::kSetAside);
+  if (!read && HoldsKeyPoints(text.text, path)) {
     return ReadKeyPoints(text, path, common.string(), options);
   }
-  TRY(const std::size_t channels, counted);
+  TRY(std::vector<Table> tables, std::move(read));
   TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
-  auto added = channels > 1 && options.column.empty()
-                   ? AddChannels(text.text, path, channels, options, &builder)
-                   : AddSweeps(text.text, path, index, options, &builder);
-  if (!added) return tl::unexpected(added.error());
+  if (tables.size() > 1) {
+    AddChannels(std::move(tables), path, &builder);
+  } else {
+    TRY(AddSweeps(tables.front(), path, index, &builder));
+  }
   return builder.Finish();
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -21,121 +23,108 @@
 namespace lyrefit {
 namespace {
 
-// A column that is read, and the destination of its values.
-struct Slot {
-  int field;
-  std::vector<double>* values;
+// One measurement of a table while it is read.
+struct TableReading {
+  ReadOptions options;  // that choose it
+  TableLayout layout;
+  Table table = {};
+  std::vector<FurtherSweep> further = {};  // of the present table
+  std::vector<std::size_t> starts = {};    // first rows of the second and later tables
+  std::vector<Sidecar> heads = {};         // of the second and later tables
 };
 
-class RowReader {
- public:
-  RowReader(const TableLayout& layout, const std::string& file, bool skip_missing, Table* table)
-      : layout_(layout),
-        row_(layout.columns, layout.delimiter, file),
-        skip_missing_(skip_missing),
-        table_(table) {
-    IvCurve* curve = &table->curve;
-    slots_ = {{layout.voltage, &curve->voltage_V}, {layout.current, &curve->current_A}};
-    if (layout.sigma != kNoColumn) slots_.push_back({layout.sigma, &curve->sigma_A});
-    if (layout.time != kNoColumn) slots_.push_back({layout.time, &curve->time_s});
-    if (layout.irradiance != kNoColumn) {
-      slots_.push_back({layout.irradiance, &curve->irradiance_W_m2});
-    }
-    if (layout.temperature != kNoColumn) {
-      slots_.push_back({layout.temperature, &curve->temperature_C});
-    }
-    values_.resize(slots_.size());
-    further_.resize(layout.more.size());
+bool IsMissing(const TableRow& row, const ColumnPair& pair, char delimiter) {
+  return IsMissingReading(row[pair.voltage], delimiter != ',') ||
+         IsMissingReading(row[pair.current], delimiter != ',');
+}
+
+// Whether a pair has ended: of pairs side by side, some may be shorter than others.
+bool IsPastEnd(const TableRow& row, const ColumnPair& pair) {
+  const auto empty = [&](int field) { return field >= row.size() || row[field].empty(); };
+  return empty(pair.voltage) && empty(pair.current);
+}
+
+// Appends the fields to their lists, and the number of the sweep if `sweeps` is its column,
+// completely or not at all.
+Expected<void> TakeFields(std::initializer_list<std::pair<int, std::vector<double>*>> fields,
+                          int sweep_field, std::vector<int>* sweeps, TableRow* row) {
+  std::array<double, 6> values;
+  std::size_t count = 0;
+  for (const auto& [field, list] : fields) {
+    if (field == kNoColumn) continue;
+    TRY(values[count++], row->Value(field));
   }
-
-  // Appends the row completely or not at all. A row with a missing reading may be skipped.
-  Expected<void> Read(std::string_view line, int number) {
-    const ColumnPair first = {layout_.voltage, layout_.current};
-    const bool side_by_side = layout_.channels.size() > 1 || !layout_.more.empty();
-    const bool ended = side_by_side && IsPastEnd(line, first);
-    if (ended && layout_.more.empty()) return {};
-    TRY(row_.Take(line, number));
-    for (std::size_t i = 0; i < further_.size(); ++i) {
-      TRY(ReadFurther(line, number, layout_.more[i], &further_[i]));
-    }
-    if (ended) return {};
-    if (skip_missing_ && IsMissing(first)) {
-      table_->skipped.push_back(number);
-      return {};
-    }
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-      TRY(const double value, row_.Value(slots_[i].field));
-      values_[i] = value;
-    }
-    if (layout_.sweep != kNoColumn) {
-      TRY(const int sweep, row_.WholeNumber(layout_.sweep));
-      table_->curve.sweep.push_back(sweep);
-    }
-    for (std::size_t i = 0; i < slots_.size(); ++i) slots_[i].values->push_back(values_[i]);
-    table_->lines.push_back(number);
-    return {};
+  if (sweep_field != kNoColumn) {
+    TRY(const int sweep, row->WholeNumber(sweep_field));
+    sweeps->push_back(sweep);
   }
-
-  // The further sweeps of the measurement.
-  std::vector<FurtherSweep> TakeFurther() { return std::move(further_); }
-
-  // Records the error of a row that Read refused. False if the row's sweep cannot be read.
-  bool SetAside(std::string_view line, int number, const Error& error) {
-    if (layout_.sweep == kNoColumn || !row_.Take(line, number)) return false;
-    const Expected<int> sweep = row_.WholeNumber(layout_.sweep);
-    if (sweep) table_->broken.try_emplace(*sweep, error);
-    return sweep.has_value();
+  count = 0;
+  for (const auto& [field, list] : fields) {
+    if (field != kNoColumn) list->push_back(values[count++]);
   }
+  return {};
+}
 
- private:
-  bool IsMissing(const ColumnPair& pair) const {
-    const bool comma = layout_.delimiter != ',';
-    return IsMissingReading(row_[pair.voltage], comma) ||
-           IsMissingReading(row_[pair.current], comma);
+Expected<bool> TakeFurther(const ColumnPair& pair, TableRow* row, TableReading* reading,
+                           FurtherSweep* sweep) {
+  const TableLayout& layout = reading->layout;
+  if (IsPastEnd(*row, pair)) return false;
+  if (reading->options.skip_missing && IsMissing(*row, pair, layout.delimiter)) {
+    std::vector<int>& skipped = reading->table.skipped;
+    if (skipped.empty() || skipped.back() != row->number()) skipped.push_back(row->number());
+    return true;
   }
+  IvCurve* const curve = &sweep->curve;
+  TRY(TakeFields({{pair.voltage, &curve->voltage_V},
+                  {pair.current, &curve->current_A},
+                  {layout.sigma, &curve->sigma_A},
+                  {layout.irradiance, &curve->irradiance_W_m2},
+                  {layout.temperature, &curve->temperature_C}},
+                 kNoColumn, nullptr, row));
+  sweep->lines.push_back(row->number());
+  return true;
+}
 
-  // Whether a pair has ended: of pairs side by side, some may be shorter than others.
-  bool IsPastEnd(std::string_view line, const ColumnPair& pair) const {
-    const auto fields = SplitFields(line, layout_.delimiter);
-    if (!fields) return false;
-    const auto empty = [&](int field) {
-      return field >= static_cast<int>(fields->size()) || (*fields)[field].empty();
-    };
-    return empty(pair.voltage) && empty(pair.current);
+// Appends a row to a measurement. False if the measurement has nothing in this row. A row with a
+// missing reading may be skipped.
+Expected<bool> TakeRow(TableRow* row, TableReading* reading) {
+  const TableLayout& layout = reading->layout;
+  const ColumnPair first = layout.channel();
+  const bool side_by_side = layout.channels.size() > 1 || !layout.more.empty();
+  const bool ended = side_by_side && IsPastEnd(*row, first);
+  if (ended && layout.more.empty()) return false;
+  TRY(row->CheckLength());
+  bool taken = !ended;
+  for (std::size_t i = 0; i < layout.more.size(); ++i) {
+    TRY(const bool further, TakeFurther(layout.more[i], row, reading, &reading->further[i]));
+    taken = taken || further;
   }
-
-  Expected<void> ReadFurther(std::string_view line, int number, const ColumnPair& pair,
-                             FurtherSweep* sweep) {
-    if (IsPastEnd(line, pair)) return {};
-    if (skip_missing_ && IsMissing(pair)) {
-      if (table_->skipped.empty() || table_->skipped.back() != number) {
-        table_->skipped.push_back(number);
-      }
-      return {};
-    }
-    const std::pair<int, std::vector<double>*> targets[] = {
-        {pair.voltage, &sweep->curve.voltage_V},
-        {pair.current, &sweep->curve.current_A},
-        {layout_.sigma, &sweep->curve.sigma_A},
-        {layout_.irradiance, &sweep->curve.irradiance_W_m2},
-        {layout_.temperature, &sweep->curve.temperature_C}};
-    for (const auto& [field, values] : targets) {
-      if (field == kNoColumn) continue;
-      TRY(const double value, row_.Value(field));
-      values->push_back(value);
-    }
-    sweep->lines.push_back(number);
-    return {};
+  if (ended) return taken;
+  Table& table = reading->table;
+  if (reading->options.skip_missing && IsMissing(*row, first, layout.delimiter)) {
+    table.skipped.push_back(row->number());
+    return true;
   }
+  IvCurve* const curve = &table.curve;
+  TRY(TakeFields({{layout.voltage, &curve->voltage_V},
+                  {layout.current, &curve->current_A},
+                  {layout.sigma, &curve->sigma_A},
+                  {layout.time, &curve->time_s},
+                  {layout.irradiance, &curve->irradiance_W_m2},
+                  {layout.temperature, &curve->temperature_C}},
+                 layout.sweep, &curve->sweep, row));
+  table.lines.push_back(row->number());
+  return true;
+}
 
-  const TableLayout& layout_;
-  TableRow row_;
-  const bool skip_missing_;
-  Table* table_;
-  std::vector<Slot> slots_;
-  std::vector<double> values_;
-  std::vector<FurtherSweep> further_;
-};
+// Records the error of a row that was refused. False if the row's sweep cannot be read.
+bool SetAside(const Error& error, TableRow* row, TableReading* reading) {
+  const int column = reading->layout.sweep;
+  if (column == kNoColumn || !row->CheckLength()) return false;
+  const Expected<int> sweep = row->WholeNumber(column);
+  if (sweep) reading->table.broken.try_emplace(*sweep, error);
+  return sweep.has_value();
+}
 
 bool HasLetter(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) {
@@ -163,11 +152,8 @@ bool IsText(std::string_view line, const TableLayout& layout) {
 struct TablesBelow {
   std::string_view text;
   const std::string& file;
-  const ReadOptions& options;
   BrokenRows broken_rows;
-  Table table;
-  std::vector<std::size_t> starts;  // first rows of the second and later tables
-  std::vector<Sidecar> heads;
+  std::vector<TableReading> readings;  // of the measurements side by side that are wanted
 };
 
 // Whether the lines up to line `before` (0: the end) contain no row of the table.
@@ -179,7 +165,7 @@ bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
   return true;
 }
 
-void SayWhatWasLeft(Table* table, LineReader lines) {
+void SayWhatWasLeft(LineReader lines, std::vector<TableReading>* readings) {
   constexpr int kShown = 3;
   int count = 0;
   std::string shown;
@@ -190,39 +176,77 @@ void SayWhatWasLeft(Table* table, LineReader lines) {
     if (count <= kShown) shown += (count == 1 ? "" : ", ") + Quoted(line);
   }
   if (count == 0) return;
-  table->curve.assumptions.push_back(
+  const std::string sentence =
       fmt::format("{} line{} of text below the table left aside, from line {} on: {}{}", count,
-                  count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : ""));
+                  count == 1 ? "" : "s", first, shown, count > kShown ? ", ..." : "");
+  for (TableReading& reading : *readings) reading.table.curve.assumptions.push_back(sentence);
 }
 
-// Reads rows up to the end of the text or the next table.
-Expected<std::optional<TableLayout>> ReadRows(TablesBelow* rows, const TableLayout& layout) {
-  RowReader reader(layout, rows->file, rows->options.skip_missing, &rows->table);
+// Appends a row to all measurements. A row that some refuse and others take is an error of the
+// former; one that none takes is the error that is returned.
+Expected<void> TakeRow(BrokenRows broken_rows, TableRow* row, std::vector<TableReading>* readings) {
+  std::vector<std::pair<TableReading*, Error>> refusing;
+  bool taken = false;
+  for (TableReading& reading : *readings) {
+    if (reading.table.error) continue;
+    const Expected<bool> read = TakeRow(row, &reading);
+    taken = taken || (read && *read);
+    if (read) continue;
+    if (broken_rows == BrokenRows::kSetAside && SetAside(read.error(), row, &reading)) continue;
+    refusing.emplace_back(&reading, read.error());
+  }
+  if (refusing.empty()) return {};
+  if (!taken) return tl::unexpected(std::move(refusing.front().second));
+  for (auto& [reading, error] : refusing) reading->table.error = std::move(error);
+  return {};
+}
+
+void JoinFurther(std::vector<TableReading>* readings) {
+  for (TableReading& reading : *readings) {
+    JoinSweeps(reading.layout.columns, reading.layout.channel(), std::exchange(reading.further, {}),
+               &reading.table.curve, &reading.table.lines);
+  }
+}
+
+// The layouts of the next table, one for each measurement; empty if only text follows. Error: there
+// is neither a table nor text.
+Expected<std::vector<TableLayout>> NextLayouts(const TablesBelow& rows, const LineReader& lines,
+                                               const Error& row_error) {
+  std::vector<TableLayout> layouts;
+  const TableLayout& above = rows.readings.front().layout;
+  for (const TableReading& reading : rows.readings) {
+    auto next = FindNextLayout(lines, rows.file, reading.options);
+    if (!next || !OnlyText(lines, next->first_row_line, above)) break;
+    layouts.push_back(std::move(*next));
+  }
+  if (layouts.size() == rows.readings.size()) return layouts;
+  const bool any = std::any_of(rows.readings.begin(), rows.readings.end(),
+                               [](const TableReading& one) { return one.table.curve.size() > 0; });
+  if (any && OnlyText(lines, 0, above)) return std::vector<TableLayout>();
+  return tl::unexpected(row_error);
+}
+
+// Reads rows up to the end of the text or the next table, whose layouts it returns.
+Expected<std::vector<TableLayout>> ReadRows(TablesBelow* rows) {
+  const TableLayout& layout = rows->readings.front().layout;
+  for (TableReading& reading : rows->readings) reading.further.resize(reading.layout.more.size());
+  TableRow row(layout.columns, layout.delimiter, rows->file);
   LineReader lines(rows->text, layout.first_row_offset, layout.first_row_line);
   std::size_t offset = lines.offset();
   for (std::string_view line; lines.NextContent(&line, &offset);) {
     if (line.find_first_not_of(" \t,;") == std::string_view::npos) continue;
     if (StoppableReads::Stopped()) return FailAsStopped(rows->file);
-    const auto read = reader.Read(line, lines.number());
+    auto read = row.Split(line, lines.number());
+    if (read) read = TakeRow(rows->broken_rows, &row, &rows->readings);
     if (read) continue;
-    const bool aside = rows->broken_rows == BrokenRows::kSetAside &&
-                       reader.SetAside(line, lines.number(), read.error());
-    if (aside) continue;
     lines.StepBack(offset);
-    JoinSweeps(layout.columns, layout.channel(), reader.TakeFurther(), &rows->table.curve,
-               &rows->table.lines);
-    const Expected<TableLayout> next = FindNextLayout(lines, rows->file, rows->options);
-    if (next && OnlyText(lines, next->first_row_line, layout)) {
-      return std::optional<TableLayout>(*next);
-    }
-    const bool last = rows->table.curve.size() > 0 && OnlyText(lines, 0, layout);
-    if (!last) return tl::unexpected(read.error());
-    SayWhatWasLeft(&rows->table, lines);
-    return std::optional<TableLayout>();
+    JoinFurther(&rows->readings);
+    TRY(auto next, NextLayouts(*rows, lines, read.error()));
+    if (next.empty()) SayWhatWasLeft(lines, &rows->readings);
+    return next;
   }
-  JoinSweeps(layout.columns, layout.channel(), reader.TakeFurther(), &rows->table.curve,
-             &rows->table.lines);
-  return std::optional<TableLayout>();
+  JoinFurther(&rows->readings);
+  return std::vector<TableLayout>();
 }
 
 void SayWhatWasSkipped(Table* table) {
@@ -240,24 +264,24 @@ void SayWhatWasSkipped(Table* table) {
 }
 
 // Begins a further table, which must have the columns of the table above.
-Expected<void> BeginNextTable(TablesBelow* rows, const TableLayout& above,
-                              const TableLayout& next) {
+Expected<void> BeginNextTable(const std::string& file, TableLayout next, TableReading* reading) {
   const auto has = [](const TableLayout& layout, int TableLayout::*column) {
     return layout.*column != kNoColumn;
   };
-  bool same = above.per_area() == next.per_area();
+  bool same = reading->layout.per_area() == next.per_area();
   for (int TableLayout::*column : {&TableLayout::sigma, &TableLayout::time, &TableLayout::sweep,
                                    &TableLayout::irradiance, &TableLayout::temperature}) {
-    same = same && has(above, column) == has(next, column);
+    same = same && has(reading->layout, column) == has(next, column);
   }
   if (!same) {
     return Fail(
         "expected the columns of the table above in the second table, found others: "
         "split the file",
-        rows->file, next.first_row_line);
+        file, next.first_row_line);
   }
-  rows->starts.push_back(rows->table.curve.size());
-  rows->heads.push_back(next.head.said);
+  reading->starts.push_back(reading->table.curve.size());
+  reading->heads.push_back(next.head.said);
+  reading->layout = std::move(next);
   return {};
 }
 
@@ -307,64 +331,82 @@ Expected<void> TakeTrace(const TableLayout& layout, const std::string& file,
 
 // Turns a condition that differs between heads into a column. A head that does not state it keeps
 // the value of the table above.
-void SpreadCondition(TablesBelow* rows, std::optional<double> Sidecar::*condition,
-                     std::vector<double>* column) {
-  std::optional<double> value = rows->heads.front().*condition;
+void SpreadCondition(std::optional<double> Sidecar::*condition, std::vector<double>* column,
+                     TableReading* reading) {
+  std::optional<double> value = reading->heads.front().*condition;
   bool differs = false;
-  for (const Sidecar& head : rows->heads)
+  for (const Sidecar& head : reading->heads)
     differs = differs || (head.*condition && head.*condition != value);
   if (!value || !differs || !column->empty()) return;
-  for (std::size_t i = 0; i < rows->heads.size(); ++i) {
-    if (rows->heads[i].*condition) value = rows->heads[i].*condition;
-    column->resize(rows->starts[i], *value);
+  for (std::size_t i = 0; i < reading->heads.size(); ++i) {
+    if (reading->heads[i].*condition) value = reading->heads[i].*condition;
+    column->resize(reading->starts[i], *value);
   }
-  (rows->table.head.*condition).reset();
+  (reading->table.head.*condition).reset();
 }
 
 // Numbers several tables without a sweep column as sweeps 1, 2, ... Conditions that differ between
 // their heads become columns.
-void NumberTables(TablesBelow* rows) {
-  IvCurve& curve = rows->table.curve;
-  if (rows->starts.empty() || !curve.sweep.empty()) return;
-  rows->starts.push_back(curve.size());
-  rows->heads.insert(rows->heads.begin(), rows->table.head);
+void NumberTables(TableReading* reading) {
+  IvCurve& curve = reading->table.curve;
+  if (reading->starts.empty() || !curve.sweep.empty()) return;
+  reading->starts.push_back(curve.size());
+  reading->heads.insert(reading->heads.begin(), reading->table.head);
   curve.assumptions.push_back(fmt::format("{} tables one below the other read as sweeps 1 to {}",
-                                          rows->heads.size(), rows->heads.size()));
-  SpreadCondition(rows, &Sidecar::irradiance_W_m2, &curve.irradiance_W_m2);
-  SpreadCondition(rows, &Sidecar::temperature_C, &curve.temperature_C);
-  for (std::size_t i = 0; i < rows->starts.size(); ++i) {
-    curve.sweep.resize(rows->starts[i], static_cast<int>(i) + 1);
+                                          reading->heads.size(), reading->heads.size()));
+  SpreadCondition(&Sidecar::irradiance_W_m2, &curve.irradiance_W_m2, reading);
+  SpreadCondition(&Sidecar::temperature_C, &curve.temperature_C, reading);
+  for (std::size_t i = 0; i < reading->starts.size(); ++i) {
+    curve.sweep.resize(reading->starts[i], static_cast<int>(i) + 1);
   }
 }
 
-Expected<Table> ReadTables(TablesBelow* rows) {
-  Expected<TableLayout> layout = FindTableLayout(rows->text, rows->file, rows->options);
-  if (!layout) return tl::unexpected(layout.error());
-  rows->table.curve.assumptions = layout->assumptions;
-  rows->table.curve.voltage_unit_known = !layout->columns[layout->voltage].unit.empty();
-  rows->table.curve.current_unit_known = !layout->columns[layout->current].unit.empty();
-  rows->table.head = layout->head.said;
-  TakeLight(layout->columns[layout->current], &rows->table.curve, &rows->table.head);
-  rows->table.per_area = layout->per_area();
-  rows->table.name = ChannelName(layout->columns, layout->channel());
-  rows->table.holds_curves =
-      layout->sweep != kNoColumn && layout->columns[layout->sweep].kind == ColumnKind::kCurve;
+TableReading Begin(TableLayout layout, const ReadOptions& options) {
+  TableReading reading{options, std::move(layout)};
+  Table& table = reading.table;
+  const TableLayout& found = reading.layout;
+  table.curve.assumptions = found.assumptions;
+  table.curve.voltage_unit_known = !found.columns[found.voltage].unit.empty();
+  table.curve.current_unit_known = !found.columns[found.current].unit.empty();
+  table.head = found.head.said;
+  TakeLight(found.columns[found.current], &table.curve, &table.head);
+  table.per_area = found.per_area();
+  table.name = ChannelName(found.columns, found.channel());
+  table.holds_curves =
+      found.sweep != kNoColumn && found.columns[found.sweep].kind == ColumnKind::kCurve;
+  return reading;
+}
+
+Expected<void> Finish(const std::string& file, TableReading* reading) {
+  Table& table = reading->table;
+  if (table.error) return tl::unexpected(*table.error);
+  if (table.curve.size() == 0 && table.broken.empty()) {
+    return Fail("expected rows of numbers below the header, found none", file,
+                reading->layout.first_row_line);
+  }
+  SayWhatWasSkipped(&table);
+  TRY(TakeTrace(reading->layout, file, reading->options, &table));
+  TakeUnitOfShortCircuit(&table, reading->layout);
+  NumberTables(reading);
+  return {};
+}
+
+Expected<std::vector<Table>> ReadAll(std::string_view text, const std::string& file,
+                                     std::vector<TableReading> readings, BrokenRows broken_rows) {
+  TablesBelow rows{text, file, broken_rows, std::move(readings)};
   while (true) {
-    Expected<std::optional<TableLayout>> next = ReadRows(rows, *layout);
-    if (!next) return tl::unexpected(next.error());
-    if (!*next) break;
-    TRY(BeginNextTable(rows, *layout, **next));
-    *layout = std::move(**next);
+    TRY(std::vector<TableLayout> next, ReadRows(&rows));
+    if (next.empty()) break;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      TRY(BeginNextTable(file, std::move(next[i]), &rows.readings[i]));
+    }
   }
-  if (rows->table.curve.size() == 0 && rows->table.broken.empty()) {
-    return Fail("expected rows of numbers below the header, found none", rows->file,
-                layout->first_row_line);
+  std::vector<Table> tables;
+  for (TableReading& reading : rows.readings) {
+    if (auto finished = Finish(file, &reading); !finished) reading.table.error = finished.error();
+    tables.push_back(std::move(reading.table));
   }
-  SayWhatWasSkipped(&rows->table);
-  TRY(TakeTrace(*layout, rows->file, rows->options, &rows->table));
-  TakeUnitOfShortCircuit(&rows->table, *layout);
-  NumberTables(rows);
-  return std::move(rows->table);
+  return tables;
 }
 
 }  // namespace
@@ -372,8 +414,28 @@ Expected<Table> ReadTables(TablesBelow* rows) {
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options, BrokenRows broken_rows) {
   TRY(CheckUtf8(text, file));
-  TablesBelow below{text, file, options, broken_rows, {}, {}, {}};
-  return ReadTables(&below);
+  TRY(TableLayout layout, FindTableLayout(text, file, options));
+  TRY(std::vector<Table> tables,
+      ReadAll(text, file, {Begin(std::move(layout), options)}, broken_rows));
+  if (tables.front().error) return tl::unexpected(*tables.front().error);
+  return std::move(tables.front());
+}
+
+Expected<std::vector<Table>> ReadTables(std::string_view text, const std::string& file,
+                                        const ReadOptions& options, BrokenRows broken_rows) {
+  TRY(CheckUtf8(text, file));
+  ReadOptions one = options;
+  if (options.column.empty()) one.column = "1";
+  TRY(const TableLayout first, FindTableLayout(text, file, one));
+  const std::size_t count = options.column.empty() ? first.channels.size() : 1;
+  std::vector<TableReading> readings = {Begin(first, one)};
+  while (readings.size() < count) {
+    if (StoppableReads::Stopped()) return FailAsStopped(file);
+    one.column = std::to_string(readings.size() + 1);
+    TRY(TableLayout layout, FindTableLayout(text, file, one));
+    readings.push_back(Begin(std::move(layout), one));
+  }
+  return ReadAll(text, file, std::move(readings), broken_rows);
 }
 
 }  // namespace lyrefit

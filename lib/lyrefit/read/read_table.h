@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ struct Table {
   Sidecar head;                 // conditions stated in lines before the header
   bool per_area = false;        // the currents are in A/cm2
   std::string name;             // of the measurement, by its columns: ChannelName
+  std::optional<Error> error;   // why the measurement cannot be used, though others beside it can
 };
 
 enum class BrokenRows {
@@ -35,5 +37,10 @@ enum class BrokenRows {
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options = {},
                           BrokenRows broken_rows = BrokenRows::kRefuse);
+
+// Reads each measurement side by side as a table of its own, or only the one that the options name.
+// An invalid reading of one of several measurements is in the `error` of its table.
+Expected<std::vector<Table>> ReadTables(std::string_view text, const std::string& file,
+                                        const ReadOptions& options, BrokenRows broken_rows);
 
 }  // namespace lyrefit

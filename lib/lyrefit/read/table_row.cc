@@ -11,10 +11,15 @@
 
 namespace lyrefit {
 
-Expected<void> TableRow::Take(std::string_view line, int number) {
+Expected<void> TableRow::Split(std::string_view line, int number) {
   line_ = line;
   number_ = number;
   if (!splitter_.Split(line)) return Refuse("expected closed quotes", 0);
+  return {};
+}
+
+Expected<void> TableRow::Take(std::string_view line, int number) {
+  TRY(Split(line, number));
   return CheckLength();
 }
 

@@ -20,7 +20,12 @@ class TableRow {
   // Splits `line` into fields. Errors: quotes that do not close; not as many fields as columns.
   Expected<void> Take(std::string_view line, int number);
 
+  // The two steps of Take.
+  Expected<void> Split(std::string_view line, int number);
+  Expected<void> CheckLength() const;
+
   std::string_view operator[](int field) const { return splitter_[field]; }
+  int size() const { return static_cast<int>(splitter_.size()); }
   int number() const { return number_; }
 
   // The number in a field, converted to the unit of IvCurve.
@@ -39,7 +44,6 @@ class TableRow {
  private:
   tl::unexpected<Error> RefuseMissing(int field, std::string_view expected) const;
   std::string ColumnName(int field) const;
-  Expected<void> CheckLength() const;
   Expected<void> CheckSeparator(int field, std::string_view text);
 
   const std::vector<Column>& columns_;

@@ -227,6 +227,28 @@ TEST(Tree, PathsAreTheIdsInNaturalOrder) {
               ElementsAre(HasSubstr("1 file of other kinds left aside (1 .jpg)")));
 }
 
+TEST(Tree, FilesOfSeveralCurvesAddTheirIds) {
+  const TempFolder folder;
+  WriteTree(folder);
+  folder.Write("t/inv2/pixels.csv", "V,I1 (A),I2 (A),I3 (A)\n0,9,,8\n0.4,8,,7\n0.6,0,,x\n");
+  folder.Write("t/inv3/rows.json", GoodRow("a") + "\n" + GoodRow("b"));
+  folder.Write("t/inv3/list.json", "[" + GoodRow("c") + ",\n" + GoodRow("d") + "]");
+  folder.Write("t/inv3/one.json", GoodRow("its name"));
+  folder.Write("t/inv3/long.csv", kLongHead + LongRows("p;s1;1") + LongRows("p;s2;1"));
+  const auto items = ReadBatch({folder.Path("t")});
+  EXPECT_THAT(IdsOf(items),
+              ElementsAre("inv2/broken", "inv2/empty", "inv2/pixels/I1 (A)", "inv2/pixels/I2 (A)",
+                          "inv2/pixels/I3 (A)", "inv2/str9", "inv2/str10", "inv2/str11",
+                          "inv3/list/c", "inv3/list/d", "inv3/long/p/s1/1", "inv3/long/p/s2/1",
+                          "inv3/one", "inv3/rows/a", "inv3/rows/b", "inv10/str1"));
+  ASSERT_TRUE(items[2].curve.curve);
+  EXPECT_THAT(items[2].curve.curve->current_A, ElementsAre(9, 8, 0));
+  EXPECT_THAT(MessageOf(items[3].curve.curve), HasSubstr("column I2 (A), found an empty field"));
+  EXPECT_THAT(MessageOf(items[4].curve.curve), HasSubstr("column I3 (A), found 'x'"));
+  EXPECT_TRUE(items[9].curve.curve);
+  EXPECT_EQ(items[9].item.number, 9);
+}
+
 TEST(Tree, SaysLoopsDeadLinksAndClosedFolders) {
   const TempFolder folder;
   WriteTree(folder);
@@ -306,6 +328,7 @@ void ExpectSameInShards(const std::vector<std::string>& inputs) {
 TEST(Shards, TogetherGiveWhatOneRunGives) {
   const TempFolder folder;
   WriteTree(folder);
+  folder.Write("t/inv3/pixels.csv", "V,I1,I2,I3\n0,9,8,7\n0.4,8,7,6\n0.6,0,0,0\n");
   std::string rows;
   std::string table = kLongHead;
   std::string list = "[";

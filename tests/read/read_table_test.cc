@@ -214,5 +214,41 @@ TEST(ReadTableTest, ADarkMeasurementHasNoLight) {
             std::nullopt);
 }
 
+TEST(ReadTables, ReadsMeasurementsSideBySideInOnePass) {
+  const char* const text =
+      "V1,I1,V2,I2,V3,I3\n0,2,0,1,,\n0.4,1.5,0.3,x,,\n0.5,1,0.4,0.5,,\n0.6,0,,,,\nend: ok\n";
+  const auto tables = ReadTables(text, "f", {}, BrokenRows::kRefuse);
+  ASSERT_TRUE(tables) << MessageOf(tables);
+  ASSERT_EQ(tables->size(), 3U);
+  EXPECT_FALSE((*tables)[0].error);
+  EXPECT_EQ((*tables)[0].name, "I1");
+  EXPECT_THAT((*tables)[0].curve.current_A, ElementsAre(2, 1.5, 1, 0));
+  EXPECT_THAT((*tables)[0].curve.assumptions.back().sentence, HasSubstr("1 line of text below"));
+  ASSERT_TRUE((*tables)[1].error);
+  EXPECT_EQ((*tables)[1].error->line, 3);
+  EXPECT_EQ((*tables)[1].error->column, 13);
+  ASSERT_TRUE((*tables)[2].error);
+  EXPECT_THAT((*tables)[2].error->message, HasSubstr("expected rows of numbers"));
+  // A row that no measurement can read is an error of the file.
+  EXPECT_FALSE(
+      ReadTables("V1,I1,V2,I2\n0,2,0,1\n0.4,x,0.4,y\n0.5,1,0.5,1\n", "f", {}, BrokenRows::kRefuse));
+  ReadOptions second;
+  second.column = "2";
+  const auto one = ReadTables("V1,I1,V2,I2\n0,2,0,1\n0.4,x,0.4,0.5\n0.5,1,0.5,0\n", "f", second,
+                              BrokenRows::kRefuse);
+  ASSERT_TRUE(one) << MessageOf(one);
+  EXPECT_THAT(one->front().curve.current_A, ElementsAre(1, 0.5, 0));
+}
+
+TEST(ReadTables, ReadsFurtherTablesOfEachMeasurement) {
+  const auto tables =
+      ReadTables("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,0.5\nV1,I1,V2,I2\n0,4,0,3\n0.5,2,0.4,1\n", "f",
+                 {}, BrokenRows::kRefuse);
+  ASSERT_TRUE(tables) << MessageOf(tables);
+  ASSERT_EQ(tables->size(), 2U);
+  EXPECT_THAT((*tables)[1].curve.current_A, ElementsAre(1, 0.5, 3, 1));
+  EXPECT_THAT((*tables)[1].curve.sweep, ElementsAre(1, 1, 2, 2));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -54,7 +54,7 @@ namespace {
 // All inputs in sequence, limited to one shard.
 class Batch : public BatchSource {
  public:
-  Batch(std::vector<std::string> paths, std::vector<std::unique_ptr<BatchInput>> inputs,
+  Batch(std::vector<std::string> paths, std::vector<std::shared_ptr<BatchInput>> inputs,
         const Shard& shard)
       : paths_(std::move(paths)), inputs_(std::move(inputs)) {
     std::int64_t all = 0;
@@ -72,9 +72,11 @@ class Batch : public BatchSource {
       TRY(auto found, inputs_[input_]->Next());
       if (!found) {
         base_ += inputs_[input_++]->size();
+        number_ = 0;
         continue;
       }
       any_ = true;
+      ++number_;
       const std::int64_t at = base_ + found->begin;
       if (at >= end_) break;
       NameIt(&*found);
@@ -95,7 +97,7 @@ class Batch : public BatchSource {
       curve.curve = tl::unexpected(*item.error);
       return curve;
     }
-    curve = inputs_[static_cast<std::size_t>(item.input)]->Read(item);
+    curve = item.reader->Read(item);
     if (curve.curve && !curve.curve->notes.date.empty()) {
       curve.beside.emplace("date", curve.curve->notes.date);
     }
@@ -150,8 +152,10 @@ class Batch : public BatchSource {
     item.bytes = std::string(found.bytes);
     item.end = std::min(base_ + found.end, end_) - begin_;
     item.input = static_cast<int>(input_);
+    item.reader = found.reader ? std::move(found.reader) : inputs_[input_];
     item.line = found.line;
-    item.number = found.number;
+    item.number = number_ - 1;
+    item.in_file = found.in_file;
     item.unnamed = found.unnamed;
     item.error = std::move(found.error);
     item.id = std::move(found.id);
@@ -159,14 +163,15 @@ class Batch : public BatchSource {
   }
 
   const std::vector<std::string> paths_;
-  const std::vector<std::unique_ptr<BatchInput>> inputs_;
+  const std::vector<std::shared_ptr<BatchInput>> inputs_;
   SeenIds ids_;
   std::int64_t begin_ = 0;  // first byte of the shard, counted over all inputs
   std::int64_t end_ = 0;
   bool known_ = true;  // the size is known, and all inputs can be read again
   bool any_ = false;   // at least one curve was found
   std::size_t input_ = 0;
-  std::int64_t base_ = 0;  // position of the current input
+  std::int64_t base_ = 0;    // position of the current input
+  std::int64_t number_ = 0;  // of its curves found
   std::int64_t place_ = 0;
 };
 
@@ -199,11 +204,11 @@ Expected<std::unique_ptr<BatchSource>> OpenBatch(const std::vector<std::string>&
                                      [](const std::string& path) { return IsFolder(path); });
   const std::set<fs::path> sidecars = SidecarsOf(inputs);
   std::vector<std::string> paths;
-  std::vector<std::unique_ptr<BatchInput>> opened;
+  std::vector<std::shared_ptr<BatchInput>> opened;
   for (const std::string& path : inputs) {
     if (sidecars.count(path) != 0) continue;
-    const std::string prefix = folders > 1 ? FolderNameOf(fs::path(path) / "x") : "";
-    TRY(auto input, OpenInput(path, prefix, options.reading));
+    const std::string folder = folders > 1 ? FolderNameOf(fs::path(path) / "x") : "";
+    TRY(auto input, OpenInput(path, IsFolder(path) ? folder : IdOfPath(path), options.reading));
     paths.push_back(path);
     opened.push_back(std::move(input));
   }

@@ -20,8 +20,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   - a long table: one reading a row with the curve's id (in one column or in several: site,
 //     inverter, combiner, string); the rows of a curve must be adjacent,
 //   - JSON with a list of curves: ivcurves, or objects with lists of voltage and current,
-//   - a folder tree of single curves, whose paths are the ids
-//     (site/inverter/combiner/string.csv); sidecars are beside the tables,
+//   - a folder tree of files, whose paths are the ids (site/inverter/combiner/string.csv); sidecars
+//     are beside the tables. A file of several curves adds their ids (substrate3/pixel1),
 //   - single curves in the formats of ReadCurve.
 // Names of columns and keys are those of ReadCurve. Conditions and sidecar keys (cells_in_series,
 // irradiance_W_m2, cell_temperature_C, technology, date, ...) are evaluated; other values are
@@ -51,6 +51,8 @@ struct BatchReadOptions {
   Shard shard;
 };
 
+class BatchInput;
+
 // The position of a curve in the input, before it is read.
 struct BatchItem {
   std::int64_t place = 0;      // index among the curves of this shard, from 0
@@ -59,10 +61,12 @@ struct BatchItem {
   std::string bytes;           // of its row or rows; empty for a file of its own
   std::int64_t end = 0;        // bytes of the shard up to the end of the curve; see size()
   int input = 0;               // index of the input, from 0
-  std::int64_t line = 0;       // first line in its file, from 1; 0: a file of its own
   std::int64_t number = 0;     // index among the curves of its input, from 0
+  std::int64_t line = 0;       // first line in its file, from 1; 0: a file of its own
+  std::int64_t in_file = 0;    // index among the curves of a file that is not rows, from 0
   bool unnamed = false;        // the input has no name for it; the id is its position
   std::optional<Error> error;  // error found before reading
+  std::shared_ptr<const BatchInput> reader;
 };
 
 // A curve read from an item. A broken one keeps its id if the id is readable.

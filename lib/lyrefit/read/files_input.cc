@@ -22,73 +22,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file with one curve, read by ReadCurve.
-class OneCurve : public BatchInput {
+// A file that is read whole: by ReadCurve when its only curve is wanted, or completely at the first
+// call of Next().
+class WholeFile : public FileInput {
  public:
-  OneCurve(std::string path, const ReadOptions& options)
-      : path_(std::move(path)), options_(options), size_(SizeOfFile(path_) + 1) {}
+  WholeFile(const std::string& path, std::string name, bool several, const ReadOptions& options)
+      : FileInput(path, options), name_(std::move(name)), several_(several) {}
 
   Expected<std::optional<FoundCurve>> Next() override {
-    if (done_) return std::optional<FoundCurve>();
-    done_ = true;
+    if (next_ == 0 && several_) Load();
+    const std::size_t count = several_ ? curves_.size() : 1;
+    if (next_ == count) return std::optional<FoundCurve>();
     FoundCurve found;
-    found.id = IdOfPath(path_);
-    found.end = size_;
+    found.in_file = static_cast<std::int64_t>(next_++);
+    found.id = name_;
+    if (count > 1) {
+      const std::string& own = curves_[found.in_file].id;
+      found.id += "/" + (own.empty() ? std::to_string(found.in_file + 1) : own);
+    }
+    found.begin = size() * found.in_file / static_cast<std::int64_t>(count);
+    found.end = size() * (found.in_file + 1) / static_cast<std::int64_t>(count);
     return std::optional<FoundCurve>(std::move(found));
   }
 
   BatchCurve Read(const BatchItem& item) const override {
-    return {item.id, ReadCurve(path_, options_), {}};
-  }
-
-  std::int64_t size() const override { return size_; }
-  Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
-    if (until <= 0) return {};
-    TRY(sum->AddFile(path_, size_));
-    const fs::path sidecar = fs::path(path_).replace_extension(".json");
-    return IsFile(sidecar) ? sum->AddFile(sidecar.string(), SizeOfFile(sidecar.string()))
-                           : Expected<void>();
-  }
-  void AddRemarks(std::vector<std::string>*) const override {}
-
- private:
-  const std::string path_;
-  const ReadOptions options_;
-  const std::int64_t size_;
-  bool done_ = false;
-};
-
-// A file with several curves, which is read completely at the first call of Next().
-class WholeFile : public BatchInput {
- public:
-  WholeFile(std::string path, const ReadOptions& options)
-      : path_(std::move(path)), options_(options), size_(SizeOfFile(path_) + 1) {}
-
-  Expected<std::optional<FoundCurve>> Next() override {
-    if (next_ == 0) Load();
-    if (next_ == curves_.size()) return std::optional<FoundCurve>();
-    const auto count = static_cast<std::int64_t>(curves_.size());
-    FoundCurve found;
-    found.number = static_cast<std::int64_t>(next_++);
-    found.id = IdOfPath(path_);
-    const std::string& name = curves_[found.number].id;
-    if (count > 1) found.id += "/" + (name.empty() ? std::to_string(found.number + 1) : name);
-    found.begin = size_ * found.number / count;
-    found.end = size_ * (found.number + 1) / count;
-    return std::optional<FoundCurve>(std::move(found));
-  }
-
-  BatchCurve Read(const BatchItem& item) const override {
-    Expected<IvCurve> curve = curves_[item.number].curve;
+    if (!several_) return {item.id, ReadCurve(path_, options_), {}};
+    Expected<IvCurve> curve = curves_[item.in_file].curve;
     if (curve) curve->name = item.id;
     return {item.id, std::move(curve), {}};
   }
 
-  std::int64_t size() const override { return size_; }
   Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
-    return until > 0 ? sum->AddFile(path_, size_) : Expected<void>();
+    if (until <= 0) return {};
+    TRY(sum->AddFile(path_, size()));
+    const std::string sidecar = fs::path(path_).replace_extension(".json").string();
+    if (sidecar == path_ || !IsFile(sidecar)) return {};
+    return sum->AddFile(sidecar, SizeOfFile(sidecar));
   }
-  void AddRemarks(std::vector<std::string>*) const override {}
 
  private:
   struct NamedCurve {
@@ -125,21 +95,17 @@ class WholeFile : public BatchInput {
 
   void Refuse(const Error& error) { curves_.push_back({"", tl::unexpected(error)}); }
 
-  const std::string path_;
-  const ReadOptions options_;
-  const std::int64_t size_;
+  const std::string name_;
+  const bool several_;
   std::vector<NamedCurve> curves_;
   std::size_t next_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<BatchInput> OneCurveInput(const std::string& path, const ReadOptions& options) {
-  return std::make_unique<OneCurve>(path, options);
-}
-
-std::unique_ptr<BatchInput> WholeFileInput(const std::string& path, const ReadOptions& options) {
-  return std::make_unique<WholeFile>(path, options);
+std::unique_ptr<BatchInput> WholeFileInput(const std::string& path, const std::string& name,
+                                           bool several, const ReadOptions& options) {
+  return std::make_unique<WholeFile>(path, name, several, options);
 }
 
 void ByteSum::Add(std::string_view text) {

@@ -19,13 +19,13 @@ using nlohmann::json;
 constexpr char kIvCurves[] = "IV Curves";
 
 // The curves of one list in a JSON document, in order.
-class JsonList : public BatchInput {
+class JsonList : public FileInput {
  public:
-  JsonList(std::string path, const std::optional<std::string>& key, const ReadOptions& options)
-      : path_(std::move(path)),
+  JsonList(const std::string& path, std::string name, const std::optional<std::string>& key,
+           const ReadOptions& options)
+      : FileInput(path, options),
+        name_(std::move(name)),
         key_(key),
-        options_(options),
-        size_(SizeOfFile(path_) + 1),
         elements_(path_, key, options.largest_file_bytes) {}
 
   // Reads the members before and after the list, which apply to all its curves.
@@ -57,8 +57,10 @@ class JsonList : public BatchInput {
     Records fields;
     ScanJsonScalars(text_, &fields);
     found.line = element->line;
-    found.number = count_++;
-    found.id = IdOfElement(fields, found.number);
+    found.in_file = count_++;
+    found.id = key_ == kIvCurves ? "" : IdOf(fields.scalars);
+    found.stated = !found.id.empty();
+    if (!found.stated) found.id = IdOfElement(fields, found.in_file);
     found.begin = element->begin;
     found.end = element->end;
     found.bytes = text_;
@@ -73,22 +75,20 @@ class JsonList : public BatchInput {
     return ReadJsonText(item.bytes, item, path_, scalars_.scalars, options_);
   }
 
-  std::int64_t size() const override { return size_; }
   Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
     // The text after the list affects all its curves.
-    return sum->AddFile(path_, key_ && until > 0 ? size_ : until);
+    return sum->AddFile(path_, key_ && until > 0 ? size() : until);
   }
-  void AddRemarks(std::vector<std::string>*) const override {}
 
  private:
+  // Id of a curve that states none.
   std::string IdOfElement(const Records& fields, std::int64_t number) const {
     if (key_ == kIvCurves) {
       for (const RecordScalar& scalar : fields.scalars) {
-        if (scalar.name == "Index") return fmt::format("{}_{}", IdOfPath(path_), scalar.text);
+        if (scalar.name == "Index") return fmt::format("{}_{}", name_, scalar.text);
       }
     }
-    const std::string id = IdOf(fields.scalars);
-    return id.empty() ? fmt::format("{}[{}]", IdOfPath(path_), number) : id;
+    return fmt::format("{}[{}]", name_, number);
   }
 
   // Reads an entry of an ivcurves file with the common data of the file.
@@ -97,8 +97,8 @@ class JsonList : public BatchInput {
       const std::string first = fmt::format("\"{}\"[0]", kIvCurves);
       std::string message = error.message;
       for (std::size_t at; (at = message.find(first)) != std::string::npos;) {
-        message.replace(at, first.size(), fmt::format("\"{}\"[{}]", kIvCurves, item.number));
-        if (item.number == 0) break;
+        message.replace(at, first.size(), fmt::format("\"{}\"[{}]", kIvCurves, item.in_file));
+        if (item.in_file == 0) break;
       }
       const int line = static_cast<int>(item.line) + std::max(error.line - 1, 0);
       return Fail(std::move(message), path_, line, error.column);
@@ -114,10 +114,8 @@ class JsonList : public BatchInput {
     return std::move(entries->front().curve);
   }
 
-  const std::string path_;
+  const std::string name_;
   const std::optional<std::string> key_;
-  const ReadOptions options_;
-  const std::int64_t size_;
   JsonElements elements_;
   json around_ = json::object();
   Records scalars_;
@@ -128,9 +126,10 @@ class JsonList : public BatchInput {
 }  // namespace
 
 Expected<std::unique_ptr<BatchInput>> JsonListInput(const std::string& path,
+                                                    const std::string& name,
                                                     const std::optional<std::string>& list,
                                                     const ReadOptions& options) {
-  auto input = std::make_unique<JsonList>(path, list, options);
+  auto input = std::make_unique<JsonList>(path, name, list, options);
   TRY(input->ReadAround());
   return std::unique_ptr<BatchInput>(std::move(input));
 }

@@ -27,8 +27,9 @@ Expected<void> LineScanner::Fill() {
     begin_ = 0;
   }
   // A small first block, since many files are small.
-  const std::size_t wanted = buffer_.empty() ? kFirstBlock : std::max(kBlock, 2 * end_);
-  if (buffer_.size() == end_ || buffer_.size() < wanted) buffer_.resize(wanted);
+  if (buffer_.size() == end_) {
+    buffer_.resize(buffer_.empty() ? kFirstBlock : std::max(kBlock, 2 * end_));
+  }
   TRY(const std::size_t got, file_.Read(buffer_.data() + end_, buffer_.size() - end_));
   over_ = got == 0;
   end_ += got;

@@ -94,23 +94,19 @@ void SettleColumns(LongReading* reading) {
 }
 
 // One reading a row; the rows of a curve are adjacent.
-class LongTable : public BatchInput {
+class LongTable : public FileInput {
  public:
   LongTable(std::string path, std::unique_ptr<LineScanner> scanner, CsvHead head,
             const ReadOptions& options)
-      : path_(std::move(path)),
-        options_(options),
-        head_(std::move(head)),
-        size_(SizeOfFile(path_) + 1),
-        scanner_(std::move(scanner)) {}
+      : FileInput(std::move(path), options), head_(std::move(head)), scanner_(std::move(scanner)) {}
 
   Expected<std::optional<FoundCurve>> Next() override {
     if (!over_ && number_ == 0) TRY(Advance());
     if (over_) return std::optional<FoundCurve>();
     FoundCurve found;
     found.id = id_;
+    found.stated = true;
     found.line = line_.number;
-    found.number = count_++;
     found.begin = line_.offset;
     bytes_.clear();
     const std::int64_t first = line_.number;
@@ -156,12 +152,6 @@ class LongTable : public BatchInput {
     return curve;
   }
 
-  std::int64_t size() const override { return size_; }
-  Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
-    return sum->AddFile(path_, until);
-  }
-  void AddRemarks(std::vector<std::string>*) const override {}
-
  private:
   // Moves to the next row.
   Expected<void> Advance() {
@@ -185,17 +175,13 @@ class LongTable : public BatchInput {
     return {};
   }
 
-  const std::string path_;
-  const ReadOptions options_;
   const CsvHead head_;
-  const std::int64_t size_;
   std::unique_ptr<LineScanner> scanner_;
   ScannedLine line_;
   std::string id_;
   std::string id_text_;  // beginning of the row, which determines `id_`
   std::string bytes_;
   std::int64_t number_ = 0;
-  std::int64_t count_ = 0;
   bool over_ = false;
 };
 

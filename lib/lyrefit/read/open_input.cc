@@ -121,6 +121,7 @@ bool IsRowsFile(const std::string& path) {
 // An input whose first bytes were read.
 struct LookedAt {
   const std::string& path;
+  const std::string& name;
   const ReadOptions& options;
   std::unique_ptr<LineScanner>* scanner;
   bool stream = IsReadOnce(path);
@@ -140,15 +141,15 @@ const char* Within(const std::string& path) {
 
 Expected<std::unique_ptr<BatchInput>> OpenJson(const LookedAt& file, std::string_view head,
                                                std::size_t at) {
-  const auto& [path, options, scanner, stream] = file;
+  const auto& [path, name, options, scanner, stream] = file;
   const JsonHead json = IsRowsFile(path) ? JsonHead{JsonShape::kRows, {}} : LookAtJson(head, at);
   if (json.shape == JsonShape::kRows) return JsonRowsInput(path, file.Scanner(), options);
   if (stream) {
     return Fail(fmt::format("expected rows {}, found a JSON document: name its file", Within(path)),
                 path);
   }
-  if (json.shape == JsonShape::kList) return JsonListInput(path, json.key, options);
-  return WholeFileInput(path, options);
+  if (json.shape == JsonShape::kList) return JsonListInput(path, name, json.key, options);
+  return WholeFileInput(path, name, true, options);
 }
 
 // True if a JSON list begins, not the head of a table such as "[Header]".
@@ -170,7 +171,7 @@ bool HoldsMeasurements(std::string_view head, const std::string& path, const Rea
 }
 
 Expected<std::unique_ptr<BatchInput>> OpenText(const LookedAt& file, std::string_view head) {
-  const auto& [path, options, scanner, stream] = file;
+  const auto& [path, name, options, scanner, stream] = file;
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (head.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     head.remove_prefix(kByteOrderMark.size());
@@ -198,15 +199,14 @@ Expected<std::unique_ptr<BatchInput>> OpenText(const LookedAt& file, std::string
                             Within(path)),
                 path);
   }
-  return HoldsMeasurements(head, path, options) ? WholeFileInput(path, options)
-                                                : OneCurveInput(path, options);
+  return WholeFileInput(path, name, HoldsMeasurements(head, path, options), options);
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const std::string& prefix,
+Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const std::string& name,
                                                 const ReadOptions& options) {
-  if (IsFolder(path)) return FolderTreeInput(path, prefix, options);
+  if (IsFolder(path)) return FolderTreeInput(path, name, options);
   if (path != "-" && !IsFile(path)) return Fail("the file does not exist", path);
   auto scanner = std::make_unique<LineScanner>(path, options.largest_file_bytes);
   TRY(const std::string_view head, scanner->Head());
@@ -216,10 +216,10 @@ Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const s
     const bool one = !IsReadOnce(path) &&
                      SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&
                      !IsRowsFile(path) && lines > 0;
-    if (one) return OneCurveInput(path, options);
+    if (one) return WholeFileInput(path, name, false, options);
     return Fail("expected rows in UTF-8, found UTF-16: save the file as UTF-8", path);
   }
-  return OpenText({path, options, &scanner}, head);
+  return OpenText({path, name, options, &scanner}, head);
 }
 
 }  // namespace lyrefit

@@ -14,13 +14,10 @@ namespace lyrefit {
 namespace {
 
 // Common base of JSON and CSV rows: one line is one curve.
-class RowsInput : public BatchInput {
+class RowsInput : public FileInput {
  public:
   RowsInput(std::string path, std::unique_ptr<LineScanner> scanner, const ReadOptions& options)
-      : path_(std::move(path)),
-        options_(options),
-        size_(SizeOfFile(path_) + 1),
-        scanner_(std::move(scanner)) {}
+      : FileInput(std::move(path), options), scanner_(std::move(scanner)) {}
 
   Expected<std::optional<FoundCurve>> Next() override {
     ScannedLine line;
@@ -36,8 +33,8 @@ class RowsInput : public BatchInput {
     ForgetManyNames();
     FoundCurve found;
     found.id = IdOf(line.text);
+    found.stated = true;
     found.line = line.number;
-    found.number = count_++;
     found.begin = line.offset;
     found.end = line.end;
     found.bytes = line.text;
@@ -48,25 +45,14 @@ class RowsInput : public BatchInput {
     return std::optional<FoundCurve>(std::move(found));
   }
 
-  std::int64_t size() const override { return size_; }
-  Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
-    return sum->AddFile(path_, until);
-  }
-  void AddRemarks(std::vector<std::string>*) const override {}
-
  protected:
   virtual std::int64_t HeadLine() const { return 0; }  // this line and all before it are no rows
   virtual std::string IdOf(std::string_view row) const = 0;
 
   std::uintmax_t RowLimit() const { return options_.largest_file_bytes; }
 
-  const std::string path_;
-  const ReadOptions options_;
-
  private:
-  const std::int64_t size_;
   std::unique_ptr<LineScanner> scanner_;
-  std::int64_t count_ = 0;
 };
 
 class JsonRows : public RowsInput {

@@ -32,17 +32,27 @@ class TreeInput : public BatchInput {
   std::int64_t count() const { return count_; }
 
   Expected<std::optional<FoundCurve>> Next() override {
+    if (several_) {
+      TRY(auto found, several_->Next());
+      if (found) return Placed(std::move(*found));
+      several_.reset();
+    }
+    at_ += weight_;
+    weight_ = 0;
     const std::optional<TreeFile> file = tree_.Next();
     if (!file) return std::optional<FoundCurve>();
+    weight_ = WeightOf(*file);
+    path_ = file->path;
+    id_ = prefix_ + (prefix_.empty() || file->id.empty() ? "" : "/") + file->id;
+    if (file->refusal.empty() && HoldsSeveral()) {
+      TRY(several_, OpenInput(path_, id_, options_));
+      return Next();
+    }
     FoundCurve found;
-    found.id = prefix_ + (prefix_.empty() || file->id.empty() ? "" : "/") + file->id;
-    found.number = number_++;
-    found.begin = at_;
-    at_ += WeightOf(*file);
-    found.end = at_;
-    found.file = file->path;
-    if (!file->refusal.empty()) found.error = Error{file->refusal, file->path};
-    return std::optional<FoundCurve>(std::move(found));
+    found.id = id_;
+    found.end = weight_;
+    if (!file->refusal.empty()) found.error = Error{file->refusal, path_};
+    return Placed(std::move(found));
   }
 
   BatchCurve Read(const BatchItem& item) const override {
@@ -83,6 +93,32 @@ class TreeInput : public BatchInput {
   }
 
  private:
+  // Whether the present file has more than one curve. A file that cannot be read has its error as
+  // one.
+  bool HoldsSeveral() const {
+    const auto input = OpenInput(path_, id_, options_);
+    for (int i = 0; i < 2; ++i) {
+      const auto found = input ? (*input)->Next() : std::nullopt;
+      if (!found || !*found) return false;
+    }
+    return true;
+  }
+
+  // A curve of the present file, with its position in the tree.
+  std::optional<FoundCurve> Placed(FoundCurve found) {
+    if (found.id.empty()) {
+      found.unnamed = true;
+      found.id = fmt::format("{}:{}", id_, found.line);
+    } else if (found.stated) {
+      found.id = id_ + "/" + found.id;
+    }
+    found.begin += at_;
+    found.end += at_;
+    found.file = path_;
+    found.reader = several_;
+    return found;
+  }
+
   // Adds a file to the checksum. A file that cannot be read is a broken row, and its error message
   // is added instead.
   static void AddBytes(const std::string& path, std::int64_t size, ByteSum* sum) {
@@ -96,8 +132,11 @@ class TreeInput : public BatchInput {
   std::map<std::string, int> others_;
   std::int64_t size_ = 0;
   std::int64_t count_ = 0;
-  std::int64_t number_ = 0;
-  std::int64_t at_ = 0;
+  std::int64_t at_ = 0;  // position of the present file
+  std::int64_t weight_ = 0;
+  std::string path_;
+  std::string id_;
+  std::shared_ptr<BatchInput> several_;  // the present file, if it has several curves
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -13,7 +15,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 Expected<std::vector<RawCurve>> Find(const char* text, const ReadOptions& options = {}) {
-  return FindJsonCurves(nlohmann::json::parse(text), "f.json", options);
+  TRY(JsonCurves found, FindJsonCurves(nlohmann::json::parse(text), "f.json", options));
+  return std::move(found.curves);
 }
 
 TEST(FindJsonCurvesTest, ReadsEveryShape) {
@@ -137,6 +140,19 @@ TEST(FindJsonCurvesTest, SeveralCurrentsAreSeveralCurvesOrOneByColumn) {
   EXPECT_EQ(one->front().curve.current_A[0], 2);
   options.column = "i3";
   EXPECT_THAT(Find(text, options).error().message, HasSubstr("1 'i1', 2 'i2'"));
+}
+
+TEST(FindJsonCurvesTest, AnInvalidCurveLeavesTheOthers) {
+  const auto found =
+      FindJsonCurves(nlohmann::json::parse(R"([{"name": "a", "v": [0, 1], "i": [1, "x"]},
+                                {"name": "b", "v": [0, 1], "i": [1, 0]}])"),
+                     "f.json", {});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->curves.size(), 1U);
+  EXPECT_EQ(found->curves[0].curve.name, "b");
+  ASSERT_EQ(found->rejected.size(), 1U);
+  EXPECT_EQ(found->rejected[0].id, "a");
+  EXPECT_THAT(found->rejected[0].error.message, HasSubstr("in \"i\"[1], found 'x'"));
 }
 
 TEST(FindJsonCurvesTest, RefusesWhatIsBrokenOrNoCurve) {

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include <zlib.h>
@@ -11,8 +8,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/batch_input.h"
 #include "lyrefit/read/curve_text.h"
-#include "lyrefit/read/json_curves.h"
-#include "lyrefit/read/json_text.h"
 #include "lyrefit/read/line_scanner.h"
 #include "lyrefit/read/row_names.h"
 #include "lyrefit/read/table_curve.h"
@@ -69,19 +64,7 @@ class WholeFile : public FileInput {
   void Load() {
     const auto text = ReadDecodedFile(path_, options_.largest_file_bytes);
     if (!text) return Refuse(text.error());
-    const auto document = DocumentIn(text->text, path_);
-    if (!document) return Refuse(document.error());
-    if (!*document) return LoadTable(*text);
-    auto curves = FindJsonCurves(**document, path_, options_);
-    if (!curves) return Refuse(curves.error());
-    for (RawCurve& raw : *curves) {
-      const std::string id = raw.curve.name;
-      curves_.push_back({id, FinishCurve(std::move(raw), options_)});
-    }
-  }
-
-  void LoadTable(const DecodedText& text) {
-    Expected<CurveSet> set = CurveSetOfFile(text, path_, options_);
+    Expected<CurveSet> set = CurveSetOfFile(*text, path_, options_);
     if (!set) return Refuse(set.error());
     for (IvCurve& curve : set->curves) {
       curve.assumptions.insert(curve.assumptions.begin(), set->assumptions.begin(),

@@ -150,6 +150,7 @@ struct FoundCurves {
   const ReadOptions& options;
   std::vector<RawCurve> curves;
   std::vector<SweepDirection> directions;  // of each curve, as its object states it
+  std::vector<RejectedCurve> rejected;
   std::set<std::string> ids;
 };
 
@@ -301,13 +302,18 @@ Expected<bool> TakeRecords(FoundCurves* found, const Records& records, const Sur
   for (const Channel& channel : chosen) {
     TRY(ApplyUnitWishes(found->options, channel, &columns));
     TakeUnitOfDensity(records, around.stated, found->options, channel.current, &columns);
-    TRY(RawCurve raw, CurveOfRecords(records, columns, channel, found->options, {found->path}));
-    raw.stated = Merge(std::move(raw.stated), around.stated);
+    const std::string own = Below(around.id, ChannelName(columns, channel));
+    const std::string& id = channels.size() > 1 ? own : around.id;
+    auto raw = CurveOfRecords(records, columns, channel, found->options, {found->path});
+    if (!raw) {
+      found->rejected.push_back({UniqueId(found, id), raw.error()});
+      continue;
+    }
+    raw->stated = Merge(std::move(raw->stated), around.stated);
     // Documents without units are taken in V and A, with a sentence but without the doubts about
     // unit and size that tables get.
-    raw.curve.voltage_unit_known = raw.curve.current_unit_known = true;
-    const std::string own = Below(around.id, ChannelName(columns, channel));
-    TakeCurve(found, std::move(raw), channels.size() > 1 ? own : around.id, around);
+    raw->curve.voltage_unit_known = raw->curve.current_unit_known = true;
+    TakeCurve(found, std::move(*raw), id, around);
   }
   return true;
 }
@@ -370,19 +376,22 @@ std::vector<RawCurve> JoinDirections(FoundCurves* found) {
 
 }  // namespace
 
-Expected<std::vector<RawCurve>> FindJsonCurves(const json& document, const std::string& path,
-                                               const ReadOptions& options) {
-  FoundCurves found{path, options, {}, {}, {}};
+Expected<JsonCurves> FindJsonCurves(const json& document, const std::string& path,
+                                    const ReadOptions& options) {
+  FoundCurves found{path, options, {}, {}, {}, {}};
   Surroundings around;
   if (IsReport(document)) around.stated = ReportedConditions(document, path).value_or(Sidecar{});
   TRY(FindCurvesIn(&found, document, around));
+  if (found.curves.empty() && !found.rejected.empty()) {
+    return tl::unexpected(found.rejected.front().error);
+  }
   if (found.curves.empty()) {
     return Fail(
         "expected an ivcurves file (a JSON object with the key \"IV Curves\") or lists of numbers "
         "under names of a voltage and a current, such as \"voltage_V\" and \"current_A\"",
         path);
   }
-  return JoinDirections(&found);
+  return JsonCurves{JoinDirections(&found), std::move(found.rejected)};
 }
 
 }  // namespace lyrefit

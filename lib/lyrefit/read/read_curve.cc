@@ -43,11 +43,12 @@ Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::s
     }
     return numbered;
   }
-  TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
-  for (RawCurve& raw : curves) {
+  TRY(JsonCurves found, FindJsonCurves(document, path, options));
+  if (!found.rejected.empty()) return tl::unexpected(found.rejected.front().error);
+  for (RawCurve& raw : found.curves) {
     const std::string id = raw.curve.name;
     raw.curve.name = fs::path(path).stem().string();
-    if (curves.size() > 1 && !id.empty()) raw.curve.name += "_" + id;
+    if (found.size() > 1 && !id.empty()) raw.curve.name += "_" + id;
     numbered.push_back({std::to_string(numbered.size() + 1), std::move(raw), false});
   }
   return numbered;

@@ -190,8 +190,11 @@ Expected<CurveSet> SetFromJson(const nlohmann::json& document, const std::string
                                const ReadOptions& options) {
   CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
   if (!IsIvCurves(document)) {
-    TRY(std::vector<RawCurve> curves, FindJsonCurves(document, path, options));
-    for (RawCurve& raw : curves) builder.Add(std::move(raw), 0);
+    TRY(JsonCurves found, FindJsonCurves(document, path, options));
+    for (RawCurve& raw : found.curves) builder.Add(std::move(raw), 0);
+    for (RejectedCurve& rejected : found.rejected) {
+      builder.Reject(std::move(rejected.id), std::move(rejected.error));
+    }
     return builder.Finish();
   }
   TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));

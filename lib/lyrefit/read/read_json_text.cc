@@ -36,7 +36,7 @@ Expected<IvCurve> NestedCurve(std::string_view text, const RecordPlace& place,
   if (curves->size() != 1) {
     return place.Refuse(fmt::format("expected one curve in a row, found {}", curves->size()));
   }
-  RawCurve raw = std::move(curves->front());
+  RawCurve raw = std::move(curves->curves.front());
   auto curve = FinishCurve(std::move(raw), options);
   if (!curve) return place.Refuse(curve.error().message);
   curve->name = id;

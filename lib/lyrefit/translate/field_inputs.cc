@@ -2,8 +2,10 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 
 namespace lyrefit {
@@ -34,10 +36,11 @@ std::string Why(bool stated, const std::string& otherwise) {
 }
 
 const TranslationInput& QuantityOf(const std::string& name) {
-  for (const TranslationInput& each : kTranslationInputs) {
-    if (name == each.name) return each;
-  }
-  LOG(FATAL) << "no input of a translation is called " << name;
+  const auto* const found =
+      std::find_if(std::begin(kTranslationInputs), std::end(kTranslationInputs),
+                   [&](const TranslationInput& each) { return name == each.name; });
+  CHECK(found != std::end(kTranslationInputs)) << "no input of a translation is called " << name;
+  return *found;
 }
 
 class Collector {

@@ -168,16 +168,13 @@ TEST(NewFileTest, HasItsNameAfterCommitOnly) {
   }
   EXPECT_EQ(*ReadTextFile(path, kMostBytes), "old");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
-  const Descriptor scratch(OpenScratch(path));
-  ASSERT_TRUE(scratch.Write("from the scratch file, "));
   NewFile first(path), second(other);
   ASSERT_TRUE(first.Begin());
   ASSERT_TRUE(second.Begin());
   ASSERT_TRUE(first.Write("one, "));
-  ASSERT_TRUE(first.WriteFrom(scratch));
   ASSERT_TRUE(first.Write("two"));
   ASSERT_TRUE(NewFile::Commit({&first, &second}));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "one, from the scratch file, two");
+  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "one, two");
   EXPECT_EQ(*ReadFileBytes(other, kMostBytes), "");
   EXPECT_EQ(FilesIn(folder.Path("")), 2);
 }

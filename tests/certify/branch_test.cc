@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
+#include "lyrefit/certify/measured_relaxation.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -12,6 +13,17 @@ BranchLimits LimitsOf(const MixtureData& data) {
   BranchLimits limits;
   limits.rs_upper = data.reference_voltage_V / data.current_A.maxCoeff();
   return limits;
+}
+
+// The measured-current problem, with any number of diodes.
+BranchEnd BranchOverResistance(const MixtureData& data, const Window& window,
+                               const BranchLimits& limits) {
+  return BranchOver(MeasuredRelaxation(data, limits.rigorous), window, 0, kInfinity, limits);
+}
+
+BranchEnd BranchOverDiodes(const MixtureData& data, const Window& window, int diodes, double primal,
+                           const BranchLimits& limits) {
+  return BranchOver(MeasuredRelaxation(data, limits.rigorous), window, diodes, primal, limits);
 }
 
 TEST(BranchOverResistance, BoundsEveryResistanceAndAttainsTheBest) {

@@ -1,12 +1,12 @@
 #include "fuzz_file.h"
-#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/curve_set.h"
 
 // Reader of an ivcurves JSON file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;
-  const auto curves = ReadIvCurvesJson(FuzzFile("curves.json", Bytes(data, size)));
-  for (std::size_t i = 0; curves && i < curves->size(); ++i) {
-    if (!Validate((*curves)[i])) std::abort();
+  const auto set = ReadCurveSet(FuzzFile("curves.json", Bytes(data, size)));
+  for (std::size_t i = 0; set && i < set->curves.size(); ++i) {
+    if (!Validate(set->curves[i])) std::abort();
   }
   return 0;
 }

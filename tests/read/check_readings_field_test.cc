@@ -76,9 +76,10 @@ TEST(CheckReadingsFieldTest, CleanCurvesHaveNeitherDoubtsNorSteps) {
 TEST(CheckReadingsFieldTest, ContestCurvesAreTakenWithoutDoubt) {
   for (const char* name : {"case1", "case2", "case3a", "case3b", "case3c", "case3d"}) {
     const auto set =
-        ReadIvCurvesJson((fs::path(kField) / "ivcurves" / (std::string(name) + ".json")).string());
+        ReadCurveSet((fs::path(kField) / "ivcurves" / (std::string(name) + ".json")).string());
     ASSERT_TRUE(set);
-    for (const IvCurve& curve : *set) EXPECT_THAT(CheckReadings(curve), ::testing::IsEmpty());
+    for (const IvCurve& curve : set->curves)
+      EXPECT_THAT(CheckReadings(curve), ::testing::IsEmpty());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/read/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
@@ -73,9 +74,9 @@ TEST(FieldDataTest, AllContestCurvesAreRead) {
   for (const char* name : {"case1", "case2", "case3a", "case3b", "case3c", "case3d"}) {
     SCOPED_TRACE(name);
     const fs::path path = fs::path(kMeasured) / "ivcurves" / (std::string(name) + ".json");
-    const auto set = ReadIvCurvesJson(path.string());
+    const auto set = ReadCurveSet(path.string());
     ASSERT_TRUE(set) << set.error().ToString();
-    for (const IvCurve& curve : *set) {
+    for (const IvCurve& curve : set->curves) {
       EXPECT_GT(curve.conditions.cells_in_series, 1);
       EXPECT_FALSE(SaysThatTheSignWasTurned(curve));
       ++curves;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/curve_set.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -22,11 +22,11 @@ constexpr char kTwoCurves[] = R"({
 
 TEST(ReadIvCurvesJsonTest, ReadsAllCurvesInFileOrder) {
   const TempFolder folder;
-  const auto curves = ReadIvCurvesJson(folder.Write("set.json", kTwoCurves));
+  const auto curves = ReadCurveSet(folder.Write("set.json", kTwoCurves));
   ASSERT_TRUE(curves) << curves.error().ToString();
-  ASSERT_EQ(curves->size(), 2U);
-  const IvCurve& first = curves->front();
-  EXPECT_EQ(first.name, "set_1");
+  ASSERT_EQ(curves->curves.size(), 2U);
+  const IvCurve& first = curves->curves.front();
+  EXPECT_EQ(first.name, "1");
   EXPECT_EQ(first.notes.technology, "mono-Si");
   EXPECT_THAT(first.voltage_V, ElementsAre(0, 20, 40));
   EXPECT_THAT(first.current_A, ElementsAre(1, 0.9, 0));
@@ -34,8 +34,8 @@ TEST(ReadIvCurvesJsonTest, ReadsAllCurvesInFileOrder) {
   EXPECT_EQ(first.conditions.cell_temperature_K, 298.15);
   EXPECT_THAT(SentencesOf(first.assumptions),
               ElementsAre("irradiance not given: assumed 1000 W/m2"));
-  const IvCurve& second = curves->back();
-  EXPECT_EQ(second.name, "set_5");
+  const IvCurve& second = curves->curves.back();
+  EXPECT_EQ(second.name, "5");
   EXPECT_EQ(second.conditions.cells_in_series, 60);
   EXPECT_EQ(second.conditions.irradiance_W_m2, 800);
   EXPECT_THAT(second.current_A, ElementsAre(2, 1.9, 0));
@@ -104,7 +104,7 @@ TEST(ReadIvCurvesJsonTest, ErrorsSayWhereAndWhatWasExpected) {
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.text);
     const std::string path = folder.Write("a.json", c.text);
-    const auto curves = ReadIvCurvesJson(path);
+    const auto curves = ReadCurveSet(path);
     ASSERT_FALSE(curves);
     EXPECT_EQ(curves.error().file, path);
     EXPECT_THAT(curves.error().message, HasSubstr(c.phrase));
@@ -120,7 +120,7 @@ TEST(ReadIvCurvesJsonTest, SidecarGivenByMistakePointsToItsTable) {
 
 TEST(ReadIvCurvesJsonTest, BrokenJsonSaysLineAndColumn) {
   const TempFolder folder;
-  const auto curves = ReadIvCurvesJson(folder.Write("a.json", "{\n\"IV Curves\": [}\n"));
+  const auto curves = ReadCurveSet(folder.Write("a.json", "{\n\"IV Curves\": [}\n"));
   ASSERT_FALSE(curves);
   EXPECT_EQ(curves.error().line, 2);
   EXPECT_EQ(curves.error().column, 15);

@@ -18,15 +18,11 @@ Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd Times(const Eigen::MatrixXd& a, const RowMatrix& b);
 Eigen::MatrixXd Times(const RowMatrix& a, const Eigen::MatrixXd& b);
 Eigen::VectorXd Times(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
-Eigen::MatrixXf Times(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
-Eigen::VectorXf Times(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
 // Product a' b.
 Eigen::MatrixXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::VectorXd TransposedTimes(const Eigen::MatrixXd& a, const Eigen::VectorXd& x);
 Eigen::VectorXd TransposedTimes(const RowMatrix& a, const Eigen::VectorXd& x);
-Eigen::MatrixXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b);
-Eigen::VectorXf TransposedTimes(const Eigen::MatrixXf& a, const Eigen::VectorXf& x);
 
 // Product scale a a', m x m.
 Eigen::MatrixXd TimesTransposed(const Eigen::MatrixXd& a, double scale = 1);
@@ -50,10 +46,6 @@ bool PseudoInverse(const Eigen::MatrixXd& a, Eigen::MatrixXd* inverse);
 
 // An orthonormal basis of the column space of `a`, m x rank, by QR with column pivoting.
 Eigen::MatrixXd RankedBasis(const Eigen::MatrixXd& a);
-
-// Columns b that span those of `a` and are orthonormal under the weights: b' diag(weight) b = 1.
-// The columns of `a` must be clearly linearly independent.
-Eigen::MatrixXf OrthonormalUnder(const Eigen::MatrixXf& a, const Eigen::VectorXf& weight);
 
 // Projects each column of y onto the complement of orthonormal columns: y - basis basis' y.
 void TakeOut(const Eigen::MatrixXd& basis, Eigen::VectorXd* y);

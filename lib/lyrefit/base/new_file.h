@@ -24,8 +24,6 @@ class NewFile {
   // the file size limit is reached. Each message names the path.
   Expected<void> Begin();
   Expected<void> Write(std::string_view text);
-  // Writes all content of an open file.
-  Expected<void> WriteFrom(const Descriptor& other);
   // Gives the complete file its name.
   Expected<void> Commit();
   // Gives no file its name before all are complete and on the disk.
@@ -37,6 +35,7 @@ class NewFile {
   Expected<void> Complete(bool on_disk);
   Expected<void> Name();
   Expected<void> OpenTemporary();
+  Expected<void> WriteFrom(const Descriptor& other);  // all content of an open file
   Expected<void> CopyToTemporary();
 
   const std::string path_;
@@ -47,10 +46,5 @@ class NewFile {
   bool in_place_ = false;
   std::string waiting_;
 };
-
-// Opens a file without a name, which disappears when it is closed; -1 with the reason in errno if
-// that fails. It is in the folder of the file `path`, which has the space for that file, or in the
-// folder for temporary files if `path` is a device or a pipe.
-int OpenScratch(const std::string& path);
 
 }  // namespace lyrefit

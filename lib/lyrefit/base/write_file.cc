@@ -113,11 +113,6 @@ tl::unexpected<Error> CannotWriteFile(const std::string& path, int reason) {
 
 }  // namespace
 
-int OpenScratch(const std::string& path) {
-  std::error_code error;
-  return OpenScratchIn(IsWrittenInPlace(path) ? fs::temp_directory_path(error) : FolderOf(path));
-}
-
 NewFile::NewFile(std::string path) : path_(std::move(path)), file_(-1) {}
 
 NewFile::~NewFile() {

@@ -6,7 +6,6 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/certify/as_diodes.h"
-#include "lyrefit/certify/measured_relaxation.h"
 
 namespace lyrefit {
 namespace {
@@ -267,21 +266,6 @@ BranchEnd BranchOver(const Relaxation& relaxation, const Window& window, int dio
   if (diodes == 0) return Branch(relaxation, limits, {}, primal).Run({window});
   return BranchOver(relaxation, std::vector<Window>(static_cast<std::size_t>(diodes), window),
                     primal, limits);
-}
-
-BranchEnd BranchOverResistance(const MixtureData& data, const Window& window,
-                               const BranchLimits& limits) {
-  return BranchOver(MeasuredRelaxation(data, limits.rigorous), window, 0, kInfinity, limits);
-}
-
-BranchEnd BranchOverDiodes(const MixtureData& data, const std::vector<Window>& box, double primal,
-                           const BranchLimits& limits) {
-  return BranchOver(MeasuredRelaxation(data, limits.rigorous), box, primal, limits);
-}
-
-BranchEnd BranchOverDiodes(const MixtureData& data, const Window& window, int diodes, double primal,
-                           const BranchLimits& limits) {
-  return BranchOver(MeasuredRelaxation(data, limits.rigorous), window, diodes, primal, limits);
 }
 
 }  // namespace lyrefit

@@ -46,13 +46,4 @@ BranchEnd BranchOver(const Relaxation& relaxation, const std::vector<Window>& bo
 BranchEnd BranchOver(const Relaxation& relaxation, const Window& window, int diodes, double primal,
                      const BranchLimits& limits);
 
-// BranchOver() with the measured-current problem of mixture.h. BranchOverResistance() allows any
-// number of diodes.
-BranchEnd BranchOverResistance(const MixtureData& data, const Window& window,
-                               const BranchLimits& limits);
-BranchEnd BranchOverDiodes(const MixtureData& data, const std::vector<Window>& box, double primal,
-                           const BranchLimits& limits);
-BranchEnd BranchOverDiodes(const MixtureData& data, const Window& window, int diodes, double primal,
-                           const BranchLimits& limits);
-
 }  // namespace lyrefit

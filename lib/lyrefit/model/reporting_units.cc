@@ -134,16 +134,4 @@ ParameterBounds ReportedBounds(const EffectSpan& span, const ParameterBounds& ow
   return {lower, upper, lower, upper, own.scale, own.whole};
 }
 
-double FactorOf(const Device& device, const std::vector<double>& p, int i) {
-  const DeviceEffects& device_effects = *device.effects;
-  for (std::size_t e = 0; e < device_effects.uses.size(); ++e) {
-    const Effect& effect = *device_effects.uses[e].effect;
-    const int first = device_effects.law.Offset(static_cast<int>(e));
-    if (i < first || i >= first + effect.size()) continue;
-    return effect.parameters[i - first].ReportedFactor(p.data() + first,
-                                                       device_effects.readings.scale);
-  }
-  return 1;
-}
-
 }  // namespace lyrefit

@@ -49,7 +49,4 @@ std::vector<double> Internal(const Device& device, std::vector<double> reported)
 ParameterBounds ReportedBounds(const EffectSpan& span, const ParameterBounds& own,
                                std::vector<double> p, int i);
 
-// Factor from the internal to the reported value of parameter i, with the others at `p`.
-double FactorOf(const Device& device, const std::vector<double>& p, int i);
-
 }  // namespace lyrefit

@@ -66,7 +66,7 @@ struct BatchItem {
   std::int64_t in_file = 0;    // index among the curves of a file that is not rows, from 0
   bool unnamed = false;        // the input has no name for it; the id is its position
   std::optional<Error> error;  // error found before reading
-  std::shared_ptr<const BatchInput> reader;
+  std::shared_ptr<const BatchInput> reader;  // of the file that holds it
 };
 
 // A curve read from an item. A broken one keeps its id if the id is readable.

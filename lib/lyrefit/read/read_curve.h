@@ -106,9 +106,4 @@ struct ColumnNote {
 Expected<std::vector<ColumnNote>> ListColumns(const std::string& path,
                                               const ReadOptions& options = {});
 
-// All curves of an ivcurves JSON file, in file order. Errors: those of ReadCurve, including one for
-// any unreadable curve; an index that occurs twice.
-Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
-                                                const ReadOptions& options = {});
-
 }  // namespace lyrefit

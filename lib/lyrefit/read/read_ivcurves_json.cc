@@ -11,7 +11,6 @@
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/number_text.h"
 #include "lyrefit/read/settle_conditions.h"
-#include "lyrefit/read/text_encoding.h"
 
 namespace lyrefit {
 namespace {
@@ -160,27 +159,10 @@ bool IsIvCurves(const json& document) {
   return document.is_object() && document.contains("IV Curves");
 }
 
-Expected<json> ReadJsonFile(const std::string& path, const ReadOptions& options) {
-  TRY(const DecodedText text, ReadDecodedFile(path, options.largest_file_bytes));
-  return ParseJson(text.text, path);
-}
-
 Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const json& document,
                                                          const std::string& path) {
   IvCurvesFile file{document, path, {}, {}, {}};
   return ReadEntries(&file);
-}
-
-Expected<std::vector<IvCurve>> ReadIvCurvesJson(const std::string& path,
-                                                const ReadOptions& options) {
-  TRY(const json document, ReadJsonFile(path, options));
-  TRY(std::vector<IvCurvesEntry> entries, ReadIvCurvesEntries(document, path));
-  std::vector<IvCurve> curves;
-  for (IvCurvesEntry& entry : entries) {
-    if (!entry.curve) return tl::unexpected(entry.curve.error());
-    curves.push_back(std::move(*entry.curve));
-  }
-  return curves;
 }
 
 }  // namespace lyrefit

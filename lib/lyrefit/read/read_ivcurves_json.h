@@ -6,7 +6,6 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/read/iv_curve.h"
-#include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {
 
@@ -23,8 +22,5 @@ bool IsIvCurves(const nlohmann::json& document);
 // `path` is only used in errors and names.
 Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const nlohmann::json& document,
                                                          const std::string& path);
-
-// Parses a file as JSON.
-Expected<nlohmann::json> ReadJsonFile(const std::string& path, const ReadOptions& options);
 
 }  // namespace lyrefit

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/curve_set.h"
 
 namespace lyrefit {
 namespace {
@@ -51,9 +51,9 @@ TEST(FitOfFieldCurves, SettlesAndGetsNoWorseWithMoreDiodes) {
 TEST(FitOfContestCurves, FitsExactCurvesToTheRoundingOfTheirNumbers) {
   const std::string folder = LYREFIT_FIELD_DATA_DIR "/ivcurves/";
   for (const char* name : {"case1", "case2"}) {
-    const auto curves = ReadIvCurvesJson(folder + name + ".json");
+    const auto curves = ReadCurveSet(folder + name + ".json");
     ASSERT_TRUE(curves.has_value()) << curves.error().ToString();
-    for (const IvCurve& curve : *curves) {
+    for (const IvCurve& curve : curves->curves) {
       FitOptions options;
       options.intervals = Intervals::kNone;
       const auto report = Fit(curve, options);
@@ -78,13 +78,13 @@ TEST(FitOfContestCurves, ScoresOnTheNoisySets) {
                {"case3d", 0.5, 1e-08, 1.5, 1.0, 300, 0.235}};
   for (const auto& set : kSets) {
     const auto curves =
-        ReadIvCurvesJson(std::string(LYREFIT_FIELD_DATA_DIR) + "/ivcurves/" + set.name + ".json");
+        ReadCurveSet(std::string(LYREFIT_FIELD_DATA_DIR) + "/ivcurves/" + set.name + ".json");
     ASSERT_TRUE(curves.has_value()) << curves.error().ToString();
     double scores[2];
     for (const bool field : {false, true}) {
       const std::vector<double> truth = {set.iph, set.is, set.n, set.rs, 1 / set.rsh};
       std::vector<double> mean(5);
-      for (const IvCurve& curve : *curves) {
+      for (const IvCurve& curve : curves->curves) {
         FitOptions options;
         options.intervals = Intervals::kNone;
         options.random_baseline = false;
@@ -94,7 +94,7 @@ TEST(FitOfContestCurves, ScoresOnTheNoisySets) {
         ASSERT_TRUE(report.has_value()) << report.error().ToString();
         for (int i = 0; i < 5; ++i) {
           const double value = report->refined[i];
-          mean[i] += (i == 4 ? 1 / value : value) / static_cast<double>(curves->size());
+          mean[i] += (i == 4 ? 1 / value : value) / static_cast<double>(curves->curves.size());
         }
       }
       double score = 0;

@@ -58,7 +58,7 @@ TEST(ReadHeadLineTest, AValueForEachPixelCountsIfAllAreEqual) {
 TEST(ReadHeadLineTest, LeavesWhatIsNotClear) {
   for (const char* line :
        {"Temp1 47.3", "T1(C),47.3", "Ambient temperature (C),20", "GHI (W/m2),800",
-        "Number of modules in series,1", "Reference irradiance (W/m2): 1000", "Pmax (W),240",
+        "Number of modules in series,1", "Reference irradiance (W/m2): 1000", "Rated power (W),240",
         "Cells in parallel: 2", "Isc 8.90 Voc 36.0", "Area: 4", "Temperature: 320",
         "Irradiance (W/m2): -5", "Number of cells: 2.5", "Light: 1"}) {
     const TableHead head = Head(line);
@@ -94,6 +94,20 @@ TEST(HeadSentencesTest, ShowSomeOfTheLinesThatWereLeft) {
                   "not understood, and not used: line 2 'Foo: 12', line 3 'Foo: 12', line 4 "
                   "'Foo: 12', line 5 'Foo: 12', line 6 'Foo: 12', line 7 'Foo: 12' and 4 "
                   "more"));
+}
+
+TEST(HeadSentencesTest, TellResultsFromWhatIsNotUnderstood) {
+  TableHead head;
+  int line = 0;
+  for (const char* text :
+       {"I_sc [A]: 3.79E-3", "JSC [mA/cm2]: -21.9 -21.9", "Fill factor: 67.9", "Voc (V)\t1.02",
+        "Efficiency [pct.]: 18", "Pmpp [mW]: 23.7", "Averaged Points 3"}) {
+    ReadHeadLine(text, ++line, HeadLine::kText, &head);
+  }
+  EXPECT_EQ(head.results.size(), 6U);
+  EXPECT_THAT(head.left, ElementsAre("line 7 'Averaged Points 3'"));
+  EXPECT_THAT(SentencesOf(HeadSentences(head)).front(),
+              ::testing::StartsWith("stated key points and results, not used: line 1 'I_sc"));
 }
 
 }  // namespace

@@ -27,6 +27,30 @@ std::string ResultName(std::string_view label) {
   return name == "isca" || name == "voca" ? name.substr(0, 3) : name;
 }
 
+constexpr std::string_view kKeyPointResults[] = {"isc", "jsc",  "voc",  "imp",
+                                                 "vmp", "impp", "vmpp", "pmp"};
+constexpr std::string_view kOtherResults[] = {"jmp",
+                                              "jmpp",
+                                              "pmpp",
+                                              "pmax",
+                                              "mpp",
+                                              "ff",
+                                              "fillfactor",
+                                              "eff",
+                                              "efficiency",
+                                              "pce",
+                                              "rs",
+                                              "rsh",
+                                              "rseries",
+                                              "rshunt",
+                                              "seriesresistance",
+                                              "shuntresistance"};
+
+template <std::size_t kSize>
+bool IsOneOf(const std::string_view (&names)[kSize], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
 int PlaceOf(const Fields& names, std::string_view wanted) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (ResultName(names[i]) == wanted) return static_cast<int>(i);
@@ -72,13 +96,14 @@ Column UnitByResults(const ResultsAbove& results, const Fields& readings) {
 }  // namespace
 
 bool AreKeyPoints(const Fields& names) {
-  static constexpr std::string_view kPoints[] = {"isc", "jsc",  "voc",  "imp",
-                                                 "vmp", "impp", "vmpp", "pmp"};
-  const auto found = std::count_if(names.begin(), names.end(), [](const std::string& name) {
-    const std::string result = ResultName(name);
-    return std::find(std::begin(kPoints), std::end(kPoints), result) != std::end(kPoints);
-  });
-  return found >= 3;
+  return std::count_if(names.begin(), names.end(), [](const std::string& name) {
+           return IsOneOf(kKeyPointResults, ResultName(name));
+         }) >= 3;
+}
+
+bool IsResult(std::string_view label) {
+  const std::string name = ResultName(label);
+  return IsOneOf(kKeyPointResults, name) || IsOneOf(kOtherResults, name);
 }
 
 bool TakeResults(std::string_view line, int number, ResultsAbove* results, TableHead* head) {

@@ -10,6 +10,7 @@
 
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
+#include "lyrefit/read/results_above.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {
@@ -360,7 +361,8 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));
   if (kind == HeadLine::kText && state.holds_number && !state.understood) {
-    head->left.push_back(source);
+    (IsResult(line.substr(0, line.find_first_of(":=\t;,"))) ? head->results : head->left)
+        .push_back(source);
   }
 }
 
@@ -371,15 +373,17 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
 
 std::vector<Assumption> HeadSentences(const TableHead& head) {
   std::vector<Assumption> sentences = head.assumptions;
-  if (head.left.empty()) return sentences;
-  std::string list;
-  for (std::size_t i = 0; i < head.left.size() && i < kShownLines; ++i) {
-    list += (i == 0 ? "" : ", ") + head.left[i];
+  for (const auto& [what, lines] :
+       {std::pair("stated key points and results, not used: ", &head.results),
+        std::pair("not understood, and not used: ", &head.left)}) {
+    std::string list;
+    for (std::size_t i = 0; i < lines->size() && i < kShownLines; ++i) {
+      list += (i == 0 ? "" : ", ") + (*lines)[i];
+    }
+    if (lines->size() > kShownLines)
+      list += fmt::format(" and {} more", lines->size() - kShownLines);
+    if (!list.empty()) sentences.emplace_back(what + list);
   }
-  if (head.left.size() > kShownLines) {
-    list += fmt::format(" and {} more", head.left.size() - kShownLines);
-  }
-  sentences.emplace_back("not understood, and not used: " + list);
   return sentences;
 }
 

@@ -23,7 +23,8 @@ struct StatedCurrent {
 struct TableHead {
   Sidecar said;
   std::vector<Assumption> assumptions;  // values taken, with their source
-  std::vector<std::string> left;        // lines with a number that was not understood
+  std::vector<std::string> results;     // lines that state a result, such as Voc or efficiency
+  std::vector<std::string> left;        // other lines with a number that was not understood
   std::optional<StatedCurrent> short_circuit;
 };
 

@@ -85,6 +85,7 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
   cells.kind = SeriesKind::kCells;
   cells.look.colour = "";
   cells.width = 0.92;
+  cells.filter_columns = {"id"};
   double across = 1;
   double y = static_cast<double>(grid.lines.size());
   for (const auto& [above, paths] : grid.lines) {
@@ -95,6 +96,7 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
       const PlantNode& node = level.at(paths[i]);
       if (by_factor && !std::isfinite(node.lowest_performance)) continue;
       cells.Add(x, y, Shortfall(node, by_factor));
+      cells.filters.push_back({"^" + paths[i] + "/"});
       cells.texts.push_back(
           fmt::format("{}: {} strings, {} need work", paths[i], node.rows, node.in_need) +
           (by_factor ? fmt::format(", lowest performance factor {:.3f}", node.lowest_performance)

@@ -4,6 +4,8 @@
 const lyrefit = (() => {
   const root = document.documentElement;
   const darkWanted = matchMedia('(prefers-color-scheme: dark)');
+  const dark = [...document.styleSheets[0].cssRules].find((rule) => rule.media?.mediaText.includes('dark')).media;
+  const darkUnlessChosen = dark.mediaText;
   const themeFunctions = [];
 
   function unpacked(text) {
@@ -51,6 +53,7 @@ const lyrefit = (() => {
   const isDark = () => (root.dataset.theme ?? (darkWanted.matches ? 'dark' : 'light')) === 'dark';
 
   function themeChanged() {
+    dark.mediaText = {dark: 'screen', light: 'not all'}[root.dataset.theme] ?? darkUnlessChosen;
     for (const button of document.querySelectorAll('[data-page=theme]')) {
       button.textContent = isDark() ? 'Light' : 'Dark';
     }
@@ -101,39 +104,6 @@ const lyrefit = (() => {
     print: () => window.print(),
   };
 
-  // Rows of a long table, 25 at a time.
-  function addPager(box) {
-    const kRows = 25;
-    const rows = [...box.querySelectorAll('tbody tr')];
-    const pages = Math.ceil(rows.length / kRows);
-    if (pages < 2) return;
-    const pager = document.createElement('div');
-    pager.className = 'pager';
-    const buttons = ['Previous', 'Next'].map((text) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = text;
-      return button;
-    });
-    const where = document.createElement('span');
-    where.setAttribute('role', 'status');
-    pager.append(...buttons, where);
-    let page = 0;
-    const show = () => {
-      rows.forEach((row, i) => { row.hidden = Math.floor(i / kRows) !== page; });
-      buttons[0].disabled = page === 0;
-      buttons[1].disabled = page === pages - 1;
-      const last = Math.min(rows.length, (page + 1) * kRows);
-      where.textContent = `Rows ${page * kRows + 1} to ${last} of ${rows.length}`;
-    };
-    buttons.forEach((button, i) => button.addEventListener('click', () => {
-      page += i === 0 ? -1 : 1;
-      show();
-    }));
-    box.after(pager);
-    show();
-  }
-
   function start() {
     const tools = document.querySelector('header .tools');
     const record = document.getElementById('record') ?? document.getElementById('rows');
@@ -144,7 +114,6 @@ const lyrefit = (() => {
     tools.hidden = false;
     darkWanted.addEventListener('change', themeChanged);
     addEventListener('beforeprint', dressForPaper);
-    for (const box of document.querySelectorAll('details.readings .box, .box.long')) addPager(box);
     themeChanged();
   }
 
@@ -156,6 +125,7 @@ const lyrefit = (() => {
 (() => {
   const kNarrow = 560;  // pixels; narrower pages have one column of panels
   const kLetter = 6.7;  // pixels, for one letter of a title
+  const kMostParts = 500;  // of a chart in a choice
   const wantsStillness = matchMedia('(prefers-reduced-motion: reduce)');
 
   // A copy with the page's colours; those of `font` members are for text.
@@ -285,20 +255,38 @@ const lyrefit = (() => {
     tools.hidden = false;
   }
 
-  async function takeOver(Plotly, figure) {
-    const chart = await lyrefit.data(`${figure.id}-chart`);
+  // Parts of the chart as a choice, for the keyboard: each filters the table of all rows, as a click on it does.
+  function fillParts(select, {data}) {
+    const parts = data.flatMap(({meta, customdata}) => (customdata ?? []).map((texts) => [meta, texts]));
+    select.hidden = !lyrefit.filterRows || parts.length === 0 || parts.length > kMostParts;
+    if (select.hidden) return;
+    select.replaceChildren(new Option('Rows of a part', ''), ...parts.map((part) => new Option(
+        part[1].map((text, i) => text && `${part[0][i]} ${text}`).filter(Boolean).join(', '), JSON.stringify(part))));
+  }
+
+  // Draws a chart in its figure. Returns a function that draws another one in its place.
+  async function takeOver(Plotly, figure, chart) {
     const live = figure.querySelector('.live');
     const name = document.createElement('p');
     name.className = 'live-title';
-    name.innerHTML = chart.title;  // escaped where it was written
     const plot = document.createElement('div');
     plot.setAttribute('role', 'img');
     plot.setAttribute('aria-labelledby', `${figure.id}-caption`);
     const legend = document.createElement('ul');
     legend.className = 'legend';
-    const entries = chart.data.filter((trace) => trace.showlegend !== false);
     const hidden = new Set();
-    live.append(name, legend, plot);
+    const select = document.createElement('select');
+    select.ariaLabel = 'Rows of a part of the chart';
+    const told = document.createElement('p');
+    told.setAttribute('role', 'status');
+    const pick = async (names, texts) => {
+      const link = document.createElement('a');
+      link.href = '#rows-table';
+      link.textContent = await lyrefit.filterRows(names, texts);
+      told.replaceChildren('The table shows ', link);
+    };
+    select.addEventListener('change', () => select.value && pick(...JSON.parse(select.value)));
+    live.append(name, legend, plot, told);
     figure.classList.add('is-live');
     const config = {displayModeBar: false, doubleClick: 'reset', showTips: false};
     let width = 0;
@@ -310,21 +298,34 @@ const lyrefit = (() => {
       return Plotly.react(plot, coloured(shown), layout, config);
     };
     const redraw = () => {
-      fillLegend(legend, entries, hidden, draw);
+      name.innerHTML = chart.title;  // escaped where it was written
+      fillLegend(legend, chart.data.filter((trace) => trace.showlegend !== false), hidden, draw);
       return draw();
     };
     await redraw();
+    fillParts(select, chart);
+    plot.on('plotly_click', ({points: [{data, customdata}]}) => {
+      if (data.meta && lyrefit.filterRows) pick(data.meta, customdata ?? data.customdata[0]);
+    });
     addButtons(figure, [
       ['Zoom in', () => zoom(Plotly, plot, 0.5)],
       ['Zoom out', () => zoom(Plotly, plot, 2)],
       ['Reset', () => { hidden.clear(); return redraw(); }],
       ['PNG', () => savePicture(Plotly, chart, plot)],
     ]);
+    figure.querySelector('.tools').prepend(select);
     lyrefit.onTheme(redraw);
     new ResizeObserver(() => {
       if (live.clientWidth > 0 && Math.round(live.clientWidth) !== width) draw();
     }).observe(live);
+    return (next) => {
+      chart = next;
+      hidden.clear();
+      fillParts(select, chart);
+      return redraw();
+    };
   }
+  lyrefit.takeOver = async (figure, chart) => takeOver(await lyrefit.plotly(), figure, chart);
 
   async function takeOverAll() {
     const figures = [...document.querySelectorAll('figure[id]')].filter(
@@ -332,7 +333,7 @@ const lyrefit = (() => {
     if (figures.length === 0) return;
     const Plotly = await lyrefit.plotly();
     if (Plotly === null) return;
-    for (const figure of figures) await takeOver(Plotly, figure);
+    for (const figure of figures) await takeOver(Plotly, figure, await lyrefit.data(`${figure.id}-chart`));
     document.documentElement.dataset.charts = 'ready';
   }
 

@@ -45,8 +45,8 @@ void NameColours(bool letters, std::string* tag) {
 
 // Removes attributes of gnuplot's that change nothing in a page: defaults, and a class without a style.
 void DropDefaults(std::string* tag) {
-  for (const char* needless :
-       {" stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", " class=\"gridline\""}) {
+  for (const char* needless : {" stroke-linecap=\"butt\" stroke-linejoin=\"miter\"",
+                               " class=\"gridline\"", " color=\"currentColor\""}) {
     ReplaceAll(needless, "", tag);
   }
 }

@@ -119,7 +119,7 @@
   // What rows are grouped by: levels of the tree that their ids are, each within the one above, and columns of few words.
   function groupings(columns, rows, {field, name}) {
     const part = (row, level) => String(row[field] ?? '').split('/').slice(0, -1).slice(0, level).join('/');
-    const deepest = rows.reduce((most, row) => (part(row).length > most.length ? part(row) : most), '').split('/').filter(Boolean);
+    const deepest = rows.map((row) => part(row).split('/')).reduce((most, levels) => (levels.length > most.length ? levels : most)).filter(Boolean);
     return [['nothing', false],
       ...deepest.map((_, i) => [`${name}: ${deepest.slice(0, i + 1).join('/')}`, deepest.slice(0, i + 1).map((__, level) => (row) => part(row, level + 1))]),
       ...columns.filter(isWorded).map((column) => [column.name, column.field])];
@@ -173,8 +173,8 @@
   }
 
   // Shows the chart of the columns that are chosen. Returns its elements, and a function that draws it of these rows.
-  function explorer(columns, named) {
-    const numbers = columns.filter(({number}) => number);
+  function explorer(columns, all, named) {
+    const numbers = columns.filter(({number, field}) => number && all.some((row) => typeof row[field] === 'number'));
     const worded = columns.filter(isWorded);
     const some = [...numbers, ...worded];
     let rows = [];
@@ -239,7 +239,7 @@
     let toggled = null;
     const pager = make('div', {class: 'pager'});  // outside of the grid, which may hold rows only
     const hint = make('p', {class: 'hint'}, 'A column is filtered by a part of its text, by =text, ^beginning or !text, and numbers by >1, <2, 1..2 or 1..<2. A click on a part of a chart sets these filters.');
-    const [chart, draw] = explorer(columns, named);
+    const [chart, draw] = explorer(columns, rows, named);
     host.after(...chart);
     host.replaceChildren(tools, choice, hint, place, pager, ...columns.map(({words}) => words).filter(Boolean));
     const table = new Tabulator(place, {

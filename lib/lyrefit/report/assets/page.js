@@ -1,5 +1,6 @@
 // Interactive functions of a page, which is readable without scripts. Defines `lyrefit` for later
-// scripts: data(id), bytes(id), text(id), plotly() and tabulator(), which return promises; colour(hex); onTheme(function).
+// scripts: data(id), bytes(id), text(id), plotly() and tabulator(), which return promises; make(tag, attributes, ...children);
+// takeOver(figure, chart); colour(hex); onTheme(function).
 'use strict';
 const lyrefit = (() => {
   const root = document.documentElement;
@@ -28,8 +29,7 @@ const lyrefit = (() => {
   async function adopt(id, tag) {
     const packed = document.getElementById(id);
     if (!packed || typeof DecompressionStream === 'undefined') return false;
-    const element = document.createElement(tag);
-    element.textContent = await text(id);
+    const element = make(tag, {}, await text(id));
     packed.remove();
     document.head.prepend(element);
     return true;
@@ -60,12 +60,18 @@ const lyrefit = (() => {
     for (const each of themeFunctions) each();
   }
 
-  function save(name, url) {
-    const link = document.createElement('a');
-    link.href = url;
-    link.download = name;
-    link.click();
+  // An element; functions of attributes "on..." are called at its events.
+  function make(tag, attributes, ...children) {
+    const element = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+      if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+      else if (value !== null && value !== false) element.setAttribute(name, value === true ? '' : value);
+    }
+    element.append(...children);
+    return element;
   }
+
+  const save = (name, url) => make('a', {href: url, download: name}).click();
 
   // A file name from the page's title.
   function fileName(extension) {
@@ -118,11 +124,12 @@ const lyrefit = (() => {
   }
 
   start();
-  return {data, bytes, text, plotly, tabulator, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
+  return {make, data, bytes, text, plotly, tabulator, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
 })();
 
 // Charts replace the static pictures, with equal rows, colours, bands and notes.
 (() => {
+  const {make} = lyrefit;
   const kNarrow = 560;  // pixels; narrower pages have one column of panels
   const kLetter = 6.7;  // pixels, for one letter of a title
   const kMostParts = 500;  // of a chart in a choice
@@ -160,9 +167,7 @@ const lyrefit = (() => {
 
   // The symbol of a legend entry, as letters: a line, a mark, or both.
   function swatch({mode, line, marker}) {
-    const span = document.createElement('span');
-    span.className = 'swatch';
-    span.ariaHidden = 'true';
+    const span = make('span', {class: 'swatch', 'aria-hidden': 'true'});
     const stroke = {dash: '╌', dot: '┈', dashdot: '┄', longdashdot: '┄'}[line?.dash] ?? '─';
     const marks = {circle: '●○', square: '■□', 'triangle-up': '▲△', 'triangle-down': '▼▽', diamond: '◆◇', x: '✕✕', cross: '++'};
     const [full, empty] = marks[marker?.symbol.replace(/-(thin|open).*/, '')] ?? '●○';
@@ -175,20 +180,15 @@ const lyrefit = (() => {
   // The legend: one button for each entry, which hides and shows the traces of its name.
   function fillLegend(list, entries, hidden, changed) {
     list.replaceChildren(...coloured(entries).map((entry) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
-      const name = document.createElement('span');
+      const name = make('span', {});
       name.innerHTML = entry.name;  // escaped where it was written
-      button.append(swatch(entry), name);
-      button.addEventListener('click', () => {
+      const press = () => {
         if (!hidden.delete(entry.name)) hidden.add(entry.name);
         button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
         changed();
-      });
-      const item = document.createElement('li');
-      item.append(button);
-      return item;
+      };
+      const button = make('button', {type: 'button', 'aria-pressed': String(!hidden.has(entry.name)), onclick: press}, swatch(entry), name);
+      return make('li', {}, button);
     }));
   }
 
@@ -245,13 +245,7 @@ const lyrefit = (() => {
 
   function addButtons(figure, actions) {
     const tools = figure.querySelector('.tools');
-    for (const [text, action] of actions) {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = text;
-      button.addEventListener('click', action);
-      tools.append(button);
-    }
+    tools.append(...actions.map(([text, action]) => make('button', {type: 'button', onclick: action}, text)));
     tools.hidden = false;
   }
 
@@ -267,25 +261,15 @@ const lyrefit = (() => {
   // Draws a chart in its figure. Returns a function that draws another one in its place.
   async function takeOver(Plotly, figure, chart) {
     const live = figure.querySelector('.live');
-    const name = document.createElement('p');
-    name.className = 'live-title';
-    const plot = document.createElement('div');
-    plot.setAttribute('role', 'img');
-    plot.setAttribute('aria-labelledby', `${figure.id}-caption`);
-    const legend = document.createElement('ul');
-    legend.className = 'legend';
+    const name = make('p', {class: 'live-title'});
+    const plot = make('div', {role: 'img', 'aria-labelledby': `${figure.id}-caption`});
+    const legend = make('ul', {class: 'legend'});
     const hidden = new Set();
-    const select = document.createElement('select');
-    select.ariaLabel = 'Rows of a part of the chart';
-    const told = document.createElement('p');
-    told.setAttribute('role', 'status');
+    const told = make('p', {role: 'status'});
     const pick = async (names, texts) => {
-      const link = document.createElement('a');
-      link.href = '#rows-table';
-      link.textContent = await lyrefit.filterRows(names, texts);
-      told.replaceChildren('The table shows ', link);
+      told.replaceChildren('The table shows ', make('a', {href: '#rows-table'}, await lyrefit.filterRows(names, texts)));
     };
-    select.addEventListener('change', () => select.value && pick(...JSON.parse(select.value)));
+    const select = make('select', {'aria-label': 'Rows of a part of the chart', onchange: () => select.value && pick(...JSON.parse(select.value))});
     live.append(name, legend, plot, told);
     figure.classList.add('is-live');
     const config = {displayModeBar: false, doubleClick: 'reset', showTips: false};
@@ -325,7 +309,8 @@ const lyrefit = (() => {
       return redraw();
     };
   }
-  lyrefit.takeOver = async (figure, chart) => takeOver(await lyrefit.plotly(), figure, chart);
+  // Without Plotly nothing is drawn, and there is no function.
+  lyrefit.takeOver = async (figure, chart) => await lyrefit.plotly() && takeOver(window.Plotly, figure, chart);
 
   async function takeOverAll() {
     const figures = [...document.querySelectorAll('figure[id]')].filter(

@@ -1,22 +1,13 @@
 // The table of all rows of a results file, shown by Tabulator: search, filters, sorting, a choice of columns, all
 // cells of one row, and links to the pages of strings.
 (() => {
+  const {make} = lyrefit;
   const host = document.getElementById('rows-table');
   const kMostWords = 40;    // different words of a column that its filter suggests
   const kMostPoints = 5000;  // of a chart
   const kBars = 30;          // of a chart, about
   const kColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c8c8c'];
   const kSymbols = ['circle', 'square', 'triangle-up', 'diamond', 'triangle-down', 'x', 'cross'];
-
-  function make(tag, attributes, ...children) {
-    const element = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) {
-      if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
-      else if (value !== null && value !== false) element.setAttribute(name, value === true ? '' : value);
-    }
-    element.append(...children);
-    return element;
-  }
 
   // The cells of a CSV file. A line that ends within quotes goes on in the next one.
   function cells(csv) {
@@ -119,64 +110,84 @@
   // What rows are grouped by: levels of the tree that their ids are, each within the one above, and columns of few words.
   function groupings(columns, rows, {field, name}) {
     const part = (row, level) => String(row[field] ?? '').split('/').slice(0, -1).slice(0, level).join('/');
-    const deepest = rows.map((row) => part(row).split('/')).reduce((most, levels) => (levels.length > most.length ? levels : most)).filter(Boolean);
+    const deepest = rows.map((row) => part(row).split('/')).reduce((most, levels) => (levels.length > most.length ? levels : most));
+    const levels = deepest.filter(Boolean).map((_, i) => (row) => part(row, i + 1));
     return [['nothing', false],
-      ...deepest.map((_, i) => [`${name}: ${deepest.slice(0, i + 1).join('/')}`, deepest.slice(0, i + 1).map((__, level) => (row) => part(row, level + 1))]),
+      ...levels.map((_, i) => [`${name}: ${deepest.slice(0, i + 1).join('/')}`, levels.slice(0, i + 1)]),
       ...columns.filter(isWorded).map((column) => [column.name, column.field])];
   }
 
-  // A round step that makes about kBars bars of the numbers; 0 for words.
+  // A round step that makes about kBars bars of the numbers.
   function stepOf(values) {
     const [low, high] = values.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
     const step = (high - low || Math.abs(low) || 1) / kBars;
     const ten = 10 ** Math.floor(Math.log10(step));
-    return Number.isFinite(step) ? ten * [1, 2, 5, 10].find((factor) => factor * ten >= step * (1 - 1e-9)) : 0;
+    return ten * [1, 2, 5, 10].find((factor) => factor * ten >= step * (1 - 1e-9));
   }
 
-  // The chart of rows: how many have which x, or y over x; a colour for each word of a column. Texts of Plotly are HTML.
+  const plain = (text) => String(text).replace(/[&<>{]/g, (letter) => `&#${letter.charCodeAt(0)};`);  // texts of Plotly are HTML
+  const isKnown = (row, {field, number}) => (number ? typeof row[field] === 'number' : row[field] !== null);
+
+  // How many rows have which x, in steps of numbers; a bar filters its x, and its word.
+  function bars(rows, x, step, [names, words]) {
+    const counts = new Map();
+    for (const row of rows) {
+      const bar = step ? Math.floor(row[x.field] / step + 1e-9) : row[x.field];
+      counts.set(bar, (counts.get(bar) ?? 0) + 1);
+    }
+    const all = [...counts].sort((a, b) => (step ? a[0] - b[0] : b[1] - a[1]));
+    const end = (bar) => Number((bar * step).toPrecision(12));
+    return {
+      type: 'bar', x: all.map(([bar]) => (step ? (bar + 0.5) * step : plain(bar))), y: all.map(([, count]) => count), ...(step && {width: 0.92 * step}),
+      meta: [x.name, ...names], customdata: all.map(([bar]) => [step ? `${end(bar)}..<${end(bar + 1)}` : `=${bar}`, ...words]),
+      hovertext: all.map(([bar]) => (step ? `${end(bar)} to ${end(bar + 1)}` : plain(bar))), hovertemplate: '%{hovertext}: %{y}<extra></extra>',
+    };
+  }
+
+  // y over x; a point filters its row.
+  function points(rows, x, y, {name, field}) {
+    const values = (column) => rows.map((row) => (column.number ? row[column.field] : plain(row[column.field])));
+    return {
+      type: 'scatter', x: values(x), y: values(y), meta: [name], customdata: rows.map((row) => [`=${row[field]}`]),
+      hovertext: rows.map((row) => plain(row[field])), hovertemplate: '%{hovertext}<br>%{x}, %{y}<extra></extra>',
+    };
+  }
+
+  // The chart of rows: bars of x, or y over x; a colour for each word of a column.
   function chartOf(all, x, y, by, named) {
-    const plain = (text) => String(text).replace(/[&<>{]/g, (letter) => `&#${letter.charCodeAt(0)};`);
-    const known = all.filter((row) => [x, y ?? x].every(({field, number}) => (number ? typeof row[field] === 'number' : row[field] !== null)));
+    const known = all.filter((row) => isKnown(row, x) && isKnown(row, y ?? x));
     const every = y ? Math.ceil(known.length / kMostPoints) : 1;
-    const step = y || !x.number ? 0 : stepOf(known.map((row) => row[x.field]));
+    const step = !y && x.number && known.length ? stepOf(known.map((row) => row[x.field])) : 0;
     const kinds = new Map();
-    known.forEach((row, i) => {
+    known.filter((_, i) => i % every === 0).forEach((row) => {
       const word = by ? row[by.field] ?? '' : '';
       if (!kinds.has(word)) kinds.set(word, []);
-      if (i % every === 0) kinds.get(word).push(row);
+      kinds.get(word).push(row);
     });
-    const axis = ({name, number}) => ({title: {text: plain(name), standoff: 8}, type: number ? 'linear' : 'category', automargin: true, showline: true,
-      ticks: 'outside', zeroline: false, linecolor: '#000000', tickcolor: '#000000', gridcolor: '#d8d8d8'});
     const data = [...kinds].sort((a, b) => b[1].length - a[1].length).map(([word, rows], i) => {
-      const look = {color: kColours[Math.min(i, 6)], symbol: kSymbols[Math.min(i, 6)], size: 6};
-      const trace = {name: plain(word || 'not known'), legendgroup: plain(word || 'not known'), showlegend: Boolean(by), mode: 'markers', marker: look};
-      if (y) {
-        const value = (row, {field, number}) => (number ? row[field] : plain(row[field]));
-        return {...trace, type: 'scatter', x: rows.map((row) => value(row, x)), y: rows.map((row) => value(row, y)), meta: [named.name],
-          customdata: rows.map((row) => [`=${row[named.field]}`]), hovertext: rows.map((row) => plain(row[named.field])), hovertemplate: '%{hovertext}<br>%{x}, %{y}<extra></extra>'};
-      }
-      const counts = new Map();
-      for (const row of rows) {
-        const bar = step ? Math.floor(row[x.field] / step + 1e-9) : row[x.field];
-        counts.set(bar, (counts.get(bar) ?? 0) + 1);
-      }
-      const end = (bar) => Number((bar * step).toPrecision(12));
-      const bars = [...counts.keys()].sort((a, b) => (step ? a - b : counts.get(b) - counts.get(a)));
-      return {...trace, type: 'bar', x: bars.map((bar) => (step ? (bar + 0.5) * step : plain(bar))), y: bars.map((bar) => counts.get(bar)), ...(step && {width: 0.92 * step}),
-        meta: [x.name, ...by ? [by.name] : []], customdata: bars.map((bar) => [step ? `${end(bar)}..<${end(bar + 1)}` : `=${bar}`, ...by ? [`=${word}`] : []]),
-        hovertext: bars.map((bar) => (step ? `${end(bar)} to ${end(bar + 1)}` : plain(bar))), hovertemplate: '%{hovertext}: %{y}<extra></extra>'};
+      const name = plain(word || 'not known');
+      const marker = {color: kColours[Math.min(i, 6)], symbol: kSymbols[Math.min(i, 6)], size: 7};
+      return {name, legendgroup: name, showlegend: Boolean(by), mode: 'markers', marker,
+        ...(y ? points(rows, x, y, named) : bars(rows, x, step, by ? [[by.name], [`=${word}`]] : [[], []]))};
     });
+    const axis = ({name, number}) => ({
+      title: {text: plain(name), standoff: 8}, type: number ? 'linear' : 'category', automargin: true, showline: true,
+      ticks: 'outside', zeroline: false, linecolor: '#000000', tickcolor: '#000000', gridcolor: '#d8d8d8',
+    });
+    const layout = {annotations: [], hovermode: 'closest', barmode: 'stack', margin: {l: 56, r: 20, t: 8, b: 58},
+      xaxis: axis(x), yaxis: axis(y ?? {name: 'rows', number: true})};
     const what = y ? `${y.name} over ${x.name}` : `How many rows have which ${x.name}`;
-    return {title: plain(by ? `${what}, by ${by.name}` : what), columns: 1, data, wide: {height: 380}, narrow: {height: 380},
-      layout: {annotations: [], hovermode: 'closest', barmode: 'stack', margin: {l: 56, r: 20, t: 8, b: 58}, xaxis: axis(x), yaxis: axis(y ?? {name: 'rows', number: true})},
-      caption: `${known.length.toLocaleString('en')} of the rows that pass the filters have these numbers${every > 1 ? `; one in ${every} is drawn` : ''}.`};
+    const thinned = every > 1 ? `; one in ${every} is drawn` : '';
+    return {title: plain(by ? `${what}, by ${by.name}` : what), columns: 1, data, layout, wide: {height: 380}, narrow: {height: 380},
+      caption: `${known.length.toLocaleString('en')} of the rows that pass the filters have these values${thinned}.`};
   }
 
-  // Shows the chart of the columns that are chosen. Returns its elements, and a function that draws it of these rows.
+  // Below the table the chart of the columns that are chosen. Returns a function that draws it of these rows.
   function explorer(columns, all, named) {
     const numbers = columns.filter(({number, field}) => number && all.some((row) => typeof row[field] === 'number'));
     const worded = columns.filter(isWorded);
     const some = [...numbers, ...worded];
+    if (!some.length) return () => {};
     let rows = [];
     let redraw = null;
     const choice = (label, options) => {
@@ -196,9 +207,10 @@
       const chart = chartOf(rows, columns[x.value], columns[y.value], columns[by.value], named);
       caption.textContent = chart.caption;
       redraw ??= lyrefit.takeOver(figure, chart);
-      (await redraw)(chart);
+      (await redraw)?.(chart);
     };
-    return some.length ? [[make('h3', {}, 'A chart of these rows'), figure], draw] : [[], () => {}];
+    host.after(make('h3', {}, 'A chart of these rows'), figure);
+    return draw;
   }
 
   async function fill() {
@@ -219,8 +231,14 @@
       return document.createTextNode(column.number ? shortNumber(value) : value ?? '');
     };
     const zone = columns.find(({name}) => name === 'zone');
-    const failing = (data) => data.filter((row) => zone && row[zone.field]?.startsWith('fail')).length;
-    const headOf = (value, all, fail) => `${value || 'not known'}: ${all.toLocaleString('en')} ${all === 1 ? 'row' : 'rows'}${fail ? `, ${fail.toLocaleString('en')} fail` : ''}`;
+    const counted = (number) => number.toLocaleString('en');
+    let toggled = null;
+    const headOf = (value, all, data, group) => {
+      const fail = data.filter((row) => zone && row[zone.field]?.startsWith('fail')).length;
+      const text = `${value || 'not known'}: ${counted(all)} ${all === 1 ? 'row' : 'rows'}${fail ? `, ${counted(fail)} fail` : ''}`;
+      return make('span', {role: 'gridcell'},
+        make('button', {type: 'button', class: 'link', 'aria-expanded': String(group.isVisible()), onclick: () => { toggled = text; }}, text));
+    };
     const state = make('p', {role: 'status'});
     const search = make('input', {type: 'search', oninput: () => table.setFilter(
       (row, {words}) => columns.some(({field}) => String(row[field] ?? '').toLowerCase().includes(words)), {words: search.value.trim().toLowerCase()})});
@@ -230,32 +248,31 @@
         else table.hideColumn(field);
       }}), name))));
     const groups = groupings(columns, rows, named);
-    const grouped = make('select', {onchange: () => table.setGroupBy(groups[grouped.value][1])}, ...groups.map(([name], i) => make('option', {value: i}, name)));
+    const grouped = make('select', {onchange: () => table.setGroupBy(groups[grouped.value][1])},
+      ...groups.map(([name], i) => make('option', {value: i}, name)));
     const reset = () => { search.value = ''; table.clearFilter(true); };
     const tools = make('div', {class: 'rows-tools'}, make('label', {}, 'Search ', search), make('label', {}, 'Group by ', grouped),
       make('button', {type: 'button', onclick: () => { reset(); table.clearSort(); }}, 'Reset'),
       make('button', {type: 'button', onclick: () => table.download('csv', lyrefit.fileName('csv'))}, 'Save these rows as CSV'), state);
     const place = make('div', {});
-    let toggled = null;
+    const nothing = make('div', {role: 'row'}, make('span', {role: 'gridcell'}, 'No row passes the filters. ',
+      make('button', {type: 'button', onclick: reset}, 'Show all rows')));
     const pager = make('div', {class: 'pager'});  // outside of the grid, which may hold rows only
-    const hint = make('p', {class: 'hint'}, 'A column is filtered by a part of its text, by =text, ^beginning or !text, and numbers by >1, <2, 1..2 or 1..<2. A click on a part of a chart sets these filters.');
-    const [chart, draw] = explorer(columns, rows, named);
-    host.after(...chart);
+    const hint = make('p', {class: 'hint'}, 'A column is filtered by a part of its text, by =text, ^beginning or !text, and numbers by >1, <2, 1..2 or 1..<2. ',
+      'A click on a part of a chart sets these filters.');
+    const draw = explorer(columns, rows, named);
     host.replaceChildren(tools, choice, hint, place, pager, ...columns.map(({words}) => words).filter(Boolean));
     const table = new Tabulator(place, {
       data: rows, columns: columns.map((column) => tabulatorColumn(column, cell)), nestedFieldSeparator: false, layout: 'fitData',
-      pagination: true, paginationElement: pager, paginationSize: 25, paginationSizeSelector: [25, 50, 100], placeholder: make('div', {role: 'row'}, make('span', {role: 'gridcell'}, 'No row passes the filters. ', make('button', {type: 'button', onclick: () => reset()}, 'Show all rows'))),
-      groupStartOpen: false, groupToggleElement: 'header',
-      groupHeader: (value, all, data, group) => make('span', {role: 'gridcell'},
-        make('button', {type: 'button', class: 'link', 'aria-expanded': String(group.isVisible()), onclick: () => { toggled = headOf(value, all, failing(data)); }}, headOf(value, all, failing(data)))),
+      pagination: true, paginationElement: pager, paginationSize: 25, paginationSizeSelector: [25, 50, 100], placeholder: nothing,
+      groupStartOpen: false, groupToggleElement: 'header', groupHeader: headOf,
     });
     table.on('renderComplete', () => place.querySelectorAll('.tabulator-group').forEach((head) => {
       head.setAttribute('role', 'row');
-      if (head.textContent === toggled && document.activeElement === document.body) head.querySelector('button').focus({preventScroll: true});  // it was drawn anew
+      const lost = head.textContent === toggled && document.activeElement === document.body;  // it was drawn anew
+      if (lost) head.querySelector('button').focus({preventScroll: true});
     }));
-    const count = (shown) => {
-      state.textContent = `${shown === rows.length ? 'All' : `${shown.toLocaleString('en')} of`} ${rows.length.toLocaleString('en')} rows`;
-    };
+    const count = (shown) => { state.textContent = `${shown === rows.length ? 'All' : `${counted(shown)} of`} ${counted(rows.length)} rows`; };
     const built = new Promise((resolve) => { table.on('tableBuilt', resolve); });
     let waiting = 0;
     table.on('dataFiltered', (filters, shown) => {

@@ -182,6 +182,129 @@ test('columns are chosen, and rows are saved as they are shown', async () => {
   await close();
 });
 
+test('rows are grouped by the levels of their ids, one within the other, and by words, with counts; by keyboard', async () => {
+  const rows = rowsOf(500);
+  const {page: tab, complaints, close} = await openPlant(500);
+  const heads = () => tab.$$eval('.tabulator-group', (all) => all.map((head) => head.textContent));
+  const headOf = (name, some) => {
+    const fail = some.filter((row) => row.zone?.startsWith('fail')).length;
+    return `${name || 'not known'}: ${some.length} ${some.length === 1 ? 'row' : 'rows'}${fail ? `, ${fail} fail` : ''}`;
+  };
+  const headsOf = (keyOf, some = rows) => [...new Set(some.map(keyOf))].map((key) => headOf(key, some.filter((row) => keyOf(row) === key)));
+  const group = (label) => tab.getByLabel('Group by').selectOption({label});
+  const waitForHeads = async (expected) => {
+    await tab.waitForFunction((count) => document.querySelectorAll('.tabulator-group').length === count, expected.length);
+    assert.deepEqual(await heads(), expected);
+  };
+  await group('zone');
+  await waitForHeads(headsOf((row) => row.zone ?? ''));
+  await group('id: site1/inv01');
+  const [site] = headsOf((row) => row.id.split('/')[0]);
+  await waitForHeads([site]);
+  assert.deepEqual(await barriers(tab), []);
+  const inverters = headsOf((row) => row.id.split('/').slice(0, 2).join('/'));
+  await button(tab, site).focus();
+  await tab.keyboard.press('Enter');
+  await waitForHeads([site, ...inverters]);
+  await tab.waitForFunction(() => document.activeElement.ariaExpanded === 'true');
+  assert.equal(await tab.evaluate(() => document.activeElement.textContent), site);
+  await button(tab, inverters[1]).click();
+  const inside = rows.filter((row) => row.id.startsWith('site1/inv02/'));
+  await tab.waitForSelector('.tabulator-row:not(.tabulator-group)');
+  assert.equal((await column(tab, 'id'))[0], inside[0].id);
+  await tab.fill('input[type=search]', 'no such row');
+  await waitForState(tab, '0 of 500 rows');
+  assert.deepEqual(await barriers(tab), []);
+  await button(tab, 'Show all rows').click();
+  await waitForState(tab, 'All 500 rows');
+  await group('nothing');
+  await waitForHeads([]);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+// The parts of a chart as Plotly has them: what each filters, how high it is and where it is drawn.
+const partsOf = (page, figure) => page.evaluate((id) => {
+  const plot = document.querySelector(`#${id} .js-plotly-plot`);
+  const bars = [...plot.querySelectorAll('.bars .point path')];
+  return plot.data.filter(({type}) => type === 'bar').flatMap(({x, y, meta, customdata}) => x.map((_, i) => ({meta, texts: customdata[i], count: y[i]})))
+    .map((part, i) => ({...part, at: bars[i]}))
+    .map(({at, ...part}, i) => { at.id = `${id}-part-${i}`; return {...part, path: `#${at.id}`}; });
+}, figure);
+async function clickPart(page, path) {  // Plotly takes the pointer with a layer above its parts, and notes what is below it
+  await page.hover(path, {force: true});
+  await page.waitForSelector('.hoverlayer .hovertext');
+  await page.click(path, {force: true});
+}
+const told = (page, figure) => page.locator(`#${figure} .live [role=status]`);
+
+test('a click on a part of a chart shows its rows, and so does its name in a list', async () => {
+  const rows = rowsOf(500);
+  const {page: tab, complaints, close} = await open(browser, page(500));  // the table is not filled yet
+  await chartsReady(tab);
+  const shows = async (figure, count) => {
+    await tab.waitForFunction(([id, text]) => document.querySelector(`#${id} .live [role=status]`).textContent === text,
+                              [figure, `The table shows ${count === 500 ? 'All' : `${count} of`} 500 rows`]);
+  };
+  const [cell] = (await partsOf(tab, 'figure-2')).filter(({texts}) => texts[0] === '^site1/inv02/comb3/');
+  await clickPart(tab, cell.path);
+  const inside = rows.filter((row) => row.id.startsWith('site1/inv02/comb3/'));
+  await shows('figure-2', inside.length);
+  await waitForState(tab, `${inside.length} of 500 rows`);
+  assert.deepEqual(await column(tab, 'id'), inside.map((row) => row.id));
+  assert.equal(await tab.inputValue('[aria-label="Filter id"]'), '^site1/inv02/comb3/');
+
+  for (const part of await partsOf(tab, 'figure-4')) {  // every bar of the distributions holds as many rows as it says
+    await tab.selectOption('#figure-4 .tools select', JSON.stringify([part.meta, part.texts]));
+    await shows('figure-4', part.count);
+  }
+  const [loss] = await partsOf(tab, 'figure-1');
+  await clickPart(tab, loss.path);
+  const [under, , , title] = loss.texts;
+  await shows('figure-1', rows.filter((row) => row.id.startsWith(under.slice(1)) && row.zone?.startsWith('fail') && `=${row.cause_title}` === title).length);
+  await told(tab, 'figure-1').getByRole('link').click();
+  await tab.waitForFunction(() => document.getElementById('rows-table').getBoundingClientRect().top < innerHeight);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('the chart of the rows shows the columns that are chosen, of the rows that pass the filters', async () => {
+  const rows = rowsOf(500);
+  const {page: tab, complaints, close} = await openPlant(500);
+  const chart = tab.locator('#rows-chart');
+  await chart.locator('.bars .point').first().waitFor();
+  const drawn = () => tab.evaluate(() => document.querySelector('#rows-chart .js-plotly-plot').data.map(({name, x, y}) => ({name, x, y})));
+  const waitForPoints = (count) => tab.waitForFunction((most) => document.querySelector('#rows-chart .js-plotly-plot').data.reduce(
+      (sum, {type, x, y}) => sum + (type === 'bar' ? y.reduce((a, b) => a + b, 0) : x.length), 0) === most, count);
+  await chart.locator('.rows-tools select').nth(0).selectOption({label: 'FF'});
+  await waitForPoints(rows.filter((row) => row.FF !== null).length);
+  for (const part of (await partsOf(tab, 'rows-chart')).slice(0, 5)) {
+    const [low, high] = part.texts[0].split('..<').map(Number);
+    assert.equal(part.count, rows.filter((row) => row.FF !== null && row.FF >= low && row.FF < high).length, part.texts[0]);
+  }
+  await chart.locator('.rows-tools select').nth(1).selectOption({label: 'Rs_ohm'});
+  await chart.locator('.rows-tools select').nth(2).selectOption({label: 'zone'});
+  const zones = [...new Set(rows.map((row) => row.zone).filter(Boolean))];
+  await tab.waitForFunction((count) => document.querySelector('#rows-chart .js-plotly-plot').data.length === count, zones.length);
+  for (const {name, x, y} of await drawn()) {
+    const some = rows.filter((row) => row.zone === name);
+    assert.deepEqual([x, y], [some.map((row) => row.FF), some.map((row) => row.Rs_ohm)], name);
+  }
+  await filter(tab, 'zone', '=fail');
+  await waitForPoints(rows.filter((row) => row.zone === 'fail').length);
+  await button(tab, 'Reset').click();
+  await chart.locator('.rows-tools select').nth(1).selectOption({label: 'count'});
+  await waitForPoints(rows.filter((row) => row.FF !== null).length);
+  await tab.waitForTimeout(200);
+  const bar = (await partsOf(tab, 'rows-chart')).reduce((most, part) => (part.count > most.count ? part : most));
+  await clickPart(tab, bar.path);  // and the chart shows its rows in finer steps
+  await waitForState(tab, `${bar.count} of 500 rows`);
+  await waitForPoints(bar.count);
+  assert.deepEqual(await barriers(tab), []);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('the dialog opens and closes by keyboard, links to the page of its string, and gives the focus back', async () => {
   const row = rowsOf(500).find((each) => each.page);
   const {page: tab, close} = await openPlant(500);

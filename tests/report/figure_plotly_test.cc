@@ -118,6 +118,16 @@ TEST(PlotlyJson, DrawsBarsFromZeroAndCellsAroundTheirPlace) {
   EXPECT_EQ(cell.at("marker").at("color"), Json({"#0072b2", "#d55e00"}));
 }
 
+TEST(PlotlyJson, SaysWhichRowsOfTheTableAPartStandsFor) {
+  Series bars = Steps(SeriesKind::kBars);
+  EXPECT_FALSE(Traces(Chart(OnePanel(bars))).at(0).contains("customdata"));
+  bars.filter_columns = {"id", "zone"};
+  bars.filters = {{"^a/", "!pass"}, {"^b/", ""}, {"^c/", ""}, {"^d/", ""}};
+  const Json trace = Traces(Chart(OnePanel(bars))).at(0);
+  EXPECT_EQ(trace.at("meta"), Json({"id", "zone"}));
+  EXPECT_EQ(trace.at("customdata"), Json(bars.filters));
+}
+
 TEST(PlotlyJson, ColoursLinesAndPointsByTheirThirdNumber) {
   const SampleFamily family = MakeSampleFamily(8);
   const Json chart = Chart(FamilyFigure(family.report, family.set));

@@ -61,6 +61,18 @@ TEST(InlineSvgs, TakesItsColoursFromThePage) {
   EXPECT_THAT(svg, Not(HasSubstr("#ffffff")));
 }
 
+TEST(InlineSvgs, HoldsOnlyWhatIsDrawn) {
+  Figure lines = FitFigure(SampleReport());
+  const std::string with_points = InlineSvgs({{&lines, "one", ""}})->front();
+  EXPECT_THAT(with_points, HasSubstr("<defs>"));
+  EXPECT_THAT(with_points, Not(HasSubstr("stroke-linejoin")));
+  for (Panel& panel : lines.panels) {
+    for (Series& series : panel.series) series.kind = SeriesKind::kLine;
+  }
+  lines.legend.clear();
+  EXPECT_THAT(InlineSvgs({{&lines, "one", ""}})->front(), Not(HasSubstr("<defs>")));
+}
+
 TEST(InlineSvgs, LeavesLettersAlone) {
   Figure figure = FitFigure(SampleReport());
   figure.panels[0].title = "rgb(  0, 0, 0) id='x' url(#y)";

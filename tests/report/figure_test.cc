@@ -107,6 +107,18 @@ TEST(Figure, HasPanelsThatKnowNothingOfEachOther) {
   EXPECT_THAT(after(FigureScript(figure, "svg")), HasSubstr("unset y2tics"));
 }
 
+TEST(Figure, HasTheTicksThatAreAskedForBelowZeroToo) {
+  Figure figure = SampleFigure();
+  Axis& x = figure.panels[0].x;
+  x.low = -4.5;
+  x.high = 4.5;
+  x.first_tick = -3;
+  x.tick_step = 3;
+  const std::string svg = Svg(figure);
+  for (const char* shown : {"-3<", " 0<", " 3<"}) EXPECT_THAT(svg, HasSubstr(shown));
+  EXPECT_THAT(svg, Not(HasSubstr("-4<")));
+}
+
 TEST(Figure, QuotesText) {
   EXPECT_EQ(GnuplotText("it's\n$x"), "'it''s $x'");
   Figure figure = SampleFigure();

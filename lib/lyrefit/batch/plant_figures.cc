@@ -82,8 +82,10 @@ Panel Histogram(const PlantSample::Column& column, const std::vector<bool>& diff
   panel.y.label = "Strings";
   panel.y.low = 0;
   panel.height = 170;
-  const auto bars = [&](const std::vector<int>& counts, const char* colour, const char* what) {
+  const auto bars = [&](const std::vector<int>& counts, const char* colour, const char* what,
+                        const std::string& flag) {
     Series series;
+    series.filter_columns = {column.name, "status", "group_flag"};
     series.kind = SeriesKind::kBars;
     series.look.colour = colour;
     series.width = 0.92 * step;
@@ -93,11 +95,16 @@ Panel Histogram(const PlantSample::Column& column, const std::vector<bool>& diff
       series.Add(from + 0.5 * step, counts[b]);
       series.texts.push_back(
           fmt::format("{:.6g} to {:.6g}: {}{}", from, from + step, Counted(counts[b]), what));
+      const std::string range = b == 0 ? fmt::format("<{:.10g}", from + step)
+                                : b + 1 == bins
+                                    ? fmt::format(">={:.10g}", from)
+                                    : fmt::format("{:.10g}..<{:.10g}", from, from + step);
+      series.filters.push_back({range, "=fine", flag});
     }
     panel.series.push_back(std::move(series));
   };
-  bars(all, kSkyBlue, "");
-  if (!differs.empty()) bars(differing, kVermilion, " that differ");
+  bars(all, kSkyBlue, "", "");
+  if (!differs.empty()) bars(differing, kVermilion, " that differ", "=true");
   Series median;
   median.look = {"#000000", 2};
   median.width = 1.5;
@@ -176,6 +183,8 @@ block::Figure CurvesFigure(const PlantSummary& summary) {
     series.look = LookOf(static_cast<int>(panel.series.size()));
     series.width = 1.6;
     series.name = row.id;
+    series.filter_columns = {"id"};
+    series.filters = {{"=" + row.id}};
     for (int i = 0; i < kSparklinePoints; ++i) {
       series.Add(static_cast<double>(i) / (kSparklinePoints - 1), currents[i]);
     }

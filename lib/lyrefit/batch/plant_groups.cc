@@ -87,21 +87,25 @@ std::vector<double> LossesOf(const PlantNode& node, const std::vector<std::strin
   return losses;
 }
 
-// One bar on the other: bars from zero to each sum, the largest behind the others.
+// One bar on the other: bars from zero to each sum, the largest behind the others. `titled_by`: the column of causes.
 Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::string>& causes,
-                  const PlantLoss& loss) {
+                  const PlantLoss& loss, const std::string& titled_by) {
   Panel panel;
   for (std::size_t c = causes.size(); c-- > 0;) {
     Series bars;
     bars.kind = SeriesKind::kBars;
     bars.look = LookOf(static_cast<int>(c));
     bars.width = 0.8;
+    bars.filter_columns = {"id", "status", "zone", titled_by};
+    const bool others = causes[c] == "others" || (causes[c] == kNoCause && titled_by == "cause");
+    const std::string title = others ? "" : causes[c] == kNoCause ? "=" : "=" + causes[c];
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::vector<double> losses = LossesOf(groups[g].second, causes, loss);
       if (!(losses[c] > 0)) continue;
       double sum = 0;
       for (std::size_t below = 0; below <= c; ++below) sum += losses[below];
       bars.Add(static_cast<double>(g), sum);
+      bars.filters.push_back({"^" + groups[g].first + "/", "=fine", "!pass", title});
       bars.texts.push_back(
           fmt::format("{}: {}, {}", groups[g].first, causes[c], loss.Text(losses[c])));
     }
@@ -130,7 +134,7 @@ block::Figure GroupsFigure(const PlantSummary& summary) {
   shown.caption =
       fmt::format("The {} groups in which the strings that need work lose most.", groups.size());
   shown.figure.legend = LegendOf(causes, LegendMark::kBar);
-  shown.figure.panels = {StackedBars(groups, causes, loss)};
+  shown.figure.panels = {StackedBars(groups, causes, loss, summary.titled_by)};
   shown.figure.panel_width = 760;
   shown.figure.margin_below = 70;
   shown.readings.alignment = "l" + std::string(causes.size() + 1, 'r');

@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kMostCells = 400;
 constexpr std::size_t kMostLines = 60;
 constexpr std::size_t kMostAcross = 50;
+constexpr std::size_t kWide = 760;  // pixels of the cells of one line, and on a phone
+constexpr std::size_t kNarrow = 290;
+constexpr std::size_t kLetter = 8;
 constexpr std::size_t kLineLength = 20;  // where names are too many for columns
 
 struct ByNature {
@@ -78,6 +81,17 @@ CellGrid GridOf(const std::map<std::string, PlantNode>& level) {
   return grid;
 }
 
+std::size_t LongestName(const Panel& panel) {
+  std::size_t longest = 0;
+  for (const Tick& tick : panel.x.ticks) longest = std::max(longest, tick.name.size());
+  return longest;
+}
+
+// Pixels that all names below the cells need side by side.
+std::size_t NamesWidth(const Panel& panel) {
+  return kLetter * (LongestName(panel) + 1) * panel.x.ticks.size();
+}
+
 Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& level,
                 bool by_factor) {
   Panel panel;
@@ -85,6 +99,7 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
   cells.kind = SeriesKind::kCells;
   cells.look.colour = "";
   cells.width = 0.92;
+  cells.filter_columns = {"id"};
   double across = 1;
   double y = static_cast<double>(grid.lines.size());
   for (const auto& [above, paths] : grid.lines) {
@@ -95,6 +110,7 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
       const PlantNode& node = level.at(paths[i]);
       if (by_factor && !std::isfinite(node.lowest_performance)) continue;
       cells.Add(x, y, Shortfall(node, by_factor));
+      cells.filters.push_back({"^" + paths[i] + "/"});
       cells.texts.push_back(
           fmt::format("{}: {} strings, {} need work", paths[i], node.rows, node.in_need) +
           (by_factor ? fmt::format(", lowest performance factor {:.3f}", node.lowest_performance)
@@ -107,6 +123,7 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
     if (static_cast<std::size_t>(place) % every != 0) continue;
     panel.x.ticks.push_back({ShortName(name), static_cast<double>(place)});
   }
+  panel.x.slanted = NamesWidth(panel) > kWide;
   panel.x.low = panel.y.low = -0.5;
   panel.x.high = across - 0.5;
   panel.y.high = static_cast<double>(grid.lines.size()) - 0.5;
@@ -137,7 +154,10 @@ block::Figure MapFigure(const PlantSummary& summary) {
   }
   shown.figure.title = "The plant, a cell a group";
   shown.figure.panels = {CellPanel(GridOf(nodes), nodes, by_factor)};
-  shown.figure.panel_width = 760;
+  shown.figure.panel_width = kWide;
+  const Panel& panel = shown.figure.panels.front();
+  if (NamesWidth(panel) > kNarrow)
+    shown.figure.margin_below = static_cast<int>(5 * LongestName(panel));
   shown.figure.colour_bar = {
       by_factor ? "Largest shortfall of a string (%)" : "Strings that need work (%)", 0,
       std::ceil(most)};

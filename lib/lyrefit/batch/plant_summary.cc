@@ -91,6 +91,7 @@ PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) : sampler_(
     places_[known] = at == columns.end() ? -1 : static_cast<int>(at - columns.begin());
   }
   sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) ? "cause" : "";
+  sum_.titled_by = Has(kCauseTitle) ? "cause_title" : Has(kCause) ? "cause" : "";
   for (const Known by : {kPerformance, kDeviation, kRecoverable, kDeparture}) {
     if (Has(by) && sum_.worst_by.empty()) sum_.worst_by = kNames[by];
   }

@@ -52,6 +52,7 @@ struct PlantSummary {
   double below_rating_W = 0;       // shortfall of rows that need work and are below their rating
   double power_W = 0;              // sum of the known power at standard conditions over all rows
   std::string judged_by;           // the column that determines who needs work: zone, cause or none
+  std::string titled_by;           // the column of the causes' titles: cause_title, cause or none
   std::map<std::string, PlantShare> status, zones, causes;  // causes of rows that need work
   std::map<std::string, PlantShare> causes_of_passed;
   std::map<std::string, PlantShare> causes_to_repeat;

@@ -40,9 +40,11 @@ std::string AxisCommands(const std::string& axis, const Axis& is, bool empty) {
     ticks +=
         fmt::format("{}{} {:.9g}", ticks.empty() ? "" : ", ", GnuplotText(tick.name), tick.place);
   }
-  script += fmt::format("set {}tics {} ", axis,
-                        is.slanted ? "rotate by 40 right noenhanced offset 0.6,0.2"
-                                   : "norotate autojustify enhanced offset 0,0");
+  script += fmt::format(
+      "set {}tics {} ", axis,
+      // A word stands between the offset and a first tick below zero, which would be subtracted.
+      is.slanted ? "rotate by 40 right offset 0.6,0.2 noenhanced"
+                 : "norotate autojustify offset 0,0 enhanced");
   if (!ticks.empty()) return script + "(" + ticks + ")\n";
   if (std::isnan(is.tick_step)) return script + "autofreq\n";
   script += fmt::format("{:.6g}, {:.6g}\n", is.first_tick, is.tick_step);

@@ -43,6 +43,14 @@ void NameColours(bool letters, std::string* tag) {
   }
 }
 
+// Removes attributes of gnuplot's that change nothing in a page: defaults, and a class without a style.
+void DropDefaults(std::string* tag) {
+  for (const char* needless : {" stroke-linecap=\"butt\" stroke-linejoin=\"miter\"",
+                               " class=\"gridline\"", " color=\"currentColor\""}) {
+    ReplaceAll(needless, "", tag);
+  }
+}
+
 // Prefixes ids with that of the picture, as gnuplot's ids are unique in one picture only.
 void NameIds(const std::string& id, std::string* tag) {
   for (const char* quote : {"'", "\""}) {
@@ -71,8 +79,11 @@ Expected<std::string> Drawing(const std::string& svg, const std::string& id) {
   if (background == std::string::npos || begin == std::string::npos || end < begin) {
     return Fail("gnuplot's picture is not as expected");
   }
+  const std::size_t shapes_end = svg.find("</defs>", begin) + 7;
+  const bool shapes_used = svg.find("href='#", shapes_end) != std::string::npos ||
+                           svg.find("url(#", shapes_end) != std::string::npos;
   std::string drawing;
-  for (std::size_t at = begin; at < end;) {
+  for (std::size_t at = shapes_used ? begin : shapes_end; at < end;) {
     std::size_t next = at + 1;
     if (IsEmptyGroup(svg, at, &next)) {
       at = next;
@@ -82,9 +93,11 @@ Expected<std::string> Drawing(const std::string& svg, const std::string& id) {
       next = svg.find('>', at) + 1;
       std::string tag = svg.substr(at, next - at);
       NameColours(tag.find("font-family") != std::string::npos, &tag);
+      DropDefaults(&tag);
       NameIds(id, &tag);
       drawing += tag;
-    } else if (svg[at] != '\t' && (svg[at] != '\n' || drawing.back() != '\n')) {
+    } else if (svg[at] != '\t' &&
+               (svg[at] != '\n' || (!drawing.empty() && drawing.back() != '\n'))) {
       drawing += svg[at];
     }
     at = next;

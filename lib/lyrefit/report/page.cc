@@ -196,7 +196,7 @@ std::string DrawPage(const Document& document, const std::string& json,
   }
   page.body += SignatureLines(document.signatures);
   if (!json.empty()) page.data.push_back({"record", json, json.size() > kPackedFrom});
-  page.plotly = options.interactive && !figures.empty() && PlotlyIsEmbedded();
+  page.plotly = options.interactive && (page.table || !figures.empty()) && PlotlyIsEmbedded();
   for (std::size_t i = 0; page.plotly && i < figures.size(); ++i) {
     page.data.push_back({FigureId(i + 1) + "-chart", PlotlyJson(figures[i]->figure)});
   }

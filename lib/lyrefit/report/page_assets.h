@@ -14,7 +14,7 @@ std::string_view TableScript();
 std::string_view PackedPlotly();
 std::string_view PlotlyLicence();
 
-// Tabulator and the CSV parser Papa Parse, gzipped; empty if they were not installed at build time.
+// Tabulator, gzipped; empty if it was not installed at build time.
 std::string_view PackedTabulator();
 std::string_view PackedTabulatorStyle();
 std::string_view TabulatorLicence();

@@ -48,7 +48,7 @@ std::string PartsByOthers(bool plotly, bool table) {
     packed("plotly", PackedPlotly());
   }
   if (table) {
-    named("Table: Tabulator and Papa Parse, both under the MIT licence.", TabulatorLicence());
+    named("Table: Tabulator, under the MIT licence.", TabulatorLicence());
     packed("tabulator", PackedTabulator());
     packed("tabulator-style", PackedTabulatorStyle());
   }

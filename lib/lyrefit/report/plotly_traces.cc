@@ -102,6 +102,10 @@ Json EmptyTrace(const Figure& figure, const Panel& panel, const Series& series,
                 {"hovertemplate", HoverText(panel, y, name)},
                 {"x", Json::array()},
                 {"y", Json::array()}};
+  if (!series.filters.empty()) {
+    trace["meta"] = series.filter_columns;
+    trace["customdata"] = series.filters;
+  }
   return trace;
 }
 

@@ -1,9 +1,12 @@
 // Interactive functions of a page, which is readable without scripts. Defines `lyrefit` for later
-// scripts: data(id), bytes(id), text(id), plotly() and tabulator(), which return promises; colour(hex); onTheme(function).
+// scripts: data(id), bytes(id), text(id), plotly() and tabulator(), which return promises; make(tag, attributes, ...children);
+// takeOver(figure, chart); colour(hex); onTheme(function).
 'use strict';
 const lyrefit = (() => {
   const root = document.documentElement;
   const darkWanted = matchMedia('(prefers-color-scheme: dark)');
+  const dark = [...document.styleSheets[0].cssRules].find((rule) => rule.media?.mediaText.includes('dark')).media;
+  const darkUnlessChosen = dark.mediaText;
   const themeFunctions = [];
 
   function unpacked(text) {
@@ -26,8 +29,7 @@ const lyrefit = (() => {
   async function adopt(id, tag) {
     const packed = document.getElementById(id);
     if (!packed || typeof DecompressionStream === 'undefined') return false;
-    const element = document.createElement(tag);
-    element.textContent = await text(id);
+    const element = make(tag, {}, await text(id));
     packed.remove();
     document.head.prepend(element);
     return true;
@@ -51,18 +53,25 @@ const lyrefit = (() => {
   const isDark = () => (root.dataset.theme ?? (darkWanted.matches ? 'dark' : 'light')) === 'dark';
 
   function themeChanged() {
+    dark.mediaText = {dark: 'screen', light: 'not all'}[root.dataset.theme] ?? darkUnlessChosen;
     for (const button of document.querySelectorAll('[data-page=theme]')) {
       button.textContent = isDark() ? 'Light' : 'Dark';
     }
     for (const each of themeFunctions) each();
   }
 
-  function save(name, url) {
-    const link = document.createElement('a');
-    link.href = url;
-    link.download = name;
-    link.click();
+  // An element; functions of attributes "on..." are called at its events.
+  function make(tag, attributes, ...children) {
+    const element = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+      if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+      else if (value !== null && value !== false) element.setAttribute(name, value === true ? '' : value);
+    }
+    element.append(...children);
+    return element;
   }
+
+  const save = (name, url) => make('a', {href: url, download: name}).click();
 
   // A file name from the page's title.
   function fileName(extension) {
@@ -101,39 +110,6 @@ const lyrefit = (() => {
     print: () => window.print(),
   };
 
-  // Rows of a long table, 25 at a time.
-  function addPager(box) {
-    const kRows = 25;
-    const rows = [...box.querySelectorAll('tbody tr')];
-    const pages = Math.ceil(rows.length / kRows);
-    if (pages < 2) return;
-    const pager = document.createElement('div');
-    pager.className = 'pager';
-    const buttons = ['Previous', 'Next'].map((text) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = text;
-      return button;
-    });
-    const where = document.createElement('span');
-    where.setAttribute('role', 'status');
-    pager.append(...buttons, where);
-    let page = 0;
-    const show = () => {
-      rows.forEach((row, i) => { row.hidden = Math.floor(i / kRows) !== page; });
-      buttons[0].disabled = page === 0;
-      buttons[1].disabled = page === pages - 1;
-      const last = Math.min(rows.length, (page + 1) * kRows);
-      where.textContent = `Rows ${page * kRows + 1} to ${last} of ${rows.length}`;
-    };
-    buttons.forEach((button, i) => button.addEventListener('click', () => {
-      page += i === 0 ? -1 : 1;
-      show();
-    }));
-    box.after(pager);
-    show();
-  }
-
   function start() {
     const tools = document.querySelector('header .tools');
     const record = document.getElementById('record') ?? document.getElementById('rows');
@@ -144,18 +120,19 @@ const lyrefit = (() => {
     tools.hidden = false;
     darkWanted.addEventListener('change', themeChanged);
     addEventListener('beforeprint', dressForPaper);
-    for (const box of document.querySelectorAll('details.readings .box, .box.long')) addPager(box);
     themeChanged();
   }
 
   start();
-  return {data, bytes, text, plotly, tabulator, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
+  return {make, data, bytes, text, plotly, tabulator, colour, fileName, save, onTheme: (each) => themeFunctions.push(each)};
 })();
 
 // Charts replace the static pictures, with equal rows, colours, bands and notes.
 (() => {
+  const {make} = lyrefit;
   const kNarrow = 560;  // pixels; narrower pages have one column of panels
   const kLetter = 6.7;  // pixels, for one letter of a title
+  const kMostParts = 500;  // of a chart in a choice
   const wantsStillness = matchMedia('(prefers-reduced-motion: reduce)');
 
   // A copy with the page's colours; those of `font` members are for text.
@@ -190,9 +167,7 @@ const lyrefit = (() => {
 
   // The symbol of a legend entry, as letters: a line, a mark, or both.
   function swatch({mode, line, marker}) {
-    const span = document.createElement('span');
-    span.className = 'swatch';
-    span.ariaHidden = 'true';
+    const span = make('span', {class: 'swatch', 'aria-hidden': 'true'});
     const stroke = {dash: '╌', dot: '┈', dashdot: '┄', longdashdot: '┄'}[line?.dash] ?? '─';
     const marks = {circle: '●○', square: '■□', 'triangle-up': '▲△', 'triangle-down': '▼▽', diamond: '◆◇', x: '✕✕', cross: '++'};
     const [full, empty] = marks[marker?.symbol.replace(/-(thin|open).*/, '')] ?? '●○';
@@ -205,20 +180,15 @@ const lyrefit = (() => {
   // The legend: one button for each entry, which hides and shows the traces of its name.
   function fillLegend(list, entries, hidden, changed) {
     list.replaceChildren(...coloured(entries).map((entry) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
-      const name = document.createElement('span');
+      const name = make('span', {});
       name.innerHTML = entry.name;  // escaped where it was written
-      button.append(swatch(entry), name);
-      button.addEventListener('click', () => {
+      const press = () => {
         if (!hidden.delete(entry.name)) hidden.add(entry.name);
         button.setAttribute('aria-pressed', String(!hidden.has(entry.name)));
         changed();
-      });
-      const item = document.createElement('li');
-      item.append(button);
-      return item;
+      };
+      const button = make('button', {type: 'button', 'aria-pressed': String(!hidden.has(entry.name)), onclick: press}, swatch(entry), name);
+      return make('li', {}, button);
     }));
   }
 
@@ -275,30 +245,32 @@ const lyrefit = (() => {
 
   function addButtons(figure, actions) {
     const tools = figure.querySelector('.tools');
-    for (const [text, action] of actions) {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = text;
-      button.addEventListener('click', action);
-      tools.append(button);
-    }
+    tools.append(...actions.map(([text, action]) => make('button', {type: 'button', onclick: action}, text)));
     tools.hidden = false;
   }
 
-  async function takeOver(Plotly, figure) {
-    const chart = await lyrefit.data(`${figure.id}-chart`);
+  // Parts of the chart as a choice, for the keyboard: each filters the table of all rows, as a click on it does.
+  function fillParts(select, {data}) {
+    const parts = data.flatMap(({meta, customdata}) => (customdata ?? []).map((texts) => [meta, texts]));
+    select.hidden = !lyrefit.filterRows || parts.length === 0 || parts.length > kMostParts;
+    if (select.hidden) return;
+    select.replaceChildren(new Option('Rows of a part', ''), ...parts.map((part) => new Option(
+        part[1].map((text, i) => text && `${part[0][i]} ${text}`).filter(Boolean).join(', '), JSON.stringify(part))));
+  }
+
+  // Draws a chart in its figure. Returns a function that draws another one in its place.
+  async function takeOver(Plotly, figure, chart) {
     const live = figure.querySelector('.live');
-    const name = document.createElement('p');
-    name.className = 'live-title';
-    name.innerHTML = chart.title;  // escaped where it was written
-    const plot = document.createElement('div');
-    plot.setAttribute('role', 'img');
-    plot.setAttribute('aria-labelledby', `${figure.id}-caption`);
-    const legend = document.createElement('ul');
-    legend.className = 'legend';
-    const entries = chart.data.filter((trace) => trace.showlegend !== false);
+    const name = make('p', {class: 'live-title'});
+    const plot = make('div', {role: 'img', 'aria-labelledby': `${figure.id}-caption`});
+    const legend = make('ul', {class: 'legend'});
     const hidden = new Set();
-    live.append(name, legend, plot);
+    const told = make('p', {role: 'status'});
+    const pick = async (names, texts) => {
+      told.replaceChildren('The table shows ', make('a', {href: '#rows-table'}, await lyrefit.filterRows(names, texts)));
+    };
+    const select = make('select', {'aria-label': 'Rows of a part of the chart', onchange: () => select.value && pick(...JSON.parse(select.value))});
+    live.append(name, legend, plot, told);
     figure.classList.add('is-live');
     const config = {displayModeBar: false, doubleClick: 'reset', showTips: false};
     let width = 0;
@@ -310,21 +282,35 @@ const lyrefit = (() => {
       return Plotly.react(plot, coloured(shown), layout, config);
     };
     const redraw = () => {
-      fillLegend(legend, entries, hidden, draw);
+      name.innerHTML = chart.title;  // escaped where it was written
+      fillLegend(legend, chart.data.filter((trace) => trace.showlegend !== false), hidden, draw);
       return draw();
     };
     await redraw();
+    fillParts(select, chart);
+    plot.on('plotly_click', ({points: [{data, customdata}]}) => {
+      if (data.meta && lyrefit.filterRows) pick(data.meta, customdata ?? data.customdata[0]);
+    });
     addButtons(figure, [
       ['Zoom in', () => zoom(Plotly, plot, 0.5)],
       ['Zoom out', () => zoom(Plotly, plot, 2)],
       ['Reset', () => { hidden.clear(); return redraw(); }],
       ['PNG', () => savePicture(Plotly, chart, plot)],
     ]);
+    figure.querySelector('.tools').prepend(select);
     lyrefit.onTheme(redraw);
     new ResizeObserver(() => {
       if (live.clientWidth > 0 && Math.round(live.clientWidth) !== width) draw();
     }).observe(live);
+    return (next) => {
+      chart = next;
+      hidden.clear();
+      fillParts(select, chart);
+      return redraw();
+    };
   }
+  // Without Plotly nothing is drawn, and there is no function.
+  lyrefit.takeOver = async (figure, chart) => await lyrefit.plotly() && takeOver(window.Plotly, figure, chart);
 
   async function takeOverAll() {
     const figures = [...document.querySelectorAll('figure[id]')].filter(
@@ -332,7 +318,7 @@ const lyrefit = (() => {
     if (figures.length === 0) return;
     const Plotly = await lyrefit.plotly();
     if (Plotly === null) return;
-    for (const figure of figures) await takeOver(Plotly, figure);
+    for (const figure of figures) await takeOver(Plotly, figure, await lyrefit.data(`${figure.id}-chart`));
     document.documentElement.dataset.charts = 'ready';
   }
 

@@ -266,6 +266,7 @@
       data: rows, columns: columns.map((column) => tabulatorColumn(column, cell)), nestedFieldSeparator: false, layout: 'fitData',
       pagination: true, paginationElement: pager, paginationSize: 25, paginationSizeSelector: [25, 50, 100], placeholder: nothing,
       groupStartOpen: false, groupToggleElement: 'header', groupHeader: headOf,
+      autoResize: false,  // columns are as wide as their content; drawn anew, a row would lose a click that has begun
     });
     table.on('renderComplete', () => place.querySelectorAll('.tabulator-group').forEach((head) => {
       head.setAttribute('role', 'row');

@@ -87,7 +87,8 @@ std::vector<double> LossesOf(const PlantNode& node, const std::vector<std::strin
   return losses;
 }
 
-// One bar on the other: bars from zero to each sum, the largest behind the others. `titled_by`: the column of causes.
+// One bar on the other: bars from zero to each sum, the largest behind the others. `titled_by`: the
+// column of causes.
 Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::string>& causes,
                   const PlantLoss& loss, const std::string& titled_by) {
   Panel panel;

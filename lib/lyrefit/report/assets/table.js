@@ -55,7 +55,7 @@
   // Whether a cell passes a filter: ">0.9", "<5", "1..2", "1..<2", "=exactly", "^begins with", "!without", else a part of
   // the text.
   function passes(wanted, value) {
-    const text = String(value ?? '').toLowerCase();
+    const text = String(value ?? '').toLowerCase().replace(/^'(?=[=+@-])/, '');  // without the mark against formulas
     const want = wanted.trim().toLowerCase();
     const [, low, below, high] = /^(\S+?)\.\.(<?)(\S+)$/.exec(want) ?? [];
     if (typeof value === 'number' && !Number.isNaN(high - low)) return value >= low && (below ? value < high : value <= high);

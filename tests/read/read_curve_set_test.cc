@@ -186,6 +186,18 @@ TEST(ReadCurveSetTest, IvCurvesFileKeepsTheCurvesThatCanBeRead) {
   EXPECT_THAT(set->rejected[0].error.message, HasSubstr("\"IV Curves\"[1].Currents[1]"));
 }
 
+TEST(ReadCurveSetTest, ABadReadingOfOnePixelRejectsThatPixel) {
+  const TempFolder folder;
+  const auto set = ReadCurveSet(folder.Write(
+      "p.csv", "sweep,V,I1,I2\n1,0,2,3\n1,0.4,1,2\n1,0.5,0,0\n2,0.5,0,0\n2,0.4,x,2\n2,0,2,3\n"));
+  ASSERT_TRUE(set) << set.error().ToString();
+  EXPECT_THAT(Ids(*set), ElementsAre("I2"));
+  EXPECT_EQ(set->curves[0].size(), 6U);
+  ASSERT_EQ(set->rejected.size(), 1U);
+  EXPECT_EQ(set->rejected[0].id, "I1");
+  EXPECT_EQ(set->rejected[0].error.line, 6);
+}
+
 TEST(ReadCurveSetTest, TwoEntriesOfOneIndexAreAnError) {
   const TempFolder folder;
   EXPECT_THAT(MessageOf(ReadCurveSet(folder.Write("set.json", R"({"IV Curves": [

@@ -72,6 +72,7 @@ void AddChannels(std::vector<Table> tables, const std::string& path, CurveSetBui
     raw.curve.source = path;
     raw.curve.name = table.name;
     if (!ids.insert(raw.curve.name).second) raw.curve.name += fmt::format(" ({})", i + 1);
+    if (!table.broken.empty()) table.error = table.broken.begin()->second;
     if (table.error) {
       builder->Reject(raw.curve.name, *table.error);
       continue;

@@ -57,9 +57,10 @@ struct Series {
   std::vector<std::size_t> ends = {};            // rows at which a line is interrupted
   // Shown by viewers under the pointer in place of x and y, for each row of bars and cells; or none.
   std::vector<std::string> texts = {};
-  // Filters of the table of all rows (block::LongTable) that viewers set by a click: for each row of bars and cells, or
-  // once for a line, the texts of these columns' filters. An empty text and a missing column are no filter.
+  // Columns of the table of all rows (block::LongTable) whose filters viewers set by a click.
   std::vector<std::string> filter_columns = {};
+  // The texts of these filters, for each row of bars and cells or once for a line. An empty text and
+  // a missing column are no filter.
   std::vector<std::vector<std::string>> filters = {};
 
   void Add(double x, double y, double colour = 0);  // ignores rows that are not finite

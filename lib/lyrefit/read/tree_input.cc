@@ -142,9 +142,9 @@ class TreeInput : public BatchInput {
 }  // namespace
 
 Expected<std::unique_ptr<BatchInput>> FolderTreeInput(const std::string& folder,
-                                                      const std::string& prefix,
+                                                      const std::string& name,
                                                       const ReadOptions& options) {
-  auto tree = std::make_unique<TreeInput>(folder, prefix, options);
+  auto tree = std::make_unique<TreeInput>(folder, name, options);
   if (tree->count() == 0) {
     return Fail("expected tables (.csv, .tsv, .txt, ...) in the folder or below, found none",
                 folder);

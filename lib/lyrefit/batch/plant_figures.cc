@@ -42,17 +42,17 @@ double Quantile(const std::vector<double>& sorted, double share) {
 }
 
 // Ends of an axis for all values, except distant ones that would compress all others. Values that
-// are equal to rounding get room around them.
+// are equal to rounding are widened.
 std::array<double, 2> Ends(const std::vector<double>& sorted) {
   const double low = Quantile(sorted, 0.01);
   const double high = Quantile(sorted, 0.99);
-  const double room = high - low;
+  const double span = high - low;
   const double size = std::fmax(std::fabs(low), std::fabs(high));
-  if (!(room > 1e-9 * size) || !(room > 1e-300)) {
+  if (!(span > 1e-9 * size) || !(span > 1e-300)) {
     const double around = size > 0 ? 0.1 * size : 1;
     return {low - around, high + around};
   }
-  return {std::fmax(sorted.front(), low - room), std::fmin(sorted.back(), high + room)};
+  return {std::fmax(sorted.front(), low - span), std::fmin(sorted.back(), high + span)};
 }
 
 // A histogram with the median, and in front of it that of the rows that differ. The outermost bars

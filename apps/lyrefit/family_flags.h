@@ -15,6 +15,7 @@ namespace lyrefit {
 enum class Family {
   kDeSoto,
   kPvsyst,
+  kCec,
   kFree,  // none: every curve is fitted individually
   kAuto,  // the law with the least error on held-out curves
 };
@@ -23,6 +24,7 @@ template <>
 struct EnumTable<Family> {
   static constexpr EnumText<Family> kRows[] = {{Family::kDeSoto, "desoto"},
                                                {Family::kPvsyst, "pvsyst"},
+                                               {Family::kCec, "cec"},
                                                {Family::kFree, "free"},
                                                {Family::kAuto, "auto"}};
 };
@@ -34,6 +36,7 @@ struct FamilyFlags {
   std::vector<std::string> against_files;
   std::string pvlib_file;
   std::string pan_file;
+  std::string sam_file;
 };
 
 // Declares the flags of a set, and --csv, which curves fitted individually have too.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/base/try.h"
@@ -17,6 +19,8 @@ constexpr const char* kOneCurve[] = {"--floor",      "--bounds",        "--loss"
 // Flags about the parameters that the curves share.
 constexpr const char* kShared[] = {"--shunt",
                                    "--recombination",
+                                   "--residuals",
+                                   "--key-point-errors",
                                    "--weights",
                                    "--search-curves",
                                    "--fit-curves",
@@ -29,7 +33,8 @@ constexpr const char* kShared[] = {"--shunt",
                                    "--no-individual-fits",
                                    "--against",
                                    "--pvlib",
-                                   "--pan"};
+                                   "--pan",
+                                   "--sam"};
 // Options that --family auto selects.
 constexpr const char* kChosenByAuto[] = {"--model", "--shunt", "--recombination"};
 
@@ -42,9 +47,25 @@ Expected<void> RefuseGiven(const VerbLine& verb, const Names& names, const std::
   return {};
 }
 
+// The law of a joint fit; none if it is free or chosen.
+std::optional<TranslationLaw> LawOf(Family family) {
+  switch (family) {
+    case Family::kDeSoto:
+      return TranslationLaw::kDeSoto;
+    case Family::kPvsyst:
+      return TranslationLaw::kPvsyst;
+    case Family::kCec:
+      return TranslationLaw::kCec;
+    case Family::kFree:
+    case Family::kAuto:
+      break;
+  }
+  return std::nullopt;
+}
+
 // Rejects options that the law does not have, before any file is read.
 Expected<void> CheckLaw(const FamilyFlags& flags, const FamilyOptions& options) {
-  if (flags.family != Family::kDeSoto && flags.family != Family::kPvsyst) return {};
+  if (!LawOf(*flags.family)) return {};
   TranslationSpec spec;
   spec.law = options.law;
   spec.model = options.model;
@@ -66,16 +87,14 @@ Expected<void> CheckLaw(const FamilyFlags& flags, const FamilyOptions& options) 
 // Rejects, before any file is read, what a PAN file cannot state.
 Expected<void> CheckPan(const FamilyFlags& flags, const FamilyOptions& options) {
   if (flags.pan_file.empty()) return {};
-  if (flags.family == Family::kDeSoto) {
+  const auto law = LawOf(*flags.family);
+  if (law && law != TranslationLaw::kPvsyst) {
     return Fail("--pan: a PAN file takes the law pvsyst: expected --family pvsyst");
   }
   if (flags.family == Family::kPvsyst && options.model != Model::kSingleDiode) {
     return Fail("--pan: a PAN file has one diode: expected --model sd");
   }
-  if (options.fixed.count("EgRef") + options.fixed.count("Eg") > 0) return {};
-  return Fail(
-      "--pan: a PAN file implies the band gap of its technology: say --fix EgRef=1.12 for silicon, "
-      "1.03 for CIS or 1.5 for CdTe");
+  return {};
 }
 
 }  // namespace
@@ -83,7 +102,7 @@ Expected<void> CheckPan(const FamilyFlags& flags, const FamilyOptions& options) 
 Expected<void> CheckFamilyFlags(const VerbLine& verb, const FamilyFlags& flags) {
   if (!flags.family) {
     const std::string need =
-        "is about a set of curves: it needs --family desoto, pvsyst, free or auto";
+        "is about a set of curves: it needs --family desoto, pvsyst, cec, free or auto";
     TRY(RefuseGiven(verb, kShared, need));
     return RefuseGiven(verb, kSetOnly, need);
   }
@@ -94,7 +113,7 @@ Expected<void> CheckFamilyFlags(const VerbLine& verb, const FamilyFlags& flags) 
   }
   if (flags.family == Family::kAuto) {
     return RefuseGiven(verb, kChosenByAuto,
-                       "is what --family auto chooses: it is for --family desoto and pvsyst");
+                       "is what --family auto chooses: it is for --family desoto, pvsyst and cec");
   }
   return {};
 }
@@ -111,7 +130,7 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const VerbLine& verb, const Famil
         "--noise: a joint fit weighs by --weights alone; its intervals take the errors of the "
         "readings and of whole curves into account by themselves");
   }
-  options.law = flags.family == Family::kPvsyst ? TranslationLaw::kPvsyst : TranslationLaw::kDeSoto;
+  options.law = LawOf(*flags.family).value_or(TranslationLaw::kDeSoto);
   options.model = fit.model;
   options.objective = fit.objective;
   options.constants = fit.constants;
@@ -128,6 +147,9 @@ Expected<FamilyOptions> FamilyOptionsFromFlags(const VerbLine& verb, const Famil
   options.bounds = fit.bounds.overrides;
   TRY(CheckLaw(flags, options));
   TRY(CheckPan(flags, options));
+  if (!flags.sam_file.empty() && flags.family == Family::kPvsyst) {
+    return Fail("--sam: SAM's modules follow the law cec or desoto: expected --family cec");
+  }
   for (const std::string& file : flags.against_files) {
     TRY(NamedParameters other, ReadModuleParameters(file));
     options.against.push_back(std::move(other));

@@ -36,6 +36,7 @@ Expected<FamilyReport> FitSet(const CurveSet& set, Family family, const FamilyOp
       return FitFamilyAuto(set, options, TerminalObserver());
     case Family::kDeSoto:
     case Family::kPvsyst:
+    case Family::kCec:
       break;
   }
   return FitFamily(set, options, TerminalObserver());
@@ -57,7 +58,21 @@ Expected<void> WritePan(const FamilyReport& report, const CurveSet& set, const s
   return text ? WriteOutput(file, *text) : Fail("--pan: " + text.error().message);
 }
 
-// Writes the outputs for pvlib and PVsyst last: they may fail, and all other files are then
+Expected<void> WriteSam(const FamilyReport& report, const CurveSet& set, const std::string& file) {
+  const std::string technology = set.curves.front().notes.technology;
+  const auto row = CecRow(report.translation, report.refined, report.name, technology);
+  return row ? WriteOutput(file, CecLibraryCsv(*row)) : Fail("--sam: " + row.error().message);
+}
+
+// A PAN file implies the band gap of its technology: the fit takes that unless the user gives one.
+FamilyOptions ForPan(FamilyOptions options, const CurveSet& set, const FamilyFlags& flags) {
+  const bool given = options.fixed.count("EgRef") + options.fixed.count("Eg") > 0;
+  if (flags.pan_file.empty() || given) return options;
+  options.fixed["EgRef"] = PanBandgap_eV(set.curves.front().notes.technology);
+  return options;
+}
+
+// Writes the outputs for pvlib, PVsyst and SAM last: they may fail, and all other files are then
 // complete.
 Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const CurveSet& set,
                      const FamilyFlags& flags, const ReportFlags& output) {
@@ -70,7 +85,8 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
                   [&] { return DrawPage(FamilyDocument(report, set), FamilyJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report); }));
   if (!flags.pvlib_file.empty()) TRY(WritePvlib(report, set, flags.pvlib_file));
-  return flags.pan_file.empty() ? Expected<void>() : WritePan(report, set, flags.pan_file);
+  if (!flags.pan_file.empty()) TRY(WritePan(report, set, flags.pan_file));
+  return flags.sam_file.empty() ? Expected<void>() : WriteSam(report, set, flags.sam_file);
 }
 
 }  // namespace
@@ -80,7 +96,7 @@ Expected<int> RunFamily(const VerbLine& verb, const CurveFlags& flagged, const F
   TRY(verb.CheckFiles());
   TRY(const CurveSet set, ReadFlaggedSet(flagged));
   const InterruptGuard guard;
-  TRY(const FamilyReport report, FitSet(set, *flags.family, options));
+  TRY(const FamilyReport report, FitSet(set, *flags.family, ForPan(options, set, flags)));
   TRY(Write(verb, report, set, flags, output));
   if (report.interrupted) return kExitInterrupted;
   return report.usable ? kExitFine : kExitNotUsable;

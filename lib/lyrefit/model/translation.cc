@@ -36,10 +36,10 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
     return Fail("a family is fitted with one or two diodes: expected sd or dd, found td");
   }
   if (spec.recombination && !pvsyst) {
-    return Fail("the recombination loss belongs to the law pvsyst, not to desoto");
+    return Fail("the recombination loss belongs to the law pvsyst, not to " + ToText(spec.law));
   }
   if (spec.shunt == ShuntLaw::kExponential && !pvsyst) {
-    return Fail("the exponential shunt belongs to the law pvsyst, not to desoto");
+    return Fail("the exponential shunt belongs to the law pvsyst, not to " + ToText(spec.law));
   }
   Translation t;
   t.spec = spec;
@@ -59,6 +59,12 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
   t.alpha_sc = Add({"alpha", "alpha_sc", "A/K", "temperature coefficient of Isc",
                     ParameterKind::kPhotocurrent, 0.01},
                    &t);
+  if (spec.law == TranslationLaw::kCec) {
+    t.adjust = Add({"Adjust", "Adjust", "%", "how far alpha_sc of the photocurrent is below that "
+                                             "of Isc",
+                    ParameterKind::kPlain, 10},
+                   &t);
+  }
   t.bandgap = Add({"Eg", "EgRef", "eV", "band gap at the reference"}, &t);
   if (pvsyst) {
     t.n_slope = Add({"mu", "mu_gamma", "1/K", "temperature coefficient of the ideality",

@@ -13,12 +13,13 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // Law by which a device's parameters follow irradiance G and cell temperature T from their values
 // at the reference (1000 W/m2, 25 C).
-enum class TranslationLaw { kDeSoto, kPvsyst };
+enum class TranslationLaw { kDeSoto, kPvsyst, kCec };
 
 template <>
 struct EnumTable<TranslationLaw> {
   static constexpr EnumText<TranslationLaw> kRows[] = {{TranslationLaw::kDeSoto, "desoto"},
-                                                       {TranslationLaw::kPvsyst, "pvsyst"}};
+                                                       {TranslationLaw::kPvsyst, "pvsyst"},
+                                                       {TranslationLaw::kCec, "cec"}};
 };
 
 // Law of the shunt over irradiance.
@@ -66,6 +67,7 @@ struct Translation {
   int resistance_series = -1;      // Rs, ohm
   int resistance_shunt = -1;       // Rsh_ref, ohm
   int alpha_sc = -1;               // A/K
+  int adjust = -1;                 // Adjust, percent               CEC
   int bandgap = -1;                // EgRef, eV
   int bandgap_slope = -1;          // dEgdT, 1/K                    De Soto
   int n_slope = -1;                // mu_gamma, 1/K                 PVsyst
@@ -120,6 +122,8 @@ S DeSotoBarrier(const S& gap, const S& slope, double from_K, const S& to_K, doub
 //   De Soto, Klein and Beckman 2006 (doi:10.1016/j.solener.2005.06.010), eqs. 16 to 18, 21, 22:
 //     Io  = Io_ref (T / Tref)^3 exp(EgRef / (k Tref) - Eg / (k T))
 //     Eg  = EgRef (1 + dEgdT (T - Tref)), n constant, Rsh = Rsh_ref Gref / G
+//   CEC (Dobos 2012, doi:10.1115/1.4005759): De Soto's with alpha_sc (1 - Adjust / 100) in IL,
+//     where alpha_sc is the measured coefficient of Isc
 //   PVsyst (Mermoud and Lejeune 2010; Sauer, Roessler and Hansen 2015,
 //   doi:10.1109/JPHOTOV.2014.2364133):
 //     gamma = gamma_ref + mu_gamma (T - Tref)
@@ -142,7 +146,9 @@ void Translate(const Translation& translation, const S* shared, const S& irradia
   const S n = pvsyst ? S(shared[at.n] + shared[at.n_slope] * dt) : S(shared[at.n]);
   const S slope = pvsyst ? S(0.0) : shared[at.bandgap_slope];
   const S barrier = DeSotoBarrier(gap, slope, kReferenceTemperature_K, temperature_K, k_eV);
-  device[kIph] = g * (shared[at.photocurrent] + shared[at.alpha_sc] * dt);
+  const S alpha = at.adjust >= 0 ? S(shared[at.alpha_sc] * (1.0 - 0.01 * shared[at.adjust]))
+                                 : S(shared[at.alpha_sc]);
+  device[kIph] = g * (shared[at.photocurrent] + alpha * dt);
   device[SaturationCurrentIndex(0)] = shared[at.saturation_current] * ratio * ratio * ratio *
                                       exp(pvsyst ? S(barrier / n) : barrier);
   device[IdealityIndex(0)] = n * ratio;

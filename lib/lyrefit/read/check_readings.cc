@@ -259,7 +259,8 @@ void LookAtCells(const Examined& look, Findings* out) {
   const double per_cell = voc / cells;
   const bool dim = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDim_W_m2;
   const int likely = LikelyCells(voc);
-  if (per_cell > kHighestCell_V && !curve.cells_known) {
+  const double highest_V = kHighestCell_V * JunctionsPerCell(curve.notes.technology);
+  if (per_cell > highest_V && !curve.cells_known) {
     out->push_back(
         {"cells",
          fmt::format("{} {:.4g} V: some {} cells in series{}? give their number (--cells)",
@@ -267,7 +268,7 @@ void LookAtCells(const Examined& look, Findings* out) {
                      MayBeStack(voc, cells) ? fmt::format(", {}", kStack) : ""),
          false,
          {}});
-  } else if (per_cell > kHighestCell_V || (reached && per_cell < kLowestCell_V && !dim)) {
+  } else if (per_cell > highest_V || (reached && per_cell < kLowestCell_V && !dim)) {
     const std::string stated =
         curve.cells_known ? fmt::format("each of {} stated cells", cells) : "one cell";
     const std::string each =
@@ -280,7 +281,7 @@ void LookAtCells(const Examined& look, Findings* out) {
     out->push_back({"cells",
                     fmt::format("{} {:.4g} V: {} for {}, and a cell at light has {:g} to {:g} V{}",
                                 reached ? "Voc is" : "the curve goes to", voc, each, stated,
-                                kLowestCell_V, kHighestCell_V, instead),
+                                kLowestCell_V, highest_V, instead),
                     curve.cells_known,
                     {}});
   }

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <string_view>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/number_text.h"
 
 namespace lyrefit {
 namespace {
@@ -47,19 +47,29 @@ Expected<void> CheckConditions(const Conditions& conditions) {
   return {};
 }
 
+template <std::size_t N>
+bool HasAny(const std::string& word, const std::string_view (&parts)[N]) {
+  return std::any_of(std::begin(parts), std::end(parts), [&](const std::string_view part) {
+    return word.find(part) != std::string::npos;
+  });
+}
+
 }  // namespace
 
 bool IsThinFilm(const std::string& technology) {
-  std::string word;
-  for (const char c : technology) {
-    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  constexpr std::string_view kParts[] = {"cdte",      "cigs", "cis",        "a-si",
-                                         "amorphous", "thin", "perovskite", "organic",
-                                         "opv",       "dye",  "tandem"};
-  return std::any_of(std::begin(kParts), std::end(kParts), [&](const std::string_view part) {
-    return word.find(part) != std::string::npos;
-  });
+  constexpr std::string_view kHetero[] = {"hit", "hjt", "heterojunction"};  // wafers
+  constexpr std::string_view kThin[] = {"cdte",      "cadmium",    "cigs",    "cis", "copper indium",
+                                        "a-si",      "amorphous",  "thin",    "opv", "perovskite",
+                                        "organic",   "dye",        "tandem"};
+  const std::string word = LowerCase(technology);
+  return !HasAny(word, kHetero) && HasAny(word, kThin);
+}
+
+int JunctionsPerCell(const std::string& technology) {
+  constexpr std::string_view kThree[] = {"trip"};
+  constexpr std::string_view kTwo[] = {"tandem", "micromorph", "ucsi_asi", "two-junction"};
+  const std::string word = LowerCase(technology);
+  return HasAny(word, kThree) ? 3 : HasAny(word, kTwo) ? 2 : 1;
 }
 
 Expected<void> Validate(const IvCurve& curve) {

@@ -9,6 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/read/assumption.h"
+#include "lyrefit/read/key_points.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -45,6 +46,10 @@ struct DeviceNotes {
 // silicon. Case does not count.
 bool IsThinFilm(const std::string& technology);
 
+// Junctions in series in each cell, by a word for the technology: 3 of "triple", 2 of "tandem",
+// "micromorph" or PVsyst's "mtuCSi_aSiH", else 1. Case does not count.
+int JunctionsPerCell(const std::string& technology);
+
 // One measured curve in generator sign: delivered current is positive, negative voltages are
 // reverse bias. Points are in measurement order. Optional columns are empty or as long as
 // voltage_V.
@@ -60,6 +65,9 @@ struct IvCurve {
   std::vector<int> sweep;  // number of the sweep of each point
   std::vector<double> irradiance_W_m2;
   std::vector<double> temperature_C;
+  // Key points that a test laboratory states in place of a sweep; NaN: not stated. The readings
+  // repeat them.
+  std::optional<KeyPoints> key_points;
   std::vector<Assumption> assumptions;  // assumptions of the reader
   bool irradiance_known = true;         // false: not stated, conditions hold a default
   bool temperature_known = true;        // false: not stated, conditions hold a default

@@ -29,16 +29,25 @@ struct LinePlace {
   std::string_view text;
 };
 
-enum KeyPoint { kIsc, kVoc, kImp, kVmp, kKeyPoints };
+enum KeyPoint { kIsc, kVoc, kImp, kVmp, kPmp, kKeyPoints };
 
 constexpr std::pair<std::string_view, KeyPoint> kPointNames[] = {
-    {"isc", kIsc}, {"voc", kVoc}, {"imp", kImp}, {"impp", kImp}, {"vmp", kVmp}, {"vmpp", kVmp}};
+    {"isc", kIsc}, {"voc", kVoc},  {"imp", kImp},  {"impp", kImp}, {"vmp", kVmp},
+    {"vmpp", kVmp}, {"pmp", kPmp}, {"pmpp", kPmp}, {"pmax", kPmp}};
 
-// A column of key points and the factor to A or V.
+// A column of key points and the factor to A, V or W.
 struct KeyPointColumn {
   KeyPoint point;
   double factor = 1;
 };
+
+// Factor to watt of a unit of power.
+std::optional<double> PowerFactor(std::string_view unit) {
+  if (unit == "w") return 1;
+  if (unit == "mw") return 1e-3;
+  if (unit == "kw") return 1e3;
+  return std::nullopt;
+}
 
 // Interprets a label such as "i_sc_A" or "Isc (mA)".
 std::optional<KeyPointColumn> AsKeyPoint(std::string_view label) {
@@ -48,9 +57,13 @@ std::optional<KeyPointColumn> AsKeyPoint(std::string_view label) {
     const auto* const found = std::find_if(std::begin(kPointNames), std::end(kPointNames),
                                            [&](const auto& known) { return known.first == name; });
     if (found == std::end(kPointNames)) continue;
-    const bool current = found->second == kIsc || found->second == kImp;
     const std::string unit = JoinWords(words, count, words.size());
     if (unit.empty()) return KeyPointColumn{found->second};
+    if (found->second == kPmp) {
+      if (const auto factor = PowerFactor(unit)) return KeyPointColumn{kPmp, *factor};
+      continue;
+    }
+    const bool current = found->second == kIsc || found->second == kImp;
     const Unit* known = FindUnit(current ? ColumnKind::kCurrent : ColumnKind::kVoltage, unit);
     if (known != nullptr) return KeyPointColumn{found->second, known->factor};
   }
@@ -231,9 +244,37 @@ KeyPointTable Parse(const std::string& text, const std::string& path) {
   return table;
 }
 
+// Completes Imp, Vmp and Pmp if one of them is missing. Error: all three are stated, and Pmp is not
+// Imp Vmp within the rounding of such tables.
+Expected<void> CompletePower(const std::string& path, Condition* condition) {
+  constexpr double kRounding = 0.02;
+  auto& [isc, voc, imp, vmp, pmp] = condition->points;
+  const int known = static_cast<int>(imp.has_value()) + static_cast<int>(vmp.has_value()) +
+                    static_cast<int>(pmp.has_value());
+  if (known < 2) return {};
+  if (!pmp) pmp = *imp * *vmp;
+  if (!imp && *vmp > 0) imp = *pmp / *vmp;
+  if (!vmp && *imp > 0) vmp = *pmp / *imp;
+  if (known == 3 && !(std::fabs(*pmp / (*imp * *vmp) - 1) <= kRounding)) {
+    return Fail(fmt::format("expected Pmp = Imp Vmp = {:.5g} W, found {:.5g} W", *imp * *vmp, *pmp),
+                path, condition->line);
+  }
+  if (known == 3) pmp = *imp * *vmp;
+  return {};
+}
+
 // The readings of a condition; a key point that is missing leaves its reading out.
 IvCurve CurveOf(const Condition& condition) {
   IvCurve curve;
+  const auto& [isc, voc, imp, vmp, pmp] = condition.points;
+  KeyPoints points;
+  points.short_circuit_current_A = isc.value_or(kUnknown);
+  points.open_circuit_voltage_V = voc.value_or(kUnknown);
+  points.max_power_current_A = imp.value_or(kUnknown);
+  points.max_power_voltage_V = vmp.value_or(kUnknown);
+  points.max_power_W = pmp.value_or(kUnknown);
+  if (isc && voc && pmp) points.fill_factor = *pmp / (*isc * *voc);
+  curve.key_points = points;
   const auto add = [&curve](std::optional<double> voltage_V, std::optional<double> current_A) {
     if (!voltage_V || !current_A) return;
     curve.voltage_V.push_back(*voltage_V);
@@ -265,8 +306,10 @@ Expected<CurveSet> ReadKeyPoints(const DecodedText& text, const std::string& pat
       table.conditions.size())});
   std::map<std::string, int> ids;
   for (const Condition& condition : table.conditions) {
+    Condition complete = condition;
+    TRY(CompletePower(path, &complete));
     RawCurve raw;
-    raw.curve = CurveOf(condition);
+    raw.curve = CurveOf(complete);
     raw.curve.source = path;
     raw.curve.name =
         fmt::format("{:g} W/m2, {:g} C", condition.irradiance_W_m2, condition.temperature_C);

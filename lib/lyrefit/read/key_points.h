@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -9,12 +10,12 @@ namespace LYREFIT_PUBLIC lyrefit {
 // The five key points of a data sheet, and the fill factor. NaN if the curve does not determine a
 // value.
 struct KeyPoints {
-  double short_circuit_current_A;  // Isc
-  double open_circuit_voltage_V;   // Voc
-  double max_power_voltage_V;      // Vmp
-  double max_power_current_A;      // Imp
-  double max_power_W;              // Pmp
-  double fill_factor;              // Pmp / (Isc Voc)
+  double short_circuit_current_A = kUnknown;  // Isc
+  double open_circuit_voltage_V = kUnknown;   // Voc
+  double max_power_voltage_V = kUnknown;      // Vmp
+  double max_power_current_A = kUnknown;      // Imp
+  double max_power_W = kUnknown;              // Pmp
+  double fill_factor = kUnknown;              // Pmp / (Isc Voc)
 };
 
 // Key points of measured points in any order, in V, A and W. Isc and Voc are interpolated linearly

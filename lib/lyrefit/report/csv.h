@@ -11,6 +11,7 @@
 // empty field. Powers and currents are fractions as in the library, not percentages.
 namespace LYREFIT_PUBLIC lyrefit {
 
+struct CecModule;
 struct Certificate;
 struct DataSheetFit;
 struct FamilyReport;
@@ -44,6 +45,10 @@ std::string CertificateCsv(const Certificate& certificate);
 
 // One row for each parameter.
 std::string DataSheetCsv(const DataSheetFit& fit);
+
+// A library of one module in the layout of SAM's CEC modules: a line of names, one of units, one of
+// SAM's identifiers, and the row. What a fit does not know (maker, area, NOCT, PTC) is empty.
+std::string CecLibraryCsv(const CecModule& module);
 
 // One row for each procedure: curve, procedure, recommended, the six key points, each followed by
 // its expanded uncertainty (..._U), why_not.

@@ -86,7 +86,7 @@ bool HasOffset(const FamilyCurve& curve) {
 
 Section CurveSection(const FamilyReport& report) {
   Section section = {"Curves"};
-  if (OneByOne(report) || report.curves.empty()) return section;
+  if (OneByOne(report) || report.curves.empty() || report.key_points) return section;
   const double isc = report.reference.short_circuit_current_A;
   block::Table table = {
       "lrrrrrrrrl",
@@ -179,6 +179,7 @@ Section HeldOutSection(const FamilyReport& report) {
   Section section = {report.held_out ? "Curves that the fit did not see"
                                      : "Parameters from elsewhere on the curves fitted"};
   if (!report.held_out && !report.in_sample) return section;
+  if (report.key_points && report.against.empty()) return section;
   const HeldOut& joint = report.held_out ? *report.held_out : *report.in_sample;
   const double isc = report.reference.short_circuit_current_A;
   block::Table table = {"llrrrrl",

@@ -72,9 +72,13 @@ Section FamilyHead(const FamilyReport& report) {
       &head);
   if (!OneByOne(report)) AddField("law", LawText(report), &head);
   if (!report.with.empty()) AddField("effects", EffectTitles(report.with), &head);
+  const std::string objective =
+      report.key_points
+          ? fmt::format("key points (Isc, Voc, Vmp, Pmp); search: {}", ToText(report.objective))
+          : ToText(report.objective);
   AddField("objective",
-           fmt::format("{}; constants {}; seed {}", ToText(report.objective),
-                       ToText(spec.constants), report.search_options.seed),
+           fmt::format("{}; constants {}; seed {}", objective, ToText(spec.constants),
+                       report.search_options.seed),
            &head);
   return head;
 }
@@ -241,10 +245,12 @@ Section ReferenceSection(const FamilyReport& report) {
 }
 
 Section FamilyRmseSection(const FamilyReport& report) {
-  Section section = {"RMSE in A   (* the objective that was fitted)"};
+  const bool key_points = report.key_points.has_value();
+  Section section = {key_points ? "RMSE in A of the readings that key points give (not fitted)"
+                                : "RMSE in A   (* the objective that was fitted)"};
   if (OneByOne(report)) return section;
   const auto label = [&](Objective objective) {
-    return ToText(objective) + (objective == report.objective ? " *" : "");
+    return ToText(objective) + (objective == report.objective && !key_points ? " *" : "");
   };
   block::Table table = {
       "lrrl", {{"", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent), "over"}}};
@@ -261,7 +267,7 @@ Section FamilyRmseSection(const FamilyReport& report) {
   add("searched (best candidate)", report.rmse.searched_all, all);
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
-  if (!std::isnan(report.noise_A)) {
+  if (!std::isnan(report.noise_A) && !key_points) {
     AddField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
     AddField("weights", WeightsText(report), &section);
   }
@@ -298,8 +304,10 @@ Document FamilyDocument(const FamilyReport& report) {
   Document document = {Banners(report.interrupted, report.usable, {}, report.doubts),
                        FamilyHead(report)};
   AddSections({CandidateSection(report), SharedSection(report), SensorSection(report),
-               ReferenceSection(report), FamilyRmseSection(report)},
+               ReferenceSection(report)},
               &document);
+  AddSections(KeyPointSections(report), &document);
+  AddSections({FamilyRmseSection(report)}, &document);
   AddSections(FamilyCurveSections(report), &document);
   AddSections({FamilySearchSection(report), ListSection("Assumptions", report.assumptions),
                WarningSection(report.warnings)},

@@ -191,9 +191,57 @@ std::string Title(const FamilyReport& report) {
   return title + (report.interrupted ? ", interrupted" : "");
 }
 
+// Errors of Pmp of every condition in percent of Pmp at 1000 W/m2 and 25 C: by the fit, and by a
+// fit that did not see the condition.
+Panel PowerErrorPanel(const FamilyReport& report) {
+  const double nominal_W = report.key_points->reference_power_W;
+  const auto percent = [&](const FamilyCurve& curve, double power_W) {
+    return 100 * (power_W - curve.key_points->measured.max_power_W) / nominal_W;
+  };
+  Panel panel = PerCurvePanel(
+      report, "Pmp, model - measured (% of nominal; open: held out)", [&](const FamilyCurve& curve) {
+        return curve.key_points ? percent(curve, curve.key_points->model.max_power_W) : kUnknown;
+      });
+  for (const FamilyCurve& curve : report.curves) {
+    if (!curve.key_points || std::isnan(curve.key_points->held_out_power_W.value)) continue;
+    panel.series.front().Add(curve.irradiance_W_m2,
+                             percent(curve, curve.key_points->held_out_power_W.value),
+                             curve.temperature_C);
+  }
+  panel.y.air_low = 0.06;
+  panel.zero_line = true;
+  return panel;
+}
+
+// Errors of Isc and Voc of every condition in percent.
+Panel KeyPointPanel(const FamilyReport& report, const std::string& title,
+                    double KeyPoints::*point) {
+  Panel panel = PerCurvePanel(report, title, [&](const FamilyCurve& curve) {
+    if (!curve.key_points) return kUnknown;
+    return 100 * (curve.key_points->model.*point / curve.key_points->measured.*point - 1);
+  });
+  panel.y.air_low = 0.06;
+  panel.zero_line = true;
+  return panel;
+}
+
+Figure KeyPointFigure(const FamilyReport& report, const CurveSet& set) {
+  Figure figure{fmt::format("{}: {} {}, rms error of Pmp {} % of nominal", report.name,
+                            ToText(report.translation.spec.law),
+                            ToText(report.translation.spec.model),
+                            Significant(100 * report.key_points->max_power_of_reference, 2))};
+  figure.panels = {CurvesPanel(report, set), PowerErrorPanel(report),
+                   KeyPointPanel(report, "Voc, model - measured (%)",
+                                 &KeyPoints::open_circuit_voltage_V)};
+  figure.columns = 3;
+  figure.colour_bar = TemperatureBar(report);
+  return figure;
+}
+
 }  // namespace
 
 Figure FamilyFigure(const FamilyReport& report, const CurveSet& set) {
+  if (report.key_points) return KeyPointFigure(report, set);
   const bool held_out =
       std::any_of(report.curves.begin(), report.curves.end(),
                   [](const FamilyCurve& curve) { return curve.role == CurveRole::kHeldOut; });

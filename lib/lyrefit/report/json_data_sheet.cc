@@ -125,7 +125,7 @@ std::string PvlibJson(const std::string& name, TranslationLaw law,
   const bool pvsyst = law == TranslationLaw::kPvsyst;
   Json json = {{"lyrefit_version", Version()},
                {"name", name},
-               {"function", pvsyst ? "calcparams_pvsyst" : "calcparams_desoto"}};
+               {"function", "calcparams_" + ToText(law)}};
   AddKeywords(NamedJson(keywords), pvsyst, &json);
   json["cec"] = cec ? Json(*cec) : Json();
   json["cec_reason"] = cec ? std::string() : cec.error().message;

@@ -68,9 +68,57 @@ void to_json(Json& j, const FamilyRmseTable& rmse) {
        {"searched", over(rmse.searched, "search")},
        {"searched_all", over(rmse.searched_all, "fitted")},
        {"refined", over(rmse.refined, "fitted")}};
+  if (std::isnan(rmse.refined_key_points)) return;
+  j["searched_key_points"] = rmse.searched_key_points;
+  j["refined_key_points"] = rmse.refined_key_points;
+}
+
+void to_json(Json& j, const KeyPointFit& fit) {
+  j = {{"measured", fit.measured},
+       {"model", fit.model},
+       {"held_out_power_W", fit.held_out_power_W}};
+}
+
+void to_json(Json& j, const KeyPointErrors& errors) {
+  j = {{"short_circuit_current", errors.short_circuit_current},
+       {"open_circuit_voltage", errors.open_circuit_voltage},
+       {"max_power_voltage", errors.max_power_voltage},
+       {"max_power", errors.max_power}};
+}
+
+void to_json(Json& j, const KeyPointSummary& summary) {
+  j = {{"errors", summary.errors},
+       {"scale", summary.scale},
+       {"rms",
+        {{"short_circuit_current", summary.short_circuit_current},
+         {"open_circuit_voltage", summary.open_circuit_voltage},
+         {"max_power_current", summary.max_power_current},
+         {"max_power_voltage", summary.max_power_voltage},
+         {"max_power", summary.max_power},
+         {"max_power_of_reference", summary.max_power_of_reference},
+         {"held_out_max_power_of_reference", summary.held_out_max_power_of_reference}}},
+       {"reference_power_W", summary.reference_power_W},
+       {"held_out", summary.held_out},
+       {"covered", summary.covered}};
 }
 
 namespace {
+
+// The values of a parameter vector by name.
+Json ValuesJson(const std::vector<ParameterInfo>& infos, const std::vector<double>& values);
+
+Json EqualDevicesJson(const FamilyReport& report) {
+  if (!report.equal_devices) return nullptr;
+  Json devices = Json::array();
+  for (const EqualDevice& one : report.equal_devices->devices) {
+    devices.push_back({{"parameters", ValuesJson(report.translation.parameters, one.shared)},
+                       {"rise", one.rise},
+                       {"reference_power_W", one.reference_power_W},
+                       {"low_light_power_W", one.low_light_power_W},
+                       {"hot_power_W", one.hot_power_W}});
+  }
+  return {{"along", report.equal_devices->along}, {"devices", devices}};
+}
 
 Json SharedJson(const FamilyReport& report) {
   Json parameters = Json::object();
@@ -112,6 +160,7 @@ Json FamilyCurveJson(const FamilyCurve& curve, const std::vector<ParameterInfo>&
           {"individual_rmse", curve.individual_rmse},
           {"isc_excess", curve.isc_excess},
           {"voc_excess_V", curve.voc_excess_V},
+          {"key_points", curve.key_points},
           {"mean_residual_A", curve.mean_residual_A},
           {"residual_A", curve.residual_A}};
 }
@@ -158,6 +207,9 @@ void AddFamilyAnswer(const FamilyReport& report, Json* json) {
   j["temperature_coefficients"] = CoefficientsJson(report);
   j["reference"] = shared ? Json(report.reference) : Json();
   j["rmse"] = report.rmse;
+  j["residuals"] = report.key_points ? "key-points" : "currents";
+  j["key_points"] = report.key_points;
+  j["equal_devices"] = EqualDevicesJson(report);
   j["noise_A"] = report.noise_A;
   j["weights"] = report.weights;
   j["weights_gain"] = report.weights_gain;

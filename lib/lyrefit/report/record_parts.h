@@ -31,7 +31,15 @@ inline bool OneByOne(const FamilyReport& report) { return report.estimates.empty
 
 // Title of a law: "De Soto".
 inline const char* LawTitle(TranslationLaw law) {
-  return law == TranslationLaw::kDeSoto ? "De Soto" : "PVsyst";
+  switch (law) {
+    case TranslationLaw::kDeSoto:
+      return "De Soto";
+    case TranslationLaw::kPvsyst:
+      return "PVsyst";
+    case TranslationLaw::kCec:
+      break;
+  }
+  return "the CEC";
 }
 
 // Parameters of an individually fitted curve, in the order of FamilyCurve::individual_parameters.
@@ -62,6 +70,8 @@ std::string ConditionsText(const MemberConditions& at);
 
 // family_curve_document.cc: tables of curves, validation curves, and curves that were left out.
 std::vector<Section> FamilyCurveSections(const FamilyReport& report);
+// key_point_document.cc: results of a fit of key points; empty sections of any other.
+std::vector<Section> KeyPointSections(const FamilyReport& report);
 
 // diagnosis_document.cc: each cause with its place, size, power, alternatives and what to do.
 std::vector<Section> CauseSections(const Diagnosis& diagnosis);

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/estimate/family/family_judge.h"
 #include "lyrefit/estimate/family/family_search.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {
@@ -42,6 +45,35 @@ std::vector<Tested> Predict(const FamilyProblem& family, const FamilyOptions& op
                       CurveRmse(problem, point, static_cast<int>(k))});
   }
   return tested;
+}
+
+// Pmp of curves that `refit` did not see, with the interval of a measurement.
+std::vector<std::pair<int, Interval>> PredictPower(const FamilyProblem& family,
+                                                   const JointProblem& problem,
+                                                   const JointEnd& refit,
+                                                   const std::vector<int>& curves) {
+  const double degrees = JointDegrees(problem, family.free_parameters, 0);
+  const double variance = refit.squares / degrees;
+  const double t = StudentT95(static_cast<int>(degrees));
+  const JointSpread spread = FindJointSpread(problem, refit, variance);
+  std::vector<std::pair<int, Interval>> predicted;
+  for (const int c : curves) {
+    const JointCurve& curve = family.curves.members[c].joint;
+    const auto power = [&](const std::vector<double>& shared) {
+      const TranslatedDevice at =
+          TranslateTo(problem.translation, shared,
+                      curve.irradiance_W_m2 + shared[problem.irradiance_offset()],
+                      curve.temperature_K + shared[problem.temperature_offset()]);
+      return ModelKeyPoints(at.device, at.parameters.data()).max_power_W;
+    };
+    const Interval model = DerivedInterval(spread, refit.active, problem.shared(), t,
+                                           refit.point.shared, power);
+    const double own = std::sqrt(variance) / problem.key_point_scale_A *
+                       curve.key_points->error[kPmpRow] * std::fabs(model.value);
+    predicted.push_back(
+        {c, SymmetricInterval(model.value, std::hypot(model.standard_error, own), t)});
+  }
+  return predicted;
 }
 
 HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
@@ -89,10 +121,12 @@ Against TestAgainst(const CurveSet& set, const FamilyProblem& family, const Fami
 // tests on the curves left out. None if the observer stopped it.
 std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& family,
                                    const FamilyOptions& options, const JointProblem& problem,
-                                   const JointEnd& end, const Observer& observer) {
+                                   const JointEnd& end, const Observer& observer,
+                                   std::vector<std::pair<int, Interval>>* power_W) {
   const std::vector<int>& fitted = family.curves.fitted;
   const int folds = std::min(options.folds, static_cast<int>(fitted.size()));
   std::vector<std::vector<Tested>> parts(folds);
+  std::vector<std::vector<std::pair<int, Interval>>> powers(folds);
   const ProgressReporter progress(observer, "held out", folds);
   ParallelFor(folds, options.threads, [&](int f) {
     if (progress.Stopped()) return;
@@ -108,11 +142,13 @@ std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& fam
     quick.stop = progress.stop();
     const JointEnd refit = RefineJointly(rest, start, quick);
     parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
+    if (family.curves.key_points) powers[f] = PredictPower(family, rest, refit, left);
     progress.Step();
   });
   if (progress.Stopped()) return {};
   std::vector<Tested> tested;
   for (const auto& part : parts) tested.insert(tested.end(), part.begin(), part.end());
+  for (const auto& part : powers) power_W->insert(power_W->end(), part.begin(), part.end());
   HeldOut result = Summarise(tested, set);
   result.how = fmt::format("{} folds of whole curves", folds);
   return result;
@@ -154,9 +190,13 @@ std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const Refi
   HeldOut held_out;
   if (!members.held_out.empty()) {
     held_out = TestOn(set, family, options, shared, tested);
+    if (members.key_points) {
+      tests.held_out_power_W = PredictPower(family, refined.problem, refined.end, tested);
+    }
   } else if (options.folds > 0 && members.fitted.size() >= 4) {
     std::optional<HeldOut> folds =
-        TestByFolds(set, family, options, refined.problem, refined.end, observer);
+        TestByFolds(set, family, options, refined.problem, refined.end, observer,
+                    &tests.held_out_power_W);
     if (!folds) return {};
     held_out = std::move(*folds);
   }

@@ -114,34 +114,10 @@ IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& sear
   return FindIntervals(std::move(problem), progress);
 }
 
-// Value and symmetric interval of a function of the shared parameters, from a gradient by central
-// differences. The interval is unknown if the function changes along a direction that the data do
-// not determine.
 Interval Derived(const Judged& judged, const std::vector<double>& refined,
                  const std::function<double(const std::vector<double>&)>& value) {
-  const JointSpread& spread = judged.spread;
-  constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
-  for (int i = 0; i < judged.fit.family.translation.size(); ++i) {
-    if (judged.fit.end.active[i]) continue;
-    // The step is a thousandth of the standard error, or of the undetermined direction.
-    const bool open = std::isnan(spread.standard_error[i]);
-    const double size = open ? spread.open.row(i).norm() : spread.standard_error[i];
-    const double step = std::max(1e-3 * size, 1e-5 * std::fabs(refined[i]));
-    if (!(step > 0)) continue;
-    std::vector<double> up = refined, down = refined;
-    up[i] += step;
-    down[i] -= step;
-    gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
-  }
-  const double now = value(refined);
-  for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
-    const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
-    const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
-    if (std::fabs(parts.sum()) > kOpen * least) return SymmetricInterval(now, kUnknown, judged.t);
-  }
-  const double variance = gradient.dot(spread.covariance * gradient);
-  return SymmetricInterval(now, std::sqrt(std::max(variance, 0.0)), judged.t);
+  return DerivedInterval(judged.spread, judged.fit.end.active,
+                         judged.fit.family.translation.size(), judged.t, refined, value);
 }
 
 // Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.
@@ -189,6 +165,33 @@ std::vector<CurveOffsets> OffsetsOf(const Judged& judged) {
 
 }  // namespace
 
+Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, int size, double t,
+                         const std::vector<double>& shared,
+                         const std::function<double(const std::vector<double>&)>& value) {
+  constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
+  for (int i = 0; i < size; ++i) {
+    if (active[i]) continue;
+    // The step is a thousandth of the standard error, or of the undetermined direction.
+    const bool open = std::isnan(spread.standard_error[i]);
+    const double error = open ? spread.open.row(i).norm() : spread.standard_error[i];
+    const double step = std::max(1e-3 * error, 1e-5 * std::fabs(shared[i]));
+    if (!(step > 0)) continue;
+    std::vector<double> up = shared, down = shared;
+    up[i] += step;
+    down[i] -= step;
+    gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+  }
+  const double now = value(shared);
+  for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
+    const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
+    const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
+    if (std::fabs(parts.sum()) > kOpen * least) return SymmetricInterval(now, kUnknown, t);
+  }
+  const double variance = gradient.dot(spread.covariance * gradient);
+  return SymmetricInterval(now, std::sqrt(std::max(variance, 0.0)), t);
+}
+
 Interval SymmetricInterval(double value, double standard_error, double t, ParameterKind kind,
                            const ParameterBounds& bounds) {
   const ParameterRange range = SymmetricRange(kind, value, standard_error, t, bounds);
@@ -197,9 +200,7 @@ Interval SymmetricInterval(double value, double standard_error, double t, Parame
 
 double JointDegrees(const JointProblem& problem, int free_parameters, double local_degrees) {
   double points = 0;
-  for (const JointCurve& curve : problem.curves) {
-    points += static_cast<double>(curve.voltage_V.size());
-  }
+  for (const JointCurve& curve : problem.curves) points += curve.residuals();
   return std::max(points - free_parameters - local_degrees, 1.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,14 @@ struct JudgedEnd : JudgedFamily {
 // unfinished profile intervals.
 JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
                       const std::vector<double>& searched, const ProgressReporter& progress);
+
+// Value, standard error and symmetric interval of a function of the shared parameters, from a
+// gradient by central differences. `active`: at their bounds; `size`: number of parameters that the
+// function takes. The interval is unknown if the function changes along a direction that the data
+// do not determine.
+Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, int size, double t,
+                         const std::vector<double>& shared,
+                         const std::function<double(const std::vector<double>&)>& value);
 
 // The interval value -+ t x standard error on the scale of `kind`, clipped to the bounds. Its ends
 // are NaN without a finite standard error.

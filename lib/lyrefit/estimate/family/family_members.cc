@@ -150,6 +150,38 @@ bool UseSigmas(const CurveSet& set, std::vector<FamilyMember>* members) {
   return true;
 }
 
+// Whether the residuals are those of key points.
+Expected<bool> TakesKeyPoints(const CurveSet& set, const FamilyOptions& options,
+                              const std::vector<FamilyMember>& members) {
+  if (options.residuals == FamilyResiduals::kCurrents) return false;
+  if (!options.with.empty()) {
+    if (options.residuals == FamilyResiduals::kAuto) return false;
+    return Fail("residuals: with effects beside the diodes: expected currents, not key-points");
+  }
+  if (options.residuals == FamilyResiduals::kKeyPoints) return true;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    if (members[c].role != CurveRole::kLeftOut && !set.curves[c].key_points) return false;
+  }
+  return true;
+}
+
+// Key points of a curve, stated or found on its sweep, with their errors. At low light those of Isc
+// and Pmp are larger parts: a law is an approximation, and a watt counts the same at every light.
+// `part`: Isc as a part of that at the reference.
+KeyPointResiduals ResidualsOf(const IvCurve& curve, const FamilyOptions& options, double part) {
+  const KeyPointErrors& errors = options.key_point_errors;
+  const double power = options.weights == FamilyWeights::kEqual ? 1
+                       : options.weights == FamilyWeights::kIsc ? 0
+                                                                : 0.5;
+  const double dim = std::pow(part, -power);
+  const KeyPoints points =
+      curve.key_points.value_or(FindKeyPoints(curve.voltage_V, curve.current_A));
+  return {{points.short_circuit_current_A, points.open_circuit_voltage_V,
+           points.max_power_voltage_V, points.max_power_W},
+          {dim * errors.short_circuit_current, errors.open_circuit_voltage,
+           errors.max_power_voltage, dim * errors.max_power}};
+}
+
 void AddSensorUnknowns(const FamilyOptions& options, std::vector<FamilyMember>* members) {
   for (FamilyMember& member : *members) {
     if (member.irradiance_known) member.joint.irradiance_sd = options.irradiance_accuracy;
@@ -239,6 +271,14 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
         set.source);
   }
   result.reference_current_A = UpperMedian(per_sun);
+  TRY(result.key_points, TakesKeyPoints(set, options, result.members));
+  if (result.key_points) {
+    for (const int c : usable) {
+      result.members[c].joint.key_points = ResidualsOf(
+          set.curves[c], options,
+          result.members[c].short_circuit_current_A / result.reference_current_A);
+    }
+  }
   WeighMembers(options.weights, &result);
   result.stated_errors = UseSigmas(set, &result.members);
   result.fitted = usable;

@@ -25,6 +25,7 @@ struct FamilyMembers {
   std::vector<int> fitted;            // positions in the set
   std::vector<int> held_out;
   double reference_current_A = 0;  // Isc at 1000 W/m2, estimated from the curves
+  bool key_points = false;         // the residuals are those of key points
   bool stated_errors = false;      // every curve states sigma_A, which sets the weights
   std::vector<std::string> notes;  // assumptions that had to be made
 };

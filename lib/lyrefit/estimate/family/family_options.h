@@ -36,6 +36,36 @@ struct EnumTable<FamilyWeights> {
                                                       {FamilyWeights::kIsc, "isc"}};
 };
 
+// What the residuals of a joint fit compare.
+enum class FamilyResiduals {
+  kAuto,       // kKeyPoints if every curve states key points in place of a sweep, else kCurrents
+  kCurrents,   // the current of every reading
+  kKeyPoints,  // Isc, Voc, Vmp (dP/dV = 0 there) and Pmp of every curve
+};
+
+template <>
+struct EnumTable<FamilyResiduals> {
+  static constexpr EnumText<FamilyResiduals> kRows[] = {{FamilyResiduals::kAuto, "auto"},
+                                                        {FamilyResiduals::kCurrents, "currents"},
+                                                        {FamilyResiduals::kKeyPoints, "key-points"}};
+};
+
+// Relative standard deviations of measured key points, from condition to condition: what all
+// conditions share (the lamp, the temperature sensor) does not count. Only their ratios weigh; the
+// residuals give the scale. Defaults: typical of indoor matrices by IEC 61853-1.
+struct KeyPointErrors {
+  double short_circuit_current = 0.004;
+  double open_circuit_voltage = 0.003;
+  double max_power_voltage = 0.006;  // the largest: power is flat there
+  double max_power = 0.003;
+};
+
+// Reads "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%"; what is not named keeps its value. Errors: an
+// unknown name, or a part that is not above 0 and at most 50 %.
+Expected<void> ReadKeyPointErrors(const std::string& text, KeyPointErrors* errors);
+// "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%"
+std::string KeyPointErrorsText(const KeyPointErrors& errors);
+
 // Options of FitFamily: the law, the known accuracy of the sensors, and the tests of the result.
 struct FamilyOptions {
   TranslationLaw law = TranslationLaw::kDeSoto;
@@ -55,7 +85,9 @@ struct FamilyOptions {
   std::vector<EffectUse> with;
   bool force_effects = false;  // also effects that these data cannot show
   ErrorSpec errors;            // of curves fitted individually, as in FitOptions
-  FamilyWeights weights = FamilyWeights::kAuto;
+  FamilyResiduals residuals = FamilyResiduals::kAuto;  // what is compared
+  KeyPointErrors key_point_errors;                     // weights of key points
+  FamilyWeights weights = FamilyWeights::kAuto;        // weights of currents
   SearchOptions search = FamilySearch();
   SearchFunction searcher;  // a search to use instead of Search(); empty: Search()
   // Starts of the joint fit. kShape omits the search's candidates, kSearch uses only these.
@@ -120,6 +152,19 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      OptionTrait::kNoFlag},
     {"bound", "P=LOWER:UPPER", "range of one shared parameter, Rs=0:0.5; once for each",
      RangesOption<&FamilyOptions::bounds>(), OptionTrait::kNoFlag},
+    {"residuals", "NAME",
+     "what is compared: every current, or the key points of every curve (auto: if only these are "
+     "stated)",
+     EnumOption<&FamilyOptions::residuals>()},
+    {"key-point-errors", "LIST",
+     "how well key points are measured against each other, isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%",
+     OptionText<FamilyOptions>{
+         [](const std::string& text, FamilyOptions* options) {
+           return ReadKeyPointErrors(text, &options->key_point_errors);
+         },
+         [](const FamilyOptions& options) -> std::vector<std::string> {
+           return {KeyPointErrorsText(options.key_point_errors)};
+         }}},
     {"weights", "NAME",
      "how curves count: every point alike, relative to Isc, or as the residuals say",
      EnumOption<&FamilyOptions::weights>()},

@@ -10,6 +10,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/family/family_effects.h"
+#include "lyrefit/estimate/family/pan_technology.h"
+#include "lyrefit/estimate/family/pvlib_parameters.h"
 #include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
@@ -58,7 +60,8 @@ double OpenCircuitVoltage(const FamilyMembers& curves) {
   return voltage;
 }
 
-void SetRanges(FamilyProblem* family) {
+// `junctions`: in series in each cell, whose idealities add.
+void SetRanges(int junctions, FamilyProblem* family) {
   const Translation& at = family->translation;
   const auto range = [&](int i, double lower, double upper, double from, double to,
                          SearchScale scale = SearchScale::kLinear) {
@@ -71,13 +74,14 @@ void SetRanges(FamilyProblem* family) {
   const double thermal = at.device.module_thermal_voltage_V;
   const auto saturation = [&](double n) { return current * std::exp(-voltage / (n * thermal)); };
   range(at.photocurrent, 0.2 * current, 5 * current, 0.7 * current, 1.4 * current);
-  range(at.saturation_current, 0, kInfinity, 0.1 * saturation(1), 10 * saturation(1.8),
-        SearchScale::kLog);
-  range(at.n, 0.5, 4, 1, 1.8);
+  range(at.saturation_current, 0, kInfinity, 0.1 * saturation(junctions),
+        10 * saturation(1.8 * junctions), SearchScale::kLog);
+  range(at.n, 0.5, 4.0 * junctions, junctions, 1.8 * junctions);
   range(at.resistance_series, 0, 0.5 * resistance, 0, 0.15 * resistance);
   range(at.resistance_shunt, 0.05 * resistance, kInfinity, resistance, 1000 * resistance,
         SearchScale::kLog);
   range(at.alpha_sc, -0.02 * current, 0.02 * current, -5e-4 * current, 1.5e-3 * current);
+  range(at.adjust, -1000, 1000, -30, 30);
   range(at.bandgap, 0.3, 2.5, 0.9, 1.5);
   range(at.bandgap_slope, -0.01, 0.01, -5e-4, 0);
   range(at.n_slope, -0.05, 0.05, -3e-3, 3e-3);
@@ -110,11 +114,14 @@ void FixDefaults(FamilyProblem* family) {
   FixAt(at.size() + 1, 0, family);
 }
 
+// The stated gap, or that of a stated thin film, or silicon's.
 double StatedBandgap(const CurveSet& set) {
   for (const IvCurve& curve : set.curves) {
     if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
   }
-  return kDefaultBandgap_eV;
+  const std::string& technology = set.curves.front().notes.technology;
+  const auto known = FindPanTechnology(technology);
+  return known && IsThinFilm(technology) ? known->bandgap_eV() : kDefaultBandgap_eV;
 }
 
 double StatedTempco_A(const CurveSet& set, double reference_current_A) {
@@ -127,6 +134,30 @@ double StatedTempco_A(const CurveSet& set, double reference_current_A) {
   return tempco_A;
 }
 
+// Temperature coefficient of Isc at 1000 W/m2 from the curves' own Isc, by least squares over their
+// temperatures; or as stated.
+double MeasuredTempco_A(const CurveSet& set, const FamilyMembers& curves) {
+  for (const IvCurve& curve : set.curves) {
+    if (curve.notes.isc_tempco_A_per_K || curve.notes.isc_tempco_per_K) {
+      return StatedTempco_A(set, curves.reference_current_A);
+    }
+  }
+  double count = 0, dt = 0, isc = 0, dt_dt = 0, dt_isc = 0;
+  for (const int c : curves.fitted) {
+    const FamilyMember& member = curves.members[c];
+    if (member.IsDark()) continue;
+    const double x = member.joint.temperature_K - kReferenceTemperature_K;
+    const double y = member.short_circuit_current_A * kReferenceIrradiance_W_m2 /
+                     member.joint.irradiance_W_m2;
+    count += 1;
+    dt += x;
+    isc += y;
+    dt_dt += x * x;
+    dt_isc += x * y;
+  }
+  return (count * dt_isc - dt * isc) / (count * dt_dt - dt * dt);
+}
+
 Reasons FixUnidentifiable(const CurveSet& set, const FamilyOptions& options,
                           const Spread& temperature, FamilyProblem* family) {
   Reasons reasons;
@@ -136,14 +167,18 @@ Reasons FixUnidentifiable(const CurveSet& set, const FamilyOptions& options,
   };
   const Translation& at = family->translation;
   const bool pvsyst = at.spec.law == TranslationLaw::kPvsyst;
+  const bool cec = at.spec.law == TranslationLaw::kCec;
   if (pvsyst) FixAt(at.bandgap, StatedBandgap(set), family);
+  if (cec) FixAt(at.bandgap, kPvlibBandgap_eV, family);  // a CEC row states none
+  if (cec) FixAt(at.alpha_sc, MeasuredTempco_A(set, family->curves), family);
   if (!(temperature.high - temperature.low >= kSameTemperature_K)) {
     const std::string why =
         fmt::format("the temperatures differ by less than {:g} K", kSameTemperature_K);
     fix(at.alpha_sc, StatedTempco_A(set, family->curves.reference_current_A), why);
-    if (!pvsyst) fix(at.bandgap, StatedBandgap(set), why);
+    if (!pvsyst && !cec) fix(at.bandgap, StatedBandgap(set), why);
+    fix(at.adjust, 0, why);
     fix(at.n_slope, 0, why);
-  } else if (options.temperature_offset && !pvsyst) {
+  } else if (options.temperature_offset && !pvsyst && !cec) {
     fix(at.bandgap, StatedBandgap(set),
         "a common error of the temperature sensor looks like another band gap");
   }
@@ -241,7 +276,7 @@ Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spr
 // Sets bounds, fixed values and their reasons.
 Expected<void> Bind(const CurveSet& set, const FamilyOptions& options, FamilyProblem* family) {
   const Spreads spreads = SpreadsOf(family->curves);
-  SetRanges(family);
+  SetRanges(JunctionsPerCell(set.curves.front().notes.technology), family);
   FixDefaults(family);
   Reasons reasons = FixUnidentifiable(set, options, spreads.temperature, family);
   TRY(ApplyWishes(options, family, &reasons));
@@ -306,6 +341,7 @@ JointProblem JointProblemOn(const FamilyProblem& family, const FamilyOptions& op
   problem.translation = family.translation;
   problem.objective = options.objective;
   for (const int c : curves) problem.curves.push_back(family.curves.members[c].joint);
+  problem.key_point_scale_A = options.key_point_errors.max_power * family.curves.reference_current_A;
   for (std::size_t i = 0; i < family.bounds.size(); ++i) {
     const bool fixed = !std::isnan(family.fixed[i]);
     problem.lower.push_back(fixed ? family.fixed[i] : family.bounds[i].lower);

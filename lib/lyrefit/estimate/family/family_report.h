@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/option.h"
@@ -40,6 +41,15 @@ struct EnumTable<CurveRole> {
                                                   {CurveRole::kLeftOut, "left-out"}};
 };
 
+// Key points of one curve that were fitted, beside those of the model.
+struct KeyPointFit {
+  KeyPoints measured;  // NaN: not stated
+  KeyPoints model;     // under the shared parameters
+  // Pmp by a fit that did not see this curve, and the 95 % interval in which a measurement is
+  // expected: of that fit and of the errors of the key points. NaN: not tested.
+  Interval held_out_power_W;
+};
+
 // Results of one curve under the joint parameters.
 struct FamilyCurve {
   std::string id;
@@ -72,7 +82,8 @@ struct FamilyCurve {
   // conditions.
   double isc_excess = kUnknown;  // relative
   double voc_excess_V = kUnknown;
-  bool outlier = false;  // the curve does not belong to the device of the others
+  std::optional<KeyPointFit> key_points;  // if the residuals are those of key points
+  bool outlier = false;                   // the curve does not belong to the device of the others
 };
 
 // RMSE over all points of the named curves, after each stage of a joint fit.
@@ -85,6 +96,42 @@ struct FamilyRmseTable {
   RmsePair plain_polished;
   RmsePair refined_best_candidate;
   RmsePair refined;  // on all fitted curves
+  // Root mean square of the residuals of key points on all fitted curves, in units of their errors
+  // (KeyPointErrors). NaN: not fitted.
+  double searched_key_points = kUnknown;
+  double refined_key_points = kUnknown;
+};
+
+// Root mean squares of model / measured - 1 over the fitted curves of a joint fit of key points.
+struct KeyPointSummary {
+  KeyPointErrors errors;  // that weighed the residuals
+  double scale = 0;       // residual standard deviation in units of these errors
+  double short_circuit_current = kUnknown;
+  double open_circuit_voltage = kUnknown;
+  double max_power_current = kUnknown;
+  double max_power_voltage = kUnknown;
+  double max_power = kUnknown;
+  // Pmp at 1000 W/m2 and 25 C: measured, or of the model if no such condition was measured.
+  double reference_power_W = kUnknown;
+  double max_power_of_reference = kUnknown;           // rms error of Pmp as a part of that
+  double held_out_max_power_of_reference = kUnknown;  // of curves that the fit did not see
+  int held_out = 0;  // curves that were tested so
+  int covered = 0;   // of these, measured Pmp inside the interval
+};
+
+// Another device of the law that the curves allow as well.
+struct EqualDevice {
+  std::vector<double> shared;  // in the translation's order, in reporting units
+  double rise = 0;             // of the sum of squares, as a part of what a 95 % interval allows
+  double reference_power_W = kUnknown;  // at 1000 W/m2 and 25 C
+  double low_light_power_W = kUnknown;  // at 200 W/m2 and 25 C
+  double hot_power_W = kUnknown;        // at 1000 W/m2 and 75 C
+};
+
+// Devices that fit as well as the best one, over a parameter that the curves do not determine.
+struct EqualDevices {
+  std::string along;                 // symbol of that parameter
+  std::vector<EqualDevice> devices;  // by its rising value
 };
 
 // Prediction errors on whole curves that were not fitted.
@@ -175,6 +222,8 @@ struct JudgedFamily {
 struct FamilyTests {
   std::optional<HeldOut> held_out;
   std::vector<Against> against;  // on the curves of `held_out`, or on the fitted ones without it
+  // Of the residuals of key points: Pmp of curves that a fit did not see, by position in the set.
+  std::vector<std::pair<int, Interval>> held_out_power_W;
   // Joint fit on the fitted curves, for comparison with `against` if there is no `held_out`.
   std::optional<HeldOut> in_sample;
 };
@@ -200,6 +249,8 @@ struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
   FamilyRmseTable rmse;                        // of search and joint fit
   std::vector<FamilyCurve> curves;             // in the set's order
   std::vector<std::string> search_ids;         // curves of the search
+  std::optional<KeyPointSummary> key_points;  // if the residuals are those of key points
+  std::optional<EqualDevices> equal_devices;  // none: the curves determine the parameters
   std::optional<WithoutOutliers> without_outliers;
   std::vector<FamilyCandidate> candidates;  // of FitFamilyAuto
   // The weights of the curves in the residuals.

@@ -62,7 +62,8 @@ WeightChoice SettleWeights(const FamilyOptions& options, const Observer& observe
     choice.used = options.weights;
     return choice;
   }
-  if (family->curves.stated_errors || end->stopped) return choice;
+  const FamilyMembers& members = family->curves;
+  if (members.stated_errors || members.key_points || end->stopped) return choice;
   if (!(Rms(*problem, *end) > kExact * problem->current_scale_A)) return choice;
   FamilyMembers weighed = family->curves;
   WeighMembers(FamilyWeights::kIsc, &weighed);

@@ -13,6 +13,7 @@
 #include "lyrefit/estimate/family/family_held_out.h"
 #include "lyrefit/estimate/family/family_judge.h"
 #include "lyrefit/estimate/family/family_warnings.h"
+#include "lyrefit/estimate/family/key_point_summary.h"
 #include "lyrefit/estimate/family/outlier_curves.h"
 #include "lyrefit/estimate/family/refine_family.h"
 #include "lyrefit/model/extended_set.h"
@@ -96,8 +97,8 @@ OutlierFit FitWithoutOutliers(const RefinedFamily& refined, const CurveSet& set,
   const FamilyProblem& family = refined.family;
   OutlierFit found;
   // The test frees the irradiance and temperature of a curve, which a curve with effects does not
-  // have as unknowns.
-  if (family.translation.extended) return found;
+  // have as unknowns, and compares currents.
+  if (family.translation.extended || family.curves.key_points) return found;
   const ProgressReporter progress(observer, "outlier curves", 0);
   const std::vector<int> outliers =
       FindOutlierCurves(refined.problem, refined.end, progress.stop());
@@ -173,6 +174,8 @@ struct JudgedJointFit {
   FamilyTests tests;
   std::optional<WithoutOutliers> without_outliers;
   std::vector<Interval> jackknife;  // empty: not computed
+  std::optional<KeyPointSummary> key_points;
+  std::optional<EqualDevices> equal_devices;
   bool stopped = false;
 };
 
@@ -211,7 +214,7 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
   JudgedJointFit judged;
   judged.end = JudgeFamily(reported, options, searched, progress);
   judged.stopped = progress.Stopped();
-  if (options.intervals && !judged.stopped) {
+  if (options.intervals && !judged.stopped && !refined.family.curves.key_points) {
     judged.error_intervals = FindFamilyIntervals(
         reported, JointProblemOn(refined.family, options, refined.family.curves.held_out),
         judged.end);
@@ -226,6 +229,15 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
   std::optional<FamilyTests> tests = TestFamily(prepared, refined, judged.curves, observer);
   if (!tests) return judged;
   judged.tests = std::move(*tests);
+  if (refined.family.curves.key_points) {
+    judged.curves =
+        WithKeyPoints(std::move(judged.curves), refined, judged.end.refined, judged.tests);
+    judged.key_points = SummariseKeyPoints(judged.curves, refined, options, judged.end.noise_A,
+                                           judged.end.reference);
+    if (options.intervals) {
+      judged.equal_devices = FindEqualDevices(refined, judged.end.estimates, observer);
+    }
+  }
   OutlierFit outliers = FitWithoutOutliers(refined, prepared.set, observer);
   if (outliers.stopped) return judged;
   for (const int c : outliers.curves) judged.curves[c].outlier = true;
@@ -247,6 +259,10 @@ FamilyRmseTable RmseOf(FamilyRmseTable rmse, const RefinedFamily& refined) {
     rmse.refined_best_candidate = FamilyRmse(refined.problem, refined.candidate->own.point);
   }
   rmse.searched_all = refined.searched;
+  if (refined.family.curves.key_points) {
+    rmse.searched_key_points = refined.searched_key_points;
+    rmse.refined_key_points = KeyPointRms(refined.problem, refined.end.point);
+  }
   rmse.refined = FamilyRmse(refined.problem, refined.end.point);
   return rmse;
 }
@@ -274,8 +290,18 @@ FamilyReport WithJointFit(FamilyReport report, const RefinedFamily& refined,
   report.curves = std::move(judged.curves);
   report.without_outliers = std::move(judged.without_outliers);
   report.jackknife = std::move(judged.jackknife);
+  report.key_points = judged.key_points;
+  report.equal_devices = std::move(judged.equal_devices);
   report.interrupted = judged.stopped;
   return report;
+}
+
+// Whether the fit misses less than a fifth of Isc, or of Pmp for key points.
+bool IsUsable(const FamilyReport& report, double isc_A) {
+  constexpr double kMost = 0.2;
+  if (report.key_points) return report.key_points->max_power_of_reference < kMost;
+  const double solved = report.rmse.refined.solved_current_A;
+  return std::isfinite(solved) && solved < kMost * isc_A;
 }
 
 }  // namespace
@@ -307,9 +333,7 @@ Expected<FamilyReport> FitFamily(const CurveSet& set, const FamilyOptions& optio
   report.warnings = report.doubts;
   const std::vector<std::string> found = FamilyWarnings(report, options);
   report.warnings.insert(report.warnings.end(), found.begin(), found.end());
-  const double isc = prepared.family.curves.reference_current_A;
-  const double solved = report.rmse.refined.solved_current_A;
-  report.usable = std::isfinite(solved) && solved < 0.2 * isc;
+  report.usable = IsUsable(report, prepared.family.curves.reference_current_A);
   report.seconds = SecondsSince(begin);
   return report;
 }

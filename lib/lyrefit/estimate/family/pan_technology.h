@@ -13,7 +13,7 @@ struct PanTechnology {
   const char* word;        // in Technol, lower case: "cdte" of mtCdTe
   const char* technol;     // Technol in a file that is written; null: the word alone decides none
   double junction_gap_eV;  // of each junction
-  int junctions = 1;       // in series in a cell
+  int junctions = 1;       // in series in a cell; as JunctionsPerCell
   double bandgap_eV() const { return junctions * junction_gap_eV; }
   // Of a cell: about 0.9 V for each junction (Merten et al. 1998, doi:10.1109/16.661229).
   double built_in_V() const { return junctions * kDefaultBuiltIn_V; }
@@ -24,6 +24,8 @@ struct PanTechnology {
 // one-diode model"). For cells of several junctions, the sum of their gaps and built-in voltages
 // reproduces the Pmp and muPmpReq of published files.
 inline constexpr PanTechnology kPanTechnologies[] = {
+    {"hit", "mtHIT", 1.12},
+    {"hjt", "mtHIT", 1.12},
     {"ucsi_asi", "mtuCSi_aSiH", 1.7, 2},  // micromorphous tandem
     {"tandem", nullptr, 1.7, 2},
     {"trip", nullptr, 1.7, 3},
@@ -31,12 +33,12 @@ inline constexpr PanTechnology kPanTechnologies[] = {
     {"a-si", nullptr, 1.7},
     {"amorph", nullptr, 1.7},
     {"cdte", "mtCdTe", 1.5},
+    {"cadmium", "mtCdTe", 1.5},
     {"cis", "mtCIS", 1.03},
     {"cigs", "mtCIS", 1.03},
+    {"copper indium", "mtCIS", 1.03},
     {"poly", "mtSiPoly", 1.12},
     {"multi", "mtSiPoly", 1.12},
-    {"hit", "mtHIT", 1.12},
-    {"hjt", "mtHIT", 1.12},
     {"si", "mtSiMono", 1.12},
 };
 

@@ -24,7 +24,7 @@ Expected<void> CheckExpressible(const Translation& translation, const std::vecto
         fmt::format("expected {} shared parameters, found {}", translation.size(), shared.size()));
   }
   if (spec.model != Model::kSingleDiode) return Fail("pvlib's modules have one diode, not two");
-  if (spec.law == TranslationLaw::kDeSoto && spec.shunt != ShuntLaw::kInverse) {
+  if (spec.law != TranslationLaw::kPvsyst && spec.shunt != ShuntLaw::kInverse) {
     return Fail("pvlib's De Soto module has a shunt inverse to irradiance and no other");
   }
   if (spec.law == TranslationLaw::kPvsyst && spec.shunt == ShuntLaw::kInverse) {
@@ -41,7 +41,8 @@ Expected<void> CheckExpressible(const Translation& translation, const std::vecto
 }
 
 std::vector<NamedValue> DeSotoParameters(const Translation& at, const std::vector<double>& p) {
-  return {{"alpha_sc", p[at.alpha_sc]},
+  std::vector<NamedValue> values = {
+          {"alpha_sc", p[at.alpha_sc]},
           {"a_ref", p[at.n] * at.device.module_thermal_voltage_V},
           {"I_L_ref", p[at.photocurrent]},
           {"I_o_ref", p[at.saturation_current]},
@@ -52,6 +53,8 @@ std::vector<NamedValue> DeSotoParameters(const Translation& at, const std::vecto
           {"irrad_ref", kReferenceIrradiance_W_m2},
           {"temp_ref", kReferenceTemperature_C},
           {"cells_in_series", static_cast<double>(at.spec.cells_in_series)}};
+  if (at.adjust >= 0) values.push_back({"Adjust", p[at.adjust]});
+  return values;
 }
 
 std::vector<NamedValue> PvsystParameters(const Translation& at, const std::vector<double>& p) {
@@ -93,8 +96,8 @@ Expected<std::vector<NamedValue>> PvlibParameters(const Translation& translation
 
 Expected<CecModule> CecRow(const Translation& translation, const std::vector<double>& shared,
                            const std::string& name, const std::string& technology) {
-  if (translation.spec.law != TranslationLaw::kDeSoto) {
-    return Fail("a CEC row takes the law desoto, not pvsyst");
+  if (translation.spec.law == TranslationLaw::kPvsyst) {
+    return Fail("a CEC row takes the law cec or desoto, not pvsyst");
   }
   TRY(CheckExpressible(translation, shared));
   const Translation& at = translation;
@@ -127,7 +130,7 @@ Expected<CecModule> CecRow(const Translation& translation, const std::vector<dou
                 {"I_o_ref", shared[at.saturation_current]},
                 {"R_s", shared[at.resistance_series]},
                 {"R_sh_ref", shared[at.resistance_shunt]},
-                {"Adjust", 0.0},
+                {"Adjust", at.adjust >= 0 ? shared[at.adjust] : 0.0},
                 {"gamma_r", coefficients.gamma_pmp_percent_K}};
   return row;
 }

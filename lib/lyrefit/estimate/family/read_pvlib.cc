@@ -147,7 +147,7 @@ Expected<void> TakeShared(const TranslationSpec& spec, const char* ideality, Rea
   p[at.saturation_current] = reader->Take({"I_o_ref", 0, true});
   p[at.n] = reader->Take({ideality, 0, true});
   p[at.resistance_series] = reader->Take({"R_s", 0});
-  const bool may_be_perfect = spec.law == TranslationLaw::kDeSoto;
+  const bool may_be_perfect = spec.law != TranslationLaw::kPvsyst;
   p[at.resistance_shunt] =
       may_be_perfect ? reader->TakeShunt() : reader->Take({"R_sh_ref", 0, true});
   p[at.alpha_sc] = reader->Take({"alpha_sc", -kInfinity, true});

@@ -11,6 +11,8 @@
 #include "lyrefit/estimate/family/curve_subset.h"
 #include "lyrefit/estimate/family/family_effects.h"
 #include "lyrefit/estimate/family/family_held_out.h"
+#include "lyrefit/estimate/family/key_point_starts.h"
+#include "lyrefit/estimate/family/key_point_summary.h"
 
 namespace lyrefit {
 namespace {
@@ -40,7 +42,9 @@ Expected<PreparedFamily> PrepareFamily(const CurveSet& set, const FamilyOptions&
   TRY(CheckAgainst(family, options));
   const std::vector<int>& fitted = family.curves.fitted;
   std::size_t points = 0;
-  for (const int c : fitted) points += set.curves[c].size();
+  for (const int c : fitted) {
+    points += static_cast<std::size_t>(family.curves.members[c].joint.residuals());
+  }
   if (static_cast<int>(points) <= family.free_parameters) {
     return Fail(fmt::format("{} points cannot determine {} shared parameters", points,
                             family.free_parameters),
@@ -56,6 +60,10 @@ CurvesAlone FitCurvesAlone(const PreparedFamily& prepared, const Observer& obser
   const FamilyMembers& members = prepared.family.curves;
   const std::vector<int>& search = prepared.search_curves;
   CurvesAlone alone;
+  if (members.key_points) {  // too few for a fit of a condition by itself
+    alone.starts = KeyPointStarts(prepared.family, members.fitted);
+    return alone;
+  }
   alone.curves = search;
   if (options.individual_fits) {
     alone.curves = members.fitted;
@@ -89,6 +97,9 @@ RefinedFamily RefineFamily(const PreparedFamily& prepared, const FamilySearchEnd
   JointPoint candidate = searched.elites[0];
   candidate.local.assign(refined.problem.curves.size(), {0, 0});
   refined.searched = FamilyRmse(refined.problem, candidate);
+  if (family.curves.key_points) {
+    refined.searched_key_points = KeyPointRms(refined.problem, candidate);
+  }
   if (options.plain_polish) {
     refined.candidate = PolishCandidate(family, options, search_curves, searched.elites[0],
                                         observer, refined.problem);

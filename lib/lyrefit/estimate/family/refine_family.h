@@ -39,6 +39,7 @@ struct RefinedFamily {
   JointProblem problem;
   JointEnd end;
   WeightChoice weights;
+  double searched_key_points = kUnknown;   // KeyPointRms of the search's parameters
   RmsePair searched;                       // of the search's parameters, on all fitted curves
   std::optional<CandidateEnds> candidate;  // if requested (FamilyOptions::plain_polish)
   double seconds = 0;                      // of the joint fit, from all its starts

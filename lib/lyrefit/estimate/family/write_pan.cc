@@ -91,6 +91,10 @@ void AddCommercial(const PanNotes& notes, PanLines* lines) {
 
 }  // namespace
 
+double PanBandgap_eV(const std::string& technology) {
+  return FindPanTechnology(technology).value_or(*FindPanTechnology("si")).bandgap_eV();
+}
+
 PanNotes NotesOf(const std::string& name, const DeviceNotes& device) {
   PanNotes notes;
   notes.name = name;

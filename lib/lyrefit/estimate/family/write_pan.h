@@ -22,6 +22,9 @@ struct PanNotes {
 // Notes from those of a measured curve.
 PanNotes NotesOf(const std::string& name, const DeviceNotes& device);
 
+// The band gap in eV that a .PAN file implies by the technology; of silicon if that is unknown.
+double PanBandgap_eV(const std::string& technology);
+
 // The text of a PVsyst .PAN file with the electrical model of a device and nothing else, which its
 // remarks say: no sizes, incidence angles, limits or prices. ReadPanParameters gives the same
 // curves, to 1e-9 of Isc. Isc, Voc, Imp and Vmp are those of the model at 1000 W/m2 and 25 C, PNom

@@ -24,7 +24,7 @@ ModelShape ShapeOf(const JointProblem& problem) {
   ModelShape shape;
   shape.points = 0;
   for (const JointCurve& curve : problem.curves) {
-    const int points = static_cast<int>(curve.voltage_V.size());
+    const int points = curve.residuals();
     FitBlock block{points, 0};
     for (const OwnUnknown& own : OwnUnknowns(curve)) {
       ++block.locals;
@@ -77,6 +77,41 @@ bool TranslateCurve(const JointProblem& problem, const double* p, double irradia
     }
   }
   return std::all_of(device->begin(), device->end(), [](double x) { return std::isfinite(x); });
+}
+
+// Residuals of a curve's readings without those of priors; `slopes`, if not null: their derivatives
+// by the device's parameters. False if the model cannot be evaluated.
+bool PointResiduals(const JointProblem& problem, const JointCurve& curve, const Device& device,
+                    const double* p, const PointSet& points, double* residuals, RowMatrix* slopes) {
+  ModelCurrents(device, problem.objective, p, points, FastestKernel(), residuals,
+                slopes != nullptr ? slopes->data() : nullptr);
+  if (!std::isfinite(residuals[0])) return false;
+  for (int k = 0; k < curve.residuals(); ++k) {
+    const double root = std::sqrt(curve.weight[k]);
+    residuals[k] = root * (residuals[k] - curve.current_A[k]);
+    if (slopes != nullptr) slopes->row(k) *= root;
+  }
+  return true;
+}
+
+// As PointResiduals, of measured key points.
+bool ResidualsOfKeyPoints(const JointProblem& problem, const JointCurve& curve,
+                          const Device& device, const double* p, double* residuals,
+                          RowMatrix* slopes) {
+  RowMatrix by_device(kKeyPointRows, device.size());
+  const KeyPointValues model = KeyPointsNear(device, p, curve.key_points->value,
+                                             slopes != nullptr ? by_device.data() : nullptr);
+  int row = 0;
+  for (int k = 0; k < kKeyPointRows; ++k) {
+    const double measured = curve.key_points->value[k];
+    if (!std::isfinite(measured)) continue;
+    const double scale = problem.key_point_scale_A / (curve.key_points->error[k] * measured);
+    residuals[row] = scale * (model[k] - measured);
+    if (!std::isfinite(residuals[row])) return false;
+    if (slopes != nullptr) slopes->row(row) = scale * by_device.row(k);
+    ++row;
+  }
+  return true;
 }
 
 }  // namespace
@@ -132,17 +167,16 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
   if (!TranslateCurve(problem_, p, irradiance, temperature, &device, sloped ? &chain : nullptr)) {
     return false;
   }
-  const int points = static_cast<int>(curve.voltage_V.size());
+  const int points = curve.residuals();
   const Device& own_device = DeviceOf(problem_, block);
   RowMatrix by_device(sloped ? points : 0, own_device.size());
-  ModelCurrents(own_device, problem_.objective, device.data(), points_[block], FastestKernel(),
-                residuals, sloped ? by_device.data() : nullptr);
-  if (!std::isfinite(residuals[0])) return false;
-  for (int k = 0; k < points; ++k) {
-    const double root = std::sqrt(curve.weight[k]);
-    residuals[k] = root * (residuals[k] - curve.current_A[k]);
-    if (sloped) by_device.row(k) *= root;
-  }
+  RowMatrix* const wanted = sloped ? &by_device : nullptr;
+  const bool evaluated = curve.key_points
+                             ? ResidualsOfKeyPoints(problem_, curve, own_device, device.data(),
+                                                    residuals, wanted)
+                             : PointResiduals(problem_, curve, own_device, device.data(),
+                                              points_[block], residuals, wanted);
+  if (!evaluated) return false;
   // The common errors of the sensors shift irradiance and temperature one to one; priors do not
   // depend on shared parameters.
   const FitBlock& size = shape().blocks[block];

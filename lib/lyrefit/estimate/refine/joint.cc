@@ -23,7 +23,7 @@ void AddSquares(const JointProblem& problem, const FamilyModel& model, const Fit
                         nullptr)) {
       std::fill(residuals.begin(), residuals.end(), HUGE_VAL);
     }
-    const std::size_t points = problem.curves[c].voltage_V.size();
+    const std::size_t points = static_cast<std::size_t>(problem.curves[c].residuals());
     for (std::size_t k = 0; k < residuals.size(); ++k) {
       (k < points ? end->squares : end->prior_squares) += residuals[k] * residuals[k];
     }
@@ -44,6 +44,15 @@ JointEnd EndOf(const JointProblem& problem, const FamilyModel& model, RefineEnd 
 }
 
 }  // namespace
+
+int KeyPointResiduals::size() const {
+  return static_cast<int>(std::count_if(value.begin(), value.end(),
+                                        [](double one) { return std::isfinite(one); }));
+}
+
+int JointCurve::residuals() const {
+  return key_points ? key_points->size() : static_cast<int>(voltage_V.size());
+}
 
 void FindJointScales(JointProblem* problem) {
   problem->current_scale_A = 0;

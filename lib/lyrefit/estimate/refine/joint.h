@@ -2,14 +2,26 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/refine/active_set.h"
 #include "lyrefit/estimate/refine/spread.h"
+#include "lyrefit/model/key_point_slopes.h"
 #include "lyrefit/model/translation.h"
 
 namespace lyrefit {
+
+// Key points measured under one condition, and their errors: residual = (model / value - 1) / error
+// in units of the noise. Isc, Voc, Vmp and Pmp (KeyPointRow); Imp = Pmp / Vmp says nothing more. A
+// value that is NaN has no residual. The residual of Vmp is dP/dV = 0 there, in volt.
+struct KeyPointResiduals {
+  KeyPointValues value;
+  KeyPointValues error;  // relative standard deviations
+
+  int size() const;  // number of values
+};
 
 // One curve of a joint problem and its local unknowns u and d: true irradiance = stated (1 + u),
 // true temperature = stated + d.
@@ -17,6 +29,8 @@ struct JointCurve {
   std::vector<double> voltage_V;
   std::vector<double> current_A;
   std::vector<double> weight;  // of the squared residuals; 1 is a point of ordinary weight
+  // Residuals of key points in place of those of the points.
+  std::optional<KeyPointResiduals> key_points;
   double irradiance_W_m2 = 0;  // as stated, above 0 (but see `extended`)
   double temperature_K = 0;
   // With effects: the translation's device under this curve's conditions. The curve then has no
@@ -25,12 +39,15 @@ struct JointCurve {
   // Standard deviation of the unknown's prior around 0; 0: no such unknown, infinite: no prior.
   double irradiance_sd = 0;  // of u
   double temperature_sd_K = 0;
+
+  int residuals() const;  // without those of priors
 };
 
 using JointLocal = std::array<double, 2>;  // u, d in kelvin
 
 // Curves of one device: minimise the sum of weight x residual^2 over all points, plus (noise x
-// local / sd)^2 for every local unknown with a prior.
+// local / sd)^2 for every local unknown with a prior. Residuals of key points count in units of
+// `key_point_scale_A`, so that one of one error is as large as a point's residual of that size.
 struct JointProblem {
   Translation translation;
   Objective objective = Objective::kSolvedCurrent;
@@ -40,6 +57,7 @@ struct JointProblem {
   // fixed.
   std::vector<double> lower;
   std::vector<double> upper;
+  double key_point_scale_A = 1;
   double noise_A = 1;  // standard deviation of a point of weight 1, which scales the priors
 
   // Scales of the coordinates.

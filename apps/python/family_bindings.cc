@@ -52,13 +52,14 @@ class FamilyResult : public Result {
 };
 
 struct FamilyAsked {
-  std::string family = "desoto";  // or pvsyst, free, auto
+  std::string family = "desoto";  // or pvsyst, cec, free, auto
   FamilyOptions options;
   OwnEffects own;
 };
 
 // Keywords about shared parameters, which individual fits do not have, and those that auto selects.
-constexpr const char* kShared[] = {"shunt",         "recombination",        "weights",
+constexpr const char* kShared[] = {"residuals", "key_point_errors",
+                                   "shunt",         "recombination",        "weights",
                                    "search_curves", "fit_curves",           "irradiance_offset",
                                    "folds",         "temperature_offset",   "irradiance_accuracy",
                                    "free",          "temperature_accuracy", "individual_fits",
@@ -77,15 +78,17 @@ void SettleFamily(Keywords* keywords, FamilyAsked* asked) {
   const std::string& name = asked->family;
   if (name == "pvsyst") {
     asked->options.law = TranslationLaw::kPvsyst;
+  } else if (name == "cec") {
+    asked->options.law = TranslationLaw::kCec;
   } else if (name == "free") {
     asked->options.search = SearchOptions();
     Refuse(*keywords, kShared,
            "is about what curves share: family 'free' fits every curve on its own");
   } else if (name == "auto") {
     Refuse(*keywords, kChosenByAuto,
-           "is what family 'auto' chooses: it is for 'desoto' and 'pvsyst'");
+           "is what family 'auto' chooses: it is for 'desoto', 'pvsyst' and 'cec'");
   } else if (name != "desoto") {
-    Raise({"family: expected one of desoto, pvsyst, free, auto, found '" + name + "'", {}});
+    Raise({"family: expected one of desoto, pvsyst, cec, free, auto, found '" + name + "'", {}});
   }
 }
 

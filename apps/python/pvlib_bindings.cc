@@ -71,27 +71,51 @@ std::vector<double> CopyOf(const Numbers& numbers) {
   return copy;
 }
 
+// A curve under stated conditions without readings.
+IvCurve CurveUnder(py::ssize_t number, double irradiance_W_m2, double temperature_C, int cells) {
+  IvCurve curve;
+  curve.name = std::to_string(number);
+  curve.conditions.cells_in_series = cells;
+  curve.conditions.irradiance_W_m2 = irradiance_W_m2;
+  curve.conditions.cell_temperature_K = temperature_C + kZeroCelsius_K;
+  return curve;
+}
+
 CurveSet MakeSet(const std::vector<Numbers>& voltages, const std::vector<Numbers>& currents,
                  const Numbers& irradiance_W_m2, const Numbers& temperature_C, int cells) {
   CurveSet set;
   set.name = "ivcurves";
   for (std::size_t k = 0; k < voltages.size(); ++k) {
-    IvCurve curve;
-    curve.name = std::to_string(k);
-    curve.voltage_V = CopyOf(voltages[k]);
-    curve.current_A = CopyOf(currents[k]);
-    curve.conditions.cells_in_series = cells;
-    curve.conditions.irradiance_W_m2 = irradiance_W_m2.at(static_cast<py::ssize_t>(k));
-    curve.conditions.cell_temperature_K =
-        temperature_C.at(static_cast<py::ssize_t>(k)) + kZeroCelsius_K;
-    set.curves.push_back(std::move(curve));
+    const auto row = static_cast<py::ssize_t>(k);
+    set.curves.push_back(
+        CurveUnder(row, irradiance_W_m2.at(row), temperature_C.at(row), cells));
+    set.curves.back().voltage_V = CopyOf(voltages[k]);
+    set.curves.back().current_A = CopyOf(currents[k]);
+  }
+  return set;
+}
+
+// A matrix of key points: irradiance, temperature, Isc, Voc, Imp and Vmp of each condition; NaN:
+// not measured.
+CurveSet MatrixOf(const std::vector<Numbers>& columns, int cells) {
+  CurveSet set;
+  set.name = "matrix";
+  for (py::ssize_t k = 0; k < columns[0].size(); ++k) {
+    KeyPoints points;
+    points.short_circuit_current_A = columns[2].at(k);
+    points.open_circuit_voltage_V = columns[3].at(k);
+    points.max_power_current_A = columns[4].at(k);
+    points.max_power_voltage_V = columns[5].at(k);
+    points.max_power_W = points.max_power_current_A * points.max_power_voltage_V;
+    set.curves.push_back(CurveUnder(k, columns[0].at(k), columns[1].at(k), cells));
+    TakeKeyPoints(points, &set.curves.back());
   }
   return set;
 }
 
 // The shared parameters; for every curve also its individual device and whether it agrees with the
 // others.
-py::dict DeSotoAnswer(const FamilyReport& report) {
+py::dict FamilyAnswer(const FamilyReport& report) {
   py::dict shared;
   for (const NamedValue& value : Must(PvlibParameters(report.translation, report.refined))) {
     shared[py::str(value.name)] = value.value;
@@ -116,6 +140,19 @@ py::dict DeSotoAnswer(const FamilyReport& report) {
   return answer;
 }
 
+// PVsyst's shared parameters behind a matrix of key points.
+py::dict FitMatrix(const std::vector<Numbers>& columns, int cells,
+                   const std::map<std::string, double>& fixed) {
+  const CurveSet set = MatrixOf(columns, cells);
+  FamilyOptions options;
+  options.law = TranslationLaw::kPvsyst;
+  options.fixed = fixed;
+  options.intervals = options.random_baseline = false;
+  options.folds = 0;
+  return FamilyAnswer(Must(Work(
+      py::none(), [&](const Observer& observer) { return FitFamily(set, options, observer); })));
+}
+
 py::dict FitDeSoto(const std::vector<Numbers>& voltages, const std::vector<Numbers>& currents,
                    const Numbers& irradiance_W_m2, const Numbers& temperature_C, int cells,
                    const std::map<std::string, double>& fixed) {
@@ -124,7 +161,7 @@ py::dict FitDeSoto(const std::vector<Numbers>& voltages, const std::vector<Numbe
   options.fixed = fixed;
   options.intervals = options.individual_fits = options.random_baseline = false;
   options.folds = 0;
-  return DeSotoAnswer(Must(Work(
+  return FamilyAnswer(Must(Work(
       py::none(), [&](const Observer& observer) { return FitFamily(set, options, observer); })));
 }
 
@@ -139,6 +176,7 @@ void BindPvlib(py::module_* module) {
     return Solved(VoltagesAt, current, parameters);
   });
   module->def("_fit_desoto", &FitDeSoto);
+  module->def("_fit_matrix", &FitMatrix);
 }
 
 }  // namespace lyrefit::python

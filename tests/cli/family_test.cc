@@ -229,9 +229,29 @@ TEST_F(FamilyVerbOnASet, WritesAPanFileThatItReadsBack) {
   EXPECT_NEAR(j["against"][0]["rmse"]["solved_current_A"].get<double>(),
               j["rmse"]["refined"]["solved_current_A"].get<double>(), 1e-9);
   ExpectRefused(Set() + " --family desoto --pan x.PAN", "--pan: a PAN file takes the law pvsyst");
-  ExpectRefused(Set() + " --family pvsyst --pan x.PAN", "--pan: a PAN file implies the band gap");
   ExpectRefused(Set() + fit + " --model dd --pan x.PAN", "--pan: a PAN file has one diode");
   ExpectRefused(Set() + " --family free --pan x.PAN", "--pan is about what curves share");
+}
+
+TEST_F(FamilyVerbOnASet, WritesAPanFileWithTheGapOfItsTechnology) {
+  const std::string pan = folder_.Path("module.PAN");
+  const AppResult made = RunApp("fit " + Set() + " --family pvsyst --json - --pan '" + pan + "'" +
+                                kQuickFamily);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(json::parse(made.out)["parameters"]["EgRef"]["refined"], 1.12);
+}
+
+TEST_F(FamilyVerbOnASet, WritesARowOfSamThatItReadsBack) {
+  const std::string sam = folder_.Path("module.csv");
+  const AppResult made =
+      RunApp("fit " + Set() + " --family cec --quiet --sam '" + sam + "'" + kQuickFamily);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const json j = FitJson(Set() + " --family cec --against '" + sam + "'" + kQuickFamily);
+  EXPECT_EQ(j["family"], "cec");
+  EXPECT_NEAR(j["against"][0]["rmse"]["solved_current_A"].get<double>(),
+              j["rmse"]["refined"]["solved_current_A"].get<double>(), 1e-9);
+  ExpectRefused(Set() + " --family pvsyst --sam x.csv", "--sam: SAM's modules follow the law cec");
+  ExpectRefused(Set() + " --family free --sam x.csv", "--sam is about what curves share");
 }
 
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {

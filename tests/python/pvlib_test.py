@@ -29,6 +29,11 @@ class SignatureTest(unittest.TestCase):
         "v_from_i": ["current", *DEVICES, ("method", "lambertw")],
         "max_power_point": [*DEVICES, ("d2mutau", 0), ("NsVbi", np.inf), ("method", "brentq")],
         "fit_desoto_sandia": ["ivcurves", "specs", ("const", None), ("maxiter", 5), ("eps1", 1e-3)],
+        "fit_pvsyst_iec61853_sandia_2025": [
+            "effective_irradiance", "temp_cell", "i_sc", "v_oc", "i_mp", "v_mp", "cells_in_series",
+            ("EgRef", 1.121), ("alpha_sc", None), ("beta_mp", None), ("R_s", None),
+            ("r_sh_coeff", 0.12), ("min_Rsh_irradiance", None), ("irradiance_tolerance", 20),
+            ("temperature_tolerance", 1)],
         "fit_sandia_simple": ["voltage", "current", ("v_oc", None), ("i_sc", None),
                               ("v_mp_i_mp", None), ("vlim", 0.2), ("ilim", 0.1)],
     }
@@ -38,6 +43,46 @@ class SignatureTest(unittest.TestCase):
             parameters = inspect.signature(getattr(drop_in, name)).parameters.values()
             found = [p.name if p.default is p.empty else (p.name, p.default) for p in parameters]
             self.assertEqual(found, expected, name)
+
+
+class MatrixTest(unittest.TestCase):
+    TRUTH = {"alpha_sc": 0.001, "gamma_ref": 1.0, "mu_gamma": -1e-4, "I_L_ref": 10.0,
+             "I_o_ref": 1e-11, "R_sh_ref": 300.0, "R_sh_0": 1500.0, "R_sh_exp": 5.5, "R_s": 0.2,
+             "cells_in_series": 60, "EgRef": 1.121}
+
+    def matrix(self):
+        """Key points by PVsyst's law, written down here once more."""
+        p, k = self.TRUTH, 8.617333262e-5
+        light = np.array([100, 100, 200, 400, 600, 600, 800, 1000, 1000, 1000, 1100.0])
+        warm = np.array([15, 25, 25, 25, 25, 50, 50, 25, 50, 75, 75.0])
+        kelvin, t0 = warm + 273.15, 298.15
+        gamma = p["gamma_ref"] + p["mu_gamma"] * (warm - 25)
+        isat = (p["I_o_ref"] * (kelvin / t0) ** 3
+                * np.exp(p["EgRef"] / (k * gamma) * (1 / t0 - 1 / kelvin)))
+        fade = np.exp(-p["R_sh_exp"])
+        base = (p["R_sh_ref"] - p["R_sh_0"] * fade) / (1 - fade)
+        rsh = base + (p["R_sh_0"] - base) * np.exp(-p["R_sh_exp"] * light / 1000)
+        points = drop_in.singlediode(
+            light / 1000 * (p["I_L_ref"] + p["alpha_sc"] * (warm - 25)), isat, p["R_s"], rsh,
+            gamma * p["cells_in_series"] * k * kelvin)
+        return light, warm, *(points[name].to_numpy() for name in ("i_sc", "v_oc", "i_mp", "v_mp"))
+
+    def test_the_module_comes_back_also_with_gaps(self):
+        matrix = self.matrix()
+        found = drop_in.fit_pvsyst_iec61853_sandia_2025(*matrix, 60)
+        self.assertEqual(list(found), list(self.TRUTH))
+        for name, value in self.TRUTH.items():
+            self.assertAlmostEqual(found[name] / value, 1, 4, name)
+        matrix[4][3] = np.nan
+        gaps = drop_in.fit_pvsyst_iec61853_sandia_2025(
+            *(pd.Series(column) for column in matrix), 60, alpha_sc=0.001, R_s=0.2)
+        self.assertEqual((gaps["alpha_sc"], gaps["R_s"]), (0.001, 0.2))
+        self.assertAlmostEqual(gaps["gamma_ref"], 1, 4)
+
+    def test_what_cannot_be_fitted_is_an_error(self):
+        matrix = [column[:1] for column in self.matrix()]
+        with self.assertRaisesRegex(ValueError, "at least two light curves"):
+            drop_in.fit_pvsyst_iec61853_sandia_2025(*matrix, 60)
 
 
 class SingleDiodeTest(unittest.TestCase):

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "error_of.h"
@@ -43,6 +44,25 @@ TEST(ReadKeyPointsTest, MissingPointsLeaveTheirReadingOut) {
   EXPECT_THAT(set->curves[0].voltage_V, ElementsAre(0, 34));
   ASSERT_EQ(set->rejected.size(), 1U);
   EXPECT_THAT(set->rejected[0].error.ToString(), HasSubstr("matrix.csv:4: expected at least two"));
+}
+
+TEST(ReadKeyPointsTest, ThePowerStandsForACurrentOrAVoltage) {
+  const auto set = Read(
+      "irradiance,temperature,i_sc,v_oc,v_mp,p_mp_mW\n200,25,1.7,34,28,44800\n"
+      "1000,25,8.5,36,,240000\n");
+  ASSERT_TRUE(set) << set.error().ToString();
+  EXPECT_THAT(set->curves[0].voltage_V, ElementsAre(0, 28, 34));
+  EXPECT_DOUBLE_EQ(set->curves[0].key_points->max_power_current_A, 1.6);
+  EXPECT_THAT(set->curves[1].voltage_V, ElementsAre(0, 36));
+  EXPECT_DOUBLE_EQ(set->curves[1].key_points->max_power_W, 240);
+  EXPECT_TRUE(std::isnan(set->curves[1].key_points->max_power_voltage_V));
+}
+
+TEST(ReadKeyPointsTest, APowerOfOtherPointsIsRefused) {
+  const auto set = Read(
+      "irradiance,temperature,i_sc,v_oc,i_mp,v_mp,p_mp\n200,25,1.7,34,1.6,28,44.8\n"
+      "1000,25,8.5,36,8,30,200\n");
+  EXPECT_THAT(MessageOf(set), HasSubstr("expected Pmp = Imp Vmp = 240 W, found 200 W"));
 }
 
 TEST(ReadKeyPointsTest, AWideTableHasRowsOfLightAndColumnsOfTemperature) {

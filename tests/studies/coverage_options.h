@@ -18,13 +18,17 @@ enum class CoverageNoise {
   // Drifting irradiance: in proportion to the curve's Isc, correlation length along the sweep one
   // Voc; an independent error of a tenth of it is added.
   kCorrelated,
+  // Key points in place of sweeps: independent relative errors of Isc, Voc, Vmp and Pmp, of the
+  // sizes that the fit expects by default (KeyPointErrors).
+  kKeyPoints,
 };
 
 template <>
 struct EnumTable<CoverageNoise> {
   static constexpr EnumText<CoverageNoise> kRows[] = {{CoverageNoise::kEqual, "equal"},
                                                       {CoverageNoise::kIsc, "isc"},
-                                                      {CoverageNoise::kCorrelated, "correlated"}};
+                                                      {CoverageNoise::kCorrelated, "correlated"},
+                                                      {CoverageNoise::kKeyPoints, "key-points"}};
 };
 
 // The sets that are simulated and fitted.
@@ -68,7 +72,7 @@ inline constexpr OptionRow<CoverageOptions> kCoverageOptionTable[] = {
      1e5},
     {"noise-relative", "", "standard deviation of every current, as a part of Isc at the reference",
      &CoverageOptions::noise_relative, 1e-9, 0.1},
-    {"noise", "NAME", "errors of one size, in proportion to each curve's Isc, or correlated",
+    {"noise", "NAME", "errors of one size, in proportion to each curve's Isc, correlated, or of key points alone",
      EnumOption<&CoverageOptions::noise>()},
     {"temperature-error", "K", "hidden: the temperatures read that much too high",
      &CoverageOptions::temperature_error_K, -20, 20},

@@ -122,6 +122,17 @@ void AddNoise(const CoverageOptions& options, double noise_A, double share,
   }
 }
 
+// The key points of a curve with errors, and the readings that they give.
+void StateKeyPoints(KeyPoints points, IvCurve* curve, RandomStream* random) {
+  const KeyPointErrors errors;
+  points.short_circuit_current_A *= 1 + errors.short_circuit_current * random->Normal();
+  points.open_circuit_voltage_V *= 1 + errors.open_circuit_voltage * random->Normal();
+  points.max_power_voltage_V *= 1 + errors.max_power_voltage * random->Normal();
+  points.max_power_W *= 1 + errors.max_power * random->Normal();
+  points.max_power_current_A = points.max_power_W / points.max_power_voltage_V;
+  TakeKeyPoints(points, curve);
+}
+
 Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions& options,
                                 const std::pair<double, double>& at, RandomStream* random) {
   const auto& [irradiance, temperature_C] = at;
@@ -135,6 +146,10 @@ Expected<IvCurve> SimulateCurve(const SimulatedSet& made, const CoverageOptions&
   curve.conditions.cell_temperature_K =
       temperature_C + kZeroCelsius_K + options.temperature_error_K;
   curve.conditions.cells_in_series = made.translation.spec.cells_in_series;
+  if (options.noise == CoverageNoise::kKeyPoints) {
+    StateKeyPoints(*points, &curve, random);
+    return curve;
+  }
   for (int i = 0; i < options.points; ++i) {
     curve.voltage_V.push_back(points->open_circuit_voltage_V * i / (options.points - 1));
   }

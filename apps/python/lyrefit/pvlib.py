@@ -19,7 +19,7 @@ import numpy as np
 
 from . import _lyrefit
 
-__all__ = ["fit_desoto_sandia", "fit_sandia_simple", "i_from_v", "max_power_point", "singlediode",
+__all__ = ["fit_desoto_sandia", "fit_pvsyst_iec61853_sandia_2025", "fit_sandia_simple", "i_from_v", "max_power_point", "singlediode",
            "v_from_i"]
 
 _METHODS = ("lambertw", "newton", "brentq", "chandrupatla")
@@ -293,6 +293,55 @@ def fit_desoto_sandia(ivcurves, specs, const=None, maxiter=5, eps1=1.0e-3):
         iph, used = pandas.Series(iph, index=index), pandas.Series(used, index=index)
     return {"dEgdT": _BANDGAP_SLOPE, **answer, "iph": iph, "io": io, "rsh": rsh, "rs": rs, "u": used,
             "cells_in_series": cells}
+
+
+def fit_pvsyst_iec61853_sandia_2025(effective_irradiance, temp_cell, i_sc, v_oc, i_mp, v_mp,
+                                    cells_in_series, EgRef=1.121, alpha_sc=None, beta_mp=None,
+                                    R_s=None, r_sh_coeff=0.12, min_Rsh_irradiance=None,
+                                    irradiance_tolerance=20, temperature_tolerance=1):
+    """PVsyst's parameters from a matrix of key points, such as that of IEC 61853-1.
+
+    All conditions are fitted at once: least squares of Isc, Voc, Vmp (where dP/dV = 0) and Pmp, each
+    in parts of its error, where pvlib draws one line after the other through what it found before.
+    Any conditions serve, with gaps (NaN) or without; none of them need be the reference. See
+    ``lyrefit.fit_family`` and the page of ``lyrefit fit`` for intervals, held-out conditions and
+    errors of Pmp.
+
+    Parameters
+    ----------
+    effective_irradiance, temp_cell, i_sc, v_oc, i_mp, v_mp : array
+        One value a condition. [W/m2], [C], [A], [V], [A], [V]
+    cells_in_series : int
+    EgRef : float
+        Band gap at 25 C, held. [eV]
+    alpha_sc, R_s : float, optional
+        Held as stated instead of fitted. [A/K], [ohm]
+    beta_mp, r_sh_coeff, min_Rsh_irradiance, irradiance_tolerance, temperature_tolerance
+        Not needed.
+
+    Returns
+    -------
+    dict
+        alpha_sc [A/K], gamma_ref, mu_gamma [1/K], I_L_ref, I_o_ref [A], R_sh_ref, R_sh_0 [ohm],
+        R_sh_exp (5.5, held), R_s [ohm], cells_in_series, EgRef [eV]: the keywords of
+        ``pvlib.pvsystem.calcparams_pvsyst``.
+
+    Raises
+    ------
+    RuntimeError
+        Where the fit is not usable. lyrefit.Error, a ValueError, where the conditions are not.
+    """
+    held = {"EgRef": EgRef, "alpha_sc": alpha_sc, "R_s": R_s}
+    _, columns = _flat(effective_irradiance, temp_cell, i_sc, v_oc, i_mp, v_mp)
+    found = _lyrefit._fit_matrix(columns, int(cells_in_series),
+                                 {name: float(value) for name, value in held.items()
+                                  if value is not None})
+    if not found["usable"]:
+        raise RuntimeError("; ".join(found["warnings"]) or "no usable fit was found")
+    names = ("alpha_sc", "gamma_ref", "mu_gamma", "I_L_ref", "I_o_ref", "R_sh_ref", "R_sh_0",
+             "R_sh_exp", "R_s", "cells_in_series", "EgRef")
+    return {**{name: found["shared"][name] for name in names},
+            "cells_in_series": int(cells_in_series)}
 
 
 def _at_reference(shared, temperature_C):

@@ -72,6 +72,18 @@ int JunctionsPerCell(const std::string& technology) {
   return HasAny(word, kThree) ? 3 : HasAny(word, kTwo) ? 2 : 1;
 }
 
+void TakeKeyPoints(const KeyPoints& points, IvCurve* curve) {
+  const auto add = [curve](double voltage_V, double current_A) {
+    if (std::isnan(voltage_V) || std::isnan(current_A)) return;
+    curve->voltage_V.push_back(voltage_V);
+    curve->current_A.push_back(current_A);
+  };
+  add(0, points.short_circuit_current_A);
+  add(points.max_power_voltage_V, points.max_power_current_A);
+  add(points.open_circuit_voltage_V, 0);
+  curve->key_points = points;
+}
+
 Expected<void> Validate(const IvCurve& curve) {
   const std::size_t points = curve.size();
   const struct {

@@ -81,6 +81,10 @@ struct IvCurve {
   std::size_t size() const { return voltage_V.size(); }
 };
 
+// Gives a curve without readings stated key points, and the readings that they are: (0, Isc),
+// (Vmp, Imp) and (Voc, 0), without those of which a value is NaN.
+void TakeKeyPoints(const KeyPoints& points, IvCurve* curve);
+
 // Checks the preconditions of every fit: equal lengths, finite numbers, at least two different
 // voltages, positive sigma. The conditions must have a cell temperature of -100 .. 200 C, an
 // irradiance from 0 W/m2 up, at least one cell and one string. The error names the first violation.

@@ -263,9 +263,7 @@ Expected<void> CompletePower(const std::string& path, Condition* condition) {
   return {};
 }
 
-// The readings of a condition; a key point that is missing leaves its reading out.
 IvCurve CurveOf(const Condition& condition) {
-  IvCurve curve;
   const auto& [isc, voc, imp, vmp, pmp] = condition.points;
   KeyPoints points;
   points.short_circuit_current_A = isc.value_or(kUnknown);
@@ -274,15 +272,8 @@ IvCurve CurveOf(const Condition& condition) {
   points.max_power_voltage_V = vmp.value_or(kUnknown);
   points.max_power_W = pmp.value_or(kUnknown);
   if (isc && voc && pmp) points.fill_factor = *pmp / (*isc * *voc);
-  curve.key_points = points;
-  const auto add = [&curve](std::optional<double> voltage_V, std::optional<double> current_A) {
-    if (!voltage_V || !current_A) return;
-    curve.voltage_V.push_back(*voltage_V);
-    curve.current_A.push_back(*current_A);
-  };
-  add(0.0, condition.points[kIsc]);
-  add(condition.points[kVmp], condition.points[kImp]);
-  add(condition.points[kVoc], 0.0);
+  IvCurve curve;
+  TakeKeyPoints(points, &curve);
   return curve;
 }
 

@@ -5,9 +5,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/read/curve_set.h"
@@ -127,6 +130,37 @@ TEST(FamiliesOfThePanel, AreAllReadAndFittedWithIntervals) {
       EXPECT_TRUE(std::isfinite(e.low_95) && std::isfinite(e.high_95)) << e.info.name;
     }
   }
+}
+
+// Matrices of indoor measurements beside pvlib's own fit of the same law (reference.csv): rms error of
+// Pmp over the conditions as a part of nominal power.
+TEST(MatricesOfModules, AreFittedBetterThanByPvlib) {
+  std::ifstream reference(kRoot / "matrix" / "reference.csv");
+  std::string line;
+  std::getline(reference, line);
+  std::vector<double> ratios;
+  int covered = 0, held_out = 0;
+  while (std::getline(reference, line)) {
+    std::vector<std::string> fields;
+    std::istringstream cells(line);
+    for (std::string field; std::getline(cells, field, ',');) fields.push_back(field);
+    ASSERT_GT(fields.size(), 5U);
+    const fs::path file = kRoot / "matrix" / (fields[0] + ".csv");
+    if (!fs::exists(file)) continue;
+    FamilyOptions options;
+    options.law = TranslationLaw::kPvsyst;
+    const auto report = FitFamily(ReadOrFail(file), options);
+    ASSERT_TRUE(report) << report.error().ToString();
+    ASSERT_TRUE(report->key_points) << file;
+    const double percent = 100 * report->key_points->max_power_of_reference;
+    ratios.push_back(percent / std::stod(fields[5]));
+    EXPECT_LE(ratios.back(), 1) << fields[0];
+    covered += report->key_points->covered;
+    held_out += report->key_points->held_out;
+  }
+  ASSERT_EQ(ratios.size(), 12U);
+  EXPECT_LT(Median(ratios), 0.3);
+  EXPECT_GT(covered, 0.9 * held_out);
 }
 
 }  // namespace

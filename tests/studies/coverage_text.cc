@@ -98,10 +98,13 @@ std::string CoverageText(const CoverageReport& report) {
   head.heading = fmt::format("lyrefit {}: coverage of the 95 % intervals of joint fits, {}",
                              report.version, Plural(report.sets.size(), "simulated set"));
   AddField("device", DeviceText(o), &head);
+  const std::string curves = o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves";
   AddField("sets",
-           fmt::format("{} of {} points each, noise {:g} of {}, seed {}",
-                       o.curves > 0 ? Plural(o.curves, "curve") : "5 to 30 curves", o.points,
-                       o.noise_relative, NoiseText(o.noise), o.seed),
+           o.noise == CoverageNoise::kKeyPoints
+               ? fmt::format("key points of {} each, errors {}, seed {}", curves,
+                             KeyPointErrorsText({}), o.seed)
+               : fmt::format("{} of {} points each, noise {:g} of {}, seed {}", curves, o.points,
+                             o.noise_relative, NoiseText(o.noise), o.seed),
            &head);
   AddField("sensors", SensorText(o), &head);
   if (report.failed > 0) {

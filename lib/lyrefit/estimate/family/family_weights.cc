@@ -58,12 +58,12 @@ double Rms(const JointProblem& problem, const JointEnd& end) {
 WeightChoice SettleWeights(const FamilyOptions& options, const Observer& observer,
                            FamilyProblem* family, JointProblem* problem, JointEnd* end) {
   WeightChoice choice;
-  if (options.weights != FamilyWeights::kAuto) {
+  if (options.weights != FamilyWeights::kAuto || family->curves.key_points) {
     choice.used = options.weights;
     return choice;
   }
   const FamilyMembers& members = family->curves;
-  if (members.stated_errors || members.key_points || end->stopped) return choice;
+  if (members.stated_errors || end->stopped) return choice;
   if (!(Rms(*problem, *end) > kExact * problem->current_scale_A)) return choice;
   FamilyMembers weighed = family->curves;
   WeighMembers(FamilyWeights::kIsc, &weighed);

@@ -15,15 +15,16 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
     if (flags->family) return {};
     return Fail("expected one of " + AllTexts<Family>() + ", found '" + text + "'");
   };
-  verb->AddReader("--family", read_family,
-                  "one device behind all curves of a set, by the law desoto, pvsyst or cec, or the "
-                  "better of the first two with one or two diodes: auto; free fits every curve on its own")
+  verb->AddReader(
+          "--family", read_family,
+          "one device behind all curves of a set, by the law desoto, pvsyst or cec, or the "
+          "better of the first two with one or two diodes: auto; free fits every curve on its own")
       .Type("NAME")
       .OneOf(AllTexts<Family>())
       .Group(kGroup);
   AddNamedFlags(verb, kFamilyOptionTable,
-                {"shunt", "recombination", "residuals", "key-point-errors", "weights", "free", "search-curves", "fit-curves",
-                 "folds", "leave-out"},
+                {"shunt", "recombination", "residuals", "key-point-errors", "weights", "free",
+                 "search-curves", "fit-curves", "folds", "leave-out"},
                 &flags->options);
   verb->AddOption("--against", &flags->against_files,
                   "parameters from elsewhere, tested on the same curves: what --pvlib writes here "
@@ -44,9 +45,10 @@ void AddFamilyFlags(VerbLine* verb, FamilyFlags* flags, ReportFlags* output) {
                   "the electrical model as a PVsyst .PAN file, by the law pvsyst; - for standard "
                   "output, alone")
       .Writes();
-  verb->AddOption("--sam", &flags->sam_file,
-                  "a library of one module as SAM and pvlib read it, by the law cec or desoto; - for "
-                  "standard output, alone")
+  verb->AddOption(
+          "--sam", &flags->sam_file,
+          "a library of one module as SAM and pvlib read it, by the law cec or desoto; - for "
+          "standard output, alone")
       .Writes();
 }
 

@@ -58,11 +58,20 @@ struct FamilyAsked {
 };
 
 // Keywords about shared parameters, which individual fits do not have, and those that auto selects.
-constexpr const char* kShared[] = {"residuals", "key_point_errors",
-                                   "shunt",         "recombination",        "weights",
-                                   "search_curves", "fit_curves",           "irradiance_offset",
-                                   "folds",         "temperature_offset",   "irradiance_accuracy",
-                                   "free",          "temperature_accuracy", "individual_fits",
+constexpr const char* kShared[] = {"residuals",
+                                   "key_point_errors",
+                                   "shunt",
+                                   "recombination",
+                                   "weights",
+                                   "search_curves",
+                                   "fit_curves",
+                                   "irradiance_offset",
+                                   "folds",
+                                   "temperature_offset",
+                                   "irradiance_accuracy",
+                                   "free",
+                                   "temperature_accuracy",
+                                   "individual_fits",
                                    "against"};
 constexpr const char* kChosenByAuto[] = {"model", "shunt", "recombination"};
 

@@ -87,8 +87,7 @@ CurveSet MakeSet(const std::vector<Numbers>& voltages, const std::vector<Numbers
   set.name = "ivcurves";
   for (std::size_t k = 0; k < voltages.size(); ++k) {
     const auto row = static_cast<py::ssize_t>(k);
-    set.curves.push_back(
-        CurveUnder(row, irradiance_W_m2.at(row), temperature_C.at(row), cells));
+    set.curves.push_back(CurveUnder(row, irradiance_W_m2.at(row), temperature_C.at(row), cells));
     set.curves.back().voltage_V = CopyOf(voltages[k]);
     set.curves.back().current_A = CopyOf(currents[k]);
   }

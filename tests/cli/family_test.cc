@@ -51,7 +51,7 @@ TEST(FamilyFlags, OfOneCurveAreRefusedWithFamily) {
 }
 
 TEST(FamilyFlags, AreCheckedAgainstTheLaw) {
-  ExpectRefused(kRtc + " --family de_soto", "expected one of desoto, pvsyst, free, auto");
+  ExpectRefused(kRtc + " --family de_soto", "expected one of desoto, pvsyst, cec, free, auto");
   ExpectRefused(kRtc + " --family desoto --recombination", "belongs to the law pvsyst");
   ExpectRefused(kRtc + " --family desoto --model td", "expected sd or dd");
   ExpectRefused(kRtc + " --family pvsyst --model dd --pvlib -", "pvlib knows one diode");
@@ -235,8 +235,8 @@ TEST_F(FamilyVerbOnASet, WritesAPanFileThatItReadsBack) {
 
 TEST_F(FamilyVerbOnASet, WritesAPanFileWithTheGapOfItsTechnology) {
   const std::string pan = folder_.Path("module.PAN");
-  const AppResult made = RunApp("fit " + Set() + " --family pvsyst --json - --pan '" + pan + "'" +
-                                kQuickFamily);
+  const AppResult made =
+      RunApp("fit " + Set() + " --family pvsyst --json - --pan '" + pan + "'" + kQuickFamily);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(json::parse(made.out)["parameters"]["EgRef"]["refined"], 1.12);
 }
@@ -252,6 +252,22 @@ TEST_F(FamilyVerbOnASet, WritesARowOfSamThatItReadsBack) {
               j["rmse"]["refined"]["solved_current_A"].get<double>(), 1e-9);
   ExpectRefused(Set() + " --family pvsyst --sam x.csv", "--sam: SAM's modules follow the law cec");
   ExpectRefused(Set() + " --family free --sam x.csv", "--sam is about what curves share");
+}
+
+TEST_F(FamilyVerbOnASet, FitsAMatrixOfKeyPoints) {
+  const std::string matrix = std::string(LYREFIT_DATA_DIR) + "/formats/matrix_long.csv";
+  const json j = FitJson("'" + matrix + "' --cells 60 --family desoto" + kQuickFamily);
+  EXPECT_EQ(j["residuals"], "key-points");
+  EXPECT_EQ(j["weights"], "auto");
+  EXPECT_NEAR(j["parameters"]["n"]["refined"].get<double>(), 1.1, 1e-3);
+  EXPECT_LT(j["key_points"]["rms"]["max_power_of_reference"].get<double>(), 1e-4);
+  EXPECT_NEAR(j["curves"][3]["key_points"]["measured"]["max_power_W"].get<double>(), 249.27, 0.01);
+  EXPECT_EQ(j["equal_devices"], nullptr);
+  const AppResult text = RunApp("fit '" + matrix + "' --cells 60 --family pvsyst" + kQuickFamily);
+  EXPECT_THAT(text.out, HasSubstr("Key points, model less measured (%)"));
+  EXPECT_THAT(text.out, HasSubstr("key points (Isc, Voc, Vmp, Pmp); search: solved-current"));
+  ExpectRefused("'" + matrix + "' --family desoto --key-point-errors imp=1%",
+                "key-point-errors: expected isc, voc, vmp or pmp");
 }
 
 TEST_F(FamilyVerbOnASet, FitsEveryCurveOnItsOwn) {

@@ -53,7 +53,10 @@ TEST(FamilyJson, HoldsExactlyTheKeysOfTheContract) {
                           "in_sample",
                           "errors",
                           "weights",
-                          "weights_gain"}));
+                          "weights_gain",
+                          "residuals",
+                          "key_points",
+                          "equal_devices"}));
   EXPECT_EQ(Keys(j["set"]), (Set{"name", "source"}));
   EXPECT_EQ(Keys(j["parameters"]),
             (Set{"I_L_ref", "I_o_ref", "n", "R_s", "R_sh_ref", "alpha_sc", "EgRef", "dEgdT"}));
@@ -103,6 +106,7 @@ TEST(FamilyJson, HoldsEveryCurve) {
                               "individual_rmse",
                               "isc_excess",
                               "voc_excess_V",
+                              "key_points",
                               "mean_residual_A",
                               "residual_A"}));
   EXPECT_EQ(curve["outlier"], true);

@@ -43,8 +43,7 @@ JunctionVoltages FindJunctionVoltages(const Device& device, const double* p,
   const auto current = [&](double v) { return JunctionCurrent(device, p, Dual<1>(v, 0)); };
   const auto short_circuit = [&](double v) { return Dual<1>(v, 0) - current(v) * rs; };
   const auto power = [&](double v) {
-    const Dual<1, Dual<1>> both =
-        JunctionCurrent(device, p, Dual<1, Dual<1>>(Dual<1>(v, 0), 0));
+    const Dual<1, Dual<1>> both = JunctionCurrent(device, p, Dual<1, Dual<1>>(Dual<1>(v, 0), 0));
     const Dual<1>& at = both.a;
     return at + (Dual<1>(v, 0) - 2 * at * rs) * both.v[0];
   };
@@ -78,10 +77,8 @@ class KeyPointSlopes {
     const Number short_V(at_V.short_V, N), open_V(at_V.open_V, N), power_V(at_V.power_V, N);
     write(kIscRow, CurrentAt(JunctionVoltage(short_V - CurrentAt(short_V) * rs, at_V.short_V)));
     write(kVocRow, JunctionVoltage(CurrentAt(open_V), at_V.open_V));
-    const Dual<1, Number> at =
-        JunctionCurrent(device_, p_.data(), Dual<1, Number>(power_V, 0));
-    const Number v =
-        JunctionVoltage(at.a + (power_V - 2 * at.a * rs) * at.v[0], at_V.power_V);
+    const Dual<1, Number> at = JunctionCurrent(device_, p_.data(), Dual<1, Number>(power_V, 0));
+    const Number v = JunctionVoltage(at.a + (power_V - 2 * at.a * rs) * at.v[0], at_V.power_V);
     const Number current = CurrentAt(v);
     const Number terminal_V = v - current * rs;
     write(kVmpRow, terminal_V);

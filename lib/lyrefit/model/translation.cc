@@ -60,8 +60,9 @@ Expected<Translation> MakeTranslation(const TranslationSpec& spec) {
                     ParameterKind::kPhotocurrent, 0.01},
                    &t);
   if (spec.law == TranslationLaw::kCec) {
-    t.adjust = Add({"Adjust", "Adjust", "%", "how far alpha_sc of the photocurrent is below that "
-                                             "of Isc",
+    t.adjust = Add({"Adjust", "Adjust", "%",
+                    "how far alpha_sc of the photocurrent is below that "
+                    "of Isc",
                     ParameterKind::kPlain, 10},
                    &t);
   }

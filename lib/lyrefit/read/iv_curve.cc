@@ -58,9 +58,9 @@ bool HasAny(const std::string& word, const std::string_view (&parts)[N]) {
 
 bool IsThinFilm(const std::string& technology) {
   constexpr std::string_view kHetero[] = {"hit", "hjt", "heterojunction"};  // wafers
-  constexpr std::string_view kThin[] = {"cdte",      "cadmium",    "cigs",    "cis", "copper indium",
-                                        "a-si",      "amorphous",  "thin",    "opv", "perovskite",
-                                        "organic",   "dye",        "tandem"};
+  constexpr std::string_view kThin[] = {"cdte",    "cadmium",   "cigs",  "cis", "copper indium",
+                                        "a-si",    "amorphous", "thin",  "opv", "perovskite",
+                                        "organic", "dye",       "tandem"};
   const std::string word = LowerCase(technology);
   return !HasAny(word, kHetero) && HasAny(word, kThin);
 }

@@ -32,7 +32,7 @@ struct LinePlace {
 enum KeyPoint { kIsc, kVoc, kImp, kVmp, kPmp, kKeyPoints };
 
 constexpr std::pair<std::string_view, KeyPoint> kPointNames[] = {
-    {"isc", kIsc}, {"voc", kVoc},  {"imp", kImp},  {"impp", kImp}, {"vmp", kVmp},
+    {"isc", kIsc},  {"voc", kVoc}, {"imp", kImp},  {"impp", kImp}, {"vmp", kVmp},
     {"vmpp", kVmp}, {"pmp", kPmp}, {"pmpp", kPmp}, {"pmax", kPmp}};
 
 // A column of key points and the factor to A, V or W.

@@ -199,7 +199,8 @@ Panel PowerErrorPanel(const FamilyReport& report) {
     return 100 * (power_W - curve.key_points->measured.max_power_W) / nominal_W;
   };
   Panel panel = PerCurvePanel(
-      report, "Pmp, model - measured (% of nominal; open: held out)", [&](const FamilyCurve& curve) {
+      report, "Pmp, model - measured (% of nominal; open: held out)",
+      [&](const FamilyCurve& curve) {
         return curve.key_points ? percent(curve, curve.key_points->model.max_power_W) : kUnknown;
       });
   for (const FamilyCurve& curve : report.curves) {
@@ -230,9 +231,9 @@ Figure KeyPointFigure(const FamilyReport& report, const CurveSet& set) {
                             ToText(report.translation.spec.law),
                             ToText(report.translation.spec.model),
                             Significant(100 * report.key_points->max_power_of_reference, 2))};
-  figure.panels = {CurvesPanel(report, set), PowerErrorPanel(report),
-                   KeyPointPanel(report, "Voc, model - measured (%)",
-                                 &KeyPoints::open_circuit_voltage_V)};
+  figure.panels = {
+      CurvesPanel(report, set), PowerErrorPanel(report),
+      KeyPointPanel(report, "Voc, model - measured (%)", &KeyPoints::open_circuit_voltage_V)};
   figure.columns = 3;
   figure.colour_bar = TemperatureBar(report);
   return figure;

@@ -123,9 +123,8 @@ void to_json(Json& j, const CecModule& module) {
 std::string PvlibJson(const std::string& name, TranslationLaw law,
                       const std::vector<NamedValue>& keywords, const Expected<CecModule>& cec) {
   const bool pvsyst = law == TranslationLaw::kPvsyst;
-  Json json = {{"lyrefit_version", Version()},
-               {"name", name},
-               {"function", "calcparams_" + ToText(law)}};
+  Json json = {
+      {"lyrefit_version", Version()}, {"name", name}, {"function", "calcparams_" + ToText(law)}};
   AddKeywords(NamedJson(keywords), pvsyst, &json);
   json["cec"] = cec ? Json(*cec) : Json();
   json["cec_reason"] = cec ? std::string() : cec.error().message;

@@ -74,9 +74,8 @@ void to_json(Json& j, const FamilyRmseTable& rmse) {
 }
 
 void to_json(Json& j, const KeyPointFit& fit) {
-  j = {{"measured", fit.measured},
-       {"model", fit.model},
-       {"held_out_power_W", fit.held_out_power_W}};
+  j = {
+      {"measured", fit.measured}, {"model", fit.model}, {"held_out_power_W", fit.held_out_power_W}};
 }
 
 void to_json(Json& j, const KeyPointErrors& errors) {

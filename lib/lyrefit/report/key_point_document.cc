@@ -42,27 +42,28 @@ Section KeyPointSection(const FamilyReport& report) {
     };
     const bool outside = was.max_power_W < held_out.low_95 || was.max_power_W > held_out.high_95;
     any_outside = any_outside || outside;
-    table.rows.push_back(
-        {fmt::format("{:.5g}", curve.irradiance_W_m2), fmt::format("{:.4g}", curve.temperature_C),
-         ErrorPercent(is.short_circuit_current_A, was.short_circuit_current_A),
-         ErrorPercent(is.open_circuit_voltage_V, was.open_circuit_voltage_V),
-         ErrorPercent(is.max_power_current_A, was.max_power_current_A),
-         ErrorPercent(is.max_power_voltage_V, was.max_power_voltage_V),
-         ErrorPercent(is.max_power_W, was.max_power_W), of_nominal(is.max_power_W),
-         of_nominal(held_out.value), outside ? "outside" : ""});
+    table.rows.push_back({fmt::format("{:.5g}", curve.irradiance_W_m2),
+                          fmt::format("{:.4g}", curve.temperature_C),
+                          ErrorPercent(is.short_circuit_current_A, was.short_circuit_current_A),
+                          ErrorPercent(is.open_circuit_voltage_V, was.open_circuit_voltage_V),
+                          ErrorPercent(is.max_power_current_A, was.max_power_current_A),
+                          ErrorPercent(is.max_power_voltage_V, was.max_power_voltage_V),
+                          ErrorPercent(is.max_power_W, was.max_power_W), of_nominal(is.max_power_W),
+                          of_nominal(held_out.value), outside ? "outside" : ""});
   }
   AddTable(std::move(table), &section);
-  AddField("rms error",
-           fmt::format("Isc {}, Voc {}, Imp {}, Vmp {}, Pmp {}; Pmp of nominal {}",
-                       PartPercent(summary.short_circuit_current),
-                       PartPercent(summary.open_circuit_voltage),
-                       PartPercent(summary.max_power_current),
-                       PartPercent(summary.max_power_voltage), PartPercent(summary.max_power),
-                       PartPercent(summary.max_power_of_reference)),
-           &section);
-  AddField("nominal",
-           fmt::format("Pmp of {} W at 1000 W/m2 and 25 C", Significant(summary.reference_power_W, 5)),
-           &section);
+  AddField(
+      "rms error",
+      fmt::format("Isc {}, Voc {}, Imp {}, Vmp {}, Pmp {}; Pmp of nominal {}",
+                  PartPercent(summary.short_circuit_current),
+                  PartPercent(summary.open_circuit_voltage), PartPercent(summary.max_power_current),
+                  PartPercent(summary.max_power_voltage), PartPercent(summary.max_power),
+                  PartPercent(summary.max_power_of_reference)),
+      &section);
+  AddField(
+      "nominal",
+      fmt::format("Pmp of {} W at 1000 W/m2 and 25 C", Significant(summary.reference_power_W, 5)),
+      &section);
   if (summary.held_out > 0) {
     AddField("held out",
              fmt::format("{}; Pmp of nominal {}; {} of {} inside the 95 % interval of the forecast",

@@ -25,22 +25,40 @@ struct MatrixModule {
   std::map<std::string, double> values;  // by pvlib's names
 };
 
-const MatrixModule kPvsystModule = {
-    TranslationLaw::kPvsyst,
-    {{"I_L_ref", 10}, {"I_o_ref", 1e-11}, {"gamma_ref", 1.0}, {"mu_gamma", -1e-4}, {"R_s", 0.2},
-     {"R_sh_ref", 300}, {"R_sh_0", 1500}, {"R_sh_exp", 5.5}, {"alpha_sc", 1e-3}, {"EgRef", 1.121}}};
-const MatrixModule kDeSotoModule = {
-    TranslationLaw::kDeSoto,
-    {{"I_L_ref", 6}, {"I_o_ref", 3e-10}, {"n", 1.1}, {"R_s", 0.25}, {"R_sh_ref", 250},
-     {"alpha_sc", 3e-3}, {"EgRef", 1.14}, {"dEgdT", -0.0002677}}};
-const MatrixModule kCecModule = {
-    TranslationLaw::kCec,
-    {{"I_L_ref", 6}, {"I_o_ref", 3e-10}, {"n", 1.1}, {"R_s", 0.25}, {"R_sh_ref", 250},
-     {"alpha_sc", 3e-3}, {"Adjust", 12}, {"EgRef", 1.121}, {"dEgdT", -0.0002677}}};
+const MatrixModule kPvsystModule = {TranslationLaw::kPvsyst,
+                                    {{"I_L_ref", 10},
+                                     {"I_o_ref", 1e-11},
+                                     {"gamma_ref", 1.0},
+                                     {"mu_gamma", -1e-4},
+                                     {"R_s", 0.2},
+                                     {"R_sh_ref", 300},
+                                     {"R_sh_0", 1500},
+                                     {"R_sh_exp", 5.5},
+                                     {"alpha_sc", 1e-3},
+                                     {"EgRef", 1.121}}};
+const MatrixModule kDeSotoModule = {TranslationLaw::kDeSoto,
+                                    {{"I_L_ref", 6},
+                                     {"I_o_ref", 3e-10},
+                                     {"n", 1.1},
+                                     {"R_s", 0.25},
+                                     {"R_sh_ref", 250},
+                                     {"alpha_sc", 3e-3},
+                                     {"EgRef", 1.14},
+                                     {"dEgdT", -0.0002677}}};
+const MatrixModule kCecModule = {TranslationLaw::kCec,
+                                 {{"I_L_ref", 6},
+                                  {"I_o_ref", 3e-10},
+                                  {"n", 1.1},
+                                  {"R_s", 0.25},
+                                  {"R_sh_ref", 250},
+                                  {"alpha_sc", 3e-3},
+                                  {"Adjust", 12},
+                                  {"EgRef", 1.121},
+                                  {"dEgdT", -0.0002677}}};
 
 using Conditions2 = std::vector<std::pair<double, double>>;  // W/m2, C
-const Conditions2 kIec = {{100, 15}, {100, 25}, {200, 15}, {200, 25}, {400, 25},  {400, 50},
-                          {600, 25}, {600, 50}, {600, 75}, {800, 25}, {800, 50},  {800, 75},
+const Conditions2 kIec = {{100, 15},  {100, 25},  {200, 15},  {200, 25},  {400, 25},  {400, 50},
+                          {600, 25},  {600, 50},  {600, 75},  {800, 25},  {800, 50},  {800, 75},
                           {1000, 25}, {1000, 50}, {1000, 75}, {1100, 25}, {1100, 50}, {1100, 75}};
 
 Translation TranslationOf(const MatrixModule& module) {
@@ -131,7 +149,8 @@ TEST(MatrixFit, ReportsErrorsOfEveryConditionAndOfThoseHeldOut) {
   for (const FamilyCurve& curve : report->curves) {
     ASSERT_TRUE(curve.key_points);
     const KeyPointFit& fit = *curve.key_points;
-    const double off = (fit.model.max_power_W - fit.measured.max_power_W) / summary.reference_power_W;
+    const double off =
+        (fit.model.max_power_W - fit.measured.max_power_W) / summary.reference_power_W;
     squares += off * off;
     EXPECT_LT(fit.held_out_power_W.low_95, fit.held_out_power_W.value);
     // A condition that was not seen is missed by more than nothing and known no better.

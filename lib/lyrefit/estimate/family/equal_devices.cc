@@ -11,8 +11,8 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kSteps = 4;            // on each side of the best device
-constexpr double kWide = 1.0 / 3;    // of the ideality: interval over value
+constexpr int kSteps = 4;          // on each side of the best device
+constexpr double kWide = 1.0 / 3;  // of the ideality: interval over value
 constexpr double kLowLight_W_m2 = 200;
 constexpr double kHot_K = 348.15;
 
@@ -24,9 +24,8 @@ double PowerAt(const Translation& at, const std::vector<double>& shared, double 
 
 // Position of the parameter that the curves determine least; -1: all are determined.
 int LeastDetermined(const Translation& at, const std::vector<Estimate>& estimates) {
-  const auto open = std::find_if(estimates.begin(), estimates.end(), [](const Estimate& e) {
-    return e.free() && !e.identifiable;
-  });
+  const auto open = std::find_if(estimates.begin(), estimates.end(),
+                                 [](const Estimate& e) { return e.free() && !e.identifiable; });
   const Estimate& n = estimates[at.n];
   const bool wide =
       n.free() && (!n.identifiable || !(n.high_95 - n.low_95 <= kWide * std::fabs(n.refined)));

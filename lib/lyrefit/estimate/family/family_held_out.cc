@@ -60,14 +60,13 @@ std::vector<std::pair<int, Interval>> PredictPower(const FamilyProblem& family,
   for (const int c : curves) {
     const JointCurve& curve = family.curves.members[c].joint;
     const auto power = [&](const std::vector<double>& shared) {
-      const TranslatedDevice at =
-          TranslateTo(problem.translation, shared,
-                      curve.irradiance_W_m2 + shared[problem.irradiance_offset()],
-                      curve.temperature_K + shared[problem.temperature_offset()]);
+      const TranslatedDevice at = TranslateTo(
+          problem.translation, shared, curve.irradiance_W_m2 + shared[problem.irradiance_offset()],
+          curve.temperature_K + shared[problem.temperature_offset()]);
       return ModelKeyPoints(at.device, at.parameters.data()).max_power_W;
     };
-    const Interval model = DerivedInterval(spread, refit.active, problem.shared(), t,
-                                           refit.point.shared, power);
+    const Interval model =
+        DerivedInterval(spread, refit.active, problem.shared(), t, refit.point.shared, power);
     const double own = std::sqrt(variance) / problem.key_point_scale_A *
                        curve.key_points->error[kPmpRow] * std::fabs(model.value);
     predicted.push_back(
@@ -194,9 +193,8 @@ std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const Refi
       tests.held_out_power_W = PredictPower(family, refined.problem, refined.end, tested);
     }
   } else if (options.folds > 0 && members.fitted.size() >= 4) {
-    std::optional<HeldOut> folds =
-        TestByFolds(set, family, options, refined.problem, refined.end, observer,
-                    &tests.held_out_power_W);
+    std::optional<HeldOut> folds = TestByFolds(set, family, options, refined.problem, refined.end,
+                                               observer, &tests.held_out_power_W);
     if (!folds) return {};
     held_out = std::move(*folds);
   }

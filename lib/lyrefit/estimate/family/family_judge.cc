@@ -116,8 +116,8 @@ IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& sear
 
 Interval Derived(const Judged& judged, const std::vector<double>& refined,
                  const std::function<double(const std::vector<double>&)>& value) {
-  return DerivedInterval(judged.spread, judged.fit.end.active,
-                         judged.fit.family.translation.size(), judged.t, refined, value);
+  return DerivedInterval(judged.spread, judged.fit.end.active, judged.fit.family.translation.size(),
+                         judged.t, refined, value);
 }
 
 // Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.

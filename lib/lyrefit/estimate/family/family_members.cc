@@ -274,9 +274,9 @@ Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptio
   TRY(result.key_points, TakesKeyPoints(set, options, result.members));
   if (result.key_points) {
     for (const int c : usable) {
-      result.members[c].joint.key_points = ResidualsOf(
-          set.curves[c], options,
-          result.members[c].short_circuit_current_A / result.reference_current_A);
+      result.members[c].joint.key_points =
+          ResidualsOf(set.curves[c], options,
+                      result.members[c].short_circuit_current_A / result.reference_current_A);
     }
   }
   WeighMembers(options.weights, &result);

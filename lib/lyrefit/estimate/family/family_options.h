@@ -45,9 +45,10 @@ enum class FamilyResiduals {
 
 template <>
 struct EnumTable<FamilyResiduals> {
-  static constexpr EnumText<FamilyResiduals> kRows[] = {{FamilyResiduals::kAuto, "auto"},
-                                                        {FamilyResiduals::kCurrents, "currents"},
-                                                        {FamilyResiduals::kKeyPoints, "key-points"}};
+  static constexpr EnumText<FamilyResiduals> kRows[] = {
+      {FamilyResiduals::kAuto, "auto"},
+      {FamilyResiduals::kCurrents, "currents"},
+      {FamilyResiduals::kKeyPoints, "key-points"}};
 };
 
 // Relative standard deviations of measured key points, from condition to condition: what all
@@ -158,13 +159,12 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      EnumOption<&FamilyOptions::residuals>()},
     {"key-point-errors", "LIST",
      "how well key points are measured against each other, isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%",
-     OptionText<FamilyOptions>{
-         [](const std::string& text, FamilyOptions* options) {
-           return ReadKeyPointErrors(text, &options->key_point_errors);
-         },
-         [](const FamilyOptions& options) -> std::vector<std::string> {
-           return {KeyPointErrorsText(options.key_point_errors)};
-         }}},
+     OptionText<FamilyOptions>{[](const std::string& text, FamilyOptions* options) {
+                                 return ReadKeyPointErrors(text, &options->key_point_errors);
+                               },
+                               [](const FamilyOptions& options) -> std::vector<std::string> {
+                                 return {KeyPointErrorsText(options.key_point_errors)};
+                               }}},
     {"weights", "NAME",
      "how curves count: every point alike, relative to Isc, or as the residuals say",
      EnumOption<&FamilyOptions::weights>()},

@@ -147,8 +147,8 @@ double MeasuredTempco_A(const CurveSet& set, const FamilyMembers& curves) {
     const FamilyMember& member = curves.members[c];
     if (member.IsDark()) continue;
     const double x = member.joint.temperature_K - kReferenceTemperature_K;
-    const double y = member.short_circuit_current_A * kReferenceIrradiance_W_m2 /
-                     member.joint.irradiance_W_m2;
+    const double y =
+        member.short_circuit_current_A * kReferenceIrradiance_W_m2 / member.joint.irradiance_W_m2;
     count += 1;
     dt += x;
     isc += y;
@@ -341,7 +341,8 @@ JointProblem JointProblemOn(const FamilyProblem& family, const FamilyOptions& op
   problem.translation = family.translation;
   problem.objective = options.objective;
   for (const int c : curves) problem.curves.push_back(family.curves.members[c].joint);
-  problem.key_point_scale_A = options.key_point_errors.max_power * family.curves.reference_current_A;
+  problem.key_point_scale_A =
+      options.key_point_errors.max_power * family.curves.reference_current_A;
   for (std::size_t i = 0; i < family.bounds.size(); ++i) {
     const bool fixed = !std::isnan(family.fixed[i]);
     problem.lower.push_back(fixed ? family.fixed[i] : family.bounds[i].lower);

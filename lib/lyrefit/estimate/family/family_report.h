@@ -115,8 +115,8 @@ struct KeyPointSummary {
   double reference_power_W = kUnknown;
   double max_power_of_reference = kUnknown;           // rms error of Pmp as a part of that
   double held_out_max_power_of_reference = kUnknown;  // of curves that the fit did not see
-  int held_out = 0;  // curves that were tested so
-  int covered = 0;   // of these, measured Pmp inside the interval
+  int held_out = 0;                                   // curves that were tested so
+  int covered = 0;                                    // of these, measured Pmp inside the interval
 };
 
 // Another device of the law that the curves allow as well.
@@ -249,8 +249,8 @@ struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
   FamilyRmseTable rmse;                        // of search and joint fit
   std::vector<FamilyCurve> curves;             // in the set's order
   std::vector<std::string> search_ids;         // curves of the search
-  std::optional<KeyPointSummary> key_points;  // if the residuals are those of key points
-  std::optional<EqualDevices> equal_devices;  // none: the curves determine the parameters
+  std::optional<KeyPointSummary> key_points;   // if the residuals are those of key points
+  std::optional<EqualDevices> equal_devices;   // none: the curves determine the parameters
   std::optional<WithoutOutliers> without_outliers;
   std::vector<FamilyCandidate> candidates;  // of FitFamilyAuto
   // The weights of the curves in the residuals.

@@ -33,16 +33,17 @@ Expected<void> ReadKeyPointErrors(const std::string& text, KeyPointErrors* error
         std::find_if(std::begin(kKeyPointErrorRows), std::end(kKeyPointErrorRows),
                      [&](const KeyPointErrorRow& known) { return name == known.name; });
     if (equals == std::string::npos || row == std::end(kKeyPointErrorRows)) {
-      return Fail(fmt::format(
-          "key-point-errors: expected isc, voc, vmp or pmp and a percentage, as in voc=0.3%, found {}",
-          part));
+      return Fail(
+          fmt::format("key-point-errors: expected isc, voc, vmp or pmp and a percentage, as in "
+                      "voc=0.3%, found {}",
+                      part));
     }
     std::string value = part.substr(equals + 1);
     if (!value.empty() && value.back() == '%') value.pop_back();
     const auto percent = ParseNumber(value);
     if (!percent || !(*percent > 0) || !(*percent <= 50)) {
-      return Fail(fmt::format(
-          "key-point-errors: expected {} above 0 and at most 50 %, found {}", name, value));
+      return Fail(fmt::format("key-point-errors: expected {} above 0 and at most 50 %, found {}",
+                              name, value));
     }
     errors->*row->part = *percent / 100;
   }

@@ -35,10 +35,10 @@ std::vector<JointPoint> KeyPointStarts(const FamilyProblem& family,
     const auto curve = PhysicalCurve(sheet, n * junctions);
     if (!curve) continue;
     const ReferenceDevice device = ToDevice(sheet, *curve);
-    std::vector<double> shared = StartFromIndividualFit(
-        family, *brightest,
-        {device.photocurrent_A, device.saturation_current_A, device.n,
-         device.resistance_series_ohm, 1 / device.shunt_conductance_S});
+    std::vector<double> shared =
+        StartFromIndividualFit(family, *brightest,
+                               {device.photocurrent_A, device.saturation_current_A, device.n,
+                                device.resistance_series_ohm, 1 / device.shunt_conductance_S});
     if (!shared.empty()) starts.push_back({std::move(shared), {}});
   }
   return starts;

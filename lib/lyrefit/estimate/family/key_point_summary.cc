@@ -52,8 +52,8 @@ double KeyPointRms(const JointProblem& problem, const JointPoint& point) {
   for (std::size_t c = 0; c < problem.curves.size(); ++c) {
     const FitBlock& block = model.shape().blocks[c];
     std::vector<double> residuals(block.residuals);
-    const bool evaluated = model.Evaluate(static_cast<int>(c), at.p.data(), local,
-                                          residuals.data(), nullptr, nullptr);
+    const bool evaluated =
+        model.Evaluate(static_cast<int>(c), at.p.data(), local, residuals.data(), nullptr, nullptr);
     if (!evaluated) return kUnknown;
     for (int k = 0; k < problem.curves[c].residuals(); ++k) squares += residuals[k] * residuals[k];
     count += problem.curves[c].residuals();
@@ -83,9 +83,8 @@ std::vector<FamilyCurve> WithKeyPoints(std::vector<FamilyCurve> rows, const Refi
       conditions = ConditionsAt(refined.problem, refined.end.point,
                                 static_cast<int>(at - members.fitted.begin()));
     }
-    const TranslatedDevice device = TranslateTo(refined.problem.translation, shared,
-                                                conditions.irradiance_W_m2,
-                                                conditions.temperature_K);
+    const TranslatedDevice device = TranslateTo(
+        refined.problem.translation, shared, conditions.irradiance_W_m2, conditions.temperature_K);
     fit.model = ModelKeyPoints(device.device, device.parameters.data());
     rows[c].key_points = fit;
   }

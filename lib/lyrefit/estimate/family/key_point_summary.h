@@ -15,8 +15,7 @@ double KeyPointRms(const JointProblem& problem, const JointPoint& point);
 // Measured and fitted key points of every curve of a joint fit of key points, with the held-out
 // powers of `tests`. `rows`: the curves of the set, with their parameters.
 std::vector<FamilyCurve> WithKeyPoints(std::vector<FamilyCurve> rows, const RefinedFamily& refined,
-                                       const std::vector<double>& shared,
-                                       const FamilyTests& tests);
+                                       const std::vector<double>& shared, const FamilyTests& tests);
 
 // Summarises the fitted curves of `rows`. `noise_A`: the residual standard deviation; `reference`:
 // of the model at the reference.

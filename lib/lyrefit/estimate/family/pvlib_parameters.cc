@@ -42,17 +42,17 @@ Expected<void> CheckExpressible(const Translation& translation, const std::vecto
 
 std::vector<NamedValue> DeSotoParameters(const Translation& at, const std::vector<double>& p) {
   std::vector<NamedValue> values = {
-          {"alpha_sc", p[at.alpha_sc]},
-          {"a_ref", p[at.n] * at.device.module_thermal_voltage_V},
-          {"I_L_ref", p[at.photocurrent]},
-          {"I_o_ref", p[at.saturation_current]},
-          {"R_sh_ref", p[at.resistance_shunt]},
-          {"R_s", p[at.resistance_series]},
-          {"EgRef", p[at.bandgap] / ConstantRatio(at)},
-          {"dEgdT", p[at.bandgap_slope]},
-          {"irrad_ref", kReferenceIrradiance_W_m2},
-          {"temp_ref", kReferenceTemperature_C},
-          {"cells_in_series", static_cast<double>(at.spec.cells_in_series)}};
+      {"alpha_sc", p[at.alpha_sc]},
+      {"a_ref", p[at.n] * at.device.module_thermal_voltage_V},
+      {"I_L_ref", p[at.photocurrent]},
+      {"I_o_ref", p[at.saturation_current]},
+      {"R_sh_ref", p[at.resistance_shunt]},
+      {"R_s", p[at.resistance_series]},
+      {"EgRef", p[at.bandgap] / ConstantRatio(at)},
+      {"dEgdT", p[at.bandgap_slope]},
+      {"irrad_ref", kReferenceIrradiance_W_m2},
+      {"temp_ref", kReferenceTemperature_C},
+      {"cells_in_series", static_cast<double>(at.spec.cells_in_series)}};
   if (at.adjust >= 0) values.push_back({"Adjust", p[at.adjust]});
   return values;
 }

@@ -171,11 +171,11 @@ bool FamilyModel::Evaluate(int block, const double* p, const double* local, doub
   const Device& own_device = DeviceOf(problem_, block);
   RowMatrix by_device(sloped ? points : 0, own_device.size());
   RowMatrix* const wanted = sloped ? &by_device : nullptr;
-  const bool evaluated = curve.key_points
-                             ? ResidualsOfKeyPoints(problem_, curve, own_device, device.data(),
-                                                    residuals, wanted)
-                             : PointResiduals(problem_, curve, own_device, device.data(),
-                                              points_[block], residuals, wanted);
+  const bool evaluated =
+      curve.key_points
+          ? ResidualsOfKeyPoints(problem_, curve, own_device, device.data(), residuals, wanted)
+          : PointResiduals(problem_, curve, own_device, device.data(), points_[block], residuals,
+                           wanted);
   if (!evaluated) return false;
   // The common errors of the sensors shift irradiance and temperature one to one; priors do not
   // depend on shared parameters.

@@ -46,8 +46,8 @@ JointEnd EndOf(const JointProblem& problem, const FamilyModel& model, RefineEnd 
 }  // namespace
 
 int KeyPointResiduals::size() const {
-  return static_cast<int>(std::count_if(value.begin(), value.end(),
-                                        [](double one) { return std::isfinite(one); }));
+  return static_cast<int>(
+      std::count_if(value.begin(), value.end(), [](double one) { return std::isfinite(one); }));
 }
 
 int JointCurve::residuals() const {

@@ -55,10 +55,10 @@ struct EnumTable<FamilyResiduals> {
 // conditions share (the lamp, the temperature sensor) does not count. Only their ratios weigh; the
 // residuals give the scale. Defaults: typical of indoor matrices by IEC 61853-1.
 struct KeyPointErrors {
-  double short_circuit_current = 0.004;
-  double open_circuit_voltage = 0.003;
-  double max_power_voltage = 0.006;  // the largest: power is flat there
-  double max_power = 0.003;
+  double short_circuit_current = 0.004;  // of Isc
+  double open_circuit_voltage = 0.003;   // of Voc
+  double max_power_voltage = 0.006;      // of Vmp; the largest: power is flat there
+  double max_power = 0.003;              // of Pmp
 };
 
 // Reads "isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%"; what is not named keeps its value. Errors: an

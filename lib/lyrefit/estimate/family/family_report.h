@@ -104,13 +104,13 @@ struct FamilyRmseTable {
 
 // Root mean squares of model / measured - 1 over the fitted curves of a joint fit of key points.
 struct KeyPointSummary {
-  KeyPointErrors errors;  // that weighed the residuals
-  double scale = 0;       // residual standard deviation in units of these errors
-  double short_circuit_current = kUnknown;
-  double open_circuit_voltage = kUnknown;
-  double max_power_current = kUnknown;
-  double max_power_voltage = kUnknown;
-  double max_power = kUnknown;
+  KeyPointErrors errors;                    // that weighed the residuals
+  double scale = 0;                         // residual standard deviation in units of these errors
+  double short_circuit_current = kUnknown;  // of Isc
+  double open_circuit_voltage = kUnknown;   // of Voc
+  double max_power_current = kUnknown;      // of Imp
+  double max_power_voltage = kUnknown;      // of Vmp
+  double max_power = kUnknown;              // of Pmp
   // Pmp at 1000 W/m2 and 25 C: measured, or of the model if no such condition was measured.
   double reference_power_W = kUnknown;
   double max_power_of_reference = kUnknown;           // rms error of Pmp as a part of that

@@ -1,0 +1,181 @@
+#include "lyrefit/estimate/family/two_junction_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/refine/intervals.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr IntervalRules kTwoJunctionRules = {
+    /*thorough=*/true, /*judge_open_ends=*/false, /*judge_absent_diodes=*/false,
+    "no shunt is visible: only a lower limit is known",
+    "the data do not fix it: another parameter takes its place"};
+constexpr int kRestarts = 3;
+
+RefineOptions ProfileOptions(const StopToken& stop) {
+  RefineOptions how;
+  how.small = true;
+  how.let_in = false;
+  how.max_rounds = 10;
+  how.max_iterations = how.first_iterations = 200;
+  how.stop = stop;
+  return how;
+}
+
+std::vector<Estimate> EstimatesOf(const TwoJunctionProblem& problem,
+                                  const std::vector<double>& searched, const RefineEnd& best) {
+  std::vector<Estimate> estimates;
+  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
+    Estimate e;
+    e.info = problem.parameters[i];
+    e.bounds.lower = problem.lower[i];
+    e.bounds.upper = problem.upper[i];
+    e.fixed = problem.lower[i] == problem.upper[i];
+    e.searched = searched[i];
+    e.refined = best.p[i];
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
+// The device has these limits by its nature; to reach one of them says something.
+bool IsNaturalEnd(const ParameterInfo& info, bool upper) {
+  if (info.kind == ParameterKind::kSeries || info.kind == ParameterKind::kPlain) return !upper;
+  return info.kind == ParameterKind::kPhotocurrent && !upper;
+}
+
+// Marks parameters that the data limit on one side only.
+void MarkOpenEnds(std::vector<Estimate>* estimates) {
+  for (Estimate& e : *estimates) {
+    if (!e.free() || !e.identifiable || e.interval == IntervalMethod::kNone) continue;
+    const bool low = e.low_95 <= e.bounds.lower && !IsNaturalEnd(e.info, /*upper=*/false);
+    const bool high = e.high_95 >= e.bounds.upper && !IsNaturalEnd(e.info, /*upper=*/true);
+    if (!low && !high) continue;
+    e.identifiable = false;
+    if (low && high) {
+      e.reason = "the data allow its whole range";
+    } else if (e.info.kind == ParameterKind::kPhotocurrent ||
+               e.info.kind == ParameterKind::kPlain) {
+      e.reason = "this junction does not limit the current, so only a lower limit is known";
+    } else {
+      e.reason = fmt::format("only {} limit is known: the data allow it to the end of its range",
+                             low ? "an upper" : "a lower");
+    }
+  }
+}
+
+IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
+                           const TwoJunctionOptions& options, const TwoJunctionEnd& end,
+                           const std::vector<double>& searched, const ProgressReporter& progress) {
+  const int degrees = prepared.readings - prepared.free_parameters;
+  const double variance = end.best.mean_square * prepared.readings / degrees;
+  IntervalProblem problem;
+  problem.estimates = EstimatesOf(prepared.problem, searched, end.best);
+  problem.active = end.best.active;
+  problem.rules = kTwoJunctionRules;
+  problem.threads = options.threads;
+  const bool none = options.intervals == Intervals::kNone;
+  const bool rounding =
+      std::sqrt(end.best.mean_square) < 1e-11 * prepared.problem.current_scale_A;
+  const bool symmetric = rounding || options.intervals == Intervals::kSymmetric;
+  problem.last = none        ? IntervalStep::kErrors
+                 : symmetric ? IntervalStep::kSymmetric
+                             : IntervalStep::kProfile;
+  problem.spread = FindSpread(model, end.best, end.best.active, variance);
+  problem.t.assign(problem.estimates.size(), StudentT95(degrees));
+  problem.variance = variance;
+  std::vector<FitPoint> others;
+  const double rise = problem.t[0] * problem.t[0] * variance / model.shape().points;
+  for (const FitPoint& other : end.other_optima) {
+    if (model.MeanSquare(other) < end.best.mean_square + rise) others.push_back(other);
+  }
+  problem.several_optima = !others.empty();
+  const StopToken stop = progress.stop();
+  problem.profile = [&, others, stop](ProfileQuery query) {
+    query.local_optima = others;
+    return FindProfileSide(model, end.best, query, ProfileOptions(stop));
+  };
+  return FindIntervals(std::move(problem), progress);
+}
+
+// Which junctions limit in at least one curve.
+std::vector<bool> Limiting(const TwoJunctionProblem& problem, const std::vector<double>& p) {
+  std::vector<bool> limits(2, false);
+  for (std::size_t c = 0; c < problem.curves.size(); ++c) {
+    const auto device = DeviceIn(problem, static_cast<int>(c), p.data());
+    limits[device[JunctionPhotocurrent(0)] <= device[JunctionPhotocurrent(1)] ? 0 : 1] = true;
+  }
+  return limits;
+}
+
+// 1 or 2: the junction whose name ends the parameter's symbol; 0: of both.
+int JunctionOf(const ParameterInfo& info) {
+  const std::string symbol = info.symbol.substr(0, info.symbol.find('['));
+  return symbol.back() == '1' ? 1 : symbol.back() == '2' ? 2 : 0;
+}
+
+std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::vector<double>& p,
+                                  const std::vector<Estimate>& estimates) {
+  std::string open[3];
+  for (const Estimate& e : estimates) {
+    if (e.identifiable) continue;
+    std::string& list = open[JunctionOf(e.info)];
+    list += (list.empty() ? "" : ", ") + e.info.symbol;
+  }
+  std::vector<std::string> sentences;
+  if (problem.ordered) {
+    sentences.push_back(
+        "which junction is the top one: a curve under a second spectrum, with the light of one "
+        "junction changed and the lights stated (--light CURVE=TOP:BOTTOM), decides");
+  }
+  const std::vector<bool> limits = Limiting(problem, p);
+  for (int j = 0; j < 2; ++j) {
+    if (open[j + 1].empty()) continue;
+    sentences.push_back(
+        limits[j] ? fmt::format("{}: curves under further spectra or at other lights (a tenth of "
+                                "the light, for the shunts) decide",
+                                open[j + 1])
+                  : fmt::format("{}: a curve under a spectrum with so little light for junction "
+                                "{} that it limits the current decides",
+                                open[j + 1], j + 1));
+  }
+  if (!open[0].empty()) {
+    sentences.push_back(
+        fmt::format("{}: curves at two lights of the same spectrum decide", open[0]));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+void JudgeTwoJunctions(const PreparedTwoJunctions& prepared, const TwoJunctionOptions& options,
+                       const std::vector<double>& searched, const ProgressReporter& progress,
+                       TwoJunctionEnd* end, TwoJunctionReport* report) {
+  const TwoJunctionModel model(prepared.problem);
+  for (int round = 0; round <= kRestarts; ++round) {
+    IntervalReport found = IntervalsAt(prepared, model, options, *end, searched, progress);
+    report->estimates = std::move(found.estimates);
+    report->correlations = std::move(found.correlations);
+    report->condition = found.condition;
+    if (found.better.empty() || round == kRestarts || progress.stop().requested()) break;
+    const auto lowest = std::min_element(
+        found.better.begin(), found.better.end(), [&](const auto& a, const auto& b) {
+          return model.MeanSquare({a, {}}) < model.MeanSquare({b, {}});
+        });
+    RefineOptions how;
+    how.stop = progress.stop();
+    RefineEnd lower = RefineModel(model, {*lowest, {}}, how);
+    if (!(lower.mean_square < end->best.mean_square)) break;
+    end->best = std::move(lower);
+  }
+  MarkOpenEnds(&report->estimates);
+  report->decided_by = Deciding(prepared.problem, end->best.p, report->estimates);
+}
+
+}  // namespace lyrefit

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kMostMisfit = 0.03;  // of Isc, as for one curve (fit/usable.h)
 constexpr double kSameEnd = 1e-9;     // relative difference of mean squares in one optimum
+constexpr double kNearBest = 1.5;     // mean square of an end that may lie inside the intervals
 constexpr std::size_t kMostOthers = 4;
 
 struct Descent : MultistartEnd {
@@ -88,19 +89,33 @@ void DescribeStarts(const Multistart<Descent>& run, TwoJunctionReport* report) {
   }
 }
 
-// Distinct ends of the finished starts besides the best one, the best first.
-std::vector<FitPoint> OtherOptima(const Multistart<Descent>& run) {
-  std::vector<const Descent*> finished;
+// The best end with the junctions in each other's place, refined.
+FitPoint Exchanged(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
+                   FitPoint best, const StopToken& stop) {
+  std::vector<double>& p = best.p;
+  for (int i = 1; i < JunctionPhotocurrent(1); ++i) std::swap(p[i], p[JunctionPhotocurrent(1) + i]);
+  if (prepared.problem.ordered) p[JunctionPhotocurrent(1)] = 0.01;
+  RefineOptions how;
+  how.stop = stop;
+  return RefineModel(model, std::move(best), how);
+}
+
+// Distinct ends of the other starts, the best first, and the exchanged junctions.
+std::vector<FitPoint> OtherOptima(const PreparedTwoJunctions& prepared,
+                                  const TwoJunctionModel& model, const Multistart<Descent>& run,
+                                  const StopToken& stop) {
+  std::vector<const Descent*> others;
   for (const Descent& descent : run.ends) {
-    if (descent.finished && !IsSameEnd(descent, run.Best())) finished.push_back(&descent);
+    const bool near = descent.value < kNearBest * run.Best().value;
+    if (near && !IsSameEnd(descent, run.Best())) others.push_back(&descent);
   }
-  std::stable_sort(finished.begin(), finished.end(),
+  std::stable_sort(others.begin(), others.end(),
                    [](const Descent* a, const Descent* b) { return a->value < b->value; });
-  std::vector<FitPoint> others;
-  for (const Descent* descent : finished) {
-    if (others.size() < kMostOthers) others.push_back(descent->end);
+  std::vector<FitPoint> points = {Exchanged(prepared, model, run.Best().end, stop)};
+  for (const Descent* descent : others) {
+    if (points.size() < kMostOthers) points.push_back(descent->end);
   }
-  return others;
+  return points;
 }
 
 void DescribeCurves(const CurveSet& set, const PreparedTwoJunctions& prepared,
@@ -177,7 +192,7 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
       Polish(model, StartsOf(prepared, report.search), options, progress);
   report.refine_seconds = SecondsSince(begin);
   DescribeStarts(run, &report);
-  TwoJunctionEnd end{run.Best().end, OtherOptima(run)};
+  TwoJunctionEnd end{run.Best().end, OtherOptima(prepared, model, run, progress.stop())};
   begin = Now();
   progress.Begin("intervals", 0);
   JudgeTwoJunctions(prepared, options, searched, progress, &end, &report);

@@ -70,6 +70,78 @@ void MarkOpenEnds(std::vector<Estimate>* estimates) {
   }
 }
 
+// Sum of both junctions' voltages under the reference light at open circuit.
+double OpenCircuit(const TwoJunctionProblem& problem, const std::vector<double>& p) {
+  return TwoJunctionVoltage(problem.thermal_voltage_V, ReferenceDevice(problem, p.data()).data(),
+                            0);
+}
+
+// The point with the saturation current of junction `j` moved so that the open-circuit voltage is
+// `voc_V`. Along the valley of a profile, one junction takes the voltage that the other one loses.
+FitPoint Compensated(const TwoJunctionModel& model, const TwoJunctionProblem& problem, int j,
+                     double voc_V, FitPoint at) {
+  const int i = JunctionSaturation(j);
+  const FitParameter& parameter = model.shape().parameters[i];
+  const double unit_V = problem.thermal_voltage_V * at.p[JunctionIdeality(j)];
+  for (int k = 0; k < 3; ++k) {
+    const double factor = std::exp((OpenCircuit(problem, at.p) - voc_V) / unit_V);
+    at.p[i] = std::min(std::max(at.p[i] * factor, parameter.lower), parameter.upper);
+  }
+  return at;
+}
+
+// The fit with one parameter fixed, from the best of several starts.
+RefineEnd RefitAt(const TwoJunctionProblem& problem, const ProfileQuery& query, double value,
+                  const FitPoint& start, const FitPoint& best, const RefineOptions& how) {
+  TwoJunctionModel model(problem);
+  model.Fix(query.parameter, value);
+  const double voc_V = OpenCircuit(problem, best.p);
+  FitPoint lowest;
+  double least = HUGE_VAL;
+  const auto consider = [&](FitPoint from) {
+    const double mean_square = model.MeanSquare(from);
+    if (!lowest.p.empty() && !(mean_square < least)) return;
+    least = mean_square;
+    lowest = std::move(from);
+  };
+  for (FitPoint from : {start, best}) {
+    from.p[query.parameter] = value;
+    consider(from);
+    for (int j = 0; j < 2; ++j) {
+      if (query.parameter != JunctionSaturation(j)) {
+        consider(Compensated(model, problem, j, voc_V, from));
+      }
+    }
+  }
+  return RefineModel(model, std::move(lowest), how);
+}
+
+ProfileSide ProfileOf(const TwoJunctionModel& model, const TwoJunctionProblem& problem,
+                      const RefineEnd& best, const ProfileQuery& query, const StopToken& stop) {
+  const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
+    RefineOptions how = ProfileOptions(stop);
+    how.target = target;
+    // Valleys are long and bent: steps along them are short.
+    how.function_tolerance = how.first_tolerance = 1e-2 * tolerance;
+    return RefitAt(problem, query, value, start, best, how);
+  };
+  return FindProfileSide(model, best, query, {refit, nullptr});
+}
+
+IntervalStep LastStepOf(const TwoJunctionOptions& options, const RefineEnd& best,
+                        double current_scale_A) {
+  const bool rounding = std::sqrt(best.mean_square) < 1e-11 * current_scale_A;
+  switch (options.intervals) {
+    case Intervals::kNone:
+      return IntervalStep::kErrors;
+    case Intervals::kSymmetric:
+      return IntervalStep::kSymmetric;
+    case Intervals::kProfile:
+      break;
+  }
+  return rounding ? IntervalStep::kSymmetric : IntervalStep::kProfile;
+}
+
 IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
                            const TwoJunctionOptions& options, const TwoJunctionEnd& end,
                            const std::vector<double>& searched, const ProgressReporter& progress) {
@@ -80,13 +152,7 @@ IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJuncti
   problem.active = end.best.active;
   problem.rules = kTwoJunctionRules;
   problem.threads = options.threads;
-  const bool none = options.intervals == Intervals::kNone;
-  const bool rounding =
-      std::sqrt(end.best.mean_square) < 1e-11 * prepared.problem.current_scale_A;
-  const bool symmetric = rounding || options.intervals == Intervals::kSymmetric;
-  problem.last = none        ? IntervalStep::kErrors
-                 : symmetric ? IntervalStep::kSymmetric
-                             : IntervalStep::kProfile;
+  problem.last = LastStepOf(options, end.best, prepared.problem.current_scale_A);
   problem.spread = FindSpread(model, end.best, end.best.active, variance);
   problem.t.assign(problem.estimates.size(), StudentT95(degrees));
   problem.variance = variance;
@@ -95,11 +161,13 @@ IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJuncti
   for (const FitPoint& other : end.other_optima) {
     if (model.MeanSquare(other) < end.best.mean_square + rise) others.push_back(other);
   }
-  problem.several_optima = !others.empty();
+  // The share of each junction in the voltage is known through the shunts alone, if at all. That
+  // bends the valley of all parameters, so that no symmetric interval holds: profile all.
+  problem.several_optima = true;
   const StopToken stop = progress.stop();
   problem.profile = [&, others, stop](ProfileQuery query) {
     query.local_optima = others;
-    return FindProfileSide(model, end.best, query, ProfileOptions(stop));
+    return ProfileOf(model, prepared.problem, end.best, query, stop);
   };
   return FindIntervals(std::move(problem), progress);
 }
@@ -120,14 +188,28 @@ int JunctionOf(const ParameterInfo& info) {
   return symbol.back() == '1' ? 1 : symbol.back() == '2' ? 2 : 0;
 }
 
-std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::vector<double>& p,
-                                  const std::vector<Estimate>& estimates) {
-  std::string open[3];
+// Symbols of parameters that are not identifiable, by the measurement that decides them.
+struct OpenParameters {
+  std::string saturation;  // of both junctions
+  std::string junction[2];
+  std::string common;
+};
+
+OpenParameters OpenOf(const std::vector<Estimate>& estimates) {
+  OpenParameters open;
   for (const Estimate& e : estimates) {
     if (e.identifiable) continue;
-    std::string& list = open[JunctionOf(e.info)];
+    const int j = JunctionOf(e.info);
+    const bool saturation = e.info.kind == ParameterKind::kSaturation;
+    std::string& list = saturation ? open.saturation : j > 0 ? open.junction[j - 1] : open.common;
     list += (list.empty() ? "" : ", ") + e.info.symbol;
   }
+  return open;
+}
+
+std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::vector<double>& p,
+                                  const std::vector<Estimate>& estimates) {
+  const OpenParameters open = OpenOf(estimates);
   std::vector<std::string> sentences;
   if (problem.ordered) {
     sentences.push_back(
@@ -136,18 +218,24 @@ std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::
   }
   const std::vector<bool> limits = Limiting(problem, p);
   for (int j = 0; j < 2; ++j) {
-    if (open[j + 1].empty()) continue;
+    if (open.junction[j].empty()) continue;
     sentences.push_back(
-        limits[j] ? fmt::format("{}: curves under further spectra or at other lights (a tenth of "
-                                "the light, for the shunts) decide",
-                                open[j + 1])
+        limits[j] ? fmt::format("{}: curves under further spectra, or with less noise, decide",
+                                open.junction[j])
                   : fmt::format("{}: a curve under a spectrum with so little light for junction "
                                 "{} that it limits the current decides",
-                                open[j + 1], j + 1));
+                                open.junction[j], j + 1));
   }
-  if (!open[0].empty()) {
+  if (!open.saturation.empty()) {
+    sentences.push_back(fmt::format(
+        "{}: without shunts only n1 ln Is1 + n2 ln Is2 shows, the open-circuit voltage of both; a "
+        "curve with light for one junction alone (--light CURVE=1:0), whose open-circuit voltage "
+        "is that junction's, decides",
+        open.saturation));
+  }
+  if (!open.common.empty()) {
     sentences.push_back(
-        fmt::format("{}: curves at two lights of the same spectrum decide", open[0]));
+        fmt::format("{}: curves at two lights of the same spectrum decide", open.common));
   }
   return sentences;
 }

@@ -34,8 +34,12 @@ Expected<StatedLight> LightOf(const IvCurve& curve, const TwoJunctionOptions& op
   const auto stated = options.lights.find(curve.name);
   if (stated != options.lights.end()) light = stated->second;
   for (const double share : {light.top, light.bottom}) {
-    if (std::isnan(share) || (share > 0 && std::isfinite(share))) continue;
-    return Fail(fmt::format("curve {}: expected a light above 0, found {:g}", curve.name, share));
+    if (std::isnan(share) || (share >= 0 && std::isfinite(share))) continue;
+    return Fail(
+        fmt::format("curve {}: expected a light of at least 0, found {:g}", curve.name, share));
+  }
+  if (light.top == 0 && light.bottom == 0) {
+    return Fail("curve " + curve.name + ": at least one junction must be lit");
   }
   return light;
 }
@@ -96,7 +100,7 @@ bool AreInterchangeable(const std::vector<StatedLight>& lights) {
   for (const StatedLight& light : lights) {
     if (std::isnan(light.top) && std::isnan(light.bottom)) continue;
     const double own = light.bottom / light.top;
-    if (std::isnan(own) || (!std::isnan(ratio) && !Same(own, ratio))) return false;
+    if (!std::isfinite(own) || (!std::isnan(ratio) && !Same(own, ratio))) return false;
     ratio = own;
   }
   return true;
@@ -113,7 +117,7 @@ double FullCurrent(const PreparedTwoJunctions& prepared, int j) {
   double largest = 0;
   for (std::size_t c = 0; c < prepared.light.size(); ++c) {
     const double share = j == 0 ? prepared.light[c].top : prepared.light[c].bottom;
-    if (!std::isnan(share)) largest = std::max(largest, prepared.isc_A[c] / share);
+    if (share > 0) largest = std::max(largest, prepared.isc_A[c] / share);
   }
   return largest;
 }

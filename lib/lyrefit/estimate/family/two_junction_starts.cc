@@ -26,7 +26,7 @@ double LeastPhotocurrent(const PreparedTwoJunctions& prepared, int photocurrent)
   double least = 0;
   for (std::size_t c = 0; c < prepared.isc_A.size(); ++c) {
     for (const JunctionLight& light : prepared.problem.curves[c].light) {
-      if (light.photocurrent == photocurrent) {
+      if (light.photocurrent == photocurrent && light.share > 0) {
         least = std::max(least, prepared.isc_A[c] / light.share);
       }
     }
@@ -51,6 +51,7 @@ double CurrentMisfit(const PreparedTwoJunctions& prepared, const std::array<doub
       open = open || !shared;
       if (shared) lower = std::min(lower, light.share * full[j]);
     }
+    if (lower == 0) continue;  // the shunt of a dark junction carries all
     const double miss = lower / prepared.isc_A[c] - 1;
     if (std::isfinite(miss) && !(open && miss > 0)) sum += miss * miss;
   }

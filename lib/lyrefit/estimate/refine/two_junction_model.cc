@@ -46,6 +46,16 @@ std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& pr
   return device;
 }
 
+std::array<double, kTwoJunctionParameters> ReferenceDevice(const TwoJunctionProblem& problem,
+                                                           const double* p) {
+  std::array<double, kTwoJunctionParameters> device{};
+  std::copy_n(p, kTwoJunctionParameters, device.begin());
+  for (int j = 0; j < 2; ++j) {
+    device[JunctionPhotocurrent(j)] = PhotocurrentAt(problem, JunctionPhotocurrent(j), p);
+  }
+  return device;
+}
+
 TwoJunctionModel::TwoJunctionModel(const TwoJunctionProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {}
 

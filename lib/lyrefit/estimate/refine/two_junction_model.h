@@ -42,6 +42,10 @@ struct TwoJunctionProblem {
 std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& problem, int curve,
                                                     const double* p);
 
+// Parameters of the device under the reference light.
+std::array<double, kTwoJunctionParameters> ReferenceDevice(const TwoJunctionProblem& problem,
+                                                           const double* p);
+
 // The problem as a model: one block for each curve, solved-current residuals, no local unknowns.
 class TwoJunctionModel : public FitModel {
  public:

@@ -136,14 +136,17 @@ std::vector<ParameterInfo> TwoJunctionInfos() {
 }
 
 double TwoJunctionCurrent(double thermal_voltage_V, const double* p, double voltage_V,
-                          double* slopes) {
+                          double* slopes, double start_A) {
   constexpr int kMostSteps = 200;
   const double series = p[kTwoJunctionSeries];
   TwoPoints at = JunctionsOf(thermal_voltage_V, p);
   const double scale = std::max(at.junction[0].photocurrent, at.junction[1].photocurrent) +
                        kSmallestSaturation_A;
-  // The lower photocurrent: near the root where it limits, and beyond the knee where it does not.
-  double current = std::min(at.junction[0].photocurrent, at.junction[1].photocurrent);
+  // Without a start the lower photocurrent: near the root where it limits, and at the right of it
+  // beyond the knee.
+  double current = std::isfinite(start_A)
+                       ? start_A
+                       : std::min(at.junction[0].photocurrent, at.junction[1].photocurrent);
   for (int k = 0; k < kMostSteps; ++k) {
     Settle(current, series, &at);
     const double step = (at.Voltage(current, series) - voltage_V) / at.resistance;

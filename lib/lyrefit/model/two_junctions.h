@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/parameter.h"
 #include "lyrefit/read/key_points.h"
@@ -29,9 +30,10 @@ std::vector<ParameterInfo> TwoJunctionInfos();
 
 // Current in ampere at terminal voltage `voltage_V`; `thermal_voltage_V` is kT/q. `slopes`, if not
 // null, receives the derivatives by the parameters, which follow from the implicit equations. Every
-// junction keeps a conductance of 1e-13 of its photocurrent per volt.
+// junction keeps a conductance of 1e-13 of its photocurrent per volt. A start near the root, such as
+// the current of a neighbouring reading, saves time; NaN: none.
 double TwoJunctionCurrent(double thermal_voltage_V, const double* p, double voltage_V,
-                          double* slopes = nullptr);
+                          double* slopes = nullptr, double start_A = kUnknown);
 
 // Terminal voltage in volt at a current.
 double TwoJunctionVoltage(double thermal_voltage_V, const double* p, double current_A);

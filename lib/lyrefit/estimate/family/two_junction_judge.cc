@@ -17,6 +17,7 @@ constexpr IntervalRules kTwoJunctionRules = {
     "no shunt is visible: only a lower limit is known",
     "the data do not fix it: another parameter takes its place"};
 constexpr int kRestarts = 3;
+constexpr double kFarOutside = 9;  // rise at which a refit is given up, of that at the end
 
 RefineOptions ProfileOptions(const StopToken& stop) {
   RefineOptions how;
@@ -56,9 +57,12 @@ void MarkOpenEnds(std::vector<Estimate>* estimates) {
     if (!e.free() || !e.identifiable || e.interval == IntervalMethod::kNone) continue;
     const bool low = e.low_95 <= e.bounds.lower && !IsNaturalEnd(e.info, /*upper=*/false);
     const bool high = e.high_95 >= e.bounds.upper && !IsNaturalEnd(e.info, /*upper=*/true);
-    if (!low && !high) continue;
+    const bool unsettled = e.interval == IntervalMethod::kUnsettled;
+    if (!low && !high && !unsettled) continue;
     e.identifiable = false;
-    if (low && high) {
+    if (unsettled) {
+      e.reason = "an end of its interval was not found";
+    } else if (low && high) {
       e.reason = "the data allow its whole range";
     } else if (e.info.kind == ParameterKind::kPhotocurrent ||
                e.info.kind == ParameterKind::kPlain) {
@@ -90,42 +94,61 @@ FitPoint Compensated(const TwoJunctionModel& model, const TwoJunctionProblem& pr
   return at;
 }
 
-// The fit with one parameter fixed, from the best of several starts.
-RefineEnd RefitAt(const TwoJunctionProblem& problem, const ProfileQuery& query, double value,
-                  const FitPoint& start, const FitPoint& best, const RefineOptions& how) {
-  TwoJunctionModel model(problem);
-  model.Fix(query.parameter, value);
-  const double voc_V = OpenCircuit(problem, best.p);
-  FitPoint lowest;
-  double least = HUGE_VAL;
-  const auto consider = [&](FitPoint from) {
-    const double mean_square = model.MeanSquare(from);
-    if (!lowest.p.empty() && !(mean_square < least)) return;
+// What the profiles of one fit share.
+struct ProfileContext {
+  const TwoJunctionModel& model;
+  const TwoJunctionProblem& problem;
+  const RefineEnd& best;
+  std::vector<FitPoint> others;  // other optima inside the intervals
+  double highest = 0;            // mean square at the ends of the intervals
+  StopToken stop;
+};
+
+// The start with the parameter of a query fixed at `value`, as it is or with the open-circuit
+// voltage of the best fit, whichever fits better.
+FitPoint StartAt(const ProfileContext& context, const TwoJunctionModel& model, int parameter,
+                 double value, FitPoint from) {
+  const double voc_V = OpenCircuit(context.problem, context.best.p);
+  from.p[parameter] = value;
+  FitPoint lowest = from;
+  double least = model.MeanSquare(from);
+  for (int j = 0; j < 2; ++j) {
+    if (parameter == JunctionSaturation(j)) continue;
+    FitPoint moved = Compensated(model, context.problem, j, voc_V, from);
+    const double mean_square = model.MeanSquare(moved);
+    if (!(mean_square < least)) continue;
     least = mean_square;
-    lowest = std::move(from);
-  };
-  for (FitPoint from : {start, best}) {
-    from.p[query.parameter] = value;
-    consider(from);
-    for (int j = 0; j < 2; ++j) {
-      if (query.parameter != JunctionSaturation(j)) {
-        consider(Compensated(model, problem, j, voc_V, from));
-      }
-    }
+    lowest = std::move(moved);
   }
-  return RefineModel(model, std::move(lowest), how);
+  return lowest;
 }
 
-ProfileSide ProfileOf(const TwoJunctionModel& model, const TwoJunctionProblem& problem,
-                      const RefineEnd& best, const ProfileQuery& query, const StopToken& stop) {
+// The fit with one parameter fixed. Where the junctions are interchangeable, a refit that ends
+// outside the interval may have stopped in a bend of the valley: it is tried again from the best
+// optimum.
+RefineEnd RefitAt(const ProfileContext& context, int parameter, double value,
+                  const FitPoint& start, const RefineOptions& how) {
+  TwoJunctionModel model(context.problem);
+  model.Fix(parameter, value);
+  RefineEnd end = RefineModel(model, StartAt(context, model, parameter, value, start), how);
+  const bool inside = end.mean_square <= context.highest;
+  if (inside || end.stopped || !context.problem.ordered) return end;
+  RefineEnd again = RefineModel(model, StartAt(context, model, parameter, value, context.best), how);
+  return again.mean_square < end.mean_square ? again : end;
+}
+
+ProfileSide ProfileOf(const ProfileContext& context, ProfileQuery query) {
+  query.local_optima = context.others;
   const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
-    RefineOptions how = ProfileOptions(stop);
+    RefineOptions how = ProfileOptions(context.stop);
     how.target = target;
+    how.cutoff = context.best.mean_square +
+                 kFarOutside * (context.highest - context.best.mean_square);
     // Valleys are long and bent: steps along them are short.
     how.function_tolerance = how.first_tolerance = 1e-2 * tolerance;
-    return RefitAt(problem, query, value, start, best, how);
+    return RefitAt(context, query.parameter, value, start, how);
   };
-  return FindProfileSide(model, best, query, {refit, nullptr});
+  return FindProfileSide(context.model, context.best, query, {refit, nullptr});
 }
 
 IntervalStep LastStepOf(const TwoJunctionOptions& options, const RefineEnd& best,
@@ -156,19 +179,16 @@ IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJuncti
   problem.spread = FindSpread(model, end.best, end.best.active, variance);
   problem.t.assign(problem.estimates.size(), StudentT95(degrees));
   problem.variance = variance;
-  std::vector<FitPoint> others;
+  ProfileContext context{model, prepared.problem, end.best, {}, 0, progress.stop()};
   const double rise = problem.t[0] * problem.t[0] * variance / model.shape().points;
+  context.highest = end.best.mean_square + rise;
   for (const FitPoint& other : end.other_optima) {
-    if (model.MeanSquare(other) < end.best.mean_square + rise) others.push_back(other);
+    if (model.MeanSquare(other) < context.highest) context.others.push_back(other);
   }
   // The share of each junction in the voltage is known through the shunts alone, if at all. That
   // bends the valley of all parameters, so that no symmetric interval holds: profile all.
   problem.several_optima = true;
-  const StopToken stop = progress.stop();
-  problem.profile = [&, others, stop](ProfileQuery query) {
-    query.local_optima = others;
-    return ProfileOf(model, prepared.problem, end.best, query, stop);
-  };
+  problem.profile = [&context](const ProfileQuery& query) { return ProfileOf(context, query); };
   return FindIntervals(std::move(problem), progress);
 }
 

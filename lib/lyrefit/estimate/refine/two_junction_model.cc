@@ -68,10 +68,12 @@ bool TwoJunctionModel::Evaluate(int block, const double* p, const double* /*loca
   const int points = static_cast<int>(curve.voltage_V.size());
   if (slopes != nullptr) std::fill_n(slopes, points * size, 0.0);
   double by_device[kTwoJunctionParameters];
+  double start = kUnknown;
   for (int k = 0; k < points; ++k) {
     const double current =
         TwoJunctionCurrent(problem_.thermal_voltage_V, device.data(), curve.voltage_V[k],
-                           slopes != nullptr ? by_device : nullptr);
+                           slopes != nullptr ? by_device : nullptr, start);
+    start = current;
     if (!std::isfinite(current)) return false;
     residuals[k] = current - curve.current_A[k];
     if (slopes == nullptr) continue;

@@ -18,10 +18,10 @@ namespace lyrefit {
 namespace {
 
 // Flags of a fit that two junctions do not have.
-constexpr const char* kNotOfTwo[] = {
-    "--model",      "--with",   "--family", "--objective", "--bounds", "--floor", "--noise",
-    "--loss",       "--starts", "--no-polish", "--csv",    "--pvlib",  "--pan",   "--leave-out",
-    "--loss-scale", "--kernel"};
+constexpr const char* kNotOfTwo[] = {"--model",  "--with",      "--family",     "--objective",
+                                     "--bounds", "--floor",     "--noise",      "--loss",
+                                     "--starts", "--no-polish", "--csv",        "--pvlib",
+                                     "--pan",    "--leave-out", "--loss-scale", "--kernel"};
 
 // The curves of all files in one set.
 Expected<CurveSet> ReadAll(const std::vector<std::string>& files, const CurveFlags& flagged) {
@@ -61,9 +61,8 @@ Expected<void> WriteJunctions(const VerbLine& verb, const TwoJunctionReport& rep
   }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(TwoJunctionDocument(report), TwoJunctionJson(report)); }));
-  return WriteText(verb, [&] {
-    return output.brief ? BriefTwoJunctions(report) : TwoJunctionText(report);
-  });
+  return WriteText(
+      verb, [&] { return output.brief ? BriefTwoJunctions(report) : TwoJunctionText(report); });
 }
 
 }  // namespace

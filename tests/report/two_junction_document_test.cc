@@ -44,8 +44,8 @@ TEST(TwoJunctionDocument, NamesParametersLightsAndObjective) {
   report.decided_by = {"Rsh1: a red spectrum decides"};
   const std::string text = TwoJunctionText(report);
   for (const char* part :
-       {"two junctions in series behind tandem", "solved-current *", "Rsh1 is not identifiable: only",
-        "a red spectrum decides", "1 is the top one"}) {
+       {"two junctions in series behind tandem", "solved-current *",
+        "Rsh1 is not identifiable: only", "a red spectrum decides", "1 is the top one"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(BriefTwoJunctions(report), HasSubstr("not identifiable: Rsh1"));

@@ -87,9 +87,9 @@ FittedTandem FitOne(const JunctionsOptions& options, int s) {
     p[JunctionPhotocurrent(0)] *= tandem.light[c].top;
     p[JunctionPhotocurrent(1)] *= tandem.light[c].bottom;
     for (std::size_t k = 0; k < curve.size(); ++k) {
-      const double miss = TwoJunctionCurrent(ThermalVoltage(kTandemTemperature_K), p.data(),
-                                             curve.voltage_V[k]) -
-                          curve.current_A[k];
+      const double miss =
+          TwoJunctionCurrent(ThermalVoltage(kTandemTemperature_K), p.data(), curve.voltage_V[k]) -
+          curve.current_A[k];
       sum += miss * miss;
       count += 1;
     }
@@ -210,8 +210,8 @@ JunctionsReport CountJunctions(const JunctionsOptions& options, const Observer& 
 std::string JunctionsText(const JunctionsOptions& options, const JunctionsReport& report) {
   Document document;
   Section& head = document.head;
-  head.heading = fmt::format("coverage of the 95 % intervals of two junctions, {} tandems",
-                             report.sets);
+  head.heading =
+      fmt::format("coverage of the 95 % intervals of two junctions, {} tandems", report.sets);
   AddField("curves",
            fmt::format("{} of {} points each, noise {:g} of Isc, seed {}", ToText(options.spectra),
                        options.points, options.noise_relative, options.seed),

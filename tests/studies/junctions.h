@@ -24,9 +24,10 @@ enum class Spectra {
 
 template <>
 struct EnumTable<Spectra> {
-  static constexpr EnumText<Spectra> kRows[] = {
-      {Spectra::kOne, "one"}, {Spectra::kThree, "three"}, {Spectra::kBias, "bias"},
-      {Spectra::kUnknown, "unknown"}};
+  static constexpr EnumText<Spectra> kRows[] = {{Spectra::kOne, "one"},
+                                                {Spectra::kThree, "three"},
+                                                {Spectra::kBias, "bias"},
+                                                {Spectra::kUnknown, "unknown"}};
 };
 
 // The tandems that are simulated and fitted.
@@ -52,7 +53,7 @@ inline constexpr OptionRow<JunctionsOptions> kJunctionsOptionTable[] = {
 
 // A tandem and its simulated curves.
 struct SimulatedTandem {
-  std::vector<double> truth;  // order of TwoJunctionInfos, under the reference spectrum
+  std::vector<double> truth;       // order of TwoJunctionInfos, under the reference spectrum
   std::vector<StatedLight> light;  // of each curve
   CurveSet set;
 };
@@ -67,8 +68,8 @@ double TruthOf(const SimulatedTandem& tandem, const TwoJunctionReport& report,
 struct JunctionsReport {
   std::vector<ParameterCoverage> parameters;
   int sets = 0;
-  int failed = 0;      // without a usable fit
-  int above = 0;       // fits whose RMSE is above that of the true parameters
+  int failed = 0;  // without a usable fit
+  int above = 0;   // fits whose RMSE is above that of the true parameters
   double seconds = 0;
 };
 

@@ -25,8 +25,7 @@ Junction JunctionOf(double thermal_voltage_V, const double* p, int j) {
   Junction junction{};
   junction.photocurrent = p[JunctionPhotocurrent(j)];
   junction.saturation = std::max(p[JunctionSaturation(j)], kSmallestSaturation_A);
-  junction.per_volt =
-      1 / (std::max(p[JunctionIdeality(j)], kSmallestIdeality) * thermal_voltage_V);
+  junction.per_volt = 1 / (std::max(p[JunctionIdeality(j)], kSmallestIdeality) * thermal_voltage_V);
   const double least = kLeastConductancePerVolt * (std::fabs(junction.photocurrent) + 1e-6);
   junction.conductance = std::max(1 / p[JunctionShunt(j)], least);
   return junction;
@@ -101,10 +100,8 @@ void FillSlopes(const double* p, double current, const TwoPoints& at, double* sl
     const double weight = 1 / (point.fall * at.resistance);
     slopes[JunctionPhotocurrent(j)] = weight;
     slopes[JunctionSaturation(j)] = weight * diode.v[0];
-    slopes[JunctionIdeality(j)] =
-        -weight * diode.v[1] * junction.per_volt / p[JunctionIdeality(j)];
-    slopes[JunctionShunt(j)] =
-        weight * point.voltage / (p[JunctionShunt(j)] * p[JunctionShunt(j)]);
+    slopes[JunctionIdeality(j)] = -weight * diode.v[1] * junction.per_volt / p[JunctionIdeality(j)];
+    slopes[JunctionShunt(j)] = weight * point.voltage / (p[JunctionShunt(j)] * p[JunctionShunt(j)]);
   }
   slopes[kTwoJunctionSeries] = -current / at.resistance;
 }
@@ -140,8 +137,8 @@ double TwoJunctionCurrent(double thermal_voltage_V, const double* p, double volt
   constexpr int kMostSteps = 200;
   const double series = p[kTwoJunctionSeries];
   TwoPoints at = JunctionsOf(thermal_voltage_V, p);
-  const double scale = std::max(at.junction[0].photocurrent, at.junction[1].photocurrent) +
-                       kSmallestSaturation_A;
+  const double scale =
+      std::max(at.junction[0].photocurrent, at.junction[1].photocurrent) + kSmallestSaturation_A;
   // Without a start the lower photocurrent: near the root where it limits, and at the right of it
   // beyond the knee.
   double current = std::isfinite(start_A)

@@ -17,7 +17,8 @@ void to_json(Json& j, const TwoJunctionCurveReport& one) {
   for (std::size_t i = 0; i < infos.size(); ++i) parameters[infos[i].name] = one.parameters[i];
   std::vector<double> residual_A(one.model_A.size());
   std::transform(one.model_A.begin(), one.model_A.end(), one.curve.current_A.begin(),
-                 residual_A.begin(), [](double model, double measured) { return model - measured; });
+                 residual_A.begin(),
+                 [](double model, double measured) { return model - measured; });
   j = {{"id", one.curve.name},
        {"curve", one.curve},
        {"light", one.light},

@@ -20,8 +20,8 @@ std::string ShareText(double share) {
 }
 
 Section TwoJunctionHead(const TwoJunctionReport& report) {
-  Section head = {fmt::format("lyrefit {}: two junctions in series behind {}", report.version,
-                              report.name)};
+  Section head = {
+      fmt::format("lyrefit {}: two junctions in series behind {}", report.version, report.name)};
   AddField("set",
            fmt::format("{}, {:.6g} C", Plural(report.curves.size(), "curve"),
                        report.temperature_K - kZeroCelsius_K),
@@ -45,9 +45,8 @@ Section TwoJunctionParameters(const TwoJunctionReport& report) {
                         {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
   for (const Estimate& e : report.estimates) {
     table.rows.push_back({LabelWithUnit(e.info), Significant(e.searched, kJunctionSearchedDigits),
-                          Significant(e.refined, kJunctionDigits),
-                          Significant(e.standard_error, 2), Range(e.low_95, e.high_95),
-                          EstimateMarks(e)});
+                          Significant(e.refined, kJunctionDigits), Significant(e.standard_error, 2),
+                          Range(e.low_95, e.high_95), EstimateMarks(e)});
   }
   AddTable(std::move(table), &section);
   AddUnidentifiable(report.estimates, &section);
@@ -94,8 +93,7 @@ Section HowSection(const TwoJunctionReport& report) {
                        Duration(report.refine_seconds),
                        report.converged ? "converged" : "no convergence", agreeing,
                        Plural(report.starts.size(), "start"),
-                       Significant(report.projected_gradient, 2),
-                       Significant(report.condition, 2)),
+                       Significant(report.projected_gradient, 2), Significant(report.condition, 2)),
            &section);
   AddField("intervals", Duration(report.interval_seconds), &section);
   AddField("options", OptionsText(report.non_default_options), &section);
@@ -107,9 +105,9 @@ std::string TwoJunctionVerdict(const TwoJunctionReport& report) {
   for (const Estimate& e : report.estimates) {
     if (!e.identifiable) open += (open.empty() ? "" : ", ") + e.info.symbol;
   }
-  return fmt::format("RMSE {} A (solved-current); {}", Scientific(report.refined_rmse_A, 4),
-                     open.empty() ? "every parameter is identifiable"
-                                  : "not identifiable: " + open);
+  return fmt::format(
+      "RMSE {} A (solved-current); {}", Scientific(report.refined_rmse_A, 4),
+      open.empty() ? "every parameter is identifiable" : "not identifiable: " + open);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 TwoJunctionProblem TandemProblem(bool ordered) {
   TwoJunctionProblem problem;
   problem.parameters = TwoJunctionInfos();
-  problem.parameters.push_back({"Iph2[red]", "photocurrent_2[red]", "A", "",
-                                ParameterKind::kPhotocurrent});
+  problem.parameters.push_back(
+      {"Iph2[red]", "photocurrent_2[red]", "A", "", ParameterKind::kPhotocurrent});
   problem.lower.assign(10, 1e-30);
   problem.upper.assign(10, 1e9);
   problem.thermal_voltage_V = ThermalVoltage(298.15);
@@ -32,12 +32,12 @@ TEST(TwoJunctionModel, SlopesAreCentralDifferences) {
   for (const bool ordered : {false, true}) {
     const TwoJunctionProblem problem = TandemProblem(ordered);
     const TwoJunctionModel model(problem);
-    std::vector<double> p = {0.0195, 1e-14, 1.4, 3000, ordered ? 0.05 : 0.0202,
+    std::vector<double> p = {0.0195, 1e-14, 1.4,  3000, ordered ? 0.05 : 0.0202,
                              3e-10,  1.2,   1500, 2.0,  0.021};
     for (int block = 0; block < 2; ++block) {
       std::vector<double> residuals(4), slopes(40), above(4), below(4);
-      ASSERT_TRUE(model.Evaluate(block, p.data(), nullptr, residuals.data(), slopes.data(),
-                                 nullptr));
+      ASSERT_TRUE(
+          model.Evaluate(block, p.data(), nullptr, residuals.data(), slopes.data(), nullptr));
       for (int i = 0; i < 10; ++i) {
         const double at = p[i], step = 1e-5 * at;
         p[i] = at + step;

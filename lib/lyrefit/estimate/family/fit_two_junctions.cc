@@ -130,8 +130,8 @@ void DescribeCurves(const CurveSet& set, const PreparedTwoJunctions& prepared,
     one.limiting = device[JunctionPhotocurrent(0)] <= device[JunctionPhotocurrent(1)] ? 1 : 2;
     double sum = 0;
     for (std::size_t k = 0; k < one.curve.size(); ++k) {
-      one.model_A.push_back(TwoJunctionCurrent(problem.thermal_voltage_V, device.data(),
-                                               one.curve.voltage_V[k]));
+      one.model_A.push_back(
+          TwoJunctionCurrent(problem.thermal_voltage_V, device.data(), one.curve.voltage_V[k]));
       const double residual = one.model_A.back() - one.curve.current_A[k];
       sum += residual * residual;
     }

@@ -81,7 +81,7 @@ double OpenCircuit(const TwoJunctionProblem& problem, const std::vector<double>&
 }
 
 // The point with the saturation current of junction `j` moved so that the open-circuit voltage is
-// `voc_V`. Along the valley of a profile, one junction takes the voltage that the other one loses.
+// `voc_V`. Along a profile, one junction takes the voltage that the other one loses.
 FitPoint Compensated(const TwoJunctionModel& model, const TwoJunctionProblem& problem, int j,
                      double voc_V, FitPoint at) {
   const int i = JunctionSaturation(j);
@@ -124,16 +124,17 @@ FitPoint StartAt(const ProfileContext& context, const TwoJunctionModel& model, i
 }
 
 // The fit with one parameter fixed. Where the junctions are interchangeable, a refit that ends
-// outside the interval may have stopped in a bend of the valley: it is tried again from the best
+// outside the interval may have stopped in a bend of that way: it is tried again from the best
 // optimum.
-RefineEnd RefitAt(const ProfileContext& context, int parameter, double value,
-                  const FitPoint& start, const RefineOptions& how) {
+RefineEnd RefitAt(const ProfileContext& context, int parameter, double value, const FitPoint& start,
+                  const RefineOptions& how) {
   TwoJunctionModel model(context.problem);
   model.Fix(parameter, value);
   RefineEnd end = RefineModel(model, StartAt(context, model, parameter, value, start), how);
   const bool inside = end.mean_square <= context.highest;
   if (inside || end.stopped || !context.problem.ordered) return end;
-  RefineEnd again = RefineModel(model, StartAt(context, model, parameter, value, context.best), how);
+  RefineEnd again =
+      RefineModel(model, StartAt(context, model, parameter, value, context.best), how);
   return again.mean_square < end.mean_square ? again : end;
 }
 
@@ -142,9 +143,9 @@ ProfileSide ProfileOf(const ProfileContext& context, ProfileQuery query) {
   const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
     RefineOptions how = ProfileOptions(context.stop);
     how.target = target;
-    how.cutoff = context.best.mean_square +
-                 kFarOutside * (context.highest - context.best.mean_square);
-    // Valleys are long and bent: steps along them are short.
+    how.cutoff =
+        context.best.mean_square + kFarOutside * (context.highest - context.best.mean_square);
+    // The way along which the sum of squares stays low is long and bent: steps are short.
     how.function_tolerance = how.first_tolerance = 1e-2 * tolerance;
     return RefitAt(context, query.parameter, value, start, how);
   };
@@ -185,8 +186,8 @@ IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJuncti
   for (const FitPoint& other : end.other_optima) {
     if (model.MeanSquare(other) < context.highest) context.others.push_back(other);
   }
-  // The share of each junction in the voltage is known through the shunts alone, if at all. That
-  // bends the valley of all parameters, so that no symmetric interval holds: profile all.
+  // The share of each junction in the voltage is known through the shunts alone, if at all. All
+  // parameters depend on it, and not linearly: no symmetric interval holds, so profile all.
   problem.several_optima = true;
   problem.profile = [&context](const ProfileQuery& query) { return ProfileOf(context, query); };
   return FindIntervals(std::move(problem), progress);

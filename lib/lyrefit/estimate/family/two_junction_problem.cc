@@ -21,9 +21,9 @@ constexpr double kLeastSaturation = 1e-80;  // of the largest current
 constexpr double kMostSaturation = 0.1;     // of the largest current
 constexpr double kMostPhotocurrent = 3;     // of the largest short-circuit current at full light
 constexpr double kMostExcess = 2;
-constexpr double kMostSeries = 0.5;    // of Voc / Isc
-constexpr double kLeastShunt = 0.05;   // of Voc / Isc
-constexpr double kNear = 1e-12;        // relative difference of equal lights
+constexpr double kMostSeries = 0.5;   // of Voc / Isc
+constexpr double kLeastShunt = 0.05;  // of Voc / Isc
+constexpr double kNear = 1e-12;       // relative difference of equal lights
 
 bool Same(double a, double b) { return std::fabs(a - b) <= kNear * std::fabs(a); }
 
@@ -51,10 +51,10 @@ Expected<void> CheckCurves(const CurveSet& set, const TwoJunctionOptions& option
     TRY(Validate(curve));
     const double kelvin = curve.conditions.cell_temperature_K;
     if (std::fabs(kelvin - first_K) > kMostKelvinApart) {
-      return Fail(fmt::format("two junctions are fitted to curves of one temperature: {} has "
-                              "{:.4g} C, {} has {:.4g} C",
-                              set.curves.front().name, first_K - kZeroCelsius_K, curve.name,
-                              kelvin - kZeroCelsius_K));
+      return Fail(fmt::format(
+          "two junctions are fitted to curves of one temperature: {} has "
+          "{:.4g} C, {} has {:.4g} C",
+          set.curves.front().name, first_K - kZeroCelsius_K, curve.name, kelvin - kZeroCelsius_K));
     }
   }
   for (const auto& [id, light] : options.lights) {
@@ -141,9 +141,10 @@ Expected<void> AddShared(PreparedTwoJunctions* prepared) {
       }
       const double full = FullCurrent(*prepared, j);
       if (!(full > 0)) {
-        return Fail(fmt::format("no curve states the light of junction {}: state it for the curve "
-                                "that is the reference, {}=1:1",
-                                j + 1, "CURVE"));
+        return Fail(
+            fmt::format("no curve states the light of junction {}: state it for the curve "
+                        "that is the reference, {}=1:1",
+                        j + 1, "CURVE"));
       }
       AddParameter(info, 0, kMostPhotocurrent * full, problem);
     } else if (info.kind == ParameterKind::kSaturation) {
@@ -226,8 +227,7 @@ Expected<std::pair<std::string, StatedLight>> ReadStatedLight(const std::string&
   }
   StatedLight light;
   double* const shares[] = {&light.top, &light.bottom};
-  const std::string parts[] = {text.substr(equals + 1, colon - equals - 1),
-                               text.substr(colon + 1)};
+  const std::string parts[] = {text.substr(equals + 1, colon - equals - 1), text.substr(colon + 1)};
   for (int j = 0; j < 2; ++j) {
     if (parts[j] == "?") continue;
     const std::optional<double> share = ParseNumber(parts[j]);
@@ -262,9 +262,10 @@ Expected<PreparedTwoJunctions> PrepareTwoJunctions(const CurveSet& set,
     prepared.free_parameters += problem.lower[i] < problem.upper[i] ? 1 : 0;
   }
   if (prepared.readings <= prepared.free_parameters) {
-    return Fail(fmt::format("{} readings fix {} parameters without a remainder: measure more "
-                            "points, or hold parameters with --fix",
-                            prepared.readings, prepared.free_parameters));
+    return Fail(
+        fmt::format("{} readings fix {} parameters without a remainder: measure more "
+                    "points, or hold parameters with --fix",
+                    prepared.readings, prepared.free_parameters));
   }
   return prepared;
 }

@@ -14,9 +14,9 @@ namespace lyrefit {
 // A problem of two junctions with what its starts and its report need.
 struct PreparedTwoJunctions {
   TwoJunctionProblem problem;
-  std::vector<StatedLight> light;   // of each curve, as used
-  std::vector<double> isc_A;        // of each curve, from its readings
-  double voc_V = 0;                 // largest of the curves
+  std::vector<StatedLight> light;  // of each curve, as used
+  std::vector<double> isc_A;       // of each curve, from its readings
+  double voc_V = 0;                // largest of the curves
   int free_parameters = 0;
   int readings = 0;
 };

@@ -18,13 +18,13 @@ namespace LYREFIT_PUBLIC lyrefit {
 // One curve of a fit of two junctions.
 struct TwoJunctionCurveReport {
   IvCurve curve;
-  StatedLight light;                // as used; NaN: unknown
-  std::vector<double> parameters;   // of the device in this light, order of TwoJunctionInfos
-  int limiting = 0;                 // 1 or 2: the junction of lower photocurrent
-  double rmse_A = kUnknown;         // solved-current
-  std::vector<double> model_A;      // solved current at the readings
-  KeyPoints measured;               // of the readings
-  KeyPoints simulated;              // of the model
+  StatedLight light;               // as used; NaN: unknown
+  std::vector<double> parameters;  // of the device in this light, order of TwoJunctionInfos
+  int limiting = 0;                // 1 or 2: the junction of lower photocurrent
+  double rmse_A = kUnknown;        // solved-current
+  std::vector<double> model_A;     // solved current at the readings
+  KeyPoints measured;              // of the readings
+  KeyPoints simulated;             // of the model
 };
 
 // Report of FitTwoJunctions(). The objective is the solved current; there is no explicit right-hand
@@ -37,7 +37,7 @@ struct TwoJunctionReport {
   // Nothing but their order tells the junctions apart: junction 1 is the one with the lower
   // photocurrent, and `estimates` has the excess of the other one's in place of Iph2.
   bool interchangeable = false;
-  std::vector<Estimate> estimates;  // shared parameters, then photocurrents of single curves
+  std::vector<Estimate> estimates;        // shared parameters, then photocurrents of single curves
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
   double searched_rmse_A = kUnknown;      // best candidate of the search, solved-current
   double refined_rmse_A = kUnknown;       // best end of all starts, solved-current

@@ -15,10 +15,10 @@ constexpr double kLeastCurrent = 0.95;  // photocurrents, in parts of the smalle
 constexpr double kMostCurrent = 1.8;
 constexpr double kLeastShare = 0.15;  // of the open-circuit voltage
 constexpr double kMostShare = 0.85;
-constexpr double kFlattest = 3;       // largest ideality of the search
-constexpr double kSteepest = 0.8;     // smallest one
+constexpr double kFlattest = 3;               // largest ideality of the search
+constexpr double kSteepest = 0.8;             // smallest one
 constexpr double kMostSearchedSeries = 0.15;  // of Voc / Isc
-constexpr double kLeastLogShunt = 1;  // ln of the shunt in Voc / Isc
+constexpr double kLeastLogShunt = 1;          // ln of the shunt in Voc / Isc
 constexpr double kMostLogShunt = 10;
 
 // The smallest photocurrent of junction `j` that its curves allow, at full light.
@@ -74,8 +74,7 @@ Box TwoJunctionBox(const PreparedTwoJunctions& prepared) {
   add(0, kMostSearchedSeries);
   add(kLeastLogShunt, kMostLogShunt);
   add(kLeastLogShunt, kMostLogShunt);
-  const int further =
-      static_cast<int>(prepared.problem.parameters.size()) - kTwoJunctionParameters;
+  const int further = static_cast<int>(prepared.problem.parameters.size()) - kTwoJunctionParameters;
   for (int k = 0; k < further; ++k) add(kLeastCurrent, kMostCurrent);
   return box;
 }
@@ -102,8 +101,8 @@ std::vector<double> ParametersAt(const PreparedTwoJunctions& prepared, const dou
     set(JunctionIdeality(j), x[kIdeality1 + j]);
     set(JunctionShunt(j), resistance * std::exp(x[kShunt1 + j]));
     const double share = j == 0 ? x[kShare] : 1 - x[kShare];
-    const double exponent = share * prepared.voc_V /
-                            (p[JunctionIdeality(j)] * problem.thermal_voltage_V);
+    const double exponent =
+        share * prepared.voc_V / (p[JunctionIdeality(j)] * problem.thermal_voltage_V);
     set(JunctionSaturation(j), problem.current_scale_A * std::exp(-std::min(exponent, 600.0)));
   }
   return p;

@@ -52,8 +52,8 @@ Expected<std::vector<double>> ParameterVector(const std::vector<ParameterInfo>& 
   }
   for (std::size_t i = 0; i < infos.size(); ++i) {
     if (!given[i]) {
-      return Fail(fmt::format("no value for {}: the model needs {}", infos[i].symbol,
-                              Symbols(infos)));
+      return Fail(
+          fmt::format("no value for {}: the model needs {}", infos[i].symbol, Symbols(infos)));
     }
   }
   return values;
@@ -196,8 +196,7 @@ Expected<IvCurve> SimulateTwoJunctions(const SimulateOptions& options) {
     return Fail("two junctions have one diode each, without effects or strings of unlike cells");
   }
   TRY(const auto p, ParameterVector(TwoJunctionInfos(), options.parameters));
-  const double thermal_V =
-      ThermalVoltage(options.conditions.cell_temperature_K, options.constants);
+  const double thermal_V = ThermalVoltage(options.conditions.cell_temperature_K, options.constants);
   IvCurve curve;
   curve.name = options.name;
   curve.conditions = options.conditions;

@@ -60,8 +60,7 @@ TwoJunctionModel::TwoJunctionModel(const TwoJunctionProblem& problem)
     : FitModel(ShapeOf(problem)), problem_(problem) {}
 
 bool TwoJunctionModel::Evaluate(int block, const double* p, const double* /*local*/,
-                                double* residuals, double* slopes,
-                                double* /*local_slopes*/) const {
+                                double* residuals, double* slopes, double* /*local_slopes*/) const {
   const TwoJunctionCurve& curve = problem_.curves[block];
   const int size = shape().size();
   const auto device = DeviceIn(problem_, block, p);

@@ -195,7 +195,11 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
   TwoJunctionEnd end{run.Best().end, OtherOptima(prepared, model, run, progress.stop())};
   begin = Now();
   progress.Begin("intervals", 0);
-  JudgeTwoJunctions(prepared, options, searched, progress, &end, &report);
+  // Around parameters of curves that the model does not describe no interval means anything.
+  TwoJunctionOptions judging = options;
+  const double misfit = std::sqrt(end.best.mean_square) / problem.current_scale_A;
+  if (misfit > kMostMisfit) judging.intervals = Intervals::kNone;
+  JudgeTwoJunctions(prepared, judging, searched, progress, &end, &report);
   report.interval_seconds = SecondsSince(begin);
   report.converged = end.best.converged;
   report.projected_gradient = end.best.projected_gradient;

@@ -18,6 +18,7 @@ set(LYREFIT_PUBLIC_HEADERS
   estimate/family/data_sheet_family.h
   estimate/family/fit_family.h
   estimate/family/fit_individually.h
+  estimate/family/fit_two_junctions.h
   estimate/family/pvlib_parameters.h
   estimate/fit/fit.h
   certify/floor.h
@@ -34,6 +35,7 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/priors.h
   diagnose/reference_options.h
   estimate/family/family_options.h
+  estimate/family/two_junction_options.h
   estimate/fit/bounds.h
   estimate/fit/error_spec.h
   estimate/fit/fit_options.h
@@ -51,6 +53,7 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/reference_comparison.h
   diagnose/plan.h
   estimate/family/family_report.h
+  estimate/family/two_junction_report.h
   estimate/fit/fit_report.h
   estimate/refine/error_terms.h
   estimate/refine/estimate.h
@@ -94,6 +97,7 @@ set(LYREFIT_PUBLIC_HEADERS
   model/pack.h
   model/pack.inc
   model/parameter.h
+  model/two_junctions.h
   model/plain_stage.h
   model/reading.h
   model/single_diodes.h

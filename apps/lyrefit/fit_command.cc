@@ -15,6 +15,7 @@
 #include "lyrefit/report/plots.h"
 #include "model_flag.h"
 #include "output.h"
+#include "two_junction_run.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -30,6 +31,7 @@ constexpr char kFitFooter[] =
     "  lyrefit fit folder_of_curves --family desoto --pvlib module.json --plot module.svg\n"
     "  lyrefit fit sweeps.csv --family auto --irradiance-accuracy 2% --leave-out 17,18\n"
     "  lyrefit fit sweeps.csv --family auto --fit-curves 30 --against module.json\n"
+    "  lyrefit fit white.csv red.csv blue.csv --junctions 2 --light red=1:1.1\n"
     "\n"
     "Exit codes: 0 fine; 1 bad input or options, of several files some could not be fitted; 2 a "
     "fit\n"
@@ -42,6 +44,7 @@ struct FitRequest {
   std::string bounds = "physical";  // value of --bounds
   FitOptions options;
   FamilyFlags family;
+  JunctionFlags junctions;
   ReportFlags output;
 };
 
@@ -65,6 +68,7 @@ void DeclareFit(VerbLine* verb, FitRequest* fit) {
   AddTableFlags(verb, kSearchOptionTable, &fit->options.search);
   AddTableFlags(verb, kFitOptionTable, &fit->options);
   AddFamilyFlags(verb, &fit->family, &fit->output);
+  AddJunctionFlags(verb, &fit->junctions);
   AddReportFlags(verb, "report", "", "fit", &fit->output);
   AddFullSwitches(verb, &fit->output);
 }
@@ -186,6 +190,10 @@ Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
 
 Expected<int> RunFit(VerbLine& verb, FitRequest& fit) {
   if (fit.curve.list_columns) return PrintColumns(fit.files, fit.curve.reading);
+  TRY(CheckJunctionFlags(verb, fit.junctions));
+  if (fit.junctions.junctions == 2) {
+    return RunTwoJunctions(verb, fit.files, fit.curve, fit.junctions, fit.options, fit.output);
+  }
   TRY(CheckFamilyFlags(verb, fit.family));
   if (fit.family.family) return RunFamilyFit(verb, &fit);
   TRY(Settle(verb, &fit));

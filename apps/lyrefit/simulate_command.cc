@@ -53,7 +53,7 @@ struct SimulateRequest {
 };
 
 void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
-  AddNamedFlags(verb, kSimulateOptionTable, {"model", "set"}, &request->options);
+  AddNamedFlags(verb, kSimulateOptionTable, {"model", "junctions", "set"}, &request->options);
   verb->AddOption(
           "--from", &request->from_file,
           "parameters and conditions of a JSON fit report; or a module: pvlib's parameters as "
@@ -125,6 +125,7 @@ Expected<void> TakeFrom(const VerbLine& verb, const SimulateRequest& request,
   options->force_effects = fit.force_effects;
   options->recombination = fit.recombination;
   if (!verb.Given("--model")) options->model = fit.model;
+  if (!verb.Given("--junctions")) options->junctions = fit.junctions;
   if (!verb.Given("--constants")) options->constants = fit.constants;
   return {};
 }

@@ -17,7 +17,8 @@
 // No function here throws or prints. A mistake in a file or an option returns an Error with one
 // sentence; an unsuccessful search or polish is reported in the result. FitOptions lists the
 // options of a fit, FitReport its results. FitAuto selects one, two or three diodes. FitFamily fits
-// one device to curves under different irradiance and temperature. Certify proves lower bounds of a
+// one device to curves under different irradiance and temperature, FitTwoJunctions a tandem to
+// curves under different spectra. Certify proves lower bounds of a
 // curve's RMSE. FitDataSheet finds a device from a data sheet alone, and the family of all devices
 // through the sheet's three points. Diagnose finds the deviations of a measurement from the model
 // and their causes. TranslateCurve translates a curve to standard or other conditions, with its
@@ -36,6 +37,7 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/estimate/family/fit_two_junctions.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/model/effects/catalogue.h"

@@ -70,6 +70,7 @@ std::vector<SchemaCase> SchemaCases() {
        "family"},
       {"FamilyAuto", "fit " + set + "--family auto --json FILE" + kSearch, "family"},
       {"FamilyOneByOne", "fit " + set + "--family free --json FILE --quiet", "family"},
+      {"TwoJunctions", "fit " + rtc + "--junctions 2 --json FILE" + kSearch, "two_junctions"},
       {"Pvlib", "fit " + set + "--family pvsyst --pvlib FILE" + kSearch, "pvlib"},
       {"DataSheet", module + "--json FILE", "data_sheet"},
       {"Translation",

@@ -8,6 +8,9 @@ namespace lyrefit {
 // --csv FILE and the options of coverage_options.h.
 Expected<int> RunCoverage(ProgramFlags flags);
 
+// The options of junctions.h.
+Expected<int> RunJunctions(ProgramFlags flags);
+
 // --problems LIST|all, --devices N, --algorithms LIST, --budgets LIST, --resume FILE, --csv FILE,
 // --plot FILE and runs, seed, threads and multistart of compare_options.h.
 Expected<int> RunLandscape(ProgramFlags flags);

@@ -85,6 +85,15 @@ TEST(CoverageStudy, CountsTheIntervalsThatHold) {
   EXPECT_THAT(csv, HasSubstr("\ndT,"));
 }
 
+TEST(JunctionsStudy, CountsTheIntervalsOfSimulatedTandems) {
+  SKIP_IF_SANITIZED();
+  const AppResult result = RunApp("junctions --spectra bias --sets 2");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("coverage of the 95 % intervals of two junctions, 2 tandems"));
+  EXPECT_THAT(result.out, HasSubstr("bias of 60 points each"));
+  EXPECT_THAT(result.out, HasSubstr("failed        0"));
+}
+
 TEST(TruthStudy, PrintsTheErrorsAgainstAKnownTruth) {
   const TempFolder folder;
   const std::string header =
@@ -109,7 +118,7 @@ TEST(Studies, RefuseWhatTheyDoNotKnow) {
     const char* arguments;
     const char* says;
   } cases[] = {
-      {"tides", "no study 'tides': expected coverage, landscape or truth"},
+      {"tides", "no study 'tides': expected coverage, junctions, landscape or truth"},
       {"coverage --setts 3", "unknown flag --setts"},
       {"coverage --sets 0", "sets = 0 is outside [1, "},
       {"coverage --set Iph=8", "no value for Is1"},

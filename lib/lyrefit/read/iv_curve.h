@@ -39,7 +39,11 @@ struct DeviceNotes {
   std::optional<double> current_resolution_A;      // current step of the instrument
   std::optional<double> area_cm2;                  // of the cell
   std::optional<double> compliance_A;              // current limit set at the source
-  std::string date;                                // of the measurement, as written
+  // Light of the top and of the bottom junction of a tandem, as shares of their light under the
+  // spectrum that all curves refer to.
+  std::optional<double> light_top;
+  std::optional<double> light_bottom;
+  std::string date;  // of the measurement, as written
 };
 
 // Whether a word for a technology means thin films or a tandem. Any other word and none mean

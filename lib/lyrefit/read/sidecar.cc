@@ -36,6 +36,8 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "current_noise",
                                       "area_cm2",
                                       "compliance_A",
+                                      "light_top",
+                                      "light_bottom",
                                       "date"};
 
 // A text that states that an entry has no single value.
@@ -167,6 +169,8 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   ReadNumber(reading, {"current_resolution_A"}, Sign::kPositive, &notes.current_resolution_A);
   ReadNumber(reading, {"area_cm2"}, Sign::kPositive, &notes.area_cm2);
   ReadNumber(reading, {"compliance_A"}, Sign::kPositive, &notes.compliance_A);
+  ReadNumber(reading, {"light_top"}, Sign::kNotNegative, &notes.light_top);
+  ReadNumber(reading, {"light_bottom"}, Sign::kNotNegative, &notes.light_bottom);
   ReadText(reading, "date", &notes.date);
   ReadNoise(reading);
   if (reading->failed) return tl::unexpected(reading->error);
@@ -287,6 +291,8 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&notes.current_resolution_A, common.notes.current_resolution_A);
   fill(&notes.area_cm2, common.notes.area_cm2);
   fill(&notes.compliance_A, common.notes.compliance_A);
+  fill(&notes.light_top, common.notes.light_top);
+  fill(&notes.light_bottom, common.notes.light_bottom);
   if (notes.date.empty()) notes.date = common.notes.date;
   own.assumptions.insert(own.assumptions.end(), common.assumptions.begin(),
                          common.assumptions.end());

@@ -21,6 +21,7 @@ struct FittedFile;
 struct ReferenceComparison;
 struct OutlierSweeps;
 struct TranslationReport;
+struct TwoJunctionReport;
 
 // A fit: results, then their reliability. '*' marks the fitted objective.
 Document FitDocument(const FitReport& report);
@@ -36,6 +37,12 @@ Document FamilyDocument(const FamilyReport& report);
 Document FamilyDocument(const FamilyReport& report, const CurveSet& set);
 std::string FamilyText(const FamilyReport& report);
 std::string BriefFamily(const FamilyReport& report);
+
+// A fit of two junctions: parameters, which measurement would decide those that are not
+// identifiable, and every curve with its light and the junction that limits.
+Document TwoJunctionDocument(const TwoJunctionReport& report);
+std::string TwoJunctionText(const TwoJunctionReport& report);
+std::string BriefTwoJunctions(const TwoJunctionReport& report);
 
 // A diagnosis: the verdict, each cause with its place, size, power and what to do, then, folded,
 // parameters and evidence. Every RMSE is solved-current and labelled so.

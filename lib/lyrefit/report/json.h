@@ -11,6 +11,7 @@
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/family_report.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/estimate/family/two_junction_report.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/translate/translation_report.h"
 
@@ -50,6 +51,10 @@ std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points = Js
 
 // Every RMSE is a pair with the keys measured_current_A and solved_current_A.
 std::string FamilyJson(const FamilyReport& report);
+
+// Parameters and curves of a fit of two junctions. Every RMSE is a pair; its measured current is
+// null. The light of a curve that is not stated is null.
+std::string TwoJunctionJson(const TwoJunctionReport& report);
 
 // A certificate with the data to verify the floor at its Rs without lyrefit. With
 //   v[k] = voltage_V[k] + resistance_series current_A[k],      y = floor.dual_A,

@@ -17,6 +17,7 @@ struct Diagnosis;
 struct FamilyReport;
 struct FitReport;
 struct TranslationReport;
+struct TwoJunctionReport;
 
 // A fit. Above: current and power over voltage, measured points and model. Below: residuals with a
 // band of +- the solved-current RMSE.
@@ -29,6 +30,11 @@ Expected<void> PlotFit(const FitReport& report, const std::string& path,
 Figure FamilyFigure(const FamilyReport& report, const CurveSet& set);
 Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set, const std::string& path,
                           PlotPoints points = PlotPoints::kThinned);
+
+// A fit of two junctions: measured points and model of every curve, and residuals.
+Figure TwoJunctionFigure(const TwoJunctionReport& report);
+Expected<void> PlotTwoJunctions(const TwoJunctionReport& report, const std::string& path,
+                                PlotPoints points = PlotPoints::kThinned);
 
 // A diagnosis, coloured by curve, or by direction if one curve was swept both ways. Above: measured
 // points, base model and the model with causes. Below: the residuals of both in % of Isc. A band in

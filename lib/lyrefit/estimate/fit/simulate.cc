@@ -11,15 +11,16 @@
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/two_junctions.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kBeyondOpenCircuit = 1.02;
 
-std::string Symbols(const Device& device) {
+std::string Symbols(const std::vector<ParameterInfo>& infos) {
   std::string list;
-  for (const ParameterInfo& info : device.parameters) {
+  for (const ParameterInfo& info : infos) {
     list += (list.empty() ? "" : ", ") + info.symbol;
   }
   return list;
@@ -28,30 +29,31 @@ std::string Symbols(const Device& device) {
 // Error for values at which the device is no passive illuminated diode.
 Expected<void> CheckValue(const ParameterInfo& info, double value) {
   if (info.symbol == "alpha" && std::isfinite(value)) return {};
-  const bool perfect_shunt = info.symbol == "Rsh" && std::isinf(value) && value > 0;
-  const bool positive = info.symbol == "Rsh" || info.symbol[0] == 'n';
+  const bool shunt = info.kind == ParameterKind::kShunt;
+  const bool perfect_shunt = shunt && std::isinf(value) && value > 0;
+  const bool positive = shunt || info.symbol[0] == 'n';
   if (perfect_shunt || (std::isfinite(value) && (positive ? value > 0 : value >= 0))) return {};
   return Fail(fmt::format("expected {} {}, found {}", info.symbol,
                           positive ? "above 0" : "of at least 0", value));
 }
 
-Expected<std::vector<double>> ParameterVector(const Device& device,
+Expected<std::vector<double>> ParameterVector(const std::vector<ParameterInfo>& infos,
                                               const std::map<std::string, double>& parameters) {
-  std::vector<double> values(device.size(), kUnknown);
-  std::vector<bool> given(device.size(), false);
+  std::vector<double> values(infos.size(), kUnknown);
+  std::vector<bool> given(infos.size(), false);
   for (const auto& [name, value] : parameters) {
-    const std::optional<int> index = device.Find(name);
+    const std::optional<int> index = FindParameter(infos, name);
     if (!index) {
-      return Fail(fmt::format("the model has no parameter {}: expected {}", name, Symbols(device)));
+      return Fail(fmt::format("the model has no parameter {}: expected {}", name, Symbols(infos)));
     }
-    TRY(CheckValue(device.parameters[*index], value));
+    TRY(CheckValue(infos[*index], value));
     values[*index] = value;
     given[*index] = true;
   }
-  for (int i = 0; i < device.size(); ++i) {
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     if (!given[i]) {
-      return Fail(fmt::format("no value for {}: the model needs {}", device.parameters[i].symbol,
-                              Symbols(device)));
+      return Fail(
+          fmt::format("no value for {}: the model needs {}", infos[i].symbol, Symbols(infos)));
     }
   }
   return values;
@@ -73,6 +75,9 @@ Expected<void> CheckOptions(const SimulateOptions& options) {
   if (options.recombination && more) {
     return Fail("no effects and no strings of unlike cells beside PVsyst's recombination loss");
   }
+  if (options.junctions != 1 && options.junctions != 2) {
+    return Fail(fmt::format("expected 1 or 2 junctions, found {}", options.junctions));
+  }
   const Conditions& c = options.conditions;
   if (c.cells_in_series < 1 || !(c.cell_temperature_K > 0) ||
       !std::isfinite(c.cell_temperature_K)) {
@@ -84,10 +89,10 @@ Expected<void> CheckOptions(const SimulateOptions& options) {
   return {};
 }
 
-Expected<std::vector<double>> Voltages(const SimulateOptions& options, const Device& device,
-                                       const std::vector<double>& p) {
+// The stated voltages, or even steps to a little beyond open circuit, of `points`.
+Expected<std::vector<double>> Voltages(const SimulateOptions& options, const KeyPoints& points) {
   if (!options.voltage_V.empty()) return options.voltage_V;
-  const double voc = ModelKeyPoints(device, p.data()).open_circuit_voltage_V;
+  const double voc = points.open_circuit_voltage_V;
   if (std::isnan(voc))
     return Fail("the device has no open-circuit voltage to end at: give the voltages");
   std::vector<double> voltage_V(options.points);
@@ -163,7 +168,7 @@ Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
                 shared.reference_K, uses, /*force=*/true));
   Device base = device;
   base.parameters.resize(device.effects->law.base_size());
-  TRY(auto p, ParameterVector(base, options.parameters));
+  TRY(auto p, ParameterVector(base.parameters, options.parameters));
   p.insert(p.end(), device.effects->usual.begin(), device.effects->usual.end());
   const Device one = OfCurve(device, shared.curve);
   IvCurve curve = taken;
@@ -183,18 +188,43 @@ Expected<IvCurve> SimulateShared(const SimulateOptions& options) {
   return curve;
 }
 
+// Simulates a tandem of two unlike junctions.
+Expected<IvCurve> SimulateTwoJunctions(const SimulateOptions& options) {
+  const bool more = !options.with.empty() || options.layout != nullptr || options.shared ||
+                    options.recombination || options.model != Model::kSingleDiode;
+  if (more) {
+    return Fail("two junctions have one diode each, without effects or strings of unlike cells");
+  }
+  TRY(const auto p, ParameterVector(TwoJunctionInfos(), options.parameters));
+  const double thermal_V = ThermalVoltage(options.conditions.cell_temperature_K, options.constants);
+  IvCurve curve;
+  curve.name = options.name;
+  curve.conditions = options.conditions;
+  curve.conditions.cells_in_series = 2;
+  TRY(curve.voltage_V, Voltages(options, TwoJunctionKeyPoints(thermal_V, p.data())));
+  for (const double voltage : curve.voltage_V) {
+    curve.current_A.push_back(TwoJunctionCurrent(thermal_V, p.data(), voltage));
+  }
+  TRY(Validate(curve));
+  TRY(CheckCurrents(curve));
+  AddNoise(options, &curve);
+  return curve;
+}
+
 }  // namespace
 
 Expected<IvCurve> Simulate(const SimulateOptions& options) {
   TRY(CheckOptions(options));
+  if (options.junctions == 2) return SimulateTwoJunctions(options);
   if (options.shared) return SimulateShared(options);
   Device device = MakeDevice(options.model, options.conditions, options.constants);
   if (options.recombination) AddRecombination(&device);
-  Expected<std::vector<double>> parameters = ParameterVector(device, options.parameters);
+  Expected<std::vector<double>> parameters = ParameterVector(device.parameters, options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
   const bool as_taken = options.taken.has_value() && options.voltage_V.empty();
   Expected<std::vector<double>> voltages =
-      as_taken ? options.taken->voltage_V : Voltages(options, device, *parameters);
+      as_taken ? options.taken->voltage_V
+               : Voltages(options, ModelKeyPoints(device, parameters->data()));
   if (!voltages) return tl::unexpected(voltages.error());
   IvCurve curve;
   if (as_taken) curve = *options.taken;

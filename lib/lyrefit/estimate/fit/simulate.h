@@ -31,6 +31,10 @@ struct SharedLaw {
 // Simulated device, operating conditions and noise.
 struct SimulateOptions {
   Model model = Model::kSingleDiode;
+  // Junctions in series; 2: a tandem of two unlike junctions with one diode each
+  // (model/two_junctions.h), without effects or a layout. Its photocurrents are those in the light
+  // to be simulated.
+  int junctions = 1;
   std::map<std::string, double> parameters;  // by symbol or name, n per cell
   Conditions conditions;
   ConstantSet constants = ConstantSet::kCodata;
@@ -60,6 +64,9 @@ struct SimulateOptions {
 inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
     OptionRow<SimulateOptions>("Device"),
     {"model", "NAME", "number of diodes", EnumOption<&SimulateOptions::model>()},
+    {"junctions", "N",
+     "junctions in series with a light each; 2: a tandem, Iph1, Is1, n1, Rsh1, Iph2, ... and Rs",
+     &SimulateOptions::junctions, 1, 2},
     {"set", "P=VALUE", "value of one parameter, Iph=0.76; once for each",
      AssignmentsOption<&SimulateOptions::parameters>()},
     {"constants", "NAME", "values of k and q", EnumOption<&SimulateOptions::constants>()},

@@ -10,6 +10,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/model/two_junctions.h"
 #include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
@@ -55,7 +56,7 @@ Expected<double> ValueAt(const json& document, const std::string& pointer, const
                          const std::string& path) {
   const json value = At(document, pointer);
   if (value.is_number()) return value.get<double>();
-  const bool shunt = name == "resistance_shunt" || name == "R_sh_ref";
+  const bool shunt = name.rfind("resistance_shunt", 0) == 0 || name == "R_sh_ref";
   const bool there = document.contains(json::json_pointer(pointer));
   if (shunt && there && value.is_null()) return kInfinity;
   return Fail("expected a number in " + pointer.substr(1), path);
@@ -271,6 +272,28 @@ Expected<void> ReadMember(const Report& report, SimulateOptions* options) {
   return {};
 }
 
+// Reads one curve of a fit of two junctions, by the parameters in its light.
+Expected<SimulateOptions> ReadTwoJunctions(const Report& report) {
+  const std::optional<ConstantSet> constants =
+      FromText<ConstantSet>(TextAt(report.fit, "/constants"));
+  if (!constants) return Fail("expected a fit report as lyrefit writes it: constants", report.path);
+  SimulateOptions options;
+  options.junctions = 2;
+  options.constants = *constants;
+  const json curves = At(report.fit, "/curves");
+  TRY(const auto chosen, Chosen(report, curves));
+  for (const ParameterInfo& info : TwoJunctionInfos()) {
+    TRY(const auto value,
+        ValueAt(curves[chosen], "/parameters/" + info.name, info.name, report.path));
+    options.parameters[info.symbol] = value;
+  }
+  Conditions& at = options.conditions;
+  at.cells_in_series = 2;
+  at.cell_temperature_K = NumberOr(report.fit, "/cell_temperature_C", 25) + kZeroCelsius_K;
+  at.irradiance_W_m2 = NumberOr(curves[chosen], "/curve/conditions/irradiance_Wm2", 1000);
+  return options;
+}
+
 }  // namespace
 
 Expected<SimulateOptions> ReadFitForSimulation(const std::string& path, const std::string& curve) {
@@ -282,6 +305,7 @@ Expected<SimulateOptions> ReadFitTextForSimulation(const std::string& text, cons
                                                    const std::string& curve) {
   TRY(auto fit, ParseJson(text, path));
   const Report report{std::move(fit), text, path, curve};
+  if (At(report.fit, "/junctions") == 2) return ReadTwoJunctions(report);
   const std::optional<Model> model = FromText<Model>(TextAt(report.fit, "/model"));
   const std::optional<ConstantSet> constants =
       FromText<ConstantSet>(TextAt(report.fit, "/constants"));

@@ -194,10 +194,11 @@ class Side {
     return ahead;
   }
 
-  // Distance of two points on the scale. In ampere for saturation currents, since the logarithm of
-  // a value near 0 is far from any other.
+  // Distance of two points on the scale. In ampere for saturation currents that may come to 0,
+  // since the logarithm of a value near 0 is far from any other.
   double Length(double a, double b) const {
-    return IsSaturation() ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
+    const bool ampere = IsSaturation() && !(parameter_.lower > 0);
+    return ampere ? std::fabs(std::exp(a) - std::exp(b)) : std::fabs(a - b);
   }
 
   // The optimum on the scale; a dropped diode, which has no value there, starts at kVanished.

@@ -76,7 +76,7 @@ void MarkOpenEnds(std::vector<Estimate>* estimates) {
 
 // Sum of both junctions' voltages under the reference light at open circuit.
 double OpenCircuit(const TwoJunctionProblem& problem, const std::vector<double>& p) {
-  return TwoJunctionVoltage(problem.thermal_voltage_V, ReferenceDevice(problem, p.data()).data(),
+  return TwoJunctionVoltage(problem.thermal_voltage_V, JunctionsAtReference(problem, p.data()).data(),
                             0);
 }
 

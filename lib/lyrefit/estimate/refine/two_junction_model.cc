@@ -46,7 +46,7 @@ std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& pr
   return device;
 }
 
-std::array<double, kTwoJunctionParameters> ReferenceDevice(const TwoJunctionProblem& problem,
+std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,
                                                            const double* p) {
   std::array<double, kTwoJunctionParameters> device{};
   std::copy_n(p, kTwoJunctionParameters, device.begin());

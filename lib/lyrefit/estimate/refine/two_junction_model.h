@@ -43,7 +43,7 @@ std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& pr
                                                     const double* p);
 
 // Parameters of the device under the reference light.
-std::array<double, kTwoJunctionParameters> ReferenceDevice(const TwoJunctionProblem& problem,
+std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,
                                                            const double* p);
 
 // The problem as a model: one block for each curve, solved-current residuals, no local unknowns.

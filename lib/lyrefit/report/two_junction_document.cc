@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "lyrefit/estimate/family/two_junction_report.h"
+#include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/plots.h"
 #include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

@@ -57,7 +57,7 @@ std::vector<Descent> StartsOf(const PreparedTwoJunctions& prepared, const Search
 // Few steps for all starts, more for the better ones, then the best to convergence.
 Multistart<Descent> Polish(const TwoJunctionModel& model, std::vector<Descent> starts,
                            const TwoJunctionOptions& options, const ProgressReporter& progress) {
-  const StopToken stop = progress.stop();
+  const StopToken& stop = progress.stop();
   const auto refine = [&](const MultistartStage& stage, Descent* at) {
     RefineOptions how;
     how.stop = stop;

@@ -76,8 +76,8 @@ void MarkOpenEnds(std::vector<Estimate>* estimates) {
 
 // Sum of both junctions' voltages under the reference light at open circuit.
 double OpenCircuit(const TwoJunctionProblem& problem, const std::vector<double>& p) {
-  return TwoJunctionVoltage(problem.thermal_voltage_V, JunctionsAtReference(problem, p.data()).data(),
-                            0);
+  return TwoJunctionVoltage(problem.thermal_voltage_V,
+                            JunctionsAtReference(problem, p.data()).data(), 0);
 }
 
 // The point with the saturation current of junction `j` moved so that the open-circuit voltage is

@@ -47,7 +47,7 @@ std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& pr
 }
 
 std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,
-                                                           const double* p) {
+                                                                const double* p) {
   std::array<double, kTwoJunctionParameters> device{};
   std::copy_n(p, kTwoJunctionParameters, device.begin());
   for (int j = 0; j < 2; ++j) {

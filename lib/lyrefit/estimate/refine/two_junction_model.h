@@ -44,7 +44,7 @@ std::array<double, kTwoJunctionParameters> DeviceIn(const TwoJunctionProblem& pr
 
 // Parameters of the device under the reference light.
 std::array<double, kTwoJunctionParameters> JunctionsAtReference(const TwoJunctionProblem& problem,
-                                                           const double* p);
+                                                                const double* p);
 
 // The problem as a model: one block for each curve, solved-current residuals, no local unknowns.
 class TwoJunctionModel : public FitModel {

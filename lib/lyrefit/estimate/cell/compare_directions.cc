@@ -1,0 +1,76 @@
+#include "lyrefit/estimate/cell/compare_directions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/estimate/cell/describe_sweep.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSteps = 1000;
+
+double IndexAt(const Line& forward, const Line& reverse, double voltage) {
+  return (reverse.At(voltage) - forward.At(voltage)) / reverse.At(voltage);
+}
+
+bool AreOpposite(const CellSweep& a, const CellSweep& b) {
+  constexpr double kSameLight = 0.02;
+  const double light = std::max(a.irradiance_W_m2, b.irradiance_W_m2);
+  return a.kind == SweepKind::kLit && b.kind == SweepKind::kLit && a.direction != b.direction &&
+         std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <= kSameLight * light;
+}
+
+}  // namespace
+
+DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& reverse,
+                                double least_percent) {
+  DirectionPair pair;
+  const KeyPoints &f = forward.key, &r = reverse.key;
+  const Line up = LineOf(forward), down = LineOf(reverse);
+  const double isc = r.short_circuit_current_A, voc = r.open_circuit_voltage_V;
+  pair.index_power = (r.max_power_W - f.max_power_W) / r.max_power_W;
+  pair.index_area = 1 - up.Area(0, f.open_circuit_voltage_V) / down.Area(0, voc);
+  pair.index_at_80 = IndexAt(up, down, 0.8 * voc);
+  pair.index_at_50 = IndexAt(up, down, 0.5 * voc);
+  pair.voc_difference_V = voc - f.open_circuit_voltage_V;
+  pair.isc_difference = (isc - f.short_circuit_current_A) / isc;
+  pair.ff_difference = r.fill_factor - f.fill_factor;
+  const double end = std::min(voc, f.open_circuit_voltage_V);
+  double squares = 0, highest = 0, lowest = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double v = end * k / kSteps, gap = (down.At(v) - up.At(v)) / isc;
+    squares += gap * gap;
+    highest = std::max(highest, gap);
+    lowest = std::min(lowest, gap);
+  }
+  pair.gap_percent = 100 * std::sqrt(squares / (kSteps + 1));
+  pair.noise_percent = 100 * std::hypot(forward.noise_A, reverse.noise_A) / isc;
+  const bool shows = pair.gap_percent >= least_percent && pair.gap_percent > 2 * pair.noise_percent;
+  if (shows) {
+    pair.sense = pair.index_power >= 0 ? HysteresisSense::kNormal : HysteresisSense::kInverted;
+  }
+  const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
+  pair.cross = shows && highest > seen && -lowest > seen;
+  return pair;
+}
+
+std::vector<DirectionPair> FindPairs(const std::vector<CellSweep>& sweeps, double least_percent) {
+  std::vector<DirectionPair> pairs;
+  std::vector<bool> paired(sweeps.size(), false);
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    for (std::size_t j = i + 1; j < sweeps.size() && !paired[i]; ++j) {
+      if (paired[j] || !AreOpposite(sweeps[i], sweeps[j])) continue;
+      paired[i] = paired[j] = true;
+      const bool first = sweeps[i].direction == ScanDirection::kForward;
+      const std::size_t forward = first ? i : j, reverse = first ? j : i;
+      DirectionPair pair = CompareDirections(sweeps[forward], sweeps[reverse], least_percent);
+      pair.forward = static_cast<int>(forward);
+      pair.reverse = static_cast<int>(reverse);
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace lyrefit

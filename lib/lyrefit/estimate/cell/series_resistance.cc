@@ -1,0 +1,144 @@
+#include "lyrefit/estimate/cell/series_resistance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/estimate/cell/describe_sweep.h"
+#include "lyrefit/estimate/cell/ideality_over_light.h"
+
+namespace lyrefit {
+namespace {
+
+// Voltage at which a lit curve has this current, between its readings; NaN if it has not.
+double VoltageAt(const CellSweep& sweep, double current_A) {
+  for (std::size_t k = 1; k < sweep.voltage_V.size(); ++k) {
+    const double above = sweep.current_A[k - 1], below = sweep.current_A[k];
+    if (!(above >= current_A && below < current_A)) continue;
+    const double part = (above - current_A) / (above - below);
+    return sweep.voltage_V[k - 1] + part * (sweep.voltage_V[k] - sweep.voltage_V[k - 1]);
+  }
+  return kUnknown;
+}
+
+// Voltage at which this current flows in the dark, linear in its logarithm between readings.
+double DarkVoltageAt(const CellSweep& dark, double forward_A) {
+  for (std::size_t k = 1; k < dark.voltage_V.size(); ++k) {
+    const double below = -dark.current_A[k - 1], above = -dark.current_A[k];
+    if (!(below > 0 && below <= forward_A && above > forward_A)) continue;
+    const double part = std::log(forward_A / below) / std::log(above / below);
+    return dark.voltage_V[k - 1] + part * (dark.voltage_V[k] - dark.voltage_V[k - 1]);
+  }
+  return kUnknown;
+}
+
+}  // namespace
+
+Ranged FittedValue(const CellSweep& sweep, const std::string& symbol) {
+  if (!sweep.fit) return {};
+  const auto& estimates =
+      sweep.fit->under_errors.empty() ? sweep.fit->estimates : sweep.fit->under_errors;
+  for (const Estimate& e : estimates) {
+    if (e.info.symbol == symbol) return {e.refined, e.low_95, e.high_95};
+  }
+  return {};
+}
+
+SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& darker) {
+  SeriesResistance found;
+  found.method = fmt::format("two lights, {:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2,
+                             darker.irradiance_W_m2);
+  found.note = "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's power point";
+  const double isc1 = brighter.key.short_circuit_current_A;
+  const double isc2 = darker.key.short_circuit_current_A;
+  const double v1 = brighter.key.max_power_voltage_V;
+  const double v2 = VoltageAt(darker, isc2 - (isc1 - brighter.key.max_power_current_A));
+  found.ohm.value = (v2 - v1) / (isc1 - isc2);
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing = "the curve at less light does not reach this current: measure it further";
+  }
+  return found;
+}
+
+SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double dark_rs_ohm) {
+  SeriesResistance found;
+  const bool own = std::isfinite(dark_rs_ohm);
+  found.method = own ? "lit against dark, Rs of the dark fit" : "lit against dark, equal Rs";
+  found.note = own ? "(V_dark(Isc - Imp) - Vmp - (Isc - Imp) Rs_dark) / Imp"
+                   : "(V_dark(Isc - Imp) - Vmp) / Isc";
+  const KeyPoints& key = lit.key;
+  const double isc = key.short_circuit_current_A, imp = key.max_power_current_A;
+  const double v = DarkVoltageAt(dark, isc - imp) - key.max_power_voltage_V;
+  found.ohm.value = own ? (v - (isc - imp) * dark_rs_ohm) / imp : v / isc;
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing = "the dark curve does not reach the current Isc - Imp: measure it further";
+  }
+  return found;
+}
+
+SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& points,
+                           SweepKind source) {
+  SeriesResistance found;
+  found.method =
+      source == SweepKind::kSunsVoc ? "Suns-Voc against lit" : "Voc of the light series against lit";
+  found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
+  const KeyPoints& key = lit.key;
+  const double light = key.short_circuit_current_A - key.max_power_current_A;
+  found.ohm.value = (VocAt(points, light) - key.max_power_voltage_V) / key.max_power_current_A;
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing = fmt::format("needs a Voc at {:.2g} % of the light of the lit curve",
+                                100 * light / key.short_circuit_current_A);
+  }
+  return found;
+}
+
+SeriesResistance RsFromSlope(const CellSweep& lit) {
+  SeriesResistance found;
+  found.method = "slope at Voc";
+  found.note = "-dV/dI at Voc: an upper limit, n k T / (q Isc) of the junction is in it";
+  found.ohm.value = lit.resistance_at_voc_ohm;
+  if (!std::isfinite(found.ohm.value)) found.missing = "the curve does not pass Voc";
+  return found;
+}
+
+SeriesResistance RsOfFit(const CellSweep& lit) {
+  SeriesResistance found;
+  found.method = "single-diode fit, " + lit.name;
+  found.ohm = FittedValue(lit, "Rs");
+  found.note = "95 % interval of the fit";
+  if (!lit.fit) {
+    found.missing = lit.no_fit_because.empty() ? "no fit was requested" : lit.no_fit_because;
+  } else if (!lit.diode()) {
+    found.ohm = {};
+    found.missing = lit.void_because.front();
+  }
+  return found;
+}
+
+double PseudoFillFactorOf(double isc_A, const std::vector<VocPoint>& points) {
+  const double voc = VocAt(points, isc_A);
+  if (points.size() < 2 || !std::isfinite(voc)) return kUnknown;
+  double best = kUnknown;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    // Between two points ln(light) is linear in V, and V (Isc - light) is concave.
+    const double rate = std::log(points[k].light_A / points[k - 1].light_A) /
+                        (points[k].voc_V - points[k - 1].voc_V);
+    const auto light = [&](double v) {
+      return points[k - 1].light_A * std::exp(rate * (v - points[k - 1].voc_V));
+    };
+    double low = points[k - 1].voc_V, high = std::min(points[k].voc_V, voc);
+    if (!(low < high)) continue;
+    for (int i = 0; i < 100; ++i) {
+      const double v = (low + high) / 2;
+      (isc_A - light(v) * (1 + rate * v) > 0 ? low : high) = v;
+    }
+    const double power = low * (isc_A - light(low));
+    if (!(power <= best)) best = power;
+  }
+  // A maximum at the first point lies outside the points.
+  const double first = points.front().voc_V * (isc_A - points.front().light_A);
+  return best > first ? best / (isc_A * voc) : kUnknown;
+}
+
+}  // namespace lyrefit

@@ -97,8 +97,8 @@ Section SweepSection(const CellReport& report) {
 }
 
 Section PairSection(const CellReport& report, const DirectionPair& pair) {
-  Section section = {"Hysteresis: " + report.sweeps[pair.reverse].name + " against forward"};
-  if (!report.sweeps[pair.reverse].irradiance_known) section.heading = "Hysteresis";
+  Section section = {
+      fmt::format("Hysteresis at {:.4g} W/m2", report.sweeps[pair.reverse].irradiance_W_m2)};
   block::Table table = {"lrw", {{"", "value", "definition"}}};
   const auto add = [&](const char* name, const std::string& value, const char* definition) {
     table.rows.push_back({name, value, definition});

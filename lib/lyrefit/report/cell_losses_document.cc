@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/report/cell_parts.h"
@@ -11,16 +12,21 @@ Section SeriesResistanceSection(const CellReport& report) {
   Section section = {"Series resistance"};
   if (report.series_resistance.empty()) return section;
   const bool area = std::isfinite(report.area_cm2);
-  block::Table table = {"lrrrw", {{"from", "ohm", "ohm cm2", "95 % (ohm)", "how, or why not"}}};
+  block::Table table = {"lrrrw", {{"from", "ohm", "ohm cm2", "95 % (ohm)", ""}}};
+  std::vector<std::string> notes;
   for (const SeriesResistance& one : report.series_resistance) {
     const Ranged& ohm = one.ohm;
     const bool ranged = std::isfinite(ohm.low_95) && std::isfinite(ohm.high_95);
     table.rows.push_back({one.method, Significant(ohm.value, 4),
                           area ? Significant(report.PerArea(ohm.value), 4) : "-",
                           ranged ? Range(ohm.low_95, ohm.high_95) : "",
-                          one.missing.empty() ? one.note : one.missing});
+                          one.missing});
+    const std::string method = one.method.substr(0, one.method.find(','));
+    const std::string note = method + ": " + one.note;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
   AddTable(std::move(table), &section);
+  AddList(std::move(notes), &section);
   return section;
 }
 
@@ -29,8 +35,11 @@ Section FillFactorSection(const CellReport& report) {
   if (report.main == -1) return section;
   if (std::isfinite(report.pseudo.value)) {
     AddField("pseudo-FF",
-             fmt::format("{} from {}, without series resistance", PercentText(report.pseudo.value, 4),
-                         report.pseudo.source),
+             fmt::format("{} from {}: series resistance costs {}",
+                         PercentText(report.pseudo.value, 4), report.pseudo.source,
+                         PercentText(report.pseudo.value -
+                                         report.sweeps[report.main].key.fill_factor,
+                                     3)),
              &section);
   }
   for (const FillFactorLosses& losses : report.losses) {
@@ -66,16 +75,20 @@ Section SuperpositionSection(const CellReport& report) {
     return section;
   }
   AddField("departure",
-           fmt::format("{} % of Jsc (rms from 0 V to Voc), {:+.2g} % at {:.3g} V at most; noise {} %",
-                       Significant(found.rms_percent, 2), found.largest_percent,
+           fmt::format("{} % of Jsc (rms from 0 to {:.3g} V), {:+.2g} % at {:.3g} V at most; noise "
+                       "{} %",
+                       Significant(found.rms_percent, 2), found.to_V, found.largest_percent,
                        found.largest_at_V, Significant(found.noise_percent, 2)),
            &section);
   AddField("taken off",
-           fmt::format("Rs of {} ohm in the light, {} ohm in the dark",
-                       Significant(found.lit_rs_ohm, 3), Significant(found.dark_rs_ohm, 3)),
+           fmt::format("Rs of {} ohm in the light, {} ohm in the dark ({})",
+                       Significant(found.lit_rs_ohm, 3), Significant(found.dark_rs_ohm, 3),
+                       found.rs_from),
            &section);
-  AddField("Voc", fmt::format("{:+.3g} mV from that of Jsc - J_dark", 1000 * found.voc_shift_V),
-           &section);
+  if (std::isfinite(found.voc_shift_V)) {
+    AddField("Voc", fmt::format("{:+.3g} mV from that of Jsc - J_dark", 1000 * found.voc_shift_V),
+             &section);
+  }
   AddField("dark current",
            fmt::format("times {} it would leave {} % (rms)", Significant(found.dark_scale, 3),
                        Significant(found.scaled_rms_percent, 2)),

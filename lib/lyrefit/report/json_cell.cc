@@ -18,8 +18,8 @@ LYREFIT_JSON_FIELDS(PseudoFillFactor, value, source)
 LYREFIT_JSON_FIELDS(FillFactorPart, name, loss)
 LYREFIT_JSON_FIELDS(FillFactorLosses, sweep, ideal, without_resistances, without_series, fitted,
                     measured, parts, green_n1, green_fitted, missing)
-LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rms_percent,
-                    largest_percent, largest_at_V, noise_percent, voc_shift_V, dark_scale,
+LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, rms_percent,
+                    largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V, dark_scale,
                     scaled_rms_percent, departs, causes, decides)
 
 namespace {

@@ -194,9 +194,11 @@ struct Superposition {
   int dark = 0;
   double lit_rs_ohm = 0;  // that were taken off
   double dark_rs_ohm = 0;
-  double rms_percent = kUnknown;      // of J_light - (Jsc - J_dark) from 0 V to Voc, of Jsc
+  std::string rs_from;    // method of the one in the light
+  double rms_percent = kUnknown;      // of J_light - (Jsc - J_dark) from 0 V to `to_V`, of Jsc
   double largest_percent = kUnknown;  // signed
   double largest_at_V = kUnknown;
+  double to_V = kUnknown;  // last voltage compared: Voc, or the end of the dark curve
   double noise_percent = kUnknown;    // of both currents
   double voc_shift_V = kUnknown;      // Voc minus that of Jsc - J_dark
   double dark_scale = kUnknown;       // factor of J_dark that fits best

@@ -150,17 +150,30 @@ void FindPseudo(CellReport* report) {
   }
 }
 
+// Series resistances for the test of superposition and their source. An estimate that needs no model
+// of the diode comes before the fit and counts in the dark as well.
+std::pair<SeriesOhms, std::string> SeriesToTakeOff(const CellReport& report) {
+  for (const char* method : {"Suns-Voc against lit", "two lights"}) {
+    for (const SeriesResistance& one : report.series_resistance) {
+      if (one.method.rfind(method, 0) != 0 || !(one.ohm.value >= 0)) continue;
+      return {{one.ohm.value, one.ohm.value}, one.method};
+    }
+  }
+  const CellSweep& main = report.sweeps[report.main];
+  if (!main.diode()) return {{}, "none: the fit is void"};
+  const double lit = FittedValue(main, "Rs").value, dark = DarkRs(report);
+  return {{lit, std::isfinite(dark) ? dark : lit}, "single-diode fit"};
+}
+
 void Superpose(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   if (!report->dark) return;
-  SeriesOhms series;
-  if (main.diode()) series.lit = FittedValue(main, "Rs").value;
-  const double dark_rs = DarkRs(*report);
-  series.dark = std::isfinite(dark_rs) ? dark_rs : series.lit;
+  const auto [series, from] = SeriesToTakeOff(*report);
   report->superposition = TestSuperposition(main, report->sweeps[report->dark->sweep], series,
                                             options.superposition);
   report->superposition->lit = report->main;
   report->superposition->dark = report->dark->sweep;
+  report->superposition->rs_from = from;
 }
 
 void Warn(CellReport* report) {
@@ -174,8 +187,12 @@ void Warn(CellReport* report) {
     if (!sweep.no_fit_because.empty()) {
       warnings.push_back(sweep.name + ": no fit: " + sweep.no_fit_because);
     }
+    std::string reasons;
     for (const std::string& reason : sweep.void_because) {
-      warnings.push_back(sweep.name + ": n and Rs of the fit are void: " + reason);
+      reasons += (reasons.empty() ? "" : "; ") + reason;
+    }
+    if (!reasons.empty()) {
+      warnings.push_back(sweep.name + ": n and Rs of the fit are void: " + reasons);
     }
   }
 }

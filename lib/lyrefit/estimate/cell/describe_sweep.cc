@@ -91,27 +91,6 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   return sweep;
 }
 
-// The range of points with |values| <= reach, extended to the three nearest 0.
-std::pair<std::size_t, std::size_t> Near(const std::vector<double>& values, double reach) {
-  constexpr std::size_t kFewest = 3;
-  std::size_t first = 0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    if (std::fabs(values[k]) < std::fabs(values[first])) first = k;
-  }
-  std::size_t last = first + 1;
-  const auto below = [&] { return first > 0 ? std::fabs(values[first - 1]) : kInfinity; };
-  const auto above = [&] { return last < values.size() ? std::fabs(values[last]) : kInfinity; };
-  while (std::min(below(), above()) <= reach ||
-         (last - first < kFewest && last - first < values.size())) {
-    if (below() < above()) {
-      --first;
-    } else {
-      ++last;
-    }
-  }
-  return {first, last};
-}
-
 void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const FitReport& fit,
                       std::vector<std::string>* reasons) {
   constexpr double kSShape = 0.9, kMisfit = 0.01;
@@ -160,13 +139,13 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
 }
 
 double ResistanceAtIsc(const Line& line, const KeyPoints& key) {
-  const auto [first, last] = Near(line.x, key.open_circuit_voltage_V / 10);
+  const auto [first, last] = NearZero(line.x, key.open_circuit_voltage_V / 10);
   const double slope = Regress(line.x, line.y, first, last).slope;
   return slope < 0 ? -1 / slope : kUnknown;
 }
 
 double ResistanceAtVoc(const Line& line, const KeyPoints& key) {
-  const auto [first, last] = Near(line.y, key.short_circuit_current_A / 10);
+  const auto [first, last] = NearZero(line.y, key.short_circuit_current_A / 10);
   const double slope = Regress(line.y, line.x, first, last).slope;
   return slope < 0 ? -slope : kUnknown;
 }

@@ -96,12 +96,15 @@ Parts ErrorsOf(const FitReport& fit, const Values& p, double thermal_V) {
   return errors;
 }
 
-// Losses by the series resistance and the shunt at the other end of the interval of one that sits
-// at its bound; otherwise the losses of the fit.
+// Losses at the other ends of the intervals of n and the resistances that sit at their bounds;
+// otherwise the losses of the fit.
 Parts PartsAtOtherEnds(const CellSweep& lit, const Values& p, double thermal_V) {
   Values other = p;
   for (const Estimate& e : lit.fit->estimates) {
     const Ranged range = FittedValue(lit, e.info.symbol);
+    if (e.info.symbol == "n1" && e.at_bound == BoundSide::kLower && range.high_95 > p[kN]) {
+      other[kN] = range.high_95;
+    }
     if (e.info.symbol == "Rs" && e.at_bound == BoundSide::kLower && range.high_95 > 0) {
       other[kSeries] = range.high_95;
     }
@@ -121,7 +124,7 @@ void SetIntervals(const CellSweep& lit, const Values& p, double thermal_V,
   for (std::size_t k = 0; k < losses->parts.size(); ++k) {
     Ranged& loss = losses->parts[k].loss;
     const double reach = fit.covariance.t_95 * errors[k];
-    const double extra = k == 1 || k == 2 ? std::max(0.0, other[k] - own[k]) : 0;
+    const double extra = k < 3 ? std::max(0.0, other[k] - own[k]) : 0;
     loss.low_95 = loss.value - reach;
     loss.high_95 = loss.value + std::hypot(reach, extra);
     if (k == 1 || k == 2) loss.low_95 = std::max(loss.low_95, 0.0);
@@ -130,7 +133,7 @@ void SetIntervals(const CellSweep& lit, const Values& p, double thermal_V,
 
 std::string WhyNone(const CellSweep& lit) {
   if (!lit.fit) return lit.no_fit_because.empty() ? "no fit was requested" : lit.no_fit_because;
-  return lit.diode() ? "" : lit.void_because.front();
+  return lit.diode() ? "" : "n and Rs of the fit are void, see the warnings";
 }
 
 }  // namespace

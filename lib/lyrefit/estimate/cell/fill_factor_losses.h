@@ -25,9 +25,9 @@ double GreenFillFactor(double voc_V, double nNsVth);
 // Splits the fill factor of a lit sweep with a single-diode fit. In this order: n from 1 to the
 // fitted one, then the shunt, then the series resistance; each curve keeps Isc and Voc of the fit.
 // The rest is the fitted minus the measured fill factor. Intervals are by the delta method from the
-// covariance of the fit, in Iph, ln Is, n, Rs and 1/Rsh; losses by resistances are not below 0. A
-// resistance at its bound has no standard error: the loss at the other end of its interval extends
-// the interval of its part, and that of the rest.
+// covariance of the fit, in Iph, ln Is, n, Rs and 1/Rsh; losses by resistances are not below 0. n or
+// a resistance at its bound has no standard error: the loss at the other end of its interval extends
+// the interval of its part.
 FillFactorLosses FindFillFactorLosses(const CellSweep& lit);
 
 }  // namespace lyrefit

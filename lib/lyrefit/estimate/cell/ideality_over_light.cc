@@ -33,6 +33,12 @@ bool RisesToLowLight(const std::vector<LocalIdeality>& local) {
   return low > (1 + kLeast) * high;
 }
 
+// Slope -dI/dV of the readings with |V| <= reach, of at least the three nearest to 0 V.
+double SlopeNearZero(const CellSweep& dark, double reach) {
+  const auto [first, last] = NearZero(dark.voltage_V, reach);
+  return -Regress(dark.voltage_V, dark.current_A, first, last).slope;
+}
+
 }  // namespace
 
 std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
@@ -105,11 +111,15 @@ double VocAt(const std::vector<VocPoint>& points, double light_A) {
 DarkIdeality FindDarkIdeality(const CellSweep& dark, double module_thermal_voltage_V, int cells) {
   constexpr std::size_t kFewest = 5;
   constexpr double kWindow_V = 0.05, kNoises = 10, kPlateau = 1.1;
+  constexpr double kNearZero_V = 0.025, kLeastPart = 0.5;
   std::vector<double> at, local, volt, logarithm;
+  const double shunt_S = std::max(0.0, SlopeNearZero(dark, kNearZero_V * cells));
   for (std::size_t k = 0; k < dark.voltage_V.size(); ++k) {
-    if (dark.voltage_V[k] <= 0 || !(-dark.current_A[k] > kNoises * dark.noise_A)) continue;
+    const double current = -dark.current_A[k], diode = current - shunt_S * dark.voltage_V[k];
+    if (dark.voltage_V[k] <= 0 || !(diode > std::max(kNoises * dark.noise_A, kLeastPart * current)))
+      continue;
     volt.push_back(dark.voltage_V[k]);
-    logarithm.push_back(std::log(-dark.current_A[k]));
+    logarithm.push_back(std::log(diode));
   }
   for (std::size_t first = 0; first + kFewest <= volt.size(); ++first) {
     std::size_t last = first + kFewest;

@@ -22,8 +22,10 @@ std::vector<VocPoint> PointsOfTrace(const CellSweep& sweep);
 // Voc at a light, linear in the logarithm of the light between points; NaN outside them.
 double VocAt(const std::vector<VocPoint>& points, double light_A);
 
-// Local ideality of a dark curve. Slopes of ln|J| are of the readings within 50 mV per cell, at
-// least five, all of one sign and above ten times the noise. NaN where there are none.
+// Local ideality of a dark curve without its shunt current, V times the slope at 0 V of the readings
+// with |V| <= 25 mV per cell (at least three). Slopes of ln J are of the readings within 50 mV per
+// cell, at least five. A reading counts if J without the shunt is above half of J and above ten
+// times the noise. NaN where there are none.
 DarkIdeality FindDarkIdeality(const CellSweep& dark, double module_thermal_voltage_V, int cells);
 
 }  // namespace lyrefit

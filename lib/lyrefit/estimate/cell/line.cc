@@ -61,6 +61,26 @@ Line MakeLine(const std::vector<double>& x, const std::vector<double>& y) {
   return line;
 }
 
+std::pair<std::size_t, std::size_t> NearZero(const std::vector<double>& values, double reach) {
+  constexpr std::size_t kFewest = 3;
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (std::fabs(values[k]) < std::fabs(values[first])) first = k;
+  }
+  std::size_t last = first + 1;
+  const auto below = [&] { return first > 0 ? std::fabs(values[first - 1]) : kInfinity; };
+  const auto above = [&] { return last < values.size() ? std::fabs(values[last]) : kInfinity; };
+  while (std::min(below(), above()) <= reach ||
+         (last - first < kFewest && last - first < values.size())) {
+    if (below() < above()) {
+      --first;
+    } else {
+      ++last;
+    }
+  }
+  return {first, last};
+}
+
 Regression Regress(const std::vector<double>& x, const std::vector<double>& y, std::size_t first,
                    std::size_t last) {
   const double count = static_cast<double>(last - first);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lyrefit {
@@ -27,6 +29,10 @@ struct Regression {
   double mean_x = 0;
   double mean_y = 0;
 };
+
+// The range [first, last) around the value nearest to 0 with |value| <= reach, extended to the three
+// nearest.
+std::pair<std::size_t, std::size_t> NearZero(const std::vector<double>& values, double reach);
 
 // Least-squares line through the points [first, last) of equally long lists.
 Regression Regress(const std::vector<double>& x, const std::vector<double>& y, std::size_t first,

@@ -33,6 +33,23 @@ double DarkVoltageAt(const CellSweep& dark, double forward_A) {
   return kUnknown;
 }
 
+// |dI/dV| between the readings around a voltage; 0 outside them.
+double SlopeAt(const CellSweep& sweep, double voltage_V) {
+  for (std::size_t k = 1; k < sweep.voltage_V.size(); ++k) {
+    const double below = sweep.voltage_V[k - 1], above = sweep.voltage_V[k];
+    if (voltage_V < below || voltage_V > above) continue;
+    return std::fabs((sweep.current_A[k] - sweep.current_A[k - 1]) / (above - below));
+  }
+  return 0;
+}
+
+// Sets the interval of a value with this standard error.
+void SetNoise(double error, Ranged* ranged) {
+  constexpr double kNormal95 = 1.959964;
+  ranged->low_95 = ranged->value - kNormal95 * error;
+  ranged->high_95 = ranged->value + kNormal95 * error;
+}
+
 }  // namespace
 
 Ranged FittedValue(const CellSweep& sweep, const std::string& symbol) {
@@ -57,7 +74,11 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   found.ohm.value = (v2 - v1) / (isc1 - isc2);
   if (!std::isfinite(found.ohm.value)) {
     found.missing = "the curve at less light does not reach this current: measure it further";
+    return found;
   }
+  // Four currents, each with its noise, decide where V2 is read.
+  const double noise = std::sqrt(2.0) * std::hypot(brighter.noise_A, darker.noise_A);
+  SetNoise(noise / SlopeAt(darker, v2) / (isc1 - isc2), &found.ohm);
   return found;
 }
 
@@ -69,26 +90,36 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double 
                    : "(V_dark(Isc - Imp) - Vmp) / Isc";
   const KeyPoints& key = lit.key;
   const double isc = key.short_circuit_current_A, imp = key.max_power_current_A;
-  const double v = DarkVoltageAt(dark, isc - imp) - key.max_power_voltage_V;
+  const double dark_V = DarkVoltageAt(dark, isc - imp), v = dark_V - key.max_power_voltage_V;
   found.ohm.value = own ? (v - (isc - imp) * dark_rs_ohm) / imp : v / isc;
   if (!std::isfinite(found.ohm.value)) {
     found.missing = "the dark curve does not reach the current Isc - Imp: measure it further";
+    return found;
   }
+  const double noise = std::hypot(std::sqrt(2.0) * lit.noise_A, dark.noise_A);
+  SetNoise(noise / SlopeAt(dark, dark_V) / (own ? imp : isc), &found.ohm);
   return found;
 }
 
 SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& points,
                            SweepKind source) {
+  constexpr double kStep = 1e-3;
   SeriesResistance found;
   found.method =
       source == SweepKind::kSunsVoc ? "Suns-Voc against lit" : "Voc of the light series against lit";
   found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
   const KeyPoints& key = lit.key;
   const double light = key.short_circuit_current_A - key.max_power_current_A;
-  found.ohm.value = (VocAt(points, light) - key.max_power_voltage_V) / key.max_power_current_A;
+  const double voc = VocAt(points, light);
+  found.ohm.value = (voc - key.max_power_voltage_V) / key.max_power_current_A;
   if (!std::isfinite(found.ohm.value)) {
     found.missing = fmt::format("needs a Voc at {:.2g} % of the light of the lit curve",
                                 100 * light / key.short_circuit_current_A);
+    return found;
+  }
+  const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);
+  if (slope > 0) {
+    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / key.max_power_current_A, &found.ohm);
   }
   return found;
 }
@@ -111,7 +142,7 @@ SeriesResistance RsOfFit(const CellSweep& lit) {
     found.missing = lit.no_fit_because.empty() ? "no fit was requested" : lit.no_fit_because;
   } else if (!lit.diode()) {
     found.ohm = {};
-    found.missing = lit.void_because.front();
+    found.missing = "void: see the warnings";
   }
   return found;
 }

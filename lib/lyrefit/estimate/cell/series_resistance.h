@@ -7,6 +7,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
+// Intervals of the first three are of the noise of the readings alone.
+
 // Series resistance from two lit curves (Wolf and Rauschenbach 1963, doi:10.1016/0365-1789(63)90063-8):
 // at equal Isc - I both have one junction voltage, so that Rs = (V2 - V1) / (Isc1 - Isc2). The point
 // is the maximum power point of the brighter curve.

@@ -97,6 +97,7 @@ Superposition TestSuperposition(const CellSweep& lit, const CellSweep& dark,
     largest = off;
     found.largest_at_V = readings.voltage[k];
   }
+  found.to_V = readings.voltage.back();
   found.largest_percent = 100 * largest / isc;
   found.rms_percent = 100 * RmsWith(readings, 1) / isc;
   found.noise_percent = 100 * std::hypot(lit.noise_A, dark.noise_A) / isc;

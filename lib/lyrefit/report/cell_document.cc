@@ -108,7 +108,7 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
   add("index at 0.8 Voc", PercentText(pair.index_at_80), "(J_rev - J_fwd) / J_rev, Voc of reverse");
   add("index at 0.5 Voc", PercentText(pair.index_at_50), "the same");
   add("gap", PercentText(pair.gap_percent / 100),
-      "rms of J_rev - J_fwd from 0 V to the smaller Voc, of Jsc_rev");
+      "rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev");
   add("noise in it", PercentText(pair.noise_percent / 100, 2), "rms that the noise of both gives");
   add("Voc", fmt::format("{:+.3g} mV", 1000 * pair.voc_difference_V), "reverse minus forward");
   add("Jsc", fmt::format("{:+.3g} %", 100 * pair.isc_difference),
@@ -146,8 +146,9 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
   if (over.local.size() > 1) AddTable(std::move(table), section);
   if (over.rises_to_low_light) {
     AddSentence(
-        "The local n rises towards low light, as a shunt makes it: n (1 + Voc / (Rsh Isc)). The "
-        "values at the brightest light are nearest to the junction's.",
+        "The local n rises towards low light, as a shunt makes it: n (1 + Voc / (Rsh Isc)). One "
+        "line through all points means little; the values at the brightest light are nearest to "
+        "the junction's.",
         section);
   }
 }
@@ -240,7 +241,12 @@ std::string CellVerdict(const CellReport& report) {
   }
   text += HysteresisVerdict(report);
   for (const IdealityOverLight& over : report.over_light) {
-    text += fmt::format(" n over light ({}) {}.", ToText(over.source), RangedText(over.n, 3));
+    const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
+    text += over.rises_to_low_light
+                ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
+                              Significant(over.local.back().n, 3),
+                              Significant(over.local.front().n, 3))
+                : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
   }
   if (report.superposition && std::isfinite(report.superposition->rms_percent)) {
     text += report.superposition->departs

@@ -35,11 +35,11 @@ Section FillFactorSection(const CellReport& report) {
   if (report.main == -1) return section;
   if (std::isfinite(report.pseudo.value)) {
     AddField("pseudo-FF",
-             fmt::format("{} from {}: series resistance costs {}",
-                         PercentText(report.pseudo.value, 4), report.pseudo.source,
-                         PercentText(report.pseudo.value -
-                                         report.sweeps[report.main].key.fill_factor,
-                                     3)),
+             fmt::format(
+                 "{} from {}; recombination and shunt cost {}, series resistance {}",
+                 PercentText(report.pseudo.value, 4), report.pseudo.source,
+                 PercentText(report.pseudo.ideal - report.pseudo.value, 3),
+                 PercentText(report.pseudo.value - report.sweeps[report.main].key.fill_factor, 3)),
              &section);
   }
   for (const FillFactorLosses& losses : report.losses) {

@@ -14,7 +14,7 @@ LYREFIT_JSON_FIELDS(VocPoint, light_A, voc_V)
 LYREFIT_JSON_FIELDS(LocalIdeality, low_A, high_A, n)
 LYREFIT_JSON_FIELDS(IdealityOverLight, source, points, n, local, rises_to_low_light)
 LYREFIT_JSON_FIELDS(DarkIdeality, sweep, least_n, at_V, plateau_low_V, plateau_high_V, fitted)
-LYREFIT_JSON_FIELDS(PseudoFillFactor, value, source)
+LYREFIT_JSON_FIELDS(PseudoFillFactor, value, ideal, source)
 LYREFIT_JSON_FIELDS(FillFactorPart, name, loss)
 LYREFIT_JSON_FIELDS(FillFactorLosses, sweep, ideal, without_resistances, without_series, fitted,
                     measured, parts, green_n1, green_fitted, missing)
@@ -57,6 +57,7 @@ Json SweepJson(const CellReport& report, const CellSweep& sweep) {
             {"resistance_at_voc", OhmJson(report, sweep.resistance_at_voc_ohm)},
             {"least_slope_ratio", sweep.least_slope_ratio},
             {"noise_A", sweep.noise_A},
+            {"limited", sweep.limited},
             {"suns_voc_A", sweep.suns_voc_A},
             {"fit", nullptr},
             {"no_fit_because", sweep.no_fit_because},

@@ -70,6 +70,7 @@ struct CellSweep {
   std::vector<double> current_A;          // of each voltage
   double suns_voc_A = kUnknown;           // see IvCurve::suns_voc_A
   double noise_A = 0;                     // of a current, from second differences
+  int limited = 0;                        // readings left out at a limit of the current
   KeyPoints key = {};                     // of a lit sweep, read off the readings
   double jsc_mA_cm2 = kUnknown;           // Isc / area
   double efficiency = kUnknown;           // Pmp / (irradiance x area)
@@ -110,7 +111,7 @@ struct DirectionPair {
   double index_area = kUnknown;    // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
   double index_at_80 = kUnknown;   // (J_rev - J_fwd) / J_rev at 0.8 Voc of the reverse sweep
   double index_at_50 = kUnknown;   // the same at 0.5 Voc
-  double gap_percent = kUnknown;   // rms of J_rev - J_fwd from 0 V to the smaller Voc, of Jsc_rev
+  double gap_percent = kUnknown;   // rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev
   double noise_percent = kUnknown; // that the noise of both adds to the gap
   double voc_difference_V = kUnknown;  // reverse minus forward
   double isc_difference = kUnknown;    // reverse minus forward, relative to reverse
@@ -141,6 +142,9 @@ struct IdealityOverLight {
   std::vector<LocalIdeality> local;    // of neighbouring points, by rising light
   // Whether the local n rises towards low light, as a shunt makes it: n (1 + Voc / (Rsh Isc)).
   bool rises_to_low_light = false;
+
+  // n at the brightest light where the local n rises to low light, else that over all points.
+  double junction_n() const { return rises_to_low_light ? local.back().n : n.value; }
 };
 
 // n of a dark curve.
@@ -164,6 +168,7 @@ struct SeriesResistance {
 // Fill factor of the curve without series resistance.
 struct PseudoFillFactor {
   double value = kUnknown;
+  double ideal = kUnknown;  // of a diode with n = 1 and the measured Isc and Voc
   std::string source;  // "Suns-Voc", "Voc of the light series" or "the fit with Rs = 0"
 };
 

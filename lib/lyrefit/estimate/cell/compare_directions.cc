@@ -14,6 +14,13 @@ double IndexAt(const Line& forward, const Line& reverse, double voltage) {
   return (reverse.At(voltage) - forward.At(voltage)) / reverse.At(voltage);
 }
 
+// First voltage of the comparison; NaN if one of the sweeps begins too far above 0 V.
+double BeginOf(const Line& forward, const Line& reverse, double voc) {
+  constexpr double kLatest = 0.05;
+  const double begin = std::max({0.0, forward.x.front(), reverse.x.front()});
+  return begin <= kLatest * voc ? begin : kUnknown;
+}
+
 bool AreOpposite(const CellSweep& a, const CellSweep& b) {
   constexpr double kSameLight = 0.02;
   const double light = std::max(a.irradiance_W_m2, b.irradiance_W_m2);
@@ -30,16 +37,18 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const Line up = LineOf(forward), down = LineOf(reverse);
   const double isc = r.short_circuit_current_A, voc = r.open_circuit_voltage_V;
   pair.index_power = (r.max_power_W - f.max_power_W) / r.max_power_W;
-  pair.index_area = 1 - up.Area(0, f.open_circuit_voltage_V) / down.Area(0, voc);
+  const double begin = BeginOf(up, down, voc);
+  pair.index_area = 1 - up.Area(begin, f.open_circuit_voltage_V) / down.Area(begin, voc);
   pair.index_at_80 = IndexAt(up, down, 0.8 * voc);
   pair.index_at_50 = IndexAt(up, down, 0.5 * voc);
   pair.voc_difference_V = voc - f.open_circuit_voltage_V;
   pair.isc_difference = (isc - f.short_circuit_current_A) / isc;
   pair.ff_difference = r.fill_factor - f.fill_factor;
-  const double end = std::min(voc, f.open_circuit_voltage_V);
+  const double end = std::min({std::max(voc, f.open_circuit_voltage_V), up.x.back(), down.x.back()});
   double squares = 0, highest = 0, lowest = 0;
   for (int k = 0; k <= kSteps; ++k) {
-    const double v = end * k / kSteps, gap = (down.At(v) - up.At(v)) / isc;
+    const double v = begin + (end - begin) * k / kSteps;
+    const double gap = (down.At(v) - up.At(v)) / isc;
     squares += gap * gap;
     highest = std::max(highest, gap);
     lowest = std::min(lowest, gap);

@@ -133,9 +133,48 @@ void FindSeriesResistances(CellReport* report) {
   list.push_back(RsFromSlope(main));
 }
 
-void FindPseudo(CellReport* report) {
+// The n of a fit that is above the n over light is none of the junction: collection is in it, and in
+// Rs and Rsh.
+void VoidFitsAboveLight(CellReport* report) {
+  constexpr double kMost = 1.15;
+  if (report->main == -1 || report->over_light.empty()) return;
+  const CellSweep& main = report->sweeps[report->main];
+  double n = kUnknown;
+  for (const IdealityOverLight& over : report->over_light) {
+    for (const LocalIdeality& local : over.local) {
+      // The last one that begins below this light.
+      if (local.low_A < main.key.short_circuit_current_A) n = local.n;
+    }
+  }
+  for (CellSweep& sweep : report->sweeps) {
+    const double fitted = FittedValue(sweep, "n1").value;
+    if (sweep.kind != SweepKind::kLit || !IsSameLight(sweep, main) || !(fitted > kMost * n)) {
+      continue;
+    }
+    sweep.void_because.push_back(fmt::format(
+        "n = {:.3g} of the fit is above the {:.3g} of Voc over light: collection that depends on "
+        "voltage, or an n that changes along the curve, is in the fit's n, Rs and Rsh",
+        fitted, n));
+  }
+}
+
+// Rs from lit against dark means nothing where the curves do not superpose.
+void VoidDarkResistances(CellReport* report) {
+  if (!report->superposition || !report->superposition->departs) return;
+  for (SeriesResistance& one : report->series_resistance) {
+    if (one.method.rfind("lit against dark", 0) != 0) continue;
+    one.ohm = {};
+    one.missing = "the curves do not superpose";
+  }
+}
+
+void FindPseudo(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   PseudoFillFactor& pseudo = report->pseudo;
+  pseudo.ideal = FillFactorOf(
+      {main.key.short_circuit_current_A, main.key.open_circuit_voltage_V,
+       report->cells_in_series *
+           ThermalVoltage(report->temperature_C + kZeroCelsius_K, options.constants)});
   for (const SweepKind source : {SweepKind::kSunsVoc, SweepKind::kLit}) {
     for (const IdealityOverLight& over : report->over_light) {
       if (over.source != source || std::isfinite(pseudo.value)) continue;
@@ -176,14 +215,38 @@ void Superpose(const CellOptions& options, CellReport* report) {
   report->superposition->rs_from = from;
 }
 
+// Rs from two lights is one number if it is a resistance; what collection loses grows as the light
+// falls.
+void WarnOfGrowingRs(CellReport* report) {
+  constexpr double kGrown = 1.3;
+  const SeriesResistance* brighter = nullptr;
+  for (const SeriesResistance& one : report->series_resistance) {
+    if (one.method.rfind("two lights", 0) != 0 || !one.missing.empty()) continue;
+    if (brighter != nullptr && one.ohm.low_95 > brighter->ohm.high_95 &&
+        one.ohm.value > kGrown * brighter->ohm.value) {
+      report->warnings.push_back(
+          "Rs from two lights grows as the light falls, which no resistance does: collection that "
+          "depends on voltage is in it, and in Rs from Voc over light");
+      return;
+    }
+    brighter = &one;
+  }
+}
+
 void Warn(CellReport* report) {
   std::vector<std::string>& warnings = report->warnings;
+  WarnOfGrowingRs(report);
   if (!std::isfinite(report->area_cm2)) {
     warnings.push_back(
         "the area is not known: no current density, efficiency or resistance per area; give "
         "--area-cm2");
   }
   for (const CellSweep& sweep : report->sweeps) {
+    if (sweep.limited > 0) {
+      warnings.push_back(fmt::format(
+          "{}: {} readings beyond Voc have one current: a limit of the source; they are left out",
+          sweep.name, sweep.limited));
+    }
     if (!sweep.no_fit_because.empty()) {
       warnings.push_back(sweep.name + ": no fit: " + sweep.no_fit_because);
     }
@@ -255,6 +318,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
   VoidHystereticFits(&report);
   const double thermal_V = first.conditions.ModuleThermalVoltage(options.constants);
   FindIdealities(thermal_V, &report);
+  VoidFitsAboveLight(&report);
   FindDark(thermal_V, &report);
   if (report.main != -1) {
     for (std::size_t i = 0; i < report.sweeps.size(); ++i) {
@@ -264,8 +328,9 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
       report.losses.back().sweep = static_cast<int>(i);
     }
     FindSeriesResistances(&report);
-    FindPseudo(&report);
+    FindPseudo(options, &report);
     Superpose(options, &report);
+    VoidDarkResistances(&report);
   }
   report.assumptions = cell.assumptions;
   for (const IvCurve& curve : cell.curves) {

@@ -54,6 +54,34 @@ void TakeLight(IvCurve* curve) {
   curve->irradiance_W_m2.clear();
 }
 
+// Leaves out three and more readings beyond Voc whose currents are equal within 2e-4 of Isc, at the
+// smallest current: the source's limit, where voltages and currents pile up. Returns their number.
+int LeaveOutEqualEnd(IvCurve* curve) {
+  constexpr double kEqual = 2e-4;
+  constexpr int kFewest = 3;
+  if (curve->suns_voc_A || IsDark(*curve)) return 0;
+  const KeyPoints key = FindKeyPoints(curve->voltage_V, curve->current_A);
+  const double least = *std::min_element(curve->current_A.begin(), curve->current_A.end());
+  const double reach = least + kEqual * key.short_circuit_current_A;
+  const auto at_limit = [&](std::size_t k) {
+    return curve->current_A[k] <= reach && curve->voltage_V[k] > key.open_circuit_voltage_V;
+  };
+  IvCurve kept = *curve;
+  for (auto* values : {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s,
+                       &kept.temperature_C}) {
+    if (values->size() != curve->size()) continue;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < curve->size(); ++k) {
+      if (!at_limit(k)) (*values)[count++] = (*values)[k];
+    }
+    values->resize(count);
+  }
+  const int left_out = static_cast<int>(curve->size() - kept.size());
+  if (left_out < kFewest || kept.size() < kFewestReadings) return 0;
+  *curve = std::move(kept);
+  return left_out;
+}
+
 std::string NameOf(const CellSweep& sweep) {
   if (sweep.kind == SweepKind::kSunsVoc) return "Suns-Voc";
   const std::string direction = ToText(sweep.direction);
@@ -130,7 +158,9 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
     MeasuredSweep measured = {PartOf(curve, first, last), {}};
     TakeLight(&measured.curve);
     if (last - first >= kFewestReadings) {
+      const int limited = LeaveOutEqualEnd(&measured.curve);
       measured.sweep = Describe(measured.curve, area_cm2);
+      measured.sweep.limited = limited;
       found.push_back(std::move(measured));
     }
     first = last;
@@ -152,15 +182,18 @@ double ResistanceAtVoc(const Line& line, const KeyPoints& key) {
 
 double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A) {
   constexpr std::size_t kReadings = 5;
-  constexpr double kFrom = 0.3, kTo = 1.1, kErrors = 5;
+  constexpr double kFrom = 0.3, kTo = 1.1, kErrors = 5, kWindow = 0.08;
   const double voc = key.open_circuit_voltage_V;
   double ratio = 1, steepest = 0, its_error = 0;
   for (std::size_t k = 0; k + kReadings <= line.x.size(); ++k) {
-    const Regression fit = Regress(line.x, line.y, k, k + kReadings);
+    std::size_t last = k + kReadings;
+    while (last < line.x.size() && line.x[last] - line.x[k] <= kWindow * voc) ++last;
+    const Regression fit = Regress(line.x, line.y, k, last);
     if (!(fit.mean_x >= kFrom * voc && fit.mean_x <= kTo * voc)) continue;
     double xx = 0;
-    for (std::size_t i = k; i < k + kReadings; ++i) xx += std::pow(line.x[i] - fit.mean_x, 2);
-    const double slope = -fit.slope, error = noise_A / std::sqrt(xx);
+    for (std::size_t i = k; i < last; ++i) xx += std::pow(line.x[i] - fit.mean_x, 2);
+    const double slope = -fit.slope;
+    const double error = std::max(noise_A / std::sqrt(xx), fit.slope_error);
     if (slope < steepest && steepest - slope > kErrors * std::hypot(error, its_error)) {
       ratio = std::min(ratio, slope / steepest);
     }

@@ -30,8 +30,9 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2);
 double ResistanceAtIsc(const Line& line, const KeyPoints& key);
 double ResistanceAtVoc(const Line& line, const KeyPoints& key);
 
-// See CellSweep::least_slope_ratio. Slopes are of five readings each; a ratio counts if both slopes
-// differ by five times the error that `noise_A` gives their difference.
+// See CellSweep::least_slope_ratio. Slopes are of the readings within 8 % of Voc, at least five; a
+// ratio counts if both slopes differ by five times the error of their difference, by `noise_A` or by
+// the scatter around the line.
 double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A);
 
 // Fits the single-diode model to a sweep. In the dark, the photocurrent is fixed at 0.

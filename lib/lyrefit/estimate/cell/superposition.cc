@@ -58,7 +58,7 @@ double BestScale(const ComparedReadings& readings) {
 
 // The causes that these two curves leave, the likelier first, and the measurement that decides.
 void NameCauses(Superposition* found) {
-  constexpr double kExplained = 0.5;  // of the rms, by another dark current
+  constexpr double kExplained = 0.1;  // of the rms, by another dark current
   if (found->scaled_rms_percent < kExplained * found->rms_percent) {
     found->causes = {found->dark_scale > 1 ? "the lit cell was warmer than the dark one"
                                            : "the dark cell was warmer than the lit one",

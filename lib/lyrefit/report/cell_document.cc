@@ -124,13 +124,11 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
                           pair.cross ? " The curves cross: the index by power hides the gap."
                                      : ""),
               &section);
-  AddSentence(
-      pair.sense == HysteresisSense::kInverted
-          ? "Possible: ions or traps, timing of the meter, drift of the lamp; not a capacitance. A "
-            "second rate decides. Neither direction is the steady power: track it."
-          : "Possible: ions or traps, timing of the meter, drift of the lamp, a capacitance. A "
-            "second rate decides. Neither direction is the steady power: track it.",
-      &section);
+  std::string causes;
+  for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
+  AddSentence("Possible: " + causes +
+                  ". A second rate decides. Neither direction is the steady power: track it.",
+              &section);
   return section;
 }
 
@@ -166,7 +164,7 @@ Section IdealitySection(const CellReport& report) {
     const DarkIdeality& dark = *report.dark;
     AddField("dark, local",
              std::isfinite(dark.least_n)
-                 ? fmt::format("n >= {:.4g} at {:.3g} V, within 10 % from {:.3g} to {:.3g} V: "
+                 ? fmt::format("smallest n {:.4g} at {:.3g} V, within 10 % from {:.3g} to {:.3g} V: "
                                "(q / k T) / (dln J / dV)",
                                dark.least_n, dark.at_V, dark.plateau_low_V, dark.plateau_high_V)
                  : std::string("no range of rising current above the noise"),

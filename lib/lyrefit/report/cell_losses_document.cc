@@ -36,7 +36,8 @@ Section FillFactorSection(const CellReport& report) {
   if (std::isfinite(report.pseudo.value)) {
     AddField("pseudo-FF",
              fmt::format(
-                 "{} from {}; recombination and shunt cost {}, series resistance {}",
+                 "{} from {}; recombination and shunt cost {}, series resistance and "
+                 "collection {}",
                  PercentText(report.pseudo.value, 4), report.pseudo.source,
                  PercentText(report.pseudo.ideal - report.pseudo.value, 3),
                  PercentText(report.pseudo.value - report.sweeps[report.main].key.fill_factor, 3)),

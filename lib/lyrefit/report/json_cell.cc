@@ -9,7 +9,7 @@ LYREFIT_JSON_FIELDS(Ranged, value, low_95, high_95)
 LYREFIT_JSON_FIELDS(StatedKeyPoint, name, stated, found, source)
 LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_area, index_at_80,
                     index_at_50, gap_percent, noise_percent, voc_difference_V, isc_difference,
-                    ff_difference, sense, cross)
+                    ff_difference, sense, cross, causes)
 LYREFIT_JSON_FIELDS(VocPoint, light_A, voc_V)
 LYREFIT_JSON_FIELDS(LocalIdeality, low_A, high_A, n)
 LYREFIT_JSON_FIELDS(IdealityOverLight, source, points, n, local, rises_to_low_light)

@@ -118,6 +118,7 @@ struct DirectionPair {
   double ff_difference = kUnknown;     // reverse minus forward, absolute
   HysteresisSense sense = HysteresisSense::kNone;
   bool cross = false;  // whether the curves cross, so that the index by power hides the gap
+  std::vector<std::string> causes;  // of hysteresis, that this pair does not tell apart
 };
 
 // An open-circuit voltage and the light at which it was measured, as a photocurrent.

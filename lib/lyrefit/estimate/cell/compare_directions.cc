@@ -14,6 +14,19 @@ double IndexAt(const Line& forward, const Line& reverse, double voltage) {
   return (reverse.At(voltage) - forward.At(voltage)) / reverse.At(voltage);
 }
 
+// Causes of a gap that one pair leaves: see the table in doi:10.1039/C4EE03664F and
+// doi:10.1021/jz500113x. A capacitance takes current on the way up only, so that reverse gives more
+// everywhere; late readings shift the curve sideways, which does nothing where it is flat.
+void NameCauses(DirectionPair* pair) {
+  constexpr double kSeen = 0.01;
+  pair->causes = {"ions or traps"};
+  if (std::fabs(pair->isc_difference) < kSeen) pair->causes.emplace_back("timing of the meter");
+  if (pair->sense == HysteresisSense::kNormal && pair->isc_difference > -kSeen) {
+    pair->causes.emplace_back("a capacitance");
+  }
+  pair->causes.emplace_back("drift of the lamp or the temperature");
+}
+
 // First voltage of the comparison; NaN if one of the sweeps begins too far above 0 V.
 double BeginOf(const Line& forward, const Line& reverse, double voc) {
   constexpr double kLatest = 0.05;
@@ -47,7 +60,7 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const double end = std::min({std::max(voc, f.open_circuit_voltage_V), up.x.back(), down.x.back()});
   double squares = 0, highest = 0, lowest = 0;
   for (int k = 0; k <= kSteps; ++k) {
-    const double v = begin + (end - begin) * k / kSteps;
+    const double v = std::min(begin + (end - begin) * k / kSteps, end);
     const double gap = (down.At(v) - up.At(v)) / isc;
     squares += gap * gap;
     highest = std::max(highest, gap);
@@ -59,6 +72,7 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   if (shows) {
     pair.sense = pair.index_power >= 0 ? HysteresisSense::kNormal : HysteresisSense::kInverted;
   }
+  if (shows) NameCauses(&pair);
   const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
   pair.cross = shows && highest > seen && -lowest > seen;
   return pair;

@@ -128,10 +128,12 @@ void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const 
   }
   const double isc = sweep.key.short_circuit_current_A;
   if (sweep.least_slope_ratio < kSShape) {
-    reasons->push_back(fmt::format(
-        "S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of what it was at a "
-        "lower voltage",
-        100 * std::max(0.0, sweep.least_slope_ratio)));
+    reasons->push_back(
+        sweep.least_slope_ratio < 0
+            ? std::string("the current rises with the voltage: the light or the meter changed")
+            : fmt::format("S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of "
+                          "what it was at a lower voltage",
+                          100 * sweep.least_slope_ratio));
   }
   if (fit.rmse.refined.solved_current_A > kMisfit * isc) {
     reasons->push_back(fmt::format("the single diode misses the curve by {:.1f} % of Isc (rms)",

@@ -2,9 +2,10 @@
 """Computes every figure of `lyrefit cell` again, with NumPy and SciPy alone, and compares.
 
     python3 cell_reference.py LYREFIT [FILE...]
+    python3 cell_reference.py --write FOLDER
 
-Without files it makes measurements of a diode cell: up and down, five lights, lit and dark, a Suns-Voc trace. Figures
-must agree within 1e-6; those of a fit are compared with a fit by SciPy, those of a covariance within 1e-3, since that
+Without files it makes measurements of a diode cell: up and down, five lights, lit and dark, a Suns-Voc trace; `--write`
+leaves them in a folder (data/cell). Figures must agree within 1e-6; those of a fit are compared with a fit by SciPy, those of a covariance within 1e-3, since that
 is computed here by differences. Exit code 77: no SciPy.
 """
 import json
@@ -79,6 +80,11 @@ def key_points(v, i):
     isc, voc = float(np.interp(0, v, i)), crossing(v, i)
     return {"short_circuit_current_A": isc, "open_circuit_voltage_V": voc, "max_power_voltage_V": vmp,
             "max_power_current_A": pmp / vmp, "max_power_W": pmp, "fill_factor": pmp / (isc * voc)}
+
+
+def best_reading(v, i):
+    k = int(np.argmax(v * i))
+    return v[k], i[k]
 
 
 def near(values, reach):
@@ -240,8 +246,8 @@ def check_resistances(report, thermal):
     sweeps = report["sweeps"]
     main = sweeps[report["main"]]
     curve = lambda s: (np.array(s["data"]["voltage_V"]), np.array(s["data"]["current_A"]))
-    key = key_points(*curve(main))
-    isc, imp, vmp = (key[k] for k in ("short_circuit_current_A", "max_power_current_A", "max_power_voltage_V"))
+    isc = key_points(*curve(main))["short_circuit_current_A"]
+    vmp, imp = best_reading(*curve(main))
     lights = {}
     for s in sweeps:
         if s["kind"] == "lit" and s["direction"] == main["direction"]:
@@ -257,8 +263,10 @@ def check_resistances(report, thermal):
             kb, kd = key_points(*curve(bright)), key_points(*curve(dim))
             v, i = curve(dim)
             i1, i2 = kb["short_circuit_current_A"], kd["short_circuit_current_A"]
-            v2 = crossing(v, i - (i2 - i1 + kb["max_power_current_A"]))
-            expected = (v2 - kb["max_power_voltage_V"]) / (i1 - i2)
+            v1, at = best_reading(*curve(bright))
+            rows = (i2 - i > 0) & (v > 0)
+            v2 = np.interp(math.log(i1 - at), np.log(i2 - i[rows]), v[rows])
+            expected = (v2 - v1) / (i1 - i2)
         elif one["method"].startswith("lit against dark"):
             v, i = curve(dark)
             rising = -i > 0
@@ -436,7 +444,8 @@ def make_files(folder):
     up = np.arange(-0.1, 0.961, 0.01)
     head = "voltage_V,current_A,sweep,irradiance_Wm2"
     worse = [5.45e-3, 2e-13, 1.42, 9.0, 6000.0]
-    pair = write("pair", "voltage_V,current_A,sweep", [r[:3] for r in sweep(cell, up[::-1], 1, 0) + sweep(worse, up, 2, 0)])
+    pair = write("pair", "voltage_V,current_A,sweep",
+                 [row[:3] for row in sweep(cell, up[::-1], 1, 0) + sweep(worse, up, 2, 0)])
     rows = []
     for k, light in enumerate((1000, 300, 100, 30, 10)):
         rows += sweep([cell[0] * light / 1000] + cell[1:], up, k, light)
@@ -449,6 +458,9 @@ def make_files(folder):
 
 
 def main():
+    if sys.argv[1] == "--write":
+        make_files(sys.argv[2])
+        return
     app, files = sys.argv[1], sys.argv[2:]
     with tempfile.TemporaryDirectory() as folder:
         for measurement in [[f] for f in files] or make_files(folder):

@@ -144,7 +144,7 @@ void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
   if (over.local.size() > 1) AddTable(std::move(table), section);
   if (over.rises_to_low_light) {
     AddSentence(
-        "The local n rises towards low light, as a shunt makes it: n (1 + Voc / (Rsh Isc)). One "
+        "The local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)). One "
         "line through all points means little; the values at the brightest light are nearest to "
         "the junction's.",
         section);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/report/cell_parts.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
@@ -49,32 +50,26 @@ Panel CurvePanel(const CellReport& report, std::vector<LegendEntry>* legend) {
   return panel;
 }
 
-// Open-circuit voltages over light, and the regression lines.
+// Open-circuit voltages over light, and lines with the n of the junction.
 Panel LightPanel(const CellReport& report) {
-  Panel panel{"Voc over light", {"Isc, or photocurrent (A)"}, {"Voc (V)"}};
+  Panel panel{"Voc (V) over light", {"Isc, or photocurrent (A)"}, {"Voc (V)"}};
   panel.x.log = true;
   int index = 0;
   for (const IdealityOverLight& over : report.over_light) {
     Series points{SeriesKind::kPoints, LookOf(index), 1, 0.8};
     points.name = over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "light series";
-    double mean_x = 0, mean_y = 0;
-    const double count = static_cast<double>(over.points.size());
-    for (const VocPoint& point : over.points) {
-      points.Add(point.light_A, point.voc_V);
-      mean_x += std::log(point.light_A) / count;
-      mean_y += point.voc_V / count;
-    }
-    // The slope is that of the least-squares line through the same points.
-    double xx = 0, xy = 0;
-    for (const VocPoint& point : over.points) {
-      xx += std::pow(std::log(point.light_A) - mean_x, 2);
-      xy += (std::log(point.light_A) - mean_x) * (point.voc_V - mean_y);
-    }
+    for (const VocPoint& point : over.points) points.Add(point.light_A, point.voc_V);
     Series line{SeriesKind::kLine, LookOf(index++), 1};
-    line.name = fmt::format("n = {}", Significant(over.n.value, 3));
-    for (const VocPoint* end : {&over.points.front(), &over.points.back()}) {
-      line.Add(end->light_A, mean_y + xy / xx * (std::log(end->light_A) - mean_x));
-    }
+    const double n = over.junction_n();
+    line.name = fmt::format("n = {}{}", Significant(n, 3),
+                            over.rises_to_low_light ? " at the brightest light" : "");
+    // Through the brightest point, down to the darkest light.
+    const VocPoint &top = over.points.back(), &bottom = over.points.front();
+    const double thermal_V = report.cells_in_series *
+                             ThermalVoltage(report.temperature_C + kZeroCelsius_K);
+    const double drop = n * thermal_V * std::log(top.light_A / bottom.light_A);
+    line.Add(bottom.light_A, top.voc_V - drop);
+    line.Add(top.light_A, top.voc_V);
     panel.notes.push_back({points.name + ": " + line.name, line.look.colour, 0.03,
                            0.95 - 0.08 * (index - 1), "left"});
     panel.series.push_back(std::move(line));
@@ -105,7 +100,7 @@ Panel DarkPanel(const CellReport& report) {
 
 // The fill factor from the ideal diode down to the measured one, each step a bar between its ends.
 Panel WaterfallPanel(const CellReport& report, const FillFactorLosses& losses) {
-  Panel panel{"Fill factor, " + report.sweeps[losses.sweep].name, {""}, {"Fill factor (%)"}};
+  Panel panel{"Fill factor (%), " + report.sweeps[losses.sweep].name, {""}, {"Fill factor (%)"}};
   const std::vector<std::string> names = {"n = 1",  "recombination", "shunt",
                                           "series", "rest",          "measured"};
   std::vector<double> from = {0}, to = {100 * losses.ideal};
@@ -171,7 +166,7 @@ Expected<void> PlotCell(const CellReport& report, const std::string& path, PlotP
 block::Figure FigureBlock(const CellReport& report) {
   block::Figure block;
   block.caption =
-      "Lit curves; open-circuit voltages over light with least-squares lines; dark curve; fill "
+      "Lit curves; open-circuit voltages over light with lines of the junction's n; dark curve; fill "
       "factor from the ideal diode to the measured one, with 95 % intervals of each loss.";
   block.figure = CellFigure(report);
   return block;

@@ -43,7 +43,7 @@ Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path
 Figure CertificateFigure(const Certificate& certificate);
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path);
 
-// A laboratory cell: its lit curves, open-circuit voltages over light with least-squares lines, the
+// A laboratory cell: its lit curves, open-circuit voltages over light with the junction's n, the
 // dark curve, and for each brightest lit sweep the fill factor from the ideal to the measured one.
 Figure CellFigure(const CellReport& report);
 Expected<void> PlotCell(const CellReport& report, const std::string& path,

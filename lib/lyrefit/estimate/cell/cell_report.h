@@ -141,7 +141,7 @@ struct IdealityOverLight {
   std::vector<VocPoint> points;        // by rising light
   Ranged n;                            // least squares over all points
   std::vector<LocalIdeality> local;    // of neighbouring points, by rising light
-  // Whether the local n rises towards low light, as a shunt makes it: n (1 + Voc / (Rsh Isc)).
+  // Whether the local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)).
   bool rises_to_low_light = false;
 
   // n at the brightest light where the local n rises to low light, else that over all points.

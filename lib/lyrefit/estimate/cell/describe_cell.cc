@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
@@ -24,6 +25,15 @@ constexpr double kSameLight = 0.02;
 bool IsSameLight(const CellSweep& a, const CellSweep& b) {
   return std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <=
          kSameLight * std::max(a.irradiance_W_m2, b.irradiance_W_m2);
+}
+
+// Numbers sweeps of one name: "forward, dark (2)".
+void NumberRepeats(std::vector<CellSweep>* sweeps) {
+  std::map<std::string, int> seen;
+  for (CellSweep& sweep : *sweeps) {
+    const int count = ++seen[sweep.name];
+    if (count > 1) sweep.name += fmt::format(" ({})", count);
+  }
 }
 
 // Brightest lit sweep, of equals the first; -1: none is lit.
@@ -313,6 +323,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     report.interrupted = report.interrupted || (one.sweep.fit && one.sweep.fit->interrupted);
     report.sweeps.push_back(std::move(one.sweep));
   }
+  NumberRepeats(&report.sweeps);
   report.main = BrightestOf(report.sweeps);
   report.pairs = FindPairs(report.sweeps, options.hysteresis);
   VoidHystereticFits(&report);

@@ -11,26 +11,31 @@
 namespace lyrefit {
 namespace {
 
-// Voltage at which a lit curve has this current, between its readings; NaN if it has not.
-double VoltageAt(const CellSweep& sweep, double current_A) {
+// Voltage at which `isc_A` (0 in the dark) minus the current is `lost_A`, linear in the logarithm
+// of that difference between readings; NaN if there is none.
+double VoltageAt(const CellSweep& sweep, double isc_A, double lost_A) {
   for (std::size_t k = 1; k < sweep.voltage_V.size(); ++k) {
-    const double above = sweep.current_A[k - 1], below = sweep.current_A[k];
-    if (!(above >= current_A && below < current_A)) continue;
-    const double part = (above - current_A) / (above - below);
+    const double below = isc_A - sweep.current_A[k - 1], above = isc_A - sweep.current_A[k];
+    if (!(below > 0 && below <= lost_A && above > lost_A)) continue;
+    const double part = std::log(lost_A / below) / std::log(above / below);
     return sweep.voltage_V[k - 1] + part * (sweep.voltage_V[k] - sweep.voltage_V[k - 1]);
   }
   return kUnknown;
 }
 
-// Voltage at which this current flows in the dark, linear in its logarithm between readings.
-double DarkVoltageAt(const CellSweep& dark, double forward_A) {
-  for (std::size_t k = 1; k < dark.voltage_V.size(); ++k) {
-    const double below = -dark.current_A[k - 1], above = -dark.current_A[k];
-    if (!(below > 0 && below <= forward_A && above > forward_A)) continue;
-    const double part = std::log(forward_A / below) / std::log(above / below);
-    return dark.voltage_V[k - 1] + part * (dark.voltage_V[k] - dark.voltage_V[k - 1]);
+// The reading of the largest power: as good as the power point for a resistance, and measured.
+struct PowerReading {
+  double voltage_V = kUnknown;
+  double current_A = kUnknown;
+};
+
+PowerReading PowerReadingOf(const CellSweep& sweep) {
+  PowerReading best = {0, 0};
+  for (std::size_t k = 0; k < sweep.voltage_V.size(); ++k) {
+    const double power = sweep.voltage_V[k] * sweep.current_A[k];
+    if (power > best.voltage_V * best.current_A) best = {sweep.voltage_V[k], sweep.current_A[k]};
   }
-  return kUnknown;
+  return best;
 }
 
 // |dI/dV| between the readings around a voltage; 0 outside them.
@@ -66,12 +71,12 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   SeriesResistance found;
   found.method = fmt::format("two lights, {:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2,
                              darker.irradiance_W_m2);
-  found.note = "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's power point";
+  found.note = "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's reading of most power";
   const double isc1 = brighter.key.short_circuit_current_A;
   const double isc2 = darker.key.short_circuit_current_A;
-  const double v1 = brighter.key.max_power_voltage_V;
-  const double v2 = VoltageAt(darker, isc2 - (isc1 - brighter.key.max_power_current_A));
-  found.ohm.value = (v2 - v1) / (isc1 - isc2);
+  const PowerReading at = PowerReadingOf(brighter);
+  const double v2 = VoltageAt(darker, isc2, isc1 - at.current_A);
+  found.ohm.value = (v2 - at.voltage_V) / (isc1 - isc2);
   if (!std::isfinite(found.ohm.value)) {
     found.missing = "the curve at less light does not reach this current: measure it further";
     return found;
@@ -88,9 +93,9 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double 
   found.method = own ? "lit against dark, Rs of the dark fit" : "lit against dark, equal Rs";
   found.note = own ? "(V_dark(Isc - Imp) - Vmp - (Isc - Imp) Rs_dark) / Imp"
                    : "(V_dark(Isc - Imp) - Vmp) / Isc";
-  const KeyPoints& key = lit.key;
-  const double isc = key.short_circuit_current_A, imp = key.max_power_current_A;
-  const double dark_V = DarkVoltageAt(dark, isc - imp), v = dark_V - key.max_power_voltage_V;
+  const PowerReading at = PowerReadingOf(lit);
+  const double isc = lit.key.short_circuit_current_A, imp = at.current_A;
+  const double dark_V = VoltageAt(dark, 0, isc - imp), v = dark_V - at.voltage_V;
   found.ohm.value = own ? (v - (isc - imp) * dark_rs_ohm) / imp : v / isc;
   if (!std::isfinite(found.ohm.value)) {
     found.missing = "the dark curve does not reach the current Isc - Imp: measure it further";
@@ -108,18 +113,18 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& po
   found.method =
       source == SweepKind::kSunsVoc ? "Suns-Voc against lit" : "Voc of the light series against lit";
   found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
-  const KeyPoints& key = lit.key;
-  const double light = key.short_circuit_current_A - key.max_power_current_A;
+  const PowerReading at = PowerReadingOf(lit);
+  const double isc = lit.key.short_circuit_current_A, light = isc - at.current_A;
   const double voc = VocAt(points, light);
-  found.ohm.value = (voc - key.max_power_voltage_V) / key.max_power_current_A;
+  found.ohm.value = (voc - at.voltage_V) / at.current_A;
   if (!std::isfinite(found.ohm.value)) {
     found.missing = fmt::format("needs a Voc at {:.2g} % of the light of the lit curve",
-                                100 * light / key.short_circuit_current_A);
+                                100 * light / isc);
     return found;
   }
   const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);
   if (slope > 0) {
-    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / key.max_power_current_A, &found.ohm);
+    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / at.current_A, &found.ohm);
   }
   return found;
 }

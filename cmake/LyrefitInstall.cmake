@@ -13,6 +13,12 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/diagnose.h
   diagnose/reference.h
   model/effects/catalogue.h
+  estimate/cell/compare_directions.h
+  estimate/cell/fill_factor_losses.h
+  estimate/cell/ideality_over_light.h
+  estimate/cell/series_resistance.h
+  estimate/cell/superposition.h
+  estimate/cell/describe_cell.h
   estimate/family/coefficients.h
   estimate/family/data_sheet.h
   estimate/family/data_sheet_family.h
@@ -34,6 +40,7 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/diagnose_options.h
   diagnose/priors.h
   diagnose/reference_options.h
+  estimate/cell/cell_options.h
   estimate/family/family_options.h
   estimate/family/two_junction_options.h
   estimate/fit/bounds.h
@@ -52,6 +59,7 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/diagnosis.h
   diagnose/reference_comparison.h
   diagnose/plan.h
+  estimate/cell/cell_report.h
   estimate/family/family_report.h
   estimate/family/two_junction_report.h
   estimate/fit/fit_report.h

@@ -5,8 +5,9 @@ namespace lyrefit {
 std::vector<const Verb*> ProgramVerbs() {
   return {&kFitVerb,      &kSimulateVerb,    &kCertifyVerb,    &kCompareVerb,
           &kBudgetVerb,   &kSensitivityVerb, &kDataSheetVerb,  &kAuditVerb,
-          &kDiagnoseVerb, &kTranslateVerb,   &kPackVerb,       &kBatchVerb,
-          &kMergeVerb,    &kHelpVerb,        &kCompletionVerb, &kManVerb};
+          &kDiagnoseVerb, &kCellVerb,        &kTranslateVerb,  &kPackVerb,
+          &kBatchVerb,    &kMergeVerb,       &kHelpVerb,       &kCompletionVerb,
+          &kManVerb};
 }
 
 const char kLeftOut[] = "";

@@ -16,6 +16,7 @@ extern const Verb kSensitivityVerb;
 extern const Verb kDataSheetVerb;
 extern const Verb kAuditVerb;
 extern const Verb kDiagnoseVerb;
+extern const Verb kCellVerb;
 extern const Verb kTranslateVerb;
 extern const Verb kPackVerb;
 extern const Verb kBatchVerb;

@@ -22,7 +22,7 @@
 // curve's RMSE. FitDataSheet finds a device from a data sheet alone, and the family of all devices
 // through the sheet's three points. Diagnose finds the deviations of a measurement from the model
 // and their causes. TranslateCurve translates a curve to standard or other conditions, with its
-// uncertainty. FitDocument, FamilyDocument and similar functions return reports as data for
+// uncertainty. DescribeCell describes the measurements of a laboratory cell. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
@@ -35,6 +35,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/estimate/cell/describe_cell.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/estimate/family/fit_two_junctions.h"

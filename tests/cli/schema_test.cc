@@ -89,6 +89,10 @@ std::vector<SchemaCase> SchemaCases() {
            kCauses,
        "reference"},
       {"OutlierSweeps", "diagnose " + sweeps + "--module --json FILE --quiet", "outlier_sweeps"},
+      {"Cell",
+       "cell " + kData + "cell/pair.csv " + kData + "cell/suns.csv " + kData +
+           "cell/lit_dark.csv --json FILE --quiet",
+       "cell"},
       {"Certificate", "certify " + rtc + "--json FILE --quiet", "certificate"},
       {"Comparison",
        "compare " + rtc +

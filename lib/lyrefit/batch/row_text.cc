@@ -26,7 +26,7 @@ std::string Quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-struct CellJson {
+struct FieldJson {
   std::string operator()(std::monostate) const { return "null"; }
   std::string operator()(const std::string& text) const { return Quoted(text); }
   std::string operator()(double value) const {
@@ -36,7 +36,7 @@ struct CellJson {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
 };
 
-struct CellCsv {
+struct FieldCsv {
   CsvTexts texts;
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(const std::string& text) const { return CsvField(text, texts); }
@@ -69,7 +69,7 @@ std::string RowJson(const std::vector<ResultColumn>& columns, const ResultRow& r
   std::string text = "{";
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (k > 0) text += ',';
-    text += '"' + columns[k].name + "\":" + std::visit(CellJson(), row.cells[k]);
+    text += '"' + columns[k].name + "\":" + std::visit(FieldJson(), row.cells[k]);
   }
   return text + "}";
 }
@@ -86,7 +86,7 @@ ResultRow RowOf(const std::vector<ResultColumn>& columns, const nlohmann::json& 
 
 std::string RowCsv(const ResultRow& row, CsvTexts texts) {
   std::string line;
-  for (const ResultCell& cell : row.cells) line += std::visit(CellCsv{texts}, cell) + ',';
+  for (const ResultCell& cell : row.cells) line += std::visit(FieldCsv{texts}, cell) + ',';
   line.back() = '\n';
   return line;
 }

@@ -79,6 +79,9 @@ struct IvCurve {
   bool strings_known = true;            // false: conditions.strings_in_parallel is a guess
   bool current_unit_known = true;       // false: ampere was assumed
   bool voltage_unit_known = true;       // false: volt was assumed
+  // Set for a Suns-Voc trace: the light, as a photocurrent, at which its current is 0. A reading is
+  // an open-circuit voltage at the photocurrent suns_voc_A - current_A.
+  std::optional<double> suns_voc_A;
   bool as_is = false;                   // turns refusals of CheckReadings into doubts
 
   // Number of points.

@@ -21,7 +21,7 @@ bool UnderSameConditions(const IvCurve& a, const IvCurve& b) {
 bool AreSweeps(const std::vector<IvCurve>& curves) {
   bool up = false, down = false;
   for (const IvCurve& curve : curves) {
-    if (!UnderSameConditions(curve, curves.front())) return false;
+    if (curve.suns_voc_A || !UnderSameConditions(curve, curves.front())) return false;
     (Rises(curve.voltage_V) ? up : down) = true;
   }
   return up && down;

@@ -71,6 +71,7 @@ Expected<void> LightToCurrent(const SunsVocColumns& columns, std::optional<doubl
   const double brightest = *std::max_element(values.begin(), values.end());
   for (double& value : values)
     value = columns.photocurrent ? brightest - value : *isc * (1 - value);
+  curve->suns_voc_A = columns.photocurrent ? brightest : *isc;
   curve->current_unit_known = true;
   curve->assumptions.push_back(
       columns.photocurrent

@@ -12,6 +12,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 struct CecModule;
+struct CellReport;
 struct Certificate;
 struct DataSheetFit;
 struct FamilyReport;
@@ -42,6 +43,10 @@ std::string OutlierSweepsCsv(const OutlierSweeps& outlier);
 
 // The floor, then one row for each model.
 std::string CertificateCsv(const Certificate& certificate);
+
+// One row for each sweep of a cell, with its figures; n, Rs_ohm and Rsh_ohm are those of the fit and
+// empty where they are void.
+std::string CellCsv(const CellReport& report);
 
 // One row for each parameter.
 std::string DataSheetCsv(const DataSheetFit& fit);

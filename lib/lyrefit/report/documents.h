@@ -11,6 +11,7 @@
 // solved-current.
 namespace LYREFIT_PUBLIC lyrefit {
 
+struct CellReport;
 struct Certificate;
 struct CurveSet;
 struct DataSheetFit;
@@ -70,6 +71,12 @@ std::string BriefOutlierSweeps(const OutlierSweeps& outlier);
 Document CertificateDocument(const Certificate& certificate);
 std::string CertificateText(const Certificate& certificate);
 std::string BriefCertificate(const Certificate& certificate);
+
+// A laboratory cell: sweeps, hysteresis, ideality, series resistance, losses of the fill factor,
+// superposition. The brief text has its main figures.
+Document CellDocument(const CellReport& report);
+std::string CellText(const CellReport& report);
+std::string BriefCell(const CellReport& report);
 
 // The device fitted to a data sheet, and its values beside the printed ones.
 Document DataSheetDocument(const DataSheetFit& fit);

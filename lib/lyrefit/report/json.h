@@ -8,6 +8,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/diagnose/reference.h"
+#include "lyrefit/estimate/cell/cell_report.h"
 #include "lyrefit/estimate/family/data_sheet.h"
 #include "lyrefit/estimate/family/family_report.h"
 #include "lyrefit/estimate/family/pvlib_parameters.h"
@@ -63,6 +64,10 @@ std::string TwoJunctionJson(const TwoJunctionReport& report);
 // sum current_A y - sum y^2 / 2 <= N RMSE^2 / 2 for every mixture, with equality to rounding for
 // the floor.
 std::string CertificateJson(const Certificate& certificate);
+
+// A laboratory cell. `main`, `sweep`, `lit`, `dark`, `forward` and `reverse` are indices into
+// `sweeps`. Parameters of a fit have the interval to believe, and `covariance` is in their order.
+std::string CellJson(const CellReport& report);
 
 // The fitted parameters, and each check: the stated value beside that of the device.
 std::string DataSheetJson(const DataSheetFit& fit);

@@ -10,6 +10,7 @@
 // `path`, a .svg or .png file, with the errors of DrawFigure.
 namespace LYREFIT_PUBLIC lyrefit {
 
+struct CellReport;
 struct Certificate;
 struct CurveSet;
 struct DataSheetFit;
@@ -47,6 +48,12 @@ Expected<void> PlotDiagnosis(const Diagnosis& diagnosis, const std::string& path
 // zero at the diodes of the floor and positive nowhere.
 Figure CertificateFigure(const Certificate& certificate);
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path);
+
+// A laboratory cell: its lit curves, open-circuit voltages over light with the junction's n, the
+// dark curve, and for each brightest lit sweep the fill factor from the ideal to the measured one.
+Figure CellFigure(const CellReport& report);
+Expected<void> PlotCell(const CellReport& report, const std::string& path,
+                        PlotPoints points = PlotPoints::kThinned);
 
 // The family of devices of a data sheet. Above: over voltage, curves of members and their
 // differences from the member selected by beta_oc; over n, the powers. Below: over n, beta_oc and

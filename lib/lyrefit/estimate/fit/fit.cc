@@ -145,6 +145,7 @@ FitReport PolishedReport(FitReport report, const PreparedFit& prepared, const Se
   report.rmse.refined = answer.rmse;
   report.estimates = std::move(judged.estimates);
   report.correlations = std::move(judged.correlations);
+  report.covariance = std::move(judged.covariance);
   report.no_intervals_because = std::move(judged.no_intervals_because);
   report.errors = judged.errors;
   report.under_errors = std::move(judged.under_errors);

@@ -161,6 +161,17 @@ struct ErrorReport {
   RmsePair least_squares;  // if weighed: RMSE of the least-squares fit
 };
 
+// Covariance of the parameters of a fit, for intervals of what is computed from them.
+struct FitCovariance {
+  // One row and column for each parameter, in the order of the device and in reporting units. NaN
+  // for parameters without a standard error (at a bound, fixed or not determined).
+  std::vector<std::vector<double>> values;
+  double t_95 = kUnknown;  // quantile of Student's t of a 95 % interval
+
+  // Whether there are values.
+  bool known() const { return !values.empty(); }
+};
+
 // Results that follow from the refined parameters. Vectors are of currents in ampere, one value for
 // each reading of the curve.
 struct ModelResults {
@@ -196,6 +207,8 @@ struct FitReport : ModelResults {
   // Estimates with intervals under `errors`, in addition to those that assume independent errors.
   // Empty if `errors` are not believed, or if `estimates` already have such intervals.
   std::vector<Estimate> under_errors;
+  // Of `under_errors`, or of `estimates` where that is empty.
+  FitCovariance covariance;
   RmseTable rmse;                         // RMSEs of search and polish
   std::optional<FloorReport> floor;       // only if requested
   std::vector<Correlation> correlations;  // |value| > 0.9, strongest first

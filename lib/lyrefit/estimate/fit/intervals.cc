@@ -171,6 +171,22 @@ IntervalStep LastStep(Intervals method, const CurveEnd& fit) {
                                                                  : IntervalStep::kSymmetric;
 }
 
+// The covariance behind symmetric intervals, NaN for parameters without a standard error.
+FitCovariance CovarianceOf(const IntervalProblem& problem) {
+  FitCovariance found;
+  const std::size_t size = problem.estimates.size();
+  const std::vector<double>& error = problem.spread.standard_error;
+  found.values.assign(size, std::vector<double>(size, kUnknown));
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      if (!std::isfinite(error[i]) || !std::isfinite(error[j])) continue;
+      found.values[i][j] = problem.spread.covariance(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
+  found.t_95 = *std::max_element(problem.t.begin(), problem.t.end());
+  return found;
+}
+
 double LargestReach(const IntervalProblem& problem) {
   double reach = 0;
   for (std::size_t i = 0; i < problem.t.size(); ++i) {
@@ -207,8 +223,9 @@ CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimate
     problem.t.push_back(
         StudentT95(options.degrees.empty() ? fit.spare_readings : options.degrees[i]));
   }
+  FitCovariance covariance = CovarianceOf(problem);
   if (problem.last == IntervalStep::kSymmetric) {
-    return {FindIntervals(std::move(problem), progress)};
+    return {FindIntervals(std::move(problem), progress), {}, std::move(covariance)};
   }
   problem.stretch = FindStretch(fit, problem.estimates);
   const StopToken& stop = progress.stop();
@@ -220,6 +237,7 @@ CurveIntervals FindIntervals(const CurveEnd& fit, std::vector<Estimate> estimate
   problem.profile = [&](const ProfileQuery& query) { return profiles.Find(query); };
   CurveIntervals found = {FindIntervals(std::move(problem), progress)};
   found.lower_optimum = profiles.FindLower(found.better);
+  found.covariance = std::move(covariance);
   return found;
 }
 

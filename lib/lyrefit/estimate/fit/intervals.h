@@ -4,6 +4,7 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/fit/fit_options.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/estimate/refine/error_model.h"
 #include "lyrefit/estimate/refine/intervals.h"
 #include "lyrefit/estimate/refine/refine.h"
@@ -33,6 +34,7 @@ struct CurveIntervalOptions {
 
 struct CurveIntervals : IntervalReport {
   std::vector<double> lower_optimum = {};  // that a profile found, in internal units; empty: none
+  FitCovariance covariance = {};           // empty without symmetric intervals
 };
 
 // FindIntervals for one curve; `estimates` as in IntervalProblem. Profiles use Coarsen(problem).

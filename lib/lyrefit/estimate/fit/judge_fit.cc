@@ -59,6 +59,7 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
         progress);
     judged->estimates = std::move(found.estimates);
     judged->correlations = std::move(found.correlations);
+    judged->covariance = std::move(found.covariance);
     judged->condition = found.condition;
     const std::vector<double>& better = found.lower_optimum;
     if (better.empty() || round == kRestarts) break;
@@ -94,14 +95,15 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
     return StandardErrors({fit.problem, end, fit.spare_readings(), &model});
   };
   const ErrorModel model = MakeErrorModel(shape, found->sizes);
-  judged->under_errors =
+  CurveIntervals under =
       FindIntervals({fit.problem, end, fit.spare_readings(), &model},
                     EstimatesOf(fit, searched, end.p),
                     {fit.options.intervals, refined.ends,
                      FindDegrees(*found, errors_at, fit.spare_readings()), fit.options.threads,
                      /*final=*/true},
-                    progress)
-          .estimates;
+                    progress);
+  judged->under_errors = std::move(under.estimates);
+  judged->covariance = std::move(under.covariance);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct JudgedFit {
   std::vector<StartReport> restarts;   // of the polish, from lower optima that a profile found
   std::optional<ErrorReport> errors;   // of a least-squares fit; none: not requested
   std::vector<Estimate> under_errors;  // see FitReport
+  FitCovariance covariance;            // see FitReport
   std::string no_intervals_because;    // empty: present, or not requested
 };
 

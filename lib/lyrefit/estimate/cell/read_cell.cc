@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <optional>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/estimate/cell/describe_cell.h"
+#include "lyrefit/read/dark.h"
+#include "lyrefit/read/key_points.h"
+
+namespace lyrefit {
+namespace {
+
+// Short-circuit current at one sun of the brightest lit curve whose light is stated.
+std::optional<double> CurrentAtOneSun(const CurveSet& cell) {
+  constexpr double kSun_W_m2 = 1000;
+  double brightest = 0;
+  std::optional<double> isc;
+  for (const IvCurve& curve : cell.curves) {
+    const double light = curve.conditions.irradiance_W_m2;
+    if (curve.suns_voc_A || IsDark(curve) || !curve.irradiance_known || !(light > brightest)) {
+      continue;
+    }
+    const double found = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
+    if (!(found > 0)) continue;
+    brightest = light;
+    isc = found * kSun_W_m2 / light;
+  }
+  return isc;
+}
+
+void Append(CurveSet more, CurveSet* all) {
+  all->name += (all->name.empty() ? "" : " + ") + more.name;
+  all->source += (all->source.empty() ? "" : ", ") + more.source;
+  for (IvCurve& curve : more.curves) all->curves.push_back(std::move(curve));
+  for (RejectedCurve& bad : more.rejected) all->rejected.push_back(std::move(bad));
+  for (Assumption& one : more.assumptions) all->assumptions.push_back(std::move(one));
+}
+
+}  // namespace
+
+Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options) {
+  CurveSet all;
+  std::vector<std::string> later;
+  for (const std::string& file : files) {
+    auto set = ReadMeasurement(file, options);
+    if (set) {
+      Append(std::move(*set), &all);
+    } else {
+      later.push_back(file);
+    }
+  }
+  ReadOptions with_isc = options;
+  if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all);
+  for (const std::string& file : later) {
+    TRY(CurveSet set, ReadMeasurement(file, with_isc));
+    Append(std::move(set), &all);
+  }
+  for (IvCurve& curve : all.curves) {
+    if (options.area_cm2) curve.notes.area_cm2 = options.area_cm2;
+  }
+  return all;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,112 @@
+#include <cmath>
+
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/json_parts.h"
+
+namespace lyrefit {
+
+LYREFIT_JSON_FIELDS(Ranged, value, low_95, high_95)
+LYREFIT_JSON_FIELDS(StatedKeyPoint, name, stated, found, source)
+LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_area, index_at_80,
+                    index_at_50, gap_percent, noise_percent, voc_difference_V, isc_difference,
+                    ff_difference, sense, cross, causes)
+LYREFIT_JSON_FIELDS(VocPoint, light_A, voc_V)
+LYREFIT_JSON_FIELDS(LocalIdeality, low_A, high_A, n)
+LYREFIT_JSON_FIELDS(IdealityOverLight, source, points, n, local, rises_to_low_light)
+LYREFIT_JSON_FIELDS(DarkIdeality, sweep, least_n, at_V, plateau_low_V, plateau_high_V, fitted)
+LYREFIT_JSON_FIELDS(PseudoFillFactor, value, ideal, source)
+LYREFIT_JSON_FIELDS(FillFactorPart, name, loss)
+LYREFIT_JSON_FIELDS(FillFactorLosses, sweep, ideal, without_resistances, without_series, fitted,
+                    measured, parts, green_n1, green_fitted, missing)
+LYREFIT_JSON_FIELDS(Superposition, lit, dark, lit_rs_ohm, dark_rs_ohm, rs_from, rms_percent,
+                    largest_percent, largest_at_V, to_V, noise_percent, voc_shift_V, dark_scale,
+                    scaled_rms_percent, departs, causes, decides)
+
+namespace {
+
+// A resistance, and per area.
+Json OhmJson(const CellReport& report, double ohm) {
+  return {{"ohm", ohm}, {"ohm_cm2", report.PerArea(ohm)}};
+}
+
+Json DiodeFitJson(const FitReport& fit) {
+  Json parameters = Json::object();
+  const auto& estimates = fit.under_errors.empty() ? fit.estimates : fit.under_errors;
+  for (const Estimate& e : estimates) parameters[e.info.name] = e;
+  return {{"parameters", parameters},
+          {"nNsVth", fit.nNsVth},
+          {"rmse", fit.rmse.refined},
+          {"covariance", fit.covariance.values},
+          {"t_95", fit.covariance.t_95},
+          {"under_errors", !fit.under_errors.empty()},
+          {"usable", fit.usable},
+          {"warnings", fit.warnings}};
+}
+
+Json SweepJson(const CellReport& report, const CellSweep& sweep) {
+  Json j = {{"name", sweep.name},
+            {"file", sweep.file},
+            {"kind", sweep.kind},
+            {"direction", sweep.direction},
+            {"irradiance_Wm2", sweep.irradiance_W_m2},
+            {"irradiance_known", sweep.irradiance_known},
+            {"key_points", sweep.key},
+            {"jsc_mA_cm2", sweep.jsc_mA_cm2},
+            {"efficiency", sweep.efficiency},
+            {"resistance_at_isc", OhmJson(report, sweep.resistance_at_isc_ohm)},
+            {"resistance_at_voc", OhmJson(report, sweep.resistance_at_voc_ohm)},
+            {"least_slope_ratio", sweep.least_slope_ratio},
+            {"noise_A", sweep.noise_A},
+            {"limited", sweep.limited},
+            {"suns_voc_A", sweep.suns_voc_A},
+            {"fit", nullptr},
+            {"no_fit_because", sweep.no_fit_because},
+            {"void_because", sweep.void_because},
+            {"stated", sweep.stated},
+            {"data", {{"voltage_V", sweep.voltage_V}, {"current_A", sweep.current_A}}}};
+  if (sweep.fit) j["fit"] = DiodeFitJson(*sweep.fit);
+  return j;
+}
+
+Json ResistanceJson(const CellReport& report, const SeriesResistance& one) {
+  Json j = {{"method", one.method}};
+  j.update(OhmJson(report, one.ohm.value));
+  j.update({{"low_95_ohm", one.ohm.low_95},
+            {"high_95_ohm", one.ohm.high_95},
+            {"note", one.note},
+            {"missing", one.missing}});
+  return j;
+}
+
+}  // namespace
+
+void to_json(Json& j, const CellReport& report) {
+  Json sweeps = Json::array(), resistances = Json::array();
+  for (const CellSweep& sweep : report.sweeps) sweeps.push_back(SweepJson(report, sweep));
+  for (const SeriesResistance& one : report.series_resistance) {
+    resistances.push_back(ResistanceJson(report, one));
+  }
+  j = {{"lyrefit_version", report.version},
+       {"name", report.name},
+       {"source", report.source},
+       {"area_cm2", report.area_cm2},
+       {"cells_in_series", report.cells_in_series},
+       {"temperature_C", RoundCelsius(report.temperature_C)},
+       {"sweeps", sweeps},
+       {"main", report.main},
+       {"hysteresis", report.pairs},
+       {"ideality_over_light", report.over_light},
+       {"ideality_dark", report.dark},
+       {"resistance_series", resistances},
+       {"pseudo_fill_factor", report.pseudo},
+       {"fill_factor_losses", report.losses},
+       {"superposition", report.superposition},
+       {"assumptions", SentencesOf(report.assumptions)},
+       {"options", report.non_default_options},
+       {"interrupted", report.interrupted},
+       {"warnings", report.warnings}};
+}
+
+std::string CellJson(const CellReport& report) { return Dump(report); }
+
+}  // namespace lyrefit

@@ -1,0 +1,63 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "repeats.h"
+#include "run_app.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kCell = DataFolder("cell") + "/";
+
+// Every figure of the JSON, computed by cell_reference.py from the readings in it.
+TEST(CellCommand, AgreesWithAnIndependentComputation) {
+  SKIP_IF_SANITIZED();
+  const std::string script = DataFolder("../tests/cli/cell_reference.py");
+  const int status =
+      std::system(("/usr/bin/env python3 '" + script + "' '" LYREFIT_APP "'").c_str());
+  const int code = WEXITSTATUS(status);
+  if (code == 77 || code == 127) {
+    const int own = std::system(("/usr/bin/python3 '" + script + "' '" LYREFIT_APP "'").c_str());
+    if (WEXITSTATUS(own) == 77 || WEXITSTATUS(own) == 127) GTEST_SKIP() << "no Python with SciPy";
+    EXPECT_EQ(WEXITSTATUS(own), 0);
+    return;
+  }
+  EXPECT_EQ(code, 0);
+}
+
+TEST(CellCommand, WritesEveryOutput) {
+  const TempFolder folder;
+  const AppResult run = RunApp("cell '" + kCell + "pair.csv' --csv '" + folder.Path("c.csv") +
+                               "' --json '" + folder.Path("c.json") + "' --html '" +
+                               folder.Path("c.html") + "' --plot '" + folder.Path("c.svg") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Hysteresis, normal"));
+  EXPECT_THAT(FileText(folder.Path("c.csv")), HasSubstr("reverse,1000,25,0.25,"));
+  EXPECT_THAT(FileText(folder.Path("c.html")), HasSubstr("index by power"));
+  EXPECT_THAT(FileText(folder.Path("c.svg")), HasSubstr("</svg>"));
+}
+
+TEST(CellCommand, SunsVocTakesItsIscFromTheLitCurve) {
+  const AppResult run =
+      RunApp("cell '" + kCell + "suns.csv' '" + kCell + "pair.csv' --brief");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("n from Suns-Voc"));
+  const AppResult alone = RunApp("cell '" + kCell + "suns.csv'");
+  EXPECT_EQ(alone.exit_code, 1);
+  EXPECT_THAT(alone.err, HasSubstr("--isc-A"));
+}
+
+TEST(CellCommand, RefusesWhatIsNotOneCell) {
+  ExpectRefusals("cell ", {{"", "FILE is required"},
+                           {"'" + DataFolder("formats/pixels_names_units.txt") + "'",
+                            "this file holds several cells"},
+                           {"nowhere.csv", "nowhere.csv"}});
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -45,6 +45,14 @@ struct DeviceNotes {
 // silicon. Case does not count.
 bool IsThinFilm(const std::string& technology);
 
+// A result that the file states for a sweep, such as Voc.
+struct StatedResult {
+  int sweep = 0;         // its place among the sweeps of the curve, from 0
+  std::string label;     // as written, with its unit: "Jsc [mA/cm2]"
+  double value = 0;      // as written
+  std::string source;    // where: "line 7 '...'"
+};
+
 // One measured curve in generator sign: delivered current is positive, negative voltages are
 // reverse bias. Points are in measurement order. Optional columns are empty or as long as
 // voltage_V.
@@ -60,6 +68,7 @@ struct IvCurve {
   std::vector<int> sweep;  // number of the sweep of each point
   std::vector<double> irradiance_W_m2;
   std::vector<double> temperature_C;
+  std::vector<StatedResult> stated;     // results that the file states
   std::vector<Assumption> assumptions;  // assumptions of the reader
   bool irradiance_known = true;         // false: not stated, conditions hold a default
   bool temperature_known = true;        // false: not stated, conditions hold a default

@@ -209,7 +209,7 @@ Section StatedSection(const CellReport& report) {
     for (const StatedKeyPoint& one : sweep.stated) {
       table.rows.push_back({sweep.name, one.name, Significant(one.stated, 5),
                             Significant(one.found, 5),
-                            fmt::format("{:+.2g} %", 100 * (one.found / one.stated - 1))});
+                            fmt::format("{:+.3f} %", 100 * (one.found / one.stated - 1))});
     }
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
@@ -230,8 +230,11 @@ std::string RangedText(const Ranged& ranged, int digits) {
 }
 
 std::string CellVerdict(const CellReport& report) {
-  if (report.main == -1) return "No lit curve that delivers power: nothing to describe.";
   std::string text;
+  if (report.main == -1) text = "No lit curve that delivers power.";
+  if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
+    text += fmt::format(" Smallest n of the dark curve: {}.", Significant(report.dark->least_n, 3));
+  }
   for (const FillFactorLosses& losses : report.losses) {
     const CellSweep& sweep = report.sweeps[losses.sweep];
     text += (text.empty() ? "" : " ") +

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/estimate/cell/compare_stated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/read/dark.h"
@@ -52,6 +53,11 @@ void TakeLight(IvCurve* curve) {
       0.0, std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(light.size()));
   curve->irradiance_known = true;
   curve->irradiance_W_m2.clear();
+}
+
+// Whether results are stated for the second sweep as well.
+bool AreOfEach(const std::vector<StatedResult>& stated) {
+  return std::any_of(stated.begin(), stated.end(), [](const auto& one) { return one.sweep > 0; });
 }
 
 // Leaves out three and more readings beyond Voc whose currents are equal within 2e-4 of Isc, at the
@@ -154,7 +160,7 @@ void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const 
 std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
   std::vector<MeasuredSweep> found;
   const std::vector<int> numbers = SweepNumbers(curve);
-  for (std::size_t first = 0; first < curve.size();) {
+  for (std::size_t first = 0, place = 0; first < curve.size(); ++place) {
     std::size_t last = first;
     while (last < curve.size() && numbers[last] == numbers[first]) ++last;
     MeasuredSweep measured = {PartOf(curve, first, last), {}};
@@ -163,6 +169,12 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
       const int limited = LeaveOutEqualEnd(&measured.curve);
       measured.sweep = Describe(measured.curve, area_cm2);
       measured.sweep.limited = limited;
+      std::vector<StatedResult> own;
+      for (const StatedResult& one : curve.stated) {
+        if (one.sweep == static_cast<int>(place)) own.push_back(one);
+      }
+      const bool one_value_for_all = place == 0 && last < curve.size() && !AreOfEach(curve.stated);
+      if (!one_value_for_all) measured.sweep.stated = CompareStated(own, measured.sweep, area_cm2);
       found.push_back(std::move(measured));
     }
     first = last;

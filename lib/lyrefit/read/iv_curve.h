@@ -47,10 +47,10 @@ bool IsThinFilm(const std::string& technology);
 
 // A result that the file states for a sweep, such as Voc.
 struct StatedResult {
-  int sweep = 0;         // its place among the sweeps of the curve, from 0
-  std::string label;     // as written, with its unit: "Jsc [mA/cm2]"
-  double value = 0;      // as written
-  std::string source;    // where: "line 7 '...'"
+  int sweep = 0;       // its place among the sweeps of the curve, from 0
+  std::string label;   // as written, with its unit: "Jsc [mA/cm2]"
+  double value = 0;    // as written
+  std::string source;  // where: "line 7 '...'"
 };
 
 // One measured curve in generator sign: delivered current is positive, negative voltages are
@@ -79,7 +79,7 @@ struct IvCurve {
   // Set for a Suns-Voc trace: the light, as a photocurrent, at which its current is 0. A reading is
   // an open-circuit voltage at the photocurrent suns_voc_A - current_A.
   std::optional<double> suns_voc_A;
-  bool as_is = false;                   // turns refusals of CheckReadings into doubts
+  bool as_is = false;  // turns refusals of CheckReadings into doubts
 
   // Number of points.
   std::size_t size() const { return voltage_V.size(); }

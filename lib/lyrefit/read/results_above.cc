@@ -95,7 +95,9 @@ void KeepValues(const ResultsAbove& results, int number, TableHead* head) {
   for (std::size_t i = 0; i < results.names.size(); ++i) {
     const auto value = ParseNumber(row[i]);
     if (!value || !IsResult(results.names[i])) continue;
-    head->result_lines.push_back({results.names[i], {name}, {*value},
+    head->result_lines.push_back({results.names[i],
+                                  {name},
+                                  {*value},
                                   fmt::format("line {} {}", number, Quoted(results.names[i]))});
   }
 }

@@ -37,10 +37,10 @@ struct StatedUnit {
 };
 
 constexpr StatedUnit kStatedUnits[] = {
-    {"v", 1, false},      {"mv", 1e3, false},    {"a", 1, false},      {"ma", 1e3, false},
-    {"acm2", 1, true},    {"macm2", 1e3, true},  {"am2", 1e4, true},   {"w", 1, false},
-    {"mw", 1e3, false},   {"wcm2", 1, true},     {"mwcm2", 1e3, true}, {"wm2", 1e4, true},
-    {"pct", 100, false},  {"percent", 100, false}};
+    {"v", 1, false},     {"mv", 1e3, false},     {"a", 1, false},      {"ma", 1e3, false},
+    {"acm2", 1, true},   {"macm2", 1e3, true},   {"am2", 1e4, true},   {"w", 1, false},
+    {"mw", 1e3, false},  {"wcm2", 1, true},      {"mwcm2", 1e3, true}, {"wm2", 1e4, true},
+    {"pct", 100, false}, {"percent", 100, false}};
 
 // The value of the quantity in the unit of the label. Without a unit: that of the usual ones which
 // is nearest to the stated value.

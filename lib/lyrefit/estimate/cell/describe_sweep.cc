@@ -73,8 +73,8 @@ int LeaveOutEqualEnd(IvCurve* curve) {
     return curve->current_A[k] <= reach && curve->voltage_V[k] > key.open_circuit_voltage_V;
   };
   IvCurve kept = *curve;
-  for (auto* values : {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s,
-                       &kept.temperature_C}) {
+  for (auto* values :
+       {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s, &kept.temperature_C}) {
     if (values->size() != curve->size()) continue;
     std::size_t count = 0;
     for (std::size_t k = 0; k < curve->size(); ++k) {
@@ -117,8 +117,7 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   const KeyPoints& key = sweep.key;
   sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
   constexpr double kSquareMetre_cm2 = 1e4;
-  sweep.efficiency =
-      key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+  sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
   sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
   sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);
   sweep.least_slope_ratio = LeastSlopeRatio(line, key, sweep.noise_A);

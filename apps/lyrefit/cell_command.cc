@@ -46,9 +46,9 @@ void DeclareCell(VerbLine* verb, CellRequest* request) {
 Expected<CurveSet> ReadFlaggedCell(const CellRequest& request) {
   TRY(CurveSet cell, ReadCell(request.files, request.reading));
   if (request.conditions.irradiance_W_m2 && cell.curves.size() > 1) {
-    return Fail("--irradiance-Wm2 is for one curve, this cell has " +
-                    std::to_string(cell.curves.size()),
-                request.files.front());
+    return Fail(
+        "--irradiance-Wm2 is for one curve, this cell has " + std::to_string(cell.curves.size()),
+        request.files.front());
   }
   TRY(ApplyConditionFlags(request.conditions, &cell));
   return cell;
@@ -74,9 +74,8 @@ Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
   TRY(const CellReport report, DescribeCell(cell, request.options, TerminalObserver()));
   TRY(WriteWanted(output.json_file, [&] { return CellJson(report); }));
   TRY(WriteWanted(output.csv_file, [&] { return CellCsv(report); }));
-  TRY(DrawWanted(output.plot_file, [&](const std::string& file) {
-    return PlotCell(report, file, output.marks());
-  }));
+  TRY(DrawWanted(output.plot_file,
+                 [&](const std::string& file) { return PlotCell(report, file, output.marks()); }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(CellDocument(report), CellJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefCell(report) : CellText(report); }));

@@ -198,8 +198,11 @@ def voc_at(points, light):
 
 def check_over_light(over, sweeps, thermal):
     if over["source"] == "lit":
+        lit = [s for s in sweeps if s["kind"] == "lit"]
+        lights = {s["irradiance_Wm2"] for s in lit}
+        series = [[s for s in lit if (s["file"], s["direction"]) == (one["file"], one["direction"])] for one in lit]
         by_light = {}
-        for s in sweeps:
+        for s in next((one for one in series if {s["irradiance_Wm2"] for s in one} == lights), lit):
             if s["kind"] == "lit":
                 by_light.setdefault(s["irradiance_Wm2"], []).append(
                     key_points(np.array(s["data"]["voltage_V"]), np.array(s["data"]["current_A"])))
@@ -454,7 +457,7 @@ def make_files(folder):
     suns = 10 ** np.arange(-2.5, 0.31, 0.1)
     voc = [brentq(lambda v: diode_current(v, [cell[0] * s] + cell[1:], thermal), 0, 1.5) for s in suns]
     trace = write("suns", "suns,Voc (V)", list(zip(suns, voc)))
-    return [[pair], [lights], [both], [both, trace], [pair, trace, both]]
+    return [[pair], [lights], [both], [both, trace], [pair, trace, both], [pair, lights]]
 
 
 def main():

@@ -43,8 +43,7 @@ TEST(CellCommand, WritesEveryOutput) {
 }
 
 TEST(CellCommand, SunsVocTakesItsIscFromTheLitCurve) {
-  const AppResult run =
-      RunApp("cell '" + kCell + "suns.csv' '" + kCell + "pair.csv' --brief");
+  const AppResult run = RunApp("cell '" + kCell + "suns.csv' '" + kCell + "pair.csv' --brief");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("n from Suns-Voc"));
   const AppResult alone = RunApp("cell '" + kCell + "suns.csv'");

@@ -127,6 +127,7 @@ TEST_P(Page, CommandsRunWithWhatShipsAndPrintWhatIsShown) {
 constexpr const char* kPages[] = {"README.md",
                                   "apps/lyrefit/verbs/audit.md",
                                   "apps/lyrefit/verbs/batch.md",
+                                  "apps/lyrefit/verbs/cell.md",
                                   "apps/lyrefit/verbs/certify.md",
                                   "apps/lyrefit/verbs/compare.md",
                                   "apps/lyrefit/verbs/diagnose.md",

@@ -45,7 +45,7 @@ TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   EXPECT_EQ(bare.err, "");
   EXPECT_EQ(bare.out, RunApp("help").out);
   for (const char* verb : {"fit", "simulate", "certify", "compare", "budget", "sensitivity",
-                           "datasheet", "audit", "diagnose", "pack"}) {
+                           "datasheet", "audit", "diagnose", "cell", "pack"}) {
     EXPECT_THAT(bare.out, HasSubstr(std::string("\n  ") + verb + " ")) << verb;
     EXPECT_THAT(bare.out, HasSubstr(std::string(" lyrefit ") + verb + " ")) << verb;
   }

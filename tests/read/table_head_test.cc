@@ -106,8 +106,9 @@ TEST(HeadSentencesTest, TellResultsFromWhatIsNotUnderstood) {
   }
   EXPECT_EQ(head.results.size(), 6U);
   EXPECT_THAT(head.left, ElementsAre("line 7 'Averaged Points 3'"));
-  EXPECT_THAT(SentencesOf(HeadSentences(head)).front(),
-              ::testing::StartsWith("stated key points and results, not used: line 1 'I_sc"));
+  EXPECT_THAT(
+      SentencesOf(HeadSentences(head)).front(),
+      ::testing::StartsWith("stated key points and results, not used in a fit: line 1 'I_sc"));
 }
 
 }  // namespace

@@ -53,6 +53,13 @@ bool IsThinFilm(const std::string& technology);
 // Junctions in series in each cell, by a word for the technology: 3 of "triple", 2 of "tandem",
 // "micromorph" or PVsyst's "mtuCSi_aSiH", else 1. Case does not count.
 int JunctionsPerCell(const std::string& technology);
+// A result that the file states for a sweep, such as Voc.
+struct StatedResult {
+  int sweep = 0;       // its place among the sweeps of the curve, from 0
+  std::string label;   // as written, with its unit: "Jsc [mA/cm2]"
+  double value = 0;    // as written
+  std::string source;  // where: "line 7 '...'"
+};
 
 // One measured curve in generator sign: delivered current is positive, negative voltages are
 // reverse bias. Points are in measurement order. Optional columns are empty or as long as
@@ -72,6 +79,7 @@ struct IvCurve {
   // Key points that a test laboratory states in place of a sweep; NaN: not stated. The readings
   // repeat them.
   std::optional<KeyPoints> key_points;
+  std::vector<StatedResult> stated;     // results that the file states
   std::vector<Assumption> assumptions;  // assumptions of the reader
   bool irradiance_known = true;         // false: not stated, conditions hold a default
   bool temperature_known = true;        // false: not stated, conditions hold a default
@@ -82,7 +90,7 @@ struct IvCurve {
   // Set for a Suns-Voc trace: the light, as a photocurrent, at which its current is 0. A reading is
   // an open-circuit voltage at the photocurrent suns_voc_A - current_A.
   std::optional<double> suns_voc_A;
-  bool as_is = false;                   // turns refusals of CheckReadings into doubts
+  bool as_is = false;  // turns refusals of CheckReadings into doubts
 
   // Number of points.
   std::size_t size() const { return voltage_V.size(); }

@@ -17,6 +17,7 @@
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/make_curve.h"
 #include "lyrefit/read/number_text.h"
+#include "lyrefit/read/results_above.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/sweep_order.h"
 #include "lyrefit/read/table_columns.h"
@@ -160,6 +161,7 @@ struct Surroundings {
   Sidecar stated;
   SweepDirection direction = SweepDirection::kUnknown;
   bool nomad = false;
+  std::vector<StatedResult> results = {};  // that the innermost object with results states
 };
 
 std::vector<Records> RecordsOf(const json& node) {
@@ -220,6 +222,22 @@ Sidecar StatedIn(const json& object, const Surroundings& around) {
   return Merge(std::move(stated), StatedNumbers(object, around.id, around.nomad));
 }
 
+// The results that an object, or an object of scalars in it, states.
+std::vector<StatedResult> ResultsIn(const json& object, const Surroundings& around) {
+  std::vector<StatedResult> results;
+  const auto take = [&](const json& from, const std::string& id) {
+    for (const auto& [key, value] : from.items()) {
+      const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
+      if (number && IsResult(key)) results.push_back({0, key, *number, Quoted(Below(id, key))});
+    }
+  };
+  for (const auto& [key, value] : object.items()) {
+    if (HoldsScalarsOnly(value)) take(value, Below(around.id, key));
+  }
+  take(object, around.id);
+  return results;
+}
+
 // Sets the unit of a current that names none from a current density beside it. With the area of the
 // cell, their ratio is that of ampere, milliampere or microampere.
 void TakeUnitOfDensity(const Records& records, const Sidecar& around, const ReadOptions& options,
@@ -261,6 +279,7 @@ void TakeCurve(FoundCurves* found, RawCurve raw, const std::string& id,
   const bool again = around.direction != SweepDirection::kUnknown;
   raw.curve.name = again ? id : UniqueId(found, id);
   raw.curve.source = found->path;
+  raw.curve.stated = around.results;
   TurnLoadSign(&raw.curve);
   found->curves.push_back(std::move(raw));
   found->directions.push_back(around.direction);
@@ -322,6 +341,7 @@ Expected<void> FindCurvesIn(FoundCurves* found, const json& node, Surroundings a
   if (node.is_object()) {
     around.nomad = around.nomad || node.contains("jv_curve");
     around.stated = Merge(StatedIn(node, around), around.stated);
+    if (auto results = ResultsIn(node, around); !results.empty()) around.results = results;
     SweepDirection direction = ReadTag(TextOf(node, "direction")).direction;
     if (direction == SweepDirection::kUnknown) {
       direction = ReadTag(TextOf(node, "cell_name")).direction;

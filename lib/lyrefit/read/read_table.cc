@@ -12,6 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/number_text.h"
+#include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_layout.h"
@@ -281,6 +282,8 @@ Expected<void> Finish(const std::string& file, TableReading* reading) {
                 reading->layout.first_row_line);
   }
   SayWhatWasSkipped(&table);
+  table.curve.stated = ResultsOf(reading->layout.head.result_lines, reading->layout.columns,
+                                 reading->layout.channels, reading->layout.channel());
   TRY(TakeTrace(reading->layout, file, reading->options, &table));
   TakeUnitOfShortCircuit(&table, reading->layout);
   NumberTables(reading);

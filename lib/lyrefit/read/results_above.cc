@@ -11,6 +11,7 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
+#include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {
@@ -18,19 +19,11 @@ namespace {
 
 constexpr char kResultsDelimiter = '\t';
 
-// The name of a result without its unit, in small letters: "jsc" of "JSC [mA/cm2]".
-std::string ResultName(std::string_view label) {
-  const std::vector<LabelWord> words = SplitLabel(label);
-  std::size_t end = 0;
-  while (end < words.size() && !words[end].marked_as_unit) ++end;
-  std::string name = JoinWords(words, 0, end);
-  return name == "isca" || name == "voca" ? name.substr(0, 3) : name;
-}
-
 constexpr std::string_view kKeyPointResults[] = {"isc", "jsc",  "voc",  "imp",
                                                  "vmp", "impp", "vmpp", "pmp"};
 constexpr std::string_view kOtherResults[] = {"jmp",
                                               "jmpp",
+                                              "umpp",
                                               "pmpp",
                                               "pmax",
                                               "mpp",
@@ -93,6 +86,22 @@ Column UnitByResults(const ResultsAbove& results, const Fields& readings) {
   return nearest;
 }
 
+// Adds the values of the last row of results to those of the head.
+void KeepValues(const ResultsAbove& results, int number, TableHead* head) {
+  const Fields& row = results.rows.back();
+  std::string name = row.back();
+  // The last field that is not empty names the sweep; some rows end in empty fields.
+  for (std::size_t i = row.size(); name.empty() && i > 0; --i) name = row[i - 1];
+  for (std::size_t i = 0; i < results.names.size(); ++i) {
+    const auto value = ParseNumber(row[i]);
+    if (!value || !IsResult(results.names[i])) continue;
+    head->result_lines.push_back({results.names[i],
+                                  {name},
+                                  {*value},
+                                  fmt::format("line {} {}", number, Quoted(results.names[i]))});
+  }
+}
+
 }  // namespace
 
 bool AreKeyPoints(const Fields& names) {
@@ -116,6 +125,7 @@ bool TakeResults(std::string_view line, int number, ResultsAbove* results, Table
   if (results->names.empty() || fields->size() != results->names.size()) return false;
   if (!ParseNumber((*fields)[0])) return false;
   results->rows.push_back(std::move(*fields));
+  KeepValues(*results, number, head);
   if (results->rows.size() > 1) return true;
   for (std::size_t i = 0; i < results->names.size(); ++i) {
     const auto value = ParseNumber(results->rows[0][i]);

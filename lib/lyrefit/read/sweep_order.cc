@@ -67,6 +67,11 @@ void AppendSweep(const IvCurve& next, IvCurve* curve) {
   const std::size_t before = curve->size();
   curve->time_s.clear();
   if (curve->sweep.empty()) curve->sweep.assign(before, 1);
+  const int sweeps = curve->sweep.back() - curve->sweep.front() + 1;
+  for (StatedResult one : next.stated) {
+    one.sweep += sweeps;
+    curve->stated.push_back(std::move(one));
+  }
   curve->sweep.insert(curve->sweep.end(), next.size(), curve->sweep.back() + 1);
   for (const auto column : kColumns) {
     std::vector<double>& values = curve->*column;

@@ -352,6 +352,17 @@ void ReadLine(HeadLineState* state, std::string_view line) {
   if (!ReadPart(state, line)) ReadWords(state, line);
 }
 
+// Keeps the names of a line "\ta_Forward\ta_Reverse" or "Parameter\tb_rev\tb_for", to which the values
+// of the lines below it belong.
+void TakeColumnNames(std::string_view line, TableHead* head) {
+  const auto fields = SplitFields(line, '\t');
+  if (!fields || fields->size() < 3) return;
+  head->column_names.assign(fields->begin() + 1, fields->end());
+  while (!head->column_names.empty() && head->column_names.back().empty()) {
+    head->column_names.pop_back();
+  }
+}
+
 }  // namespace
 
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
@@ -360,9 +371,13 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));
+  if (!state.holds_number) TakeColumnNames(line, head);
   if (kind == HeadLine::kText && state.holds_number && !state.understood) {
-    (IsResult(line.substr(0, line.find_first_of(":=\t;,"))) ? head->results : head->left)
-        .push_back(source);
+    const bool is_result = IsResult(line.substr(0, line.find_first_of(":=\t;,")));
+    (is_result ? head->results : head->left).push_back(source);
+    if (is_result) {
+      head->result_lines.push_back(ReadResultLine(line, head->column_names, source));
+    }
   }
 }
 
@@ -374,7 +389,7 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
 std::vector<Assumption> HeadSentences(const TableHead& head) {
   std::vector<Assumption> sentences = head.assumptions;
   for (const auto& [what, lines] :
-       {std::pair("stated key points and results, not used: ", &head.results),
+       {std::pair("stated key points and results, not used in a fit: ", &head.results),
         std::pair("not understood, and not used: ", &head.left)}) {
     std::string list;
     for (std::size_t i = 0; i < lines->size() && i < kShownLines; ++i) {

@@ -7,6 +7,7 @@
 
 #include "lyrefit/read/column.h"
 #include "lyrefit/read/sidecar.h"
+#include "lyrefit/read/stated_results.h"
 
 namespace lyrefit {
 
@@ -22,9 +23,11 @@ struct StatedCurrent {
 // Statements in the lines before the header of a table.
 struct TableHead {
   Sidecar said;
-  std::vector<Assumption> assumptions;  // values taken, with their source
-  std::vector<std::string> results;     // lines that state a result, such as Voc or efficiency
-  std::vector<std::string> left;        // other lines with a number that was not understood
+  std::vector<Assumption> assumptions;    // values taken, with their source
+  std::vector<std::string> results;       // lines that state a result, such as Voc or efficiency
+  std::vector<ResultLine> result_lines;   // their values
+  std::vector<std::string> column_names;  // fields of the last line that begins a block of results
+  std::vector<std::string> left;          // other lines with a number that was not understood
   std::optional<StatedCurrent> short_circuit;
 };
 

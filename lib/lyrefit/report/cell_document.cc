@@ -20,8 +20,7 @@ std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
                        Significant(sweep.key.open_circuit_voltage_V, 4),
                        PercentText(sweep.key.fill_factor));
   }
-  return fmt::format("Pmp {} W (Isc {} A, Voc {} V, FF {})",
-                     Significant(sweep.key.max_power_W, 4),
+  return fmt::format("Pmp {} W (Isc {} A, Voc {} V, FF {})", Significant(sweep.key.max_power_W, 4),
                      Significant(sweep.key.short_circuit_current_A, 4),
                      Significant(sweep.key.open_circuit_voltage_V, 4),
                      PercentText(sweep.key.fill_factor));
@@ -43,9 +42,9 @@ std::string LossVerdict(const CellReport& report) {
   for (const FillFactorLosses& losses : report.losses) {
     if (losses.sweep != report.main) continue;
     if (!losses.missing.empty()) return " No split of the fill factor: " + losses.missing + ".";
-    const auto largest = std::max_element(
-        losses.parts.begin(), losses.parts.end(),
-        [](const auto& a, const auto& b) { return a.loss.value < b.loss.value; });
+    const auto largest =
+        std::max_element(losses.parts.begin(), losses.parts.end(),
+                         [](const auto& a, const auto& b) { return a.loss.value < b.loss.value; });
     return fmt::format(" The fill factor loses most by {}: {} of {}.",
                        largest->name.substr(0, largest->name.find(':')),
                        PercentText(largest->loss.value, 2), PercentText(losses.ideal));
@@ -70,12 +69,12 @@ Section SweepSection(const CellReport& report) {
   const bool area = KnowsArea(report);
   const double per = area ? 1000 / report.area_cm2 : 1;
   const double of = area ? report.area_cm2 : 1;
-  block::Table table = {"lrrrrrrrrr",
-                        {{"", area ? "Jsc" : "Isc", "Voc", "Vmp", area ? "Jmp" : "Imp",
-                          area ? "Pmp" : "Pmp", "FF", "eff.", "R(Isc)", "R(Voc)"},
-                         {"", area ? "mA/cm2" : "A", "V", "V", area ? "mA/cm2" : "A",
-                          area ? "mW/cm2" : "W", "%", "%", area ? "ohm cm2" : "ohm",
-                          area ? "ohm cm2" : "ohm"}}};
+  block::Table table = {
+      "lrrrrrrrrr",
+      {{"", area ? "Jsc" : "Isc", "Voc", "Vmp", area ? "Jmp" : "Imp", area ? "Pmp" : "Pmp", "FF",
+        "eff.", "R(Isc)", "R(Voc)"},
+       {"", area ? "mA/cm2" : "A", "V", "V", area ? "mA/cm2" : "A", area ? "mW/cm2" : "W", "%", "%",
+        area ? "ohm cm2" : "ohm", area ? "ohm cm2" : "ohm"}}};
   for (const CellSweep& sweep : report.sweeps) {
     if (sweep.kind != SweepKind::kLit) {
       table.rows.push_back({sweep.name});
@@ -91,8 +90,8 @@ Section SweepSection(const CellReport& report) {
          Significant(sweep.resistance_at_voc_ohm * of, 3)});
   }
   AddTable(std::move(table), &section);
-  section.blocks.emplace_back(block::Legend{
-      "eff. = Pmp / (irradiance x area); R(Isc), R(Voc) = -dV/dI at 0 V and at Voc"});
+  section.blocks.emplace_back(
+      block::Legend{"eff. = Pmp / (irradiance x area); R(Isc), R(Voc) = -dV/dI at 0 V and at Voc"});
   return section;
 }
 
@@ -104,7 +103,8 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
     table.rows.push_back({name, value, definition});
   };
   add("index by power", PercentText(pair.index_power), "(Pmp_rev - Pmp_fwd) / Pmp_rev");
-  add("index by area", PercentText(pair.index_area), "1 - A_fwd / A_rev, A below J from 0 V to Voc");
+  add("index by area", PercentText(pair.index_area),
+      "1 - A_fwd / A_rev, A below J from 0 V to Voc");
   add("index at 0.8 Voc", PercentText(pair.index_at_80), "(J_rev - J_fwd) / J_rev, Voc of reverse");
   add("index at 0.5 Voc", PercentText(pair.index_at_50), "the same");
   add("gap", PercentText(pair.gap_percent / 100),
@@ -121,8 +121,7 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
   }
   AddSentence(fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense),
                           pair.sense == HysteresisSense::kNormal ? "reverse" : "forward",
-                          pair.cross ? " The curves cross: the index by power hides the gap."
-                                     : ""),
+                          pair.cross ? " The curves cross: the index by power hides the gap." : ""),
               &section);
   std::string causes;
   for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
@@ -162,13 +161,14 @@ Section IdealitySection(const CellReport& report) {
   }
   if (report.dark) {
     const DarkIdeality& dark = *report.dark;
-    AddField("dark, local",
-             std::isfinite(dark.least_n)
-                 ? fmt::format("smallest n {:.4g} at {:.3g} V, within 10 % from {:.3g} to {:.3g} V: "
-                               "(q / k T) / (dln J / dV)",
-                               dark.least_n, dark.at_V, dark.plateau_low_V, dark.plateau_high_V)
-                 : std::string("no range of rising current above the noise"),
-             &section);
+    AddField(
+        "dark, local",
+        std::isfinite(dark.least_n)
+            ? fmt::format("smallest n {:.4g} at {:.3g} V, within 10 % from {:.3g} to {:.3g} V: "
+                          "(q / k T) / (dln J / dV)",
+                          dark.least_n, dark.at_V, dark.plateau_low_V, dark.plateau_high_V)
+            : std::string("no range of rising current above the noise"),
+        &section);
     if (std::isfinite(dark.fitted.value)) {
       AddField("dark, fit", "n = " + RangedText(dark.fitted), &section);
     }
@@ -178,9 +178,8 @@ Section IdealitySection(const CellReport& report) {
 
 Section FitSection(const CellReport& report) {
   Section section = {"Single-diode fits"};
-  block::Table table = {"lrrrrl",
-                        {{"", "n", "Rs (ohm)", "Rsh (ohm)", "RMSE", ""},
-                         {"", "", "", "", "% of Isc", ""}}};
+  block::Table table = {
+      "lrrrrl", {{"", "n", "Rs (ohm)", "Rsh (ohm)", "RMSE", ""}, {"", "", "", "", "% of Isc", ""}}};
   for (const CellSweep& sweep : report.sweeps) {
     if (!sweep.fit) continue;
     const auto value = [&](const char* symbol) {
@@ -189,12 +188,12 @@ Section FitSection(const CellReport& report) {
       }
       return kUnknown;
     };
-    table.rows.push_back({sweep.name, Significant(value("n1"), 4), Significant(value("Rs"), 4),
-                          Significant(value("Rsh"), 4),
-                          Significant(100 * sweep.fit->rmse.refined.solved_current_A /
-                                          sweep.key.short_circuit_current_A,
-                                      2),
-                          sweep.diode() ? "" : "n and Rs are void"});
+    table.rows.push_back(
+        {sweep.name, Significant(value("n1"), 4), Significant(value("Rs"), 4),
+         Significant(value("Rsh"), 4),
+         Significant(
+             100 * sweep.fit->rmse.refined.solved_current_A / sweep.key.short_circuit_current_A, 2),
+         sweep.diode() ? "" : "n and Rs are void"});
   }
   if (table.rows.empty()) return section;
   AddTable(std::move(table), &section);
@@ -209,7 +208,7 @@ Section StatedSection(const CellReport& report) {
     for (const StatedKeyPoint& one : sweep.stated) {
       table.rows.push_back({sweep.name, one.name, Significant(one.stated, 5),
                             Significant(one.found, 5),
-                            fmt::format("{:+.2g} %", 100 * (one.found / one.stated - 1))});
+                            fmt::format("{:+.3f} %", 100 * (one.found / one.stated - 1))});
     }
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
@@ -230,8 +229,11 @@ std::string RangedText(const Ranged& ranged, int digits) {
 }
 
 std::string CellVerdict(const CellReport& report) {
-  if (report.main == -1) return "No lit curve that delivers power: nothing to describe.";
   std::string text;
+  if (report.main == -1) text = "No lit curve that delivers power.";
+  if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
+    text += fmt::format(" Smallest n of the dark curve: {}.", Significant(report.dark->least_n, 3));
+  }
   for (const FillFactorLosses& losses : report.losses) {
     const CellSweep& sweep = report.sweeps[losses.sweep];
     text += (text.empty() ? "" : " ") +
@@ -240,11 +242,11 @@ std::string CellVerdict(const CellReport& report) {
   text += HysteresisVerdict(report);
   for (const IdealityOverLight& over : report.over_light) {
     const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
-    text += over.rises_to_low_light
-                ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
-                              Significant(over.local.back().n, 3),
-                              Significant(over.local.front().n, 3))
-                : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
+    text +=
+        over.rises_to_low_light
+            ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
+                          Significant(over.local.back().n, 3), Significant(over.local.front().n, 3))
+            : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
   }
   if (report.superposition && std::isfinite(report.superposition->rms_percent)) {
     text += report.superposition->departs

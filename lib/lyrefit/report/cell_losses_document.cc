@@ -19,8 +19,7 @@ Section SeriesResistanceSection(const CellReport& report) {
     const bool ranged = std::isfinite(ohm.low_95) && std::isfinite(ohm.high_95);
     table.rows.push_back({one.method, Significant(ohm.value, 4),
                           area ? Significant(report.PerArea(ohm.value), 4) : "-",
-                          ranged ? Range(ohm.low_95, ohm.high_95) : "",
-                          one.missing});
+                          ranged ? Range(ohm.low_95, ohm.high_95) : "", one.missing});
     const std::string method = one.method.substr(0, one.method.find(','));
     const std::string note = method + ": " + one.note;
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
@@ -51,7 +50,8 @@ Section FillFactorSection(const CellReport& report) {
     }
     block::Table table = {"lrrr", {{sweep.name, "lost (%)", "95 %", "FF (%)"}}};
     double left = losses.ideal;
-    table.rows.push_back({"ideal diode, n = 1, same Isc and Voc", "", "", Significant(100 * left, 4)});
+    table.rows.push_back(
+        {"ideal diode, n = 1, same Isc and Voc", "", "", Significant(100 * left, 4)});
     for (const FillFactorPart& part : losses.parts) {
       left -= part.loss.value;
       const bool ranged = std::isfinite(part.loss.low_95);

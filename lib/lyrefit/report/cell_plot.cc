@@ -65,8 +65,8 @@ Panel LightPanel(const CellReport& report) {
                             over.rises_to_low_light ? " at the brightest light" : "");
     // Through the brightest point, down to the darkest light.
     const VocPoint &top = over.points.back(), &bottom = over.points.front();
-    const double thermal_V = report.cells_in_series *
-                             ThermalVoltage(report.temperature_C + kZeroCelsius_K);
+    const double thermal_V =
+        report.cells_in_series * ThermalVoltage(report.temperature_C + kZeroCelsius_K);
     const double drop = n * thermal_V * std::log(top.light_A / bottom.light_A);
     line.Add(bottom.light_A, top.voc_V - drop);
     line.Add(top.light_A, top.voc_V);
@@ -121,9 +121,9 @@ Panel WaterfallPanel(const CellReport& report, const FillFactorLosses& losses) {
     const double start = total ? panel.y.low : from[k];
     Series bar{SeriesKind::kLine, {total ? kBlue : kVermilion, 1, 7}, 3};
     bar.name = names[k];
-    for (const auto& [dx, y] : {std::pair(-kHalf, start), std::pair(-kHalf, to[k]),
-                                std::pair(kHalf, to[k]), std::pair(kHalf, start),
-                                std::pair(-kHalf, start)}) {
+    for (const auto& [dx, y] :
+         {std::pair(-kHalf, start), std::pair(-kHalf, to[k]), std::pair(kHalf, to[k]),
+          std::pair(kHalf, start), std::pair(-kHalf, start)}) {
       bar.Add(x + dx, y);
     }
     panel.series.push_back(std::move(bar));
@@ -166,7 +166,8 @@ Expected<void> PlotCell(const CellReport& report, const std::string& path, PlotP
 block::Figure FigureBlock(const CellReport& report) {
   block::Figure block;
   block.caption =
-      "Lit curves; open-circuit voltages over light with lines of the junction's n; dark curve; fill "
+      "Lit curves; open-circuit voltages over light with lines of the junction's n; dark curve; "
+      "fill "
       "factor from the ideal diode to the measured one, with 95 % intervals of each loss.";
   block.figure = CellFigure(report);
   return block;

@@ -33,14 +33,10 @@ Json DiodeFitJson(const FitReport& fit) {
   Json parameters = Json::object();
   const auto& estimates = fit.under_errors.empty() ? fit.estimates : fit.under_errors;
   for (const Estimate& e : estimates) parameters[e.info.name] = e;
-  return {{"parameters", parameters},
-          {"nNsVth", fit.nNsVth},
-          {"rmse", fit.rmse.refined},
-          {"covariance", fit.covariance.values},
-          {"t_95", fit.covariance.t_95},
-          {"under_errors", !fit.under_errors.empty()},
-          {"usable", fit.usable},
-          {"warnings", fit.warnings}};
+  return {{"parameters", parameters},    {"nNsVth", fit.nNsVth},
+          {"rmse", fit.rmse.refined},    {"covariance", fit.covariance.values},
+          {"t_95", fit.covariance.t_95}, {"under_errors", !fit.under_errors.empty()},
+          {"usable", fit.usable},        {"warnings", fit.warnings}};
 }
 
 Json SweepJson(const CellReport& report, const CellSweep& sweep) {

@@ -48,7 +48,8 @@ TEST(Directions, CurvesThatCrossAreSaidToCross) {
   std::vector<double> other = kCellTruth;
   other[0] *= 1.04;
   other[1] *= 3;
-  const DirectionPair pair = CompareDirections(SweepOf(kCellTruth), SweepOf(other, 1000, true), 0.5);
+  const DirectionPair pair =
+      CompareDirections(SweepOf(kCellTruth), SweepOf(other, 1000, true), 0.5);
   EXPECT_TRUE(pair.cross);
   EXPECT_GT(pair.gap_percent, 3);
   EXPECT_LT(std::fabs(pair.index_power), 0.02);

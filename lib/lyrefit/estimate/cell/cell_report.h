@@ -26,9 +26,8 @@ enum class SweepKind {
 
 template <>
 struct EnumTable<SweepKind> {
-  static constexpr EnumText<SweepKind> kRows[] = {{SweepKind::kLit, "lit"},
-                                                  {SweepKind::kDark, "dark"},
-                                                  {SweepKind::kSunsVoc, "Suns-Voc"}};
+  static constexpr EnumText<SweepKind> kRows[] = {
+      {SweepKind::kLit, "lit"}, {SweepKind::kDark, "dark"}, {SweepKind::kSunsVoc, "Suns-Voc"}};
 };
 
 // Direction of a sweep.
@@ -65,15 +64,15 @@ struct CellSweep {
   SweepKind kind = SweepKind::kLit;
   ScanDirection direction = ScanDirection::kForward;
   double irradiance_W_m2 = kUnknown;
-  bool irradiance_known = true;           // false: a default is assumed
-  std::vector<double> voltage_V;          // rising; equal voltages are averaged
-  std::vector<double> current_A;          // of each voltage
-  double suns_voc_A = kUnknown;           // see IvCurve::suns_voc_A
-  double noise_A = 0;                     // of a current, from second differences
-  int limited = 0;                        // readings left out at a limit of the current
-  KeyPoints key = {};                     // of a lit sweep, read off the readings
-  double jsc_mA_cm2 = kUnknown;           // Isc / area
-  double efficiency = kUnknown;           // Pmp / (irradiance x area)
+  bool irradiance_known = true;             // false: a default is assumed
+  std::vector<double> voltage_V;            // rising; equal voltages are averaged
+  std::vector<double> current_A;            // of each voltage
+  double suns_voc_A = kUnknown;             // see IvCurve::suns_voc_A
+  double noise_A = 0;                       // of a current, from second differences
+  int limited = 0;                          // readings left out at a limit of the current
+  KeyPoints key = {};                       // of a lit sweep, read off the readings
+  double jsc_mA_cm2 = kUnknown;             // Isc / area
+  double efficiency = kUnknown;             // Pmp / (irradiance x area)
   double resistance_at_isc_ohm = kUnknown;  // -dV/dI at 0 V
   double resistance_at_voc_ohm = kUnknown;  // -dV/dI at Voc
   // Least ratio of the slope -dI/dV to a larger one at a lower voltage, from 0.3 to 1.1 Voc; 1:
@@ -107,12 +106,13 @@ struct EnumTable<HysteresisSense> {
 struct DirectionPair {
   int forward = 0;  // index into CellReport::sweeps
   int reverse = 0;
-  double index_power = kUnknown;   // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
-  double index_area = kUnknown;    // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
-  double index_at_80 = kUnknown;   // (J_rev - J_fwd) / J_rev at 0.8 Voc of the reverse sweep
-  double index_at_50 = kUnknown;   // the same at 0.5 Voc
-  double gap_percent = kUnknown;   // rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev
-  double noise_percent = kUnknown; // that the noise of both adds to the gap
+  double index_power =
+      kUnknown;                  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
+  double index_area = kUnknown;  // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
+  double index_at_80 = kUnknown;    // (J_rev - J_fwd) / J_rev at 0.8 Voc of the reverse sweep
+  double index_at_50 = kUnknown;    // the same at 0.5 Voc
+  double gap_percent = kUnknown;    // rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev
+  double noise_percent = kUnknown;  // that the noise of both adds to the gap
   double voc_difference_V = kUnknown;  // reverse minus forward
   double isc_difference = kUnknown;    // reverse minus forward, relative to reverse
   double ff_difference = kUnknown;     // reverse minus forward, absolute
@@ -150,12 +150,12 @@ struct IdealityOverLight {
 
 // n of a dark curve.
 struct DarkIdeality {
-  int sweep = 0;               // index into CellReport::sweeps
-  double least_n = kUnknown;   // smallest local ideality (q / k T Ns) / (dln|J| / dV)
-  double at_V = kUnknown;      // where
+  int sweep = 0;                    // index into CellReport::sweeps
+  double least_n = kUnknown;        // smallest local ideality (q / k T Ns) / (dln|J| / dV)
+  double at_V = kUnknown;           // where
   double plateau_low_V = kUnknown;  // range of voltages where it is within 10 % of the smallest
   double plateau_high_V = kUnknown;
-  Ranged fitted;               // n of the single-diode fit of the dark curve
+  Ranged fitted;  // n of the single-diode fit of the dark curve
 };
 
 // One estimate of the series resistance.
@@ -170,7 +170,7 @@ struct SeriesResistance {
 struct PseudoFillFactor {
   double value = kUnknown;
   double ideal = kUnknown;  // of a diode with n = 1 and the measured Isc and Voc
-  std::string source;  // "Suns-Voc", "Voc of the light series" or "the fit with Rs = 0"
+  std::string source;       // "Suns-Voc", "Voc of the light series" or "the fit with Rs = 0"
 };
 
 // A step of the fill-factor losses.
@@ -181,8 +181,8 @@ struct FillFactorPart {
 
 // Fill-factor losses of one lit sweep, from the curves of its fit with Isc and Voc held.
 struct FillFactorLosses {
-  int sweep = 0;                   // index into CellReport::sweeps
-  double ideal = kUnknown;         // n = 1, no resistances
+  int sweep = 0;                          // index into CellReport::sweeps
+  double ideal = kUnknown;                // n = 1, no resistances
   double without_resistances = kUnknown;  // fitted n, no resistances
   double without_series = kUnknown;       // fitted n and Rsh
   double fitted = kUnknown;               // fitted n, Rsh and Rs
@@ -200,18 +200,18 @@ struct Superposition {
   int dark = 0;
   double lit_rs_ohm = 0;  // that were taken off
   double dark_rs_ohm = 0;
-  std::string rs_from;    // method of the one in the light
+  std::string rs_from;                // method of the one in the light
   double rms_percent = kUnknown;      // of J_light - (Jsc - J_dark) from 0 V to `to_V`, of Jsc
   double largest_percent = kUnknown;  // signed
   double largest_at_V = kUnknown;
-  double to_V = kUnknown;  // last voltage compared: Voc, or the end of the dark curve
-  double noise_percent = kUnknown;    // of both currents
-  double voc_shift_V = kUnknown;      // Voc minus that of Jsc - J_dark
-  double dark_scale = kUnknown;       // factor of J_dark that fits best
+  double to_V = kUnknown;                // last voltage compared: Voc, or the end of the dark curve
+  double noise_percent = kUnknown;       // of both currents
+  double voc_shift_V = kUnknown;         // Voc minus that of Jsc - J_dark
+  double dark_scale = kUnknown;          // factor of J_dark that fits best
   double scaled_rms_percent = kUnknown;  // rms that is left with it
   bool departs = false;
-  std::vector<std::string> causes;    // that these curves do not tell apart
-  std::string decides;                // the measurement that would
+  std::vector<std::string> causes;  // that these curves do not tell apart
+  std::string decides;              // the measurement that would
 };
 
 // Description of one cell.

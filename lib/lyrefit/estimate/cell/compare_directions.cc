@@ -57,7 +57,8 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   pair.voc_difference_V = voc - f.open_circuit_voltage_V;
   pair.isc_difference = (isc - f.short_circuit_current_A) / isc;
   pair.ff_difference = r.fill_factor - f.fill_factor;
-  const double end = std::min({std::max(voc, f.open_circuit_voltage_V), up.x.back(), down.x.back()});
+  const double end =
+      std::min({std::max(voc, f.open_circuit_voltage_V), up.x.back(), down.x.back()});
   double squares = 0, highest = 0, lowest = 0;
   for (int k = 0; k <= kSteps; ++k) {
     const double v = std::min(begin + (end - begin) * k / kSteps, end);

@@ -41,9 +41,8 @@ int BrightestOf(const std::vector<CellSweep>& sweeps) {
   int main = -1;
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     if (sweeps[i].kind != SweepKind::kLit || !(sweeps[i].key.max_power_W > 0)) continue;
-    const bool brighter =
-        main == -1 || (sweeps[i].irradiance_W_m2 > sweeps[main].irradiance_W_m2 &&
-                       !IsSameLight(sweeps[i], sweeps[main]));
+    const bool brighter = main == -1 || (sweeps[i].irradiance_W_m2 > sweeps[main].irradiance_W_m2 &&
+                                         !IsSameLight(sweeps[i], sweeps[main]));
     if (brighter) main = static_cast<int>(i);
   }
   return main;
@@ -64,8 +63,7 @@ int FindSweep(const CellReport& report, SweepKind kind, const CellSweep& like) {
 std::vector<const CellSweep*> LightsOf(const CellReport& report) {
   std::vector<const CellSweep*> lights;
   for (const CellSweep& sweep : report.sweeps) {
-    if (sweep.kind != SweepKind::kLit ||
-        sweep.direction != report.sweeps[report.main].direction) {
+    if (sweep.kind != SweepKind::kLit || sweep.direction != report.sweeps[report.main].direction) {
       continue;
     }
     const bool known = std::any_of(lights.begin(), lights.end(), [&](const CellSweep* other) {
@@ -181,10 +179,10 @@ void VoidDarkResistances(CellReport* report) {
 void FindPseudo(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   PseudoFillFactor& pseudo = report->pseudo;
-  pseudo.ideal = FillFactorOf(
-      {main.key.short_circuit_current_A, main.key.open_circuit_voltage_V,
-       report->cells_in_series *
-           ThermalVoltage(report->temperature_C + kZeroCelsius_K, options.constants)});
+  pseudo.ideal =
+      FillFactorOf({main.key.short_circuit_current_A, main.key.open_circuit_voltage_V,
+                    report->cells_in_series *
+                        ThermalVoltage(report->temperature_C + kZeroCelsius_K, options.constants)});
   for (const SweepKind source : {SweepKind::kSunsVoc, SweepKind::kLit}) {
     for (const IdealityOverLight& over : report->over_light) {
       if (over.source != source || std::isfinite(pseudo.value)) continue;
@@ -218,8 +216,8 @@ void Superpose(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   if (!report->dark) return;
   const auto [series, from] = SeriesToTakeOff(*report);
-  report->superposition = TestSuperposition(main, report->sweeps[report->dark->sweep], series,
-                                            options.superposition);
+  report->superposition =
+      TestSuperposition(main, report->sweeps[report->dark->sweep], series, options.superposition);
   report->superposition->lit = report->main;
   report->superposition->dark = report->dark->sweep;
   report->superposition->rs_from = from;
@@ -274,7 +272,8 @@ void Warn(CellReport* report) {
 Expected<void> CheckIsOneCell(const CurveSet& cell) {
   std::vector<const IvCurve*> seen;
   for (const IvCurve& curve : cell.curves) {
-    if (!curve.irradiance_W_m2.empty() || curve.suns_voc_A || IsStatedDark(curve) || IsDark(curve)) continue;
+    if (!curve.irradiance_W_m2.empty() || curve.suns_voc_A || IsStatedDark(curve) || IsDark(curve))
+      continue;
     for (const IvCurve* other : seen) {
       const double light = curve.conditions.irradiance_W_m2;
       if (other->source != curve.source ||
@@ -334,7 +333,8 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
   if (report.main != -1) {
     for (std::size_t i = 0; i < report.sweeps.size(); ++i) {
       const CellSweep& sweep = report.sweeps[i];
-      if (sweep.kind != SweepKind::kLit || !IsSameLight(sweep, report.sweeps[report.main])) continue;
+      if (sweep.kind != SweepKind::kLit || !IsSameLight(sweep, report.sweeps[report.main]))
+        continue;
       report.losses.push_back(FindFillFactorLosses(sweep));
       report.losses.back().sweep = static_cast<int>(i);
     }

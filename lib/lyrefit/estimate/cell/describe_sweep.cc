@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/estimate/cell/compare_stated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/read/dark.h"
@@ -54,6 +55,11 @@ void TakeLight(IvCurve* curve) {
   curve->irradiance_W_m2.clear();
 }
 
+// Whether results are stated for the second sweep as well.
+bool AreOfEach(const std::vector<StatedResult>& stated) {
+  return std::any_of(stated.begin(), stated.end(), [](const auto& one) { return one.sweep > 0; });
+}
+
 // Leaves out three and more readings beyond Voc whose currents are equal within 2e-4 of Isc, at the
 // smallest current: the source's limit, where voltages and currents pile up. Returns their number.
 int LeaveOutEqualEnd(IvCurve* curve) {
@@ -67,8 +73,8 @@ int LeaveOutEqualEnd(IvCurve* curve) {
     return curve->current_A[k] <= reach && curve->voltage_V[k] > key.open_circuit_voltage_V;
   };
   IvCurve kept = *curve;
-  for (auto* values : {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s,
-                       &kept.temperature_C}) {
+  for (auto* values :
+       {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s, &kept.temperature_C}) {
     if (values->size() != curve->size()) continue;
     std::size_t count = 0;
     for (std::size_t k = 0; k < curve->size(); ++k) {
@@ -111,8 +117,7 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   const KeyPoints& key = sweep.key;
   sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
   constexpr double kSquareMetre_cm2 = 1e4;
-  sweep.efficiency =
-      key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+  sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
   sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
   sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);
   sweep.least_slope_ratio = LeastSlopeRatio(line, key, sweep.noise_A);
@@ -154,7 +159,7 @@ void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const 
 std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
   std::vector<MeasuredSweep> found;
   const std::vector<int> numbers = SweepNumbers(curve);
-  for (std::size_t first = 0; first < curve.size();) {
+  for (std::size_t first = 0, place = 0; first < curve.size(); ++place) {
     std::size_t last = first;
     while (last < curve.size() && numbers[last] == numbers[first]) ++last;
     MeasuredSweep measured = {PartOf(curve, first, last), {}};
@@ -163,6 +168,12 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
       const int limited = LeaveOutEqualEnd(&measured.curve);
       measured.sweep = Describe(measured.curve, area_cm2);
       measured.sweep.limited = limited;
+      std::vector<StatedResult> own;
+      for (const StatedResult& one : curve.stated) {
+        if (one.sweep == static_cast<int>(place)) own.push_back(one);
+      }
+      const bool one_value_for_all = place == 0 && last < curve.size() && !AreOfEach(curve.stated);
+      if (!one_value_for_all) measured.sweep.stated = CompareStated(own, measured.sweep, area_cm2);
       found.push_back(std::move(measured));
     }
     first = last;

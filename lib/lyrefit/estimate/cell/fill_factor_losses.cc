@@ -141,8 +141,8 @@ std::string WhyNone(const CellSweep& lit) {
 double FillFactorOf(const DiodeThroughEnds& diode) {
   const double a = diode.nNsVth, rs = diode.series_ohm, g = diode.shunt_S;
   const double isc = diode.isc_A, voc = diode.voc_V;
-  const double saturation = (isc * (1 + rs * g) - voc * g) /
-                            (std::exp(voc / a) - std::exp(isc * rs / a));
+  const double saturation =
+      (isc * (1 + rs * g) - voc * g) / (std::exp(voc / a) - std::exp(isc * rs / a));
   if (!(saturation > 0)) return kUnknown;
   const Values p = {voc * g + saturation * std::expm1(voc / a), saturation, kUnknown, rs, g};
   const auto current = [&](double v) { return JunctionCurrent(p, a, v); };

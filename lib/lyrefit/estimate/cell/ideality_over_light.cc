@@ -39,34 +39,8 @@ double SlopeNearZero(const CellSweep& dark, double reach) {
   return -Regress(dark.voltage_V, dark.current_A, first, last).slope;
 }
 
-}  // namespace
-
-std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
-                                                       double module_thermal_voltage_V) {
-  if (points.size() < 2) return std::nullopt;
-  std::sort(points.begin(), points.end(),
-            [](const VocPoint& a, const VocPoint& b) { return a.light_A < b.light_A; });
-  const Line line = LogLine(points);
-  const Regression fit = Regress(line.x, line.y, 0, line.x.size());
-  IdealityOverLight found;
-  found.n.value = fit.slope / module_thermal_voltage_V;
-  if (points.size() > 2) {
-    const double reach = StudentT95(static_cast<int>(points.size()) - 2) * fit.slope_error /
-                         module_thermal_voltage_V;
-    found.n.low_95 = found.n.value - reach;
-    found.n.high_95 = found.n.value + reach;
-  }
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    found.local.push_back({points[k - 1].light_A, points[k].light_A,
-                           (line.y[k] - line.y[k - 1]) / (line.x[k] - line.x[k - 1]) /
-                               module_thermal_voltage_V});
-  }
-  found.rises_to_low_light = RisesToLowLight(found.local);
-  found.points = std::move(points);
-  return found;
-}
-
-std::vector<VocPoint> PointsOfLights(const std::vector<CellSweep>& sweeps) {
+// One point a light, the mean of its lit sweeps.
+std::vector<VocPoint> PointsOfAll(const std::vector<CellSweep>& sweeps) {
   constexpr double kSameLight = 0.02;
   std::vector<VocPoint> points;
   std::vector<bool> taken(sweeps.size(), false);
@@ -91,6 +65,46 @@ std::vector<VocPoint> PointsOfLights(const std::vector<CellSweep>& sweeps) {
   std::sort(points.begin(), points.end(),
             [](const VocPoint& a, const VocPoint& b) { return a.light_A < b.light_A; });
   return points;
+}
+
+}  // namespace
+
+std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
+                                                       double module_thermal_voltage_V) {
+  if (points.size() < 2) return std::nullopt;
+  std::sort(points.begin(), points.end(),
+            [](const VocPoint& a, const VocPoint& b) { return a.light_A < b.light_A; });
+  const Line line = LogLine(points);
+  const Regression fit = Regress(line.x, line.y, 0, line.x.size());
+  IdealityOverLight found;
+  found.n.value = fit.slope / module_thermal_voltage_V;
+  if (points.size() > 2) {
+    const double reach = StudentT95(static_cast<int>(points.size()) - 2) * fit.slope_error /
+                         module_thermal_voltage_V;
+    found.n.low_95 = found.n.value - reach;
+    found.n.high_95 = found.n.value + reach;
+  }
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    found.local.push_back(
+        {points[k - 1].light_A, points[k].light_A,
+         (line.y[k] - line.y[k - 1]) / (line.x[k] - line.x[k - 1]) / module_thermal_voltage_V});
+  }
+  found.rises_to_low_light = RisesToLowLight(found.local);
+  found.points = std::move(points);
+  return found;
+}
+
+std::vector<VocPoint> PointsOfLights(const std::vector<CellSweep>& sweeps) {
+  const std::vector<VocPoint> all = PointsOfAll(sweeps);
+  for (const CellSweep& like : sweeps) {
+    std::vector<CellSweep> series;
+    for (const CellSweep& sweep : sweeps) {
+      if (sweep.file == like.file && sweep.direction == like.direction) series.push_back(sweep);
+    }
+    std::vector<VocPoint> points = PointsOfAll(series);
+    if (points.size() == all.size()) return points;
+  }
+  return all;
 }
 
 std::vector<VocPoint> PointsOfTrace(const CellSweep& sweep) {

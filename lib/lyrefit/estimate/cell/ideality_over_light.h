@@ -14,7 +14,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> points,
                                                        double module_thermal_voltage_V);
 
-// The points of a series of lit sweeps: one a light, the mean Isc and Voc of its sweeps.
+// The points of a series of lit sweeps: one a light, the mean Isc and Voc of its sweeps. The sweeps
+// are those of one file and direction where one has every light, else all.
 std::vector<VocPoint> PointsOfLights(const std::vector<CellSweep>& sweeps);
 // The points of a Suns-Voc trace, without those in the dark.
 std::vector<VocPoint> PointsOfTrace(const CellSweep& sweep);

@@ -71,7 +71,8 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   SeriesResistance found;
   found.method = fmt::format("two lights, {:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2,
                              darker.irradiance_W_m2);
-  found.note = "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's reading of most power";
+  found.note =
+      "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's reading of most power";
   const double isc1 = brighter.key.short_circuit_current_A;
   const double isc2 = darker.key.short_circuit_current_A;
   const PowerReading at = PowerReadingOf(brighter);
@@ -110,16 +111,16 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& po
                            SweepKind source) {
   constexpr double kStep = 1e-3;
   SeriesResistance found;
-  found.method =
-      source == SweepKind::kSunsVoc ? "Suns-Voc against lit" : "Voc of the light series against lit";
+  found.method = source == SweepKind::kSunsVoc ? "Suns-Voc against lit"
+                                               : "Voc of the light series against lit";
   found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
   const PowerReading at = PowerReadingOf(lit);
   const double isc = lit.key.short_circuit_current_A, light = isc - at.current_A;
   const double voc = VocAt(points, light);
   found.ohm.value = (voc - at.voltage_V) / at.current_A;
   if (!std::isfinite(found.ohm.value)) {
-    found.missing = fmt::format("needs a Voc at {:.2g} % of the light of the lit curve",
-                                100 * light / isc);
+    found.missing =
+        fmt::format("needs a Voc at {:.2g} % of the light of the lit curve", 100 * light / isc);
     return found;
   }
   const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);

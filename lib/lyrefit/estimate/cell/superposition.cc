@@ -63,8 +63,7 @@ void NameCauses(Superposition* found) {
     found->causes = {found->dark_scale > 1 ? "the lit cell was warmer than the dark one"
                                            : "the dark cell was warmer than the lit one",
                      "light soaking: the light changed the recombination",
-                     "a barrier that the light changes",
-                     "collection that depends on voltage"};
+                     "a barrier that the light changes", "collection that depends on voltage"};
     found->decides =
         "Voc at once after the light is switched on and after a minute tells warming (it falls) "
         "and soaking (it settles) apart; a second light tells collection apart";
@@ -111,8 +110,8 @@ Superposition TestSuperposition(const CellSweep& lit, const CellSweep& dark,
     over.y.push_back(dark.voltage_V[k] + dark.current_A[k] * series.dark);
   }
   found.voc_shift_V = voc - over.At(std::log(isc));
-  found.departs = found.rms_percent >= least_percent &&
-                  found.rms_percent > kNoises * found.noise_percent;
+  found.departs =
+      found.rms_percent >= least_percent && found.rms_percent > kNoises * found.noise_percent;
   if (found.departs) NameCauses(&found);
   return found;
 }

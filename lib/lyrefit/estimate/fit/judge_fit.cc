@@ -95,13 +95,12 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
     return StandardErrors({fit.problem, end, fit.spare_readings(), &model});
   };
   const ErrorModel model = MakeErrorModel(shape, found->sizes);
-  CurveIntervals under =
-      FindIntervals({fit.problem, end, fit.spare_readings(), &model},
-                    EstimatesOf(fit, searched, end.p),
-                    {fit.options.intervals, refined.ends,
-                     FindDegrees(*found, errors_at, fit.spare_readings()), fit.options.threads,
-                     /*final=*/true},
-                    progress);
+  CurveIntervals under = FindIntervals(
+      {fit.problem, end, fit.spare_readings(), &model}, EstimatesOf(fit, searched, end.p),
+      {fit.options.intervals, refined.ends, FindDegrees(*found, errors_at, fit.spare_readings()),
+       fit.options.threads,
+       /*final=*/true},
+      progress);
   judged->under_errors = std::move(under.estimates);
   judged->covariance = std::move(under.covariance);
 }

@@ -53,6 +53,7 @@ bool IsThinFilm(const std::string& technology);
 // Junctions in series in each cell, by a word for the technology: 3 of "triple", 2 of "tandem",
 // "micromorph" or PVsyst's "mtuCSi_aSiH", else 1. Case does not count.
 int JunctionsPerCell(const std::string& technology);
+
 // A result that the file states for a sweep, such as Voc.
 struct StatedResult {
   int sweep = 0;       // its place among the sweeps of the curve, from 0

@@ -27,11 +27,17 @@ void NameCauses(DirectionPair* pair) {
   pair->causes.emplace_back("drift of the lamp or the temperature");
 }
 
+// Last voltage of the comparison: the larger of the known Voc, or the end of a sweep below it.
+double EndOf(const Line& forward, const Line& reverse, double forward_voc, double reverse_voc) {
+  const double voc = std::fmax(forward_voc, reverse_voc);
+  return std::fmin(voc, std::min(forward.x.back(), reverse.x.back()));
+}
+
 // First voltage of the comparison; NaN if one of the sweeps begins too far above 0 V.
-double BeginOf(const Line& forward, const Line& reverse, double voc) {
+double BeginOf(const Line& forward, const Line& reverse, double end) {
   constexpr double kLatest = 0.05;
   const double begin = std::max({0.0, forward.x.front(), reverse.x.front()});
-  return begin <= kLatest * voc ? begin : kUnknown;
+  return begin <= kLatest * end ? begin : kUnknown;
 }
 
 bool AreOpposite(const CellSweep& a, const CellSweep& b) {
@@ -50,15 +56,14 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const Line up = LineOf(forward), down = LineOf(reverse);
   const double isc = r.short_circuit_current_A, voc = r.open_circuit_voltage_V;
   pair.index_power = (r.max_power_W - f.max_power_W) / r.max_power_W;
-  const double begin = BeginOf(up, down, voc);
+  const double end = EndOf(up, down, f.open_circuit_voltage_V, voc);
+  const double begin = BeginOf(up, down, end);
   pair.index_area = 1 - up.Area(begin, f.open_circuit_voltage_V) / down.Area(begin, voc);
   pair.index_at_80 = IndexAt(up, down, 0.8 * voc);
   pair.index_at_50 = IndexAt(up, down, 0.5 * voc);
   pair.voc_difference_V = voc - f.open_circuit_voltage_V;
   pair.isc_difference = (isc - f.short_circuit_current_A) / isc;
   pair.ff_difference = r.fill_factor - f.fill_factor;
-  const double end =
-      std::min({std::max(voc, f.open_circuit_voltage_V), up.x.back(), down.x.back()});
   double squares = 0, highest = 0, lowest = 0;
   for (int k = 0; k <= kSteps; ++k) {
     const double v = std::min(begin + (end - begin) * k / kSteps, end);

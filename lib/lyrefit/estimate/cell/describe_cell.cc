@@ -176,6 +176,32 @@ void VoidDarkResistances(CellReport* report) {
   }
 }
 
+// Where no factor of the dark current makes the curves superpose, a barrier or collection is in the
+// lit curve, and in the n and Rs of its fit.
+void VoidFitsThatDoNotSuperpose(CellReport* report) {
+  constexpr double kExplained = 0.1;
+  const std::optional<Superposition>& found = report->superposition;
+  if (!found || !found->departs || found->scaled_rms_percent < kExplained * found->rms_percent) {
+    return;
+  }
+  for (FillFactorLosses& losses : report->losses) {
+    CellSweep& sweep = report->sweeps[losses.sweep];
+    if (!sweep.diode()) continue;
+    sweep.void_because.emplace_back(
+        "lit and dark curve do not superpose, whatever the factor of the dark current: a barrier "
+        "or collection that depends on voltage may be in n and Rs");
+    const int at = losses.sweep;
+    losses = FindFillFactorLosses(sweep);
+    losses.sweep = at;
+    if (at == report->main && report->pseudo.source == "the fit with Rs = 0") {
+      report->pseudo.value = kUnknown;
+    }
+    for (SeriesResistance& one : report->series_resistance) {
+      if (one.method == RsOfFit(sweep).method) one = RsOfFit(sweep);
+    }
+  }
+}
+
 void FindPseudo(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   PseudoFillFactor& pseudo = report->pseudo;
@@ -342,6 +368,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     FindPseudo(options, &report);
     Superpose(options, &report);
     VoidDarkResistances(&report);
+    VoidFitsThatDoNotSuperpose(&report);
   }
   report.assumptions = cell.assumptions;
   for (const IvCurve& curve : cell.curves) {

@@ -235,7 +235,7 @@ TEST(TranslateCurve, IsTheSameOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one->results.size(); ++i) {
     const TranslatedResult &a = one->results[i], &b = three->results[i];
     EXPECT_EQ(a.computed(), b.computed());
-    EXPECT_EQ(a.key_points.max_power_W, b.key_points.max_power_W) << a.title;
+    if (a.computed()) EXPECT_EQ(a.key_points.max_power_W, b.key_points.max_power_W) << a.title;
     ASSERT_EQ(a.budget.outputs.size(), b.budget.outputs.size());
     if (a.budget.outputs.empty()) continue;
     EXPECT_EQ(a.budget.outputs[4].low(), b.budget.outputs[4].low()) << a.title;

@@ -44,7 +44,7 @@ struct EnumTable<ScanDirection> {
 
 // A value with its 95 % interval.
 struct Ranged {
-  double value = kUnknown;
+  double value = kUnknown;  // the estimate
   double low_95 = kUnknown;
   double high_95 = kUnknown;
 };
@@ -105,7 +105,7 @@ struct EnumTable<HysteresisSense> {
 // where the reverse sweep gives more.
 struct DirectionPair {
   int forward = 0;  // index into CellReport::sweeps
-  int reverse = 0;
+  int reverse = 0;  // index into CellReport::sweeps
   double index_power =
       kUnknown;                  // (Pmp_rev - Pmp_fwd) / Pmp_rev; doi:10.1021/acsenergylett.8b01627
   double index_area = kUnknown;  // 1 - A_fwd / A_rev, A the area below J from 0 V to its own Voc
@@ -131,7 +131,7 @@ struct VocPoint {
 struct LocalIdeality {
   double low_A = kUnknown;  // photocurrents
   double high_A = kUnknown;
-  double n = kUnknown;
+  double n = kUnknown;  // between them
 };
 
 // n = (q / k T Ns) dVoc / dln(light), with the light as each point's own photocurrent. No series
@@ -168,7 +168,7 @@ struct SeriesResistance {
 
 // Fill factor of the curve without series resistance.
 struct PseudoFillFactor {
-  double value = kUnknown;
+  double value = kUnknown;  // without Rs
   double ideal = kUnknown;  // of a diode with n = 1 and the measured Isc and Voc
   std::string source;       // "Suns-Voc", "Voc of the light series" or "the fit with Rs = 0"
 };
@@ -186,7 +186,7 @@ struct FillFactorLosses {
   double without_resistances = kUnknown;  // fitted n, no resistances
   double without_series = kUnknown;       // fitted n and Rsh
   double fitted = kUnknown;               // fitted n, Rsh and Rs
-  double measured = kUnknown;
+  double measured = kUnknown;             // of the readings
   // Recombination, shunt, series resistance, rest: ideal minus their sum is `measured`.
   std::vector<FillFactorPart> parts;
   double green_n1 = kUnknown;      // Green's FF0 with n = 1; doi:10.1016/0038-1101(81)90062-9
@@ -196,8 +196,8 @@ struct FillFactorLosses {
 
 // J_light(V) compared with Jsc - J_dark(V), each over its voltage without its series resistance.
 struct Superposition {
-  int lit = 0;  // indices into CellReport::sweeps
-  int dark = 0;
+  int lit = 0;            // indices into CellReport::sweeps
+  int dark = 0;           // index of the dark one
   double lit_rs_ohm = 0;  // that were taken off
   double dark_rs_ohm = 0;
   std::string rs_from;                // method of the one in the light
@@ -209,16 +209,16 @@ struct Superposition {
   double voc_shift_V = kUnknown;         // Voc minus that of Jsc - J_dark
   double dark_scale = kUnknown;          // factor of J_dark that fits best
   double scaled_rms_percent = kUnknown;  // rms that is left with it
-  bool departs = false;
-  std::vector<std::string> causes;  // that these curves do not tell apart
-  std::string decides;              // the measurement that would
+  bool departs = false;                  // beyond noise and the least that counts
+  std::vector<std::string> causes;       // that these curves do not tell apart
+  std::string decides;                   // the measurement that would
 };
 
 // Description of one cell.
 struct CellReport {
   std::string version;  // of lyrefit
-  std::string name;
-  std::string source;
+  std::string name;     // of the cell
+  std::string source;   // its files
   double area_cm2 = kUnknown;
   int cells_in_series = 1;
   double temperature_C = kUnknown;

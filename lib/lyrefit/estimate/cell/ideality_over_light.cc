@@ -95,7 +95,7 @@ std::optional<IdealityOverLight> FindIdealityOverLight(std::vector<VocPoint> poi
 }
 
 std::vector<VocPoint> PointsOfLights(const std::vector<CellSweep>& sweeps) {
-  const std::vector<VocPoint> all = PointsOfAll(sweeps);
+  std::vector<VocPoint> all = PointsOfAll(sweeps);
   for (const CellSweep& like : sweeps) {
     std::vector<CellSweep> series;
     for (const CellSweep& sweep : sweeps) {

@@ -7,8 +7,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // Series resistances that are taken off before the curves are compared, in ohm.
 struct SeriesOhms {
-  double lit = 0;
-  double dark = 0;
+  double lit = 0;   // of the lit curve
+  double dark = 0;  // of the dark curve
 };
 
 // Tests superposition: J_light = Jsc - J_dark at equal voltage of the junction, V + J Rs. The

@@ -46,12 +46,12 @@ struct TwoJunctionReport {
   std::vector<std::string> decided_by;
   SearchOptions search_options;
   SearchSummary search;
-  std::vector<StartReport> starts;  // of the polish, those that ran to their end
-  bool converged = false;
+  std::vector<StartReport> starts;       // of the polish, those that ran to their end
+  bool converged = false;                // the polish
   double projected_gradient = kUnknown;  // as in RefineReport
   double condition = kUnknown;           // of the scaled Jacobian
-  double refine_seconds = 0;
-  double interval_seconds = 0;
+  double refine_seconds = 0;             // of the polish
+  double interval_seconds = 0;           // of the intervals
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> warnings;
   bool usable = true;

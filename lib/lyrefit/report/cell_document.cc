@@ -71,8 +71,8 @@ Section SweepSection(const CellReport& report) {
   const double of = area ? report.area_cm2 : 1;
   block::Table table = {
       "lrrrrrrrrr",
-      {{"", area ? "Jsc" : "Isc", "Voc", "Vmp", area ? "Jmp" : "Imp", area ? "Pmp" : "Pmp", "FF",
-        "eff.", "R(Isc)", "R(Voc)"},
+      {{"", area ? "Jsc" : "Isc", "Voc", "Vmp", area ? "Jmp" : "Imp", "Pmp", "FF", "eff.", "R(Isc)",
+        "R(Voc)"},
        {"", area ? "mA/cm2" : "A", "V", "V", area ? "mA/cm2" : "A", area ? "mW/cm2" : "W", "%", "%",
         area ? "ohm cm2" : "ohm", area ? "ohm cm2" : "ohm"}}};
   for (const CellSweep& sweep : report.sweeps) {
@@ -223,7 +223,7 @@ std::string PercentText(double fraction, int digits) {
 }
 
 std::string RangedText(const Ranged& ranged, int digits) {
-  const std::string value = Significant(ranged.value, digits);
+  std::string value = Significant(ranged.value, digits);
   if (!std::isfinite(ranged.low_95) || !std::isfinite(ranged.high_95)) return value;
   return value + " (" + Range(ranged.low_95, ranged.high_95) + ")";
 }

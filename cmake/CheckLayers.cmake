@@ -14,7 +14,7 @@ set(ALLOWED_search base)  # independent of photovoltaics
 set(ALLOWED_estimate/refine base read model)
 set(ALLOWED_estimate/fit base read model model/effects search estimate/refine)
 set(ALLOWED_estimate/family base read model model/effects search estimate/refine estimate/fit)
-set(ALLOWED_estimate/cell base read model estimate/fit)
+set(ALLOWED_estimate/cell base read model estimate/refine estimate/fit)
 set(ALLOWED_certify base read model estimate/refine estimate/fit)
 set(ALLOWED_diagnose base read model model/effects search estimate certify)
 set(ALLOWED_translate base read model model/effects estimate/fit estimate/family diagnose)

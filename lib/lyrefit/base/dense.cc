@@ -32,6 +32,7 @@ MatrixXd LeastSquares(const MatrixXd& a, const MatrixXd& b) {
 }
 
 VectorXd WithoutColumns(const MatrixXd& a, VectorXd y) {
+  if (a.cols() == 0) return y;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
   for (int round = 0; round < 2; ++round) y -= a * VectorXd(qr.solve(y));
   return y;
@@ -46,6 +47,7 @@ bool PseudoInverse(const MatrixXd& a, MatrixXd* inverse) {
 }
 
 MatrixXd RankedBasis(const MatrixXd& a) {
+  if (a.cols() == 0) return a;
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
   return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
 }

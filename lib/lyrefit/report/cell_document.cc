@@ -268,6 +268,7 @@ Document CellDocument(const CellReport& report) {
   sections.push_back(FillFactorSection(report));
   sections.push_back(SuperpositionSection(report));
   sections.push_back(FitSection(report));
+  sections.push_back(JointSection(report));
   sections.push_back(StatedSection(report));
   sections.push_back(WarningSection(report.warnings));
   sections.push_back(ListSection("Assumptions", SentencesOf(report.assumptions)));

@@ -15,6 +15,8 @@ std::string CellVerdict(const CellReport& report);
 Section SeriesResistanceSection(const CellReport& report);
 Section FillFactorSection(const CellReport& report);
 Section SuperpositionSection(const CellReport& report);
+// cell_joint_document.cc: one model for all measurements, and what each of them adds.
+Section JointSection(const CellReport& report);
 
 // "12.3 %" of a fraction; "-" for NaN.
 std::string PercentText(double fraction, int digits = 3);

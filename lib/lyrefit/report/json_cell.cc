@@ -74,6 +74,34 @@ Json ResistanceJson(const CellReport& report, const SeriesResistance& one) {
   return j;
 }
 
+// Keys are those of the parameters.
+Json JointJson(const JointEstimate& joint) {
+  Json parameters = Json::object(), measurements = Json::array();
+  for (const Estimate& e : joint.estimates) parameters[e.info.name] = e;
+  for (const JointMeasurement& one : joint.measurements) {
+    Json without = Json::object();
+    for (int i = 0; i < joint.shared; ++i) {
+      const Estimate& e = joint.estimates[i];
+      if (!e.fixed) without[e.info.name] = one.without[i];
+    }
+    measurements.push_back({{"sweep", one.sweep},
+                            {"readings", one.readings},
+                            {"rms", one.rms},
+                            {"own_rms", one.own_rms},
+                            {"noise", one.noise},
+                            {"standard_error_without", without}});
+  }
+  return {{"parameters", parameters},
+          {"correlations", joint.correlations},
+          {"measurements", measurements},
+          {"second_diode", joint.second_diode},
+          {"second_diode_p", joint.second_diode_p},
+          {"shunt", joint.shunt},
+          {"converged", joint.converged},
+          {"void_because", joint.void_because},
+          {"missing", joint.missing}};
+}
+
 }  // namespace
 
 void to_json(Json& j, const CellReport& report) {
@@ -97,6 +125,7 @@ void to_json(Json& j, const CellReport& report) {
        {"pseudo_fill_factor", report.pseudo},
        {"fill_factor_losses", report.losses},
        {"superposition", report.superposition},
+       {"joint", report.joint ? JointJson(*report.joint) : Json()},
        {"assumptions", SentencesOf(report.assumptions)},
        {"options", report.non_default_options},
        {"interrupted", report.interrupted},

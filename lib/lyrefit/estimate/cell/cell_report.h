@@ -214,6 +214,35 @@ struct Superposition {
   std::string decides;                   // the measurement that would
 };
 
+// One measurement of a joint estimate.
+struct JointMeasurement {
+  int sweep = 0;             // index into CellReport::sweeps
+  int readings = 0;          // that are fitted
+  double rms = kUnknown;     // of the residuals: A, V of a Suns-Voc trace
+  double noise = kUnknown;   // of a reading, from second differences, in the same unit
+  double own_rms = kUnknown; // of the sweep's own fit
+  // Standard error of each estimate without this measurement over that with all of them, at least 1;
+  // NaN: not known without it.
+  std::vector<double> without;
+};
+
+// Estimates of one diode model from all measurements of one direction together: curves under
+// several lights and in the dark, and Suns-Voc traces. Every curve has a photocurrent of its own.
+struct JointEstimate {
+  // The device's parameters, then `collection` (loss of photocurrent per volt of the junction), then
+  // photocurrents, and the factor of the lights that a Suns-Voc trace states.
+  std::vector<Estimate> estimates;
+  int shared = 0;                         // of them, the first, belong to every measurement
+  std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
+  std::vector<JointMeasurement> measurements;
+  bool second_diode = false;              // of n = 2; the measurements need it
+  double second_diode_p = kUnknown;       // p-value of one diode against it
+  std::vector<std::string> void_because;  // why one diode model is not behind all; empty: it may be
+  std::string shunt;                      // what is known of shunt and collection
+  bool converged = false;                 // the fit
+  std::string missing;                    // why there is no joint estimate; empty: there is one
+};
+
 // Description of one cell.
 struct CellReport {
   std::string version;  // of lyrefit
@@ -231,6 +260,7 @@ struct CellReport {
   PseudoFillFactor pseudo;
   std::vector<FillFactorLosses> losses;  // of the brightest lit sweeps
   std::optional<Superposition> superposition;
+  std::optional<JointEstimate> joint;  // two and more measurements
   std::vector<Assumption> assumptions;
   std::vector<std::string> warnings;
   std::vector<OptionEcho> non_default_options;

@@ -13,6 +13,7 @@
 #include "lyrefit/estimate/cell/describe_sweep.h"
 #include "lyrefit/estimate/cell/fill_factor_losses.h"
 #include "lyrefit/estimate/cell/ideality_over_light.h"
+#include "lyrefit/estimate/cell/joint_estimate.h"
 #include "lyrefit/estimate/cell/series_resistance.h"
 #include "lyrefit/estimate/cell/superposition.h"
 #include "lyrefit/read/dark.h"
@@ -238,6 +239,18 @@ std::pair<SeriesOhms, std::string> SeriesToTakeOff(const CellReport& report) {
   return {{lit, std::isfinite(dark) ? dark : lit}, "single-diode fit"};
 }
 
+// Indices of LightsOf and the dark curve in one estimate with the Suns-Voc traces.
+void EstimateJointly(const CellOptions& options, const Observer& observer, CellReport* report) {
+  std::vector<int> lights;
+  if (report->main != -1) {
+    for (const CellSweep* sweep : LightsOf(*report)) {
+      lights.push_back(static_cast<int>(sweep - report->sweeps.data()));
+    }
+  }
+  report->joint = FindJointEstimate(*report, lights, report->dark ? report->dark->sweep : -1,
+                                    options, observer);
+}
+
 void Superpose(const CellOptions& options, CellReport* report) {
   const CellSweep& main = report->sweeps[report->main];
   if (!report->dark) return;
@@ -370,6 +383,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     VoidDarkResistances(&report);
     VoidFitsThatDoNotSuperpose(&report);
   }
+  if (options.fit) EstimateJointly(options, observer, &report);
   report.assumptions = cell.assumptions;
   for (const IvCurve& curve : cell.curves) {
     for (const Assumption& assumption : curve.assumptions) {

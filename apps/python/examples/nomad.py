@@ -7,7 +7,6 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
 
 import numpy as np
 
@@ -15,10 +14,13 @@ data = pathlib.Path(os.environ.get("LYREFIT_ROOT", ".")) / "data"
 THERMAL_V = 1.380649e-23 * 298.15 / 1.602176634e-19  # of the data below, at 25 C
 
 
-def describe(*files, options=()):
+def describe(*files, **options):
     """The record of `lyrefit cell`."""
-    command = [os.environ.get("LYREFIT_COMMAND", "lyrefit"), "cell", *map(str, files), *options]
-    run = subprocess.run([*command, "--quiet", "--json", "-"], capture_output=True, text=True, check=True)
+    flags = [part for name, value in options.items() for part in (f"--{name.replace('_', '-')}", str(value))]
+    command = [os.environ.get("LYREFIT_COMMAND", "lyrefit"), "cell", *map(str, files), *flags]
+    run = subprocess.run([*command, "--quiet", "--json", "-"], capture_output=True, text=True, check=False)
+    if run.returncode not in (0, 2):  # 2: no fit is usable, the figures read off the curves are
+        raise RuntimeError(run.stderr)
     return json.loads(run.stdout)
 
 
@@ -50,7 +52,7 @@ def jv_curve(sweep, area_cm2):
         "fill_factor": points["fill_factor"],
         "efficiency": 100 * sweep["efficiency"],
         "potential_at_maximum_power_point": points["max_power_voltage_V"],
-        "current_density_at_maximun_power_point": 1e3 * points["max_power_current_A"] / area_cm2,  # as the schema spells it
+        "current_density_at_maximun_power_point": 1e3 * points["max_power_current_A"] / area_cm2,  # the schema's name
     }
     if sweep["fit"] and not sweep["void_because"]:  # a void fit has no resistances to store
         fitted = sweep["fit"]["parameters"]
@@ -110,6 +112,7 @@ def diode_figures(record):
     for found in record["resistance_series"]:
         name = next((own for start, own in methods.items() if found["method"].startswith(start)), None)
         if name and found["ohm"] is not None:
+            methods = {start: own for start, own in methods.items() if own != name}  # two lights: the brightest
             figures.append(row(f"resistance_series_{name}", "ohm*cm**2", *(
                 record["area_cm2"] * found[key] for key in ("ohm", "low_95_ohm", "high_95_ohm"))))
     if record["pseudo_fill_factor"]:
@@ -136,7 +139,7 @@ def diode_entry(record):
 
 # %% [markdown]
 # ## What the notebook did by hand
-# Slopes of straight lines through points that look straight, and a reading interpolated.
+# Slopes of straight lines through points that look straight, and readings interpolated.
 
 # %%
 
@@ -149,7 +152,7 @@ def readings(record, kind, irradiance=None):
 
 
 def by_hand(record, window_V, lights_A):
-    """n of the dark curve between two voltages and of Suns-Voc between two lights; Rs; pseudo-FF."""
+    """n of the dark curve between two voltages without its shunt, of Suns-Voc between two lights; Rs; pseudo-FF."""
     lit_v, lit_i = readings(record, "lit")
     dark_v, dark_i = readings(record, "dark")
     dark_i = -dark_i  # into the device
@@ -159,12 +162,14 @@ def by_hand(record, window_V, lights_A):
     suns = next(sweep for sweep in record["sweeps"] if sweep["kind"] == "Suns-Voc")
     suns_v = np.array(suns["data"]["voltage_V"])
     light = suns["suns_voc_A"] - np.array(suns["data"]["current_A"])
+    shunt = np.abs(dark_v) <= 0.1
+    leaked_i = np.polyfit(dark_v[shunt], dark_i[shunt], 1)[0] * dark_v
     straight = (dark_v >= window_V[0]) & (dark_v <= window_V[1])
     bright = (light >= lights_A[0]) & (light <= lights_A[1])
     pseudo = suns_v * (isc - light)
     area_cm2 = record["area_cm2"]
     return {
-        "n_dark_fit": 1 / (THERMAL_V * np.polyfit(dark_v[straight], np.log(dark_i[straight]), 1)[0]),
+        "n_dark_fit": 1 / (THERMAL_V * np.polyfit(dark_v[straight], np.log((dark_i - leaked_i)[straight]), 1)[0]),
         "n_suns_voc_brightest": np.polyfit(np.log(light[bright]), suns_v[bright], 1)[0] / THERMAL_V,
         "resistance_series_lit_dark": area_cm2 * (np.interp(isc - imp, dark_i, dark_v) - vmp) / isc,
         "resistance_series_suns_voc": area_cm2 * (np.interp(isc - imp, light, suns_v) - vmp) / imp,
@@ -179,3 +184,42 @@ def rs_of_two_lights(record, bright_Wm2, dim_Wm2):
     at = np.argmax(bright_v * bright_i)
     equal_V = np.interp(-(dim_isc - isc + bright_i[at]), -dim_i, dim_v)
     return record["area_cm2"] * (equal_V - bright_v[at]) / (isc - dim_isc)
+
+
+# %% [markdown]
+# ## One cell: sweeps lit and dark, five lights, Suns-Voc
+
+# %%
+MADE_WITH = {"n_dark_fit": 1.4, "n_suns_voc_brightest": 1.4, "resistance_series_lit_dark": 1.5,
+             "resistance_series_suns_voc": 1.5, "resistance_series_two_lights": 1.5, "resistance_series_fit": 1.5}
+FIGURES = {"n_dark_fit": "n, dark curve", "n_suns_voc_brightest": "n, Suns-Voc", "pseudo_fill_factor": "pseudo-FF",
+           "resistance_series_two_lights": "Rs, two lights (ohm cm2)",
+           "resistance_series_lit_dark": "Rs, lit against dark (ohm cm2)",
+           "resistance_series_suns_voc": "Rs, Suns-Voc (ohm cm2)", "resistance_series_fit": "Rs, fit (ohm cm2)"}
+
+
+def compared(record, hand, made_with):
+    """The table of the page: by hand, by lyrefit, the truth where the cell was made."""
+    found = {figure["name"]: figure for figure in diode_figures(record)}
+    lines = ["| figure | by hand | lyrefit | 95 % | made with |", "|---|---|---|---|---|"]
+    for name, title in FIGURES.items():
+        if name not in found:
+            continue
+        figure = found[name]
+        interval = "" if figure["low_95"] is None else f"{figure['low_95']:#.4g} .. {figure['high_95']:#.4g}"
+        cells = [title, f"{hand[name]:#.4g}" if name in hand else "", f"{figure['value']:#.4g}", interval,
+                 str(made_with.get(name, ""))]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+cell = data / "cell"
+record = describe(*(cell / name for name in ("lit_dark.csv", "suns.csv", "lights.csv")))
+hand = by_hand(record, window_V=(0.7, 0.8), lights_A=(0.5e-3, 5.5e-3))
+hand["resistance_series_two_lights"] = rs_of_two_lights(record, 1000, 300)
+table = compared(record, hand, MADE_WITH)
+print(table)
+archive, analysis = entry(record, "lit_dark.csv"), diode_entry(record)
+pathlib.Path("cell.archive.json").write_text(json.dumps(archive, indent=1))
+pathlib.Path("cell_diode.archive.json").write_text(json.dumps(analysis, indent=1))
+print(json.dumps(archive["results"], indent=1))

@@ -37,6 +37,8 @@ struct ReadOptions {
   // Keeps readings at a stated current limit, for a diagnosis that names the limit. False: they are
   // left out, since no model follows them, and `assumptions` counts them.
   bool keep_limited = false;
+  // For OpenBatch only: an item is a cell with all its curves (BatchCurve::more), not a curve.
+  bool whole_cells = false;
   std::uintmax_t largest_file_bytes = 64U << 20;  // larger files are an error
 };
 

@@ -20,6 +20,10 @@ const kPages = {
   diagnose: ['diagnose', `${DATA}/diagnosis/shaded_module.csv`],
   certify: ['certify', `${DATA}/rtc_france`],
   family: ['fit', `${DATA}/s75_constructed`, '--family', 'desoto'],
+  matrix: ['fit', `${DATA}/formats/matrix_wide.csv`, '--family', 'pvsyst'],
+  cell: ['cell', ...['pair', 'lights', 'lit_dark', 'suns'].map((name) => `${DATA}/cell/${name}.csv`)],
+  junctions: ['fit', file('white.csv'), file('red.csv'), '--junctions', '2', '--light', 'white=1:1',
+              '--light', 'red=0.9:1.1'],
   compare: ['compare', `${DATA}/rtc_france`, '--runs', '4', '--models', 'sd', '--iterations', '50'],
   translate: ['translate', `${DATA}/diagnosis/shaded_module.csv`, '--rated-W', '475', '--gamma', '-0.4',
               '--irradiance-from', 'reference-cell', '--temperature-from', 'back', '--tracer', 'PVA-1500',
@@ -31,6 +35,13 @@ let browser;
 before(async () => {
   mkdirSync(OUT, {recursive: true});
   copyFileSync(`${DATA}/rtc_france/curve.csv`, file(kHostile));
+  for (const [name, light] of [['white', [0.0195, 0.0202]], ['red', [0.01755, 0.02222]]]) {
+    const device = {Iph1: light[0], Is1: 1e-14, n1: 1.4, Rsh1: 3000, Iph2: light[1], Is2: 4e-10, n2: 1.2,
+                    Rsh2: 1500, Rs: 2};
+    const set = Object.entries(device).flatMap(([symbol, value]) => ['--set', `${symbol}=${value}`]);
+    execFileSync(APP, ['simulate', '--junctions', '2', ...set, '--noise-A', '2e-5', '--quiet', '--out',
+                       file(`${name}.csv`)]);
+  }
   for (const [name, command] of Object.entries(kPages)) {
     execFileSync(APP, [...command, '--quiet', '--html', file(`${name}.html`), '--json',
                        file(`${name}.json`)]);

@@ -298,8 +298,10 @@ void Warn(CellReport* report) {
 Expected<void> CheckIsOneCell(const CurveSet& cell) {
   if (!HoldsSeveralCells(cell, UnstatedDark::kDark)) return {};
   std::string names;
-  for (const IvCurve& one : cell.curves) names += (names.empty() ? "" : ", ") + one.name;
-  return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME|N, or "
+  for (const CellCurves& one : SplitIntoCells(cell)) {
+    names += (names.empty() ? "" : ", ") + one.name;
+  }
+  return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME, or "
                           "describe each with lyrefit batch --task cell",
                           names),
               cell.curves.front().source);

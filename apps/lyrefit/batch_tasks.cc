@@ -138,8 +138,9 @@ std::string GivenCellFlag(const VerbLine& verb) {
 }
 
 Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& request) {
-  if (verb.Given("--reference"))
-    return Fail("--reference is for strings of a plant, not for cells");
+  for (const char* const flag : {"--noise", "--reference"}) {
+    if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task cell");
+  }
   return CellTask(request.cell, request.pixels);
 }
 

@@ -6,23 +6,13 @@
 import json
 import os
 import pathlib
-import subprocess
 
 import numpy as np
 
+import lyrefit
+
 data = pathlib.Path(os.environ.get("LYREFIT_ROOT", ".")) / "data"
 THERMAL_V = 1.380649e-23 * 298.15 / 1.602176634e-19  # of the data below, at 25 C
-
-
-def describe(*files, **options):
-    """The record of `lyrefit cell`."""
-    flags = [part for name, value in options.items() for part in (f"--{name.replace('_', '-')}", str(value))]
-    command = [os.environ.get("LYREFIT_COMMAND", "lyrefit"), "cell", *map(str, files), *flags]
-    run = subprocess.run([*command, "--quiet", "--json", "-"], capture_output=True, text=True, check=False)
-    if run.returncode not in (0, 2):  # 2: no fit is usable, the figures read off the curves are
-        raise RuntimeError(run.stderr)
-    return json.loads(run.stdout)
-
 
 # %% [markdown]
 # ## The entry
@@ -62,7 +52,7 @@ def jv_curve(sweep, area_cm2):
 
 
 def entry(record, data_file):
-    """The archive of a JV measurement: `data`, and the best sweep in `results`."""
+    """The archive of what `lyrefit.cell` found: `data`, and the best sweep in `results`."""
     area_cm2 = record["area_cm2"]
     sweeps = [sweep for sweep in record["sweeps"] if sweep["kind"] in ("lit", "dark")]
     curves = [jv_curve(sweep, area_cm2) for sweep in sweeps]
@@ -214,7 +204,7 @@ def compared(record, hand, made_with):
 
 
 cell = data / "cell"
-record = describe(*(cell / name for name in ("lit_dark.csv", "suns.csv", "lights.csv")))
+record = lyrefit.cell([cell / name for name in ("lit_dark.csv", "suns.csv", "lights.csv")])
 hand = by_hand(record, window_V=(0.7, 0.8), lights_A=(0.5e-3, 5.5e-3))
 hand["resistance_series_two_lights"] = rs_of_two_lights(record, 1000, 300)
 table = compared(record, hand, MADE_WITH)

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kCellTask[] = "cell";
+
 constexpr char kBatchFooter[] =
     "Examples:\n"
     "  lyrefit batch plant_folder --task diagnose --out results\n"
@@ -22,6 +24,7 @@ constexpr char kBatchFooter[] =
     "  lyrefit batch strings.jsonl --out results --resume\n"
     "  lyrefit batch strings.jsonl --out shards --shard 3/40 && lyrefit merge shards --out "
     "results\n"
+    "  lyrefit batch substrate1.txt substrate2.txt --task cell --out results\n"
     "  lyrefit batch today_folder --task diagnose --reference last_year_folder --out results\n"
     "\n"
     "Writes results.csv, results.jsonl and results.schema.json into DIR: a row a curve, always, "
@@ -130,8 +133,12 @@ BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
   BatchOptions options = request.options;
   if (request.resume) options.start = BatchStart::kResume;
   if (verb.Forced()) options.start = BatchStart::kReplace;
-  options.prepare = [conditions = request.conditions](IvCurve* curve) {
-    return ApplyConditionFlags(conditions, curve);
+  const bool cells = request.task == kCellTask;
+  options.prepare = [conditions = request.conditions, cells](IvCurve* curve) {
+    ConditionOptions own = conditions;
+    const bool dark = curve->irradiance_known && curve->conditions.irradiance_W_m2 <= 0;
+    if (cells && dark) own.irradiance_W_m2.reset();  // it is the light of the lit sweeps
+    return ApplyConditionFlags(own, curve);
   };
   options.reading = NonDefaults(request.reading.reading, kReadOptionTable);
   AppendNonDefaults(request.conditions, kConditionOptionTable, &options.reading);
@@ -176,6 +183,7 @@ Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   BatchReadOptions reading = request.reading;
   reading.shard = options.shard;
   reading.reading.keep_limited = request.task == "diagnose";
+  reading.reading.whole_cells = request.task == kCellTask;
   const InterruptGuard guard;
   TRY(const BatchTaskType task, MakeTask(verb, request));
   TRY(const auto source, OpenBatch(request.inputs, reading));

@@ -24,6 +24,8 @@ struct BatchRequest {
   std::string bounds = "physical";
   DiagnoseOptions diagnose;  // also for a field test
   TranslateOptions translate = BatchTranslateOptions();
+  CellOptions cell;
+  PixelOptions pixels;
   std::string coefficients_file;
   std::string html_file;
   std::string plant;  // name of the plant

@@ -123,6 +123,27 @@ Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchReque
   return FieldTestTask(options);
 }
 
+// All rows except the constants, whose flag belongs to a fit, and the threads of one cell.
+const std::vector<std::string> kCellRows = {"fit", "largest-n", "ideal-n", "hysteresis",
+                                            "superposition"};
+
+void DeclareCellFlags(VerbLine* verb, BatchRequest* request) {
+  AddNamedFlags(verb, kCellOptionTable, kCellRows, &request->cell);
+  AddTableFlags(verb, kPixelOptionTable, &request->pixels);
+}
+
+std::string GivenCellFlag(const VerbLine& verb) {
+  const std::string flag = GivenOf(verb, kCellOptionTable, CellOptions());
+  return flag.empty() ? GivenOf(verb, kPixelOptionTable, PixelOptions()) : flag;
+}
+
+Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& request) {
+  for (const char* const flag : {"--noise", "--reference"}) {
+    if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task cell");
+  }
+  return CellTask(request.cell, request.pixels);
+}
+
 }  // namespace
 
 const std::vector<BatchTask>& BatchTasks() {
@@ -130,6 +151,7 @@ const std::vector<BatchTask>& BatchTasks() {
       {"fit", DeclareFitFlags, GivenFitFlag, MakeFit},
       {"diagnose", DeclareDiagnoseFlags, GivenDiagnoseFlag, MakeDiagnose},
       {"field-test", DeclareFieldTestFlags, GivenFieldTestFlag, MakeFieldTest, "diagnose"},
+      {"cell", DeclareCellFlags, GivenCellFlag, MakeCell},
   };
   return tasks;
 }

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
@@ -25,32 +24,13 @@ constexpr const char* kNotOfTwo[] = {"--model",  "--with",      "--family",     
 
 // The curves of all files in one set.
 Expected<CurveSet> ReadAll(const std::vector<std::string>& files, const CurveFlags& flagged) {
-  CurveSet all;
+  std::vector<CurveSet> sets;
   for (const std::string& file : files) {
     TRY(CurveSet set, ReadMeasurementOrInput(file, flagged.reading));
     TRY(ApplyConditionFlags(flagged.conditions, &set));
-    if (all.name.empty()) all.name = files.size() == 1 ? set.name : set.curves.front().name;
-    for (IvCurve& curve : set.curves) {
-      const bool twice =
-          std::any_of(all.curves.begin(), all.curves.end(),
-                      [&](const IvCurve& other) { return other.name == curve.name; });
-      if (twice) return Fail("two curves are named " + curve.name, file);
-      all.curves.push_back(std::move(curve));
-    }
+    sets.push_back(std::move(set));
   }
-  if (files.size() > 1) all.name += fmt::format(" and {} more", files.size() - 1);
-  return all;
-}
-
-TwoJunctionOptions OptionsOf(const JunctionFlags& flags, const FitOptions& fit) {
-  TwoJunctionOptions options = flags.options;
-  options.bounds = fit.bounds.overrides;
-  options.fixed = fit.fixed;
-  options.constants = fit.constants;
-  options.search = fit.search;
-  options.intervals = fit.intervals;
-  options.threads = fit.threads;
-  return options;
+  return GatherCurves(std::move(sets));
 }
 
 Expected<void> WriteJunctions(const VerbLine& verb, const TwoJunctionReport& report,
@@ -96,7 +76,7 @@ Expected<int> RunTwoJunctions(const VerbLine& verb, const std::vector<std::strin
   TRY(const CurveSet set, ReadAll(files, flagged));
   const InterruptGuard guard;
   TRY(const TwoJunctionReport report,
-      FitTwoJunctions(set, OptionsOf(flags, fit), TerminalObserver()));
+      FitTwoJunctions(set, WithOptionsOf(fit, flags.options), TerminalObserver()));
   TRY(WriteJunctions(verb, report, output));
   if (report.interrupted) return kExitInterrupted;
   return report.usable ? kExitFine : kExitNotUsable;

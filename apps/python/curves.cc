@@ -70,6 +70,7 @@ IvCurve FromFile(py::handle path, const CurveKeywords& said) {
 IvCurve FromColumns(IvCurve columns, const CurveKeywords& said) {
   for (const OptionEcho& echo : NonDefaults(said.reading, kReadOptionTable)) {
     if (echo.name == "skip-missing") continue;
+    if (echo.name == "area-cm2" && said.area_of_device) continue;
     Raise({KeywordOf(echo.name) + ": is about a file; readings are taken in V and A", {}});
   }
   if (columns.voltage_V.size() != columns.current_A.size()) {

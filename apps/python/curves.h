@@ -29,6 +29,7 @@ struct CurveKeywords {
   ConditionOptions told;
   ReadOptions reading;
   std::string name;
+  bool area_of_device = false;  // area_cm2 is also for readings, whose device it describes
 };
 CurveKeywords ReadCurveKeywords(Keywords* keywords);
 

@@ -11,6 +11,7 @@
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
 #include "searcher.h"
+#include "two_junctions.h"
 #include "work.h"
 
 namespace lyrefit::python {
@@ -61,8 +62,12 @@ py::object FitOne(py::handle curve, py::handle current, const py::kwargs& given)
   Keywords keywords("fit", given);
   const py::object progress = keywords.Take("progress").value_or(py::none());
   const CurveKeywords said = ReadCurveKeywords(&keywords);
+  const JunctionKeywords junctions = ReadJunctionKeywords(&keywords);
   const FitKeywords asked = ReadFitKeywords(&keywords);
   keywords.Finish();
+  if (junctions.junctions == 2) {
+    return FitTandem(curve, current, said, asked, junctions, progress);
+  }
   const IvCurve taken = CurveOf(curve, current, said);
   const std::string file =
       IsPath(curve) && current.is_none() ? TextOf("curve", curve) : taken.source;
@@ -95,7 +100,8 @@ constexpr char kFitDoc[] =
     "Parameters\n----------\n"
     "curve : array_like of shape (n,), Curve, path, mapping or DataFrame\n"
     "    Voltages in V; or, without `current`, a Curve, the path or text of a file, a table with\n"
-    "    the columns v and i, or an array of shape (2, n) or (n, 2).\n"
+    "    the columns v and i, or an array of shape (2, n) or (n, 2). With junctions=2 also a list\n"
+    "    of these, or a mapping by id: one device under several lights of its junctions.\n"
     "current : array_like of shape (n,), optional\n"
     "    In A, positive where the device delivers.\n"
     "model : {'sd', 'dd', 'td', 'auto'}, default 'sd'\n"
@@ -115,7 +121,9 @@ constexpr char kFitEnd[] =
     "Returns\n-------\n"
     "FitResult\n"
     "    A mapping with the keys of the command's JSON; `parameters` has the answer under pvlib's\n"
-    "    names, `frame()` a row, `text` the report.\n\n"
+    "    names, `frame()` a row, `text` the report.\n"
+    "TwoJunctionResult\n"
+    "    The same of a tandem (junctions=2), without `frame()`.\n\n"
     "Raises\n------\n"
     "lyrefit.Error\n"
     "    An unusable curve, options outside their ranges, impossible bounds, fewer points than\n"
@@ -126,13 +134,15 @@ constexpr char kFitEnd[] =
     ">>> result = lyrefit.fit(voltage, current, cells_in_series=60, temperature_C=45)\n"
     ">>> result.parameters['resistance_series']\n"
     ">>> result['rmse']['refined']['solved_current_A']\n"
-    ">>> lyrefit.fit('module.csv', model='dd', fix={'n2': 2}, bound={'Rs': (0, 0.5)})\n";
+    ">>> lyrefit.fit('module.csv', model='dd', fix={'n2': 2}, bound={'Rs': (0, 0.5)})\n"
+    ">>> lyrefit.fit(['white.csv', 'red.csv'], junctions=2, light={'red': '1:0.8'})\n";
 
 // Keywords of fit in the order of its documentation.
 std::vector<KeywordNote> FitNotes() {
   std::vector<KeywordNote> notes;
   AppendNotes(kConditionOptionTable, ConditionOptions(), &notes);
   AppendFitNotes({}, &notes);
+  AppendJunctionNotes(&notes);
   AppendNotes(kReadOptionTable, ReadOptions(), &notes);
   notes.push_back({"name", "str", "None", "Reading", "of the curve, in reports"});
   return notes;
@@ -195,6 +205,7 @@ void AppendFitNotes(const FitOptions& usual, std::vector<KeywordNote>* notes) {
 }
 
 void BindFit(py::module_* module) {
+  BindTwoJunctions(module);
   py::class_<FitResult, Result>(*module, "FitResult", "What fit() found.")
       .def_property_readonly("parameters", &ParametersOf,
                              "dict of str to float: the answer under pvlib's names.")

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "curves.h"
+#include "lyrefit/read/bare_curve.h"
 #include "lyrefit/read/batch_source.h"
 #include "work.h"
 

@@ -26,6 +26,7 @@ PYBIND11_MODULE(_lyrefit, module) {
   BindFit(&module);
   BindFitMany(&module);
   BindSimulate(&module);
+  BindCell(&module);
   BindFamily(&module);
   BindDataSheet(&module);
   BindDiagnose(&module);

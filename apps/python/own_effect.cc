@@ -12,7 +12,7 @@
 namespace lyrefit::python {
 namespace {
 
-constexpr const char* kConditions[] = {"photocurrent", "thermal_voltage"};
+constexpr const char* kStageConditions[] = {"photocurrent", "thermal_voltage"};
 constexpr const char* kContext[] = {"photocurrent", "thermal_voltage", "reach", "cells"};
 
 bool Has(const std::vector<std::string>& names, const std::string& name) {
@@ -147,8 +147,8 @@ void FillSlopes(const StageFunction& stage, const Slopes& names, const StageInpu
   };
   fill(names.x, true, output.by_x);
   if (output.by_p == nullptr) return;
-  fill(kConditions[0], false, output.by_photocurrent);
-  fill(kConditions[1], false, output.by_thermal_voltage);
+  fill(kStageConditions[0], false, output.by_photocurrent);
+  fill(kStageConditions[1], false, output.by_thermal_voltage);
   for (std::size_t k = 0; k < names.parameters.size(); ++k) {
     fill(names.parameters[k], true, output.by_p + k * input.count);
   }
@@ -260,7 +260,7 @@ class EffectMaker {
     const int parameters = effect_.size();
     auto stage = std::make_shared<StageFunction>(Inspect(Name() + ": " + name, *value, parameters));
     const bool under_conditions =
-        Has(stage->context, kConditions[0]) || Has(stage->context, kConditions[1]);
+        Has(stage->context, kStageConditions[0]) || Has(stage->context, kStageConditions[1]);
     PlainValue plain = ValueOf(std::move(stage), fault_);
     if (!slopes) {
       std::vector<std::pair<double, double>> ranges;

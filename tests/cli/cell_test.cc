@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -13,6 +15,18 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::string kCell = DataFolder("cell") + "/";
+
+// Rows of two pixels, dark and lit, whose short-circuit currents are 1 and 2 mA.
+std::string TwoPixels() {
+  std::string rows;
+  for (int k = 0; k <= 40; ++k) {
+    const double voltage_V = 0.02 * k;
+    const double dark_mA = 1e-9 * std::expm1(voltage_V / 0.036);
+    rows += fmt::format("{0},{1},{0},{2},{0},{1},{0},{3}\n", voltage_V, dark_mA, dark_mA - 1,
+                        dark_mA - 2);
+  }
+  return rows;
+}
 
 // Every figure of the JSON, computed by cell_reference.py from the readings in it.
 TEST(CellCommand, AgreesWithAnIndependentComputation) {
@@ -49,6 +63,22 @@ TEST(CellCommand, SunsVocTakesItsIscFromTheLitCurve) {
   const AppResult alone = RunApp("cell '" + kCell + "suns.csv'");
   EXPECT_EQ(alone.exit_code, 1);
   EXPECT_THAT(alone.err, HasSubstr("--isc-A"));
+}
+
+TEST(CellCommand, DescribesTheCellThatIsNamedLitAndDark) {
+  const TempFolder folder;
+  const std::string table = folder.Write(
+      "pixels.csv",
+      "Voltage (V)_a_Forward_Dark,Current (mA)_a_Forward_Dark,Voltage (V)_a_Forward_Light,"
+      "Current (mA)_a_Forward_Light,Voltage (V)_b_Forward_Dark,Current (mA)_b_Forward_Dark,"
+      "Voltage (V)_b_Forward_Light,Current (mA)_b_Forward_Light\n" +
+          TwoPixels());
+  const AppResult run = RunApp("cell '" + table + "' --column b --no-fit");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("forward, dark"));
+  EXPECT_THAT(run.out, HasSubstr("Isc 0.002000 A"));
+  EXPECT_THAT(RunApp("cell '" + table + "'").err, HasSubstr("several cells (a, b)"));
+  EXPECT_THAT(RunApp("cell '" + table + "' --column c").err, HasSubstr("'c' was asked for"));
 }
 
 TEST(CellCommand, RefusesWhatIsNotOneCell) {

@@ -20,6 +20,10 @@ const kPages = {
   diagnose: ['diagnose', `${DATA}/diagnosis/shaded_module.csv`],
   certify: ['certify', `${DATA}/rtc_france`],
   family: ['fit', `${DATA}/s75_constructed`, '--family', 'desoto'],
+  matrix: ['fit', `${DATA}/formats/matrix_wide.csv`, '--family', 'pvsyst'],
+  cell: ['cell', ...['pair', 'lights', 'lit_dark', 'suns'].map((name) => `${DATA}/cell/${name}.csv`)],
+  junctions: ['fit', file('white.csv'), file('red.csv'), '--junctions', '2', '--light', 'white=1:1',
+              '--light', 'red=0.9:1.1'],
   compare: ['compare', `${DATA}/rtc_france`, '--runs', '4', '--models', 'sd', '--iterations', '50'],
   translate: ['translate', `${DATA}/diagnosis/shaded_module.csv`, '--rated-W', '475', '--gamma', '-0.4',
               '--irradiance-from', 'reference-cell', '--temperature-from', 'back', '--tracer', 'PVA-1500',
@@ -31,6 +35,12 @@ let browser;
 before(async () => {
   mkdirSync(OUT, {recursive: true});
   copyFileSync(`${DATA}/rtc_france/curve.csv`, file(kHostile));
+  for (const [name, light] of [['white', [0.0195, 0.0202]], ['red', [0.01755, 0.02222]]]) {
+    const device = {Iph1: light[0], Is1: 1e-14, n1: 1.4, Rsh1: 3000, Iph2: light[1], Is2: 4e-10, n2: 1.2,
+                    Rsh2: 1500, Rs: 2};
+    const set = Object.entries(device).flatMap(([symbol, value]) => ['--set', `${symbol}=${value}`]);
+    execFileSync(APP, ['simulate', '--junctions', '2', ...set, '--noise-A', '2e-5', '--out', file(`${name}.csv`)]);
+  }
   for (const [name, command] of Object.entries(kPages)) {
     execFileSync(APP, [...command, '--quiet', '--html', file(`${name}.html`), '--json',
                        file(`${name}.json`)]);
@@ -120,6 +130,36 @@ test('fit: parameters, key points and readings are those of the record', async (
     // Six digits of currents below 1 A and three of residuals below 10 mA are rounded.
     assert.ok(Math.abs(row[2] - row[1] - row[3]) < 2 * 5e-7 + 5e-6);
   });
+  await close();
+});
+
+test('cell: sweeps, hysteresis and series resistance are those of the record', async () => {
+  const {page, close} = await open(browser, file('cell.html'));
+  const {sweeps, hysteresis, resistance_series: found} = await embedded(page);
+  const rows = await cells(page, 'Sweeps');
+  assert.equal(rows.length, sweeps.length);
+  rows.forEach((row, i) => {
+    assert.equal(row[0], sweeps[i].name);
+    if (sweeps[i].kind !== 'lit') return;
+    assertSays(row[1], sweeps[i].jsc_mA_cm2, `${row[0]} Jsc`);
+    assertSays(row[6], 100 * sweeps[i].key_points.fill_factor, `${row[0]} FF`);
+    assertSays(row[7], 100 * sweeps[i].efficiency, `${row[0]} efficiency`);
+  });
+  const [byPower] = await cells(page, 'Hysteresis');
+  assertSays(byPower[1], 100 * hysteresis[0].index_power, 'index by power');
+  (await cells(page, 'Series resistance')).forEach((row, i) => {
+    assert.equal(row[0], found[i].method);
+    assertSays(row[2], found[i].ohm_cm2, row[0]);
+  });
+  await close();
+});
+
+test('matrix: the verdict speaks of power, as the record has it', async () => {
+  const {page, close} = await open(browser, file('matrix.html'));
+  const {rms: found} = (await embedded(page)).key_points;
+  const [errors, held_out] = (await page.textContent('.verdict p')).match(/[0-9.e-]+(?= %)/g);
+  assertSays(errors, 100 * found.max_power_of_reference, 'rms error of Pmp');
+  assertSays(held_out, 100 * found.held_out_max_power_of_reference, 'of conditions held out');
   await close();
 });
 

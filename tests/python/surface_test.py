@@ -61,7 +61,6 @@ class Surface(unittest.TestCase):
         # What a file is written into or read from has no keyword, nor has what other verbs are for.
         files = {"json", "csv", "plot", "html", "brief", "quiet", "full_json", "full_plot", "help", "list_columns",
                  "set", "from", "voltages", "out", "pvlib", "pan", "sam"}
-        files.add("light")  # of a fit of two junctions, which the module does not have
         sections = re.split(r"^(\w[\w ]*):$", help_of("fit"), flags=re.MULTILINE)
         family = "".join(text for head, text in zip(sections[1::2], sections[2::2]) if head.startswith("Family"))
         self.assertIn("--family", family)

@@ -134,6 +134,54 @@ class Verbs(unittest.TestCase):
         self.assertEqual(list(found.frame()["procedure"])[:1], ["iec1"])
         self.assertIn(found.recommended["procedure"], ("iec1", "desoto"))
 
+    def test_cell(self):
+        pair = lyrefit.cell(DATA / "cell" / "pair.csv", hysteresis=2)
+        self.same(pair, "cell", DATA / "cell" / "pair.csv", "--hysteresis", 2)
+        files = [DATA / "cell" / name for name in ("suns.csv", "lit_dark.csv")]
+        traced = lyrefit.cell(files, fit=False, area_cm2=0.2)
+        self.same(traced, "cell", *files, "--no-fit", "--area-cm2", 0.2)
+        self.assertEqual(len(traced.frame()), len(traced["sweeps"]))
+        self.assertEqual(list(pair.frame()["direction"]), ["reverse", "forward"])
+        with tempfile.TemporaryDirectory() as folder:
+            pair.save_plot(folder + "/cell.svg")
+            self.assertIn("</svg>", pathlib.Path(folder, "cell.svg").read_text())
+        voltage = np.linspace(-0.1, 0.7, 81)
+        dark = 1e-12 * np.expm1(voltage / 0.0257)
+        arrays = lyrefit.cell({"lit": lyrefit.Curve(voltage, 5e-3 - dark, temperature_C=25),
+                               "dark": lyrefit.Curve(voltage, -dark, temperature_C=25, irradiance_Wm2=0)},
+                              area_cm2=0.25, fit=False)
+        self.assertAlmostEqual(arrays["sweeps"][0]["jsc_mA_cm2"], 20, places=6)
+        self.assertFalse(arrays["superposition"]["departs"])
+        alone = lyrefit.cell(voltage, 5e-3 - dark, area_cm2=0.25, fit=False)
+        self.assertEqual(alone["sweeps"][0]["efficiency"], arrays["sweeps"][0]["efficiency"])
+
+    def test_two_junctions(self):
+        """A tandem is simulated, fitted and simulated again."""
+        device = {"Is1": 1e-14, "n1": 1.4, "Rsh1": 3000, "Is2": 3e-10, "n2": 1.2, "Rsh2": 1500, "Rs": 2}
+        sets = [text for name, value in device.items() for text in ("--set", f"{name}={value}")]
+        tandem = lyrefit.simulate({**device, "Iph1": 0.0195, "Iph2": 0.0202}, junctions=2, points=60)
+        self.assertEqual(tandem.csv, command("simulate", "--junctions", 2, *sets, "--set", "Iph1=0.0195", "--set",
+                                             "Iph2=0.0202", "--points", 60))
+        red = lyrefit.simulate({**device, "Iph1": 0.0195, "Iph2": 0.0101}, junctions=2, points=60)
+        with tempfile.TemporaryDirectory() as folder:
+            files = [pathlib.Path(folder, name) for name in ("white.csv", "red.csv")]
+            for file, curve in zip(files, (tandem, red)):
+                file.write_text(curve.csv)
+            found = lyrefit.fit(files, junctions=2, light={"white": (1, 1), "red": (1, 0.5)}, intervals="symmetric")
+            self.same(found, "fit", *files, "--junctions", 2, "--light", "white=1:1", "--light", "red=1:0.5",
+                      "--intervals", "symmetric")
+        self.assertTrue(found.usable)
+        self.assertAlmostEqual(found.parameters["n_1"], 1.4, places=3)
+        again = lyrefit.simulate(found, curve_id="white", voltage=tandem.voltage)
+        np.testing.assert_allclose(again.current, tandem.current, atol=1e-7)
+        arrays = lyrefit.fit({"white": tandem, "red": red}, junctions=2, light={"white": (1, 1), "red": (1, 0.5)},
+                             intervals="symmetric")
+        self.assertAlmostEqual(arrays.parameters["n_2"], found.parameters["n_2"], places=6)
+        with self.assertRaisesRegex(lyrefit.Error, "needs junctions=2"):
+            lyrefit.fit(CELL, light={"rtc_france": (1, 1)})
+        with self.assertRaisesRegex(lyrefit.Error, "model is for one junction"):
+            lyrefit.fit(CELL, junctions=2, model="dd")
+
     def test_certify(self):
         found = lyrefit.certify(CELL, models=["sd", "dd"], n_upper=2.5)
         self.same(found, "certify", CELL, "--models", "sd,dd", "--n-upper", 2.5)

@@ -12,6 +12,16 @@ using ::testing::HasSubstr;
 
 constexpr std::uintmax_t kLimit = 1 << 20;
 
+TEST(ReadSidecarTest, ReadsPvlibsNamesOfTheBandGap) {
+  const TempFolder folder;
+  const std::string path = folder.Write("a.json", R"({"EgRef": 1.4, "dEgdT": -0.0003})");
+  const auto sidecar = ReadSidecar(path, kLimit);
+  ASSERT_TRUE(sidecar) << sidecar.error().ToString();
+  EXPECT_EQ(sidecar->notes.bandgap_eV, 1.4);
+  EXPECT_EQ(sidecar->notes.bandgap_slope_per_K, -0.0003);
+  EXPECT_TRUE(sidecar->assumptions.empty());
+}
+
 TEST(ReadSidecarTest, ReadsEveryKey) {
   const TempFolder folder;
   const auto sidecar = ReadSidecar(folder.Write("a.json", R"({

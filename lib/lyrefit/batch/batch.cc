@@ -106,7 +106,7 @@ class RowMaker {
     } else {
       result.reason = ReasonOf(curve.curve.error());
     }
-    ResultRow row = {CommonCells(curve, item, result.status, result.reason)};
+    ResultRow row = {CommonCells(curve, item, result)};
     result.cells.resize(task_.columns.size());
     for (ResultCell& cell : result.cells) row.cells.push_back(std::move(cell));
     PipelineStep step;
@@ -140,8 +140,12 @@ class RowMaker {
   // Adds the known conditions and validates the readings.
   void Settle(BatchCurve* curve) const {
     Expected<void> settled;
-    if (options_.prepare) settled = options_.prepare(&*curve->curve);
-    if (settled) settled = Validate(*curve->curve);
+    const auto settle = [&](IvCurve* one) {
+      if (settled && options_.prepare) settled = options_.prepare(one);
+      if (settled) settled = Validate(*one);
+    };
+    settle(&*curve->curve);
+    for (IvCurve& one : curve->more) settle(&one);
     if (!settled) curve->curve = tl::unexpected(settled.error());
   }
 

@@ -11,6 +11,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/sample_summary.h"
 #include "lyrefit/read/batch_source.h"
 #include "lyrefit/report/document.h"
 
@@ -25,10 +26,14 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   pages/ID.html         one page for each curve, if requested (string_pages.h). It is written
 //                         before its row. --force writes a removed page again. A page that cannot
 //                         be written is a remark on its row
+//   samples.csv           of task `cell`: a row for each sample and direction with its statistics
+//   samples.jsonl         the same as JSON objects
 //   results.schema.json   a Table Schema of both (specs.frictionlessdata.io/table-schema): names,
-//                         types, units and a description of each column, and the run's settings
+//                         types, units and a description of each column, and the run's settings;
+//                         of task `cell` also the fields of samples.csv, under "samples"
 // The files have the same bytes on any number of threads, machines, shards and resumed runs. Memory
-// does not grow with the number of curves.
+// does not grow with the number of curves, except by ten numbers a pixel for the statistics of
+// samples.
 //
 // During the run the rows are in results.part (checkpoint.h). A killed run loses only the curves in
 // progress. A shard of several writes shard-K-of-N.part, and MergeShards combines the shards into
@@ -43,7 +48,7 @@ struct ReasonCount {
 // Summary of a run.
 struct BatchSummary {
   std::string version;  // of lyrefit
-  std::string task;     // "fit", "diagnose", "translate"
+  std::string task;     // "fit", "diagnose", "field-test", "cell"
   std::string folder;   // folder of the results
   std::uint64_t seed = 0;
   std::int64_t rows = 0;         // number of rows in the results
@@ -59,9 +64,11 @@ struct BatchSummary {
   std::map<std::string, std::int64_t> abouts;
   // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.
   std::map<std::string, ReasonCount> reasons;
-  std::vector<ResultColumn> columns;  // columns of the results
-  std::int64_t compared = 0;          // number of strings with neighbours
-  std::int64_t flagged = 0;           // of `compared`: flagged as different
+  std::vector<ResultColumn> columns;   // columns of the results
+  std::int64_t compared = 0;           // number of strings with neighbours
+  std::int64_t flagged = 0;            // of `compared`: flagged as different
+  std::vector<SampleSummary> samples;  // of task `cell`, of whole runs
+  std::string working_pixel;           // when a pixel works, in one sentence
 };
 
 // Number of different reasons that are counted separately.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/batch/batch.h"
+#include "lyrefit/batch/sample_document.h"
 
 namespace lyrefit {
 namespace {
@@ -75,10 +76,13 @@ Document BatchDocument(const BatchSummary& summary) {
   AddField("seed", std::to_string(summary.seed), &document.head);
   if (summary.compared > 0) {
     AddField("neighbours",
-             fmt::format("{} strings compared with those of their combiner, {} differ",
+             fmt::format(summary.samples.empty()
+                             ? "{} strings compared with those of their combiner, {} differ"
+                             : "{} pixels compared with those of their file or folder, {} differ",
                          summary.compared, summary.flagged),
              &document.head);
   }
+  AddSections(SampleSections(summary.samples, summary.working_pixel), &document);
   AddSections({Counts("Status", "status", summary.statuses, summary.rows),
                Counts("Against the rating", "zone", summary.zones, summary.rows),
                Counts("Causes", "cause", summary.causes, summary.rows),

@@ -11,10 +11,13 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/batch/pixel_options.h"
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/estimate/cell/cell_options.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/read/batch_source.h"
+#include "lyrefit/read/key_points.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
 
@@ -45,6 +48,8 @@ struct TaskResult {
   bool failed = false;            // the curve needs inspection
   // Creates the curve's page, with the same bytes for the same curve and seed. Empty: no page.
   std::function<std::string(const PageOptions& options)> page = {};
+  // Key points of the row; empty: those of the readings of `curve`.
+  std::optional<KeyPoints> key_points = {};
 };
 
 // A task, as data: what is run on each of many curves.
@@ -70,6 +75,10 @@ BatchTaskType DiagnoseTask(const DiagnoseOptions& asked);
 // The task `translate` to standard conditions: power with its uncertainty, zone, checklist. A
 // rating beside a curve (rated_power_W, of the whole string) is used if the options state none.
 BatchTaskType FieldTestTask(const TranslateOptions& asked);
+
+// The task `cell`: the description of a laboratory cell, of the source's option whole_cells, and
+// whether it counts as a working pixel of its sample. Its summary has statistics of each sample.
+BatchTaskType CellTask(const CellOptions& asked, const PixelOptions& pixels = {});
 
 // Usual options for fits of many curves: symmetric intervals, and no random baseline, since its
 // RMSE has no column.

@@ -10,12 +10,6 @@ constexpr char kOthers[] = "other reasons";
 
 bool IsNumeral(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-std::size_t PlaceOf(const std::vector<ResultColumn>& columns, const char* name) {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [name](const ResultColumn& c) { return c.name == name; });
-  return static_cast<std::size_t>(found - columns.begin());
-}
-
 template <class T>
 const T* In(const ResultRow& row, std::size_t column) {
   return column < row.cells.size() ? std::get_if<T>(&row.cells[column]) : nullptr;
@@ -23,14 +17,20 @@ const T* In(const ResultRow& row, std::size_t column) {
 
 }  // namespace
 
+std::size_t ColumnPlace(const std::vector<ResultColumn>& columns, const char* name) {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const ResultColumn& c) { return c.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
 RowCounter::RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* summary)
-    : status_(PlaceOf(columns, "status")),
-      reason_(PlaceOf(columns, "reason")),
-      where_(PlaceOf(columns, "where")),
-      zone_(PlaceOf(columns, "zone")),
-      cause_(PlaceOf(columns, "cause")),
-      about_(PlaceOf(columns, "cause_about")),
-      flag_(PlaceOf(columns, "group_flag")),
+    : status_(ColumnPlace(columns, "status")),
+      reason_(ColumnPlace(columns, "reason")),
+      where_(ColumnPlace(columns, "where")),
+      zone_(ColumnPlace(columns, "zone")),
+      cause_(ColumnPlace(columns, "cause")),
+      about_(ColumnPlace(columns, "cause_about")),
+      flag_(ColumnPlace(columns, "group_flag")),
       summary_(summary) {
   summary_->rows = 0;
 }

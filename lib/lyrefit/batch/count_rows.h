@@ -22,6 +22,9 @@ class RowCounter {
   BatchSummary* const summary_;
 };
 
+// Position of a column; the number of columns if there is none of the name.
+std::size_t ColumnPlace(const std::vector<ResultColumn>& columns, const char* name);
+
 // `sentence` with every number, and every quoted text, replaced by "N".
 std::string WithoutNumbers(const std::string& sentence);
 

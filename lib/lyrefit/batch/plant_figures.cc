@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/quantile.h"
 #include "lyrefit/batch/plant_text.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/report/text_layout.h"
@@ -32,13 +33,6 @@ std::vector<double> SortedKnown(const std::vector<double>& values) {
   }
   std::sort(known.begin(), known.end());
   return known;
-}
-
-double Quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
 // Ends of an axis for all values, except distant ones that would compress all others. Values that

@@ -51,11 +51,12 @@ ResultCell Rest(const BatchCurve& curve) {
   return rest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::vector<ResultCell> ReadingCells(const IvCurve& curve) {
+std::vector<ResultCell> ReadingCells(const IvCurve& curve, const TaskResult& result) {
   const Conditions& at = curve.conditions;
   // Removes the rounding error of the subtraction from kelvin: 33.00000000000006.
   const double celsius = std::round((at.cell_temperature_K - kZeroCelsius_K) * 1e9) / 1e9;
-  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const KeyPoints key =
+      result.key_points ? *result.key_points : FindKeyPoints(curve.voltage_V, curve.current_A);
   return {NumberCell(curve.irradiance_known ? at.irradiance_W_m2 : kUnknown),
           NumberCell(curve.temperature_known ? celsius : kUnknown),
           std::int64_t{at.cells_in_series},
@@ -103,17 +104,17 @@ std::vector<ResultColumn> CommonColumns() {
 }
 
 std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& item,
-                                    RowStatus status, const std::string& reason) {
+                                    const TaskResult& result) {
   std::vector<ResultCell> cells = {TextCell(curve.id),
-                                   std::string(ToText(status)),
-                                   TextCell(reason),
+                                   std::string(ToText(result.status)),
+                                   TextCell(result.reason),
                                    item.unnamed ? TextCell(kUnnamed) : ResultCell(),
                                    TextCell(PercentCoded(item.where)),
                                    Date(curve),
                                    RatedPower(curve),
                                    Rest(curve)};
   std::vector<ResultCell> readings(kReadingCells);
-  if (curve.curve) readings = ReadingCells(*curve.curve);
+  if (curve.curve) readings = ReadingCells(*curve.curve, result);
   for (ResultCell& cell : readings) cells.push_back(std::move(cell));
   return cells;
 }

@@ -13,8 +13,9 @@ namespace lyrefit {
 // points and a sparkline.
 std::vector<ResultColumn> CommonColumns();
 
-// The cells of CommonColumns() for one curve, which may be broken.
+// The cells of CommonColumns() for one curve, which may be broken, with the status, reason and key
+// points of `result`.
 std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& item,
-                                    RowStatus status, const std::string& reason);
+                                    const TaskResult& result);
 
 }  // namespace lyrefit

@@ -15,6 +15,7 @@
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/row_text.h"
+#include "lyrefit/batch/samples.h"
 
 namespace lyrefit {
 namespace {
@@ -24,6 +25,8 @@ namespace fs = std::filesystem;
 constexpr char kCsv[] = "results.csv";
 constexpr char kLines[] = "results.jsonl";
 constexpr char kSchema[] = "results.schema.json";
+constexpr char kSamplesCsv[] = "samples.csv";
+constexpr char kSamplesLines[] = "samples.jsonl";
 constexpr std::uintmax_t kLargestSchema = 16U << 20;
 
 // Adjacent rows with the same parent.
@@ -100,12 +103,14 @@ Expected<void> ForGroups(const std::vector<std::string>& parts,
   return end();
 }
 
-std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns) {
-  // The key `lyrefit` is an extension: the standard allows additional keys.
-  const CheckpointHead schema = {{"fields", FieldsJson(columns)},
-                                 {"missingValues", {""}},
-                                 {"primaryKey", "where"},
-                                 {"lyrefit", ResultsHeadOf(head)}};
+std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns,
+                       bool samples) {
+  // The keys `lyrefit` and `samples` are extensions: the standard allows additional keys.
+  CheckpointHead schema = {{"fields", FieldsJson(columns)},
+                           {"missingValues", {""}},
+                           {"primaryKey", "where"},
+                           {"lyrefit", ResultsHeadOf(head)}};
+  if (samples) schema["samples"] = {{"fields", FieldsJson(SampleColumns())}};
   return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
 }
 
@@ -173,7 +178,7 @@ Expected<void> PrepareFolder(const std::string& folder, bool replace) {
     return Fail("cannot make the folder of the results: " + why, folder);
   }
   if (replace) return {};
-  for (const char* name : {kCsv, kLines, kSchema}) {
+  for (const char* name : {kCsv, kLines, kSchema, kSamplesCsv, kSamplesLines}) {
     const std::string path = (fs::path(folder) / name).string();
     if (fs::exists(path, error)) {
       return Fail("results are there already: name another folder, or say --force to replace them",
@@ -196,6 +201,19 @@ CheckpointHead ResultsHead(const std::string& folder) {
 
 namespace {
 
+Expected<void> WriteSamples(const std::vector<SampleSummary>& samples, CsvTexts texts, NewFile* csv,
+                            NewFile* lines) {
+  const std::vector<ResultColumn> columns = SampleColumns();
+  TRY(csv->Begin());
+  TRY(lines->Begin());
+  TRY(csv->Write(HeadCsv(columns)));
+  for (const ResultRow& row : SampleRows(samples)) {
+    TRY(csv->Write(RowCsv(row, texts)));
+    TRY(lines->Write(RowJson(columns, row) + "\n"));
+  }
+  return {};
+}
+
 Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
                                const RowObserver& row_observer, RowProgress* passed,
                                BatchSummary* summary) {
@@ -211,6 +229,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   TRY(csv.Write(HeadCsv(plan.results)));
   summary->columns = plan.results;
   RowCounter counter(plan.results, summary);
+  SampleCounter samples(plan.results);
   const auto write = [&](Group& group) -> Expected<void> {
     const auto deviations = DeviationsAmong(group.members, plan.like_light);
     std::array<double, kNeighbourQuantities> limits{};
@@ -224,13 +243,20 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
       TRY(csv.Write(RowCsv(row, plan.texts)));
       TRY(lines.Write(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
+      if (samples.counts()) samples.Count(row);
       if (row_observer) row_observer(plan.results, row);
     }
     return Pass(group.rows.size(), passed);
   };
   TRY(ForGroups(parts, plan.rows, write));
-  TRY(schema.Write(SchemaJson(last.head(), plan.results)));
-  return NewFile::Commit({&csv, &lines, &schema});
+  TRY(schema.Write(SchemaJson(last.head(), plan.results, samples.counts())));
+  if (!samples.counts()) return NewFile::Commit({&csv, &lines, &schema});
+  summary->samples = samples.Summaries();
+  summary->working_pixel = last.head().at("options").value(kPixelCriterion, "");
+  NewFile samples_csv((base / kSamplesCsv).string());
+  NewFile samples_lines((base / kSamplesLines).string());
+  TRY(WriteSamples(summary->samples, plan.texts, &samples_csv, &samples_lines));
+  return NewFile::Commit({&csv, &lines, &samples_csv, &samples_lines, &schema});
 }
 
 }  // namespace

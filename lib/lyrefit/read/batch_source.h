@@ -34,6 +34,10 @@ namespace LYREFIT_PUBLIC lyrefit {
 // folder tree the id is the path below the folder without its ending. For a file `curve.csv` it is
 // the path of its folder. If several folders are given, their names come first.
 //
+// With ReadOptions::whole_cells an item is a laboratory cell: the curves of a file whose names differ
+// by the words of light and direction alone (up and down, lit and dark, several lights), or all
+// curves of a file that holds one cell. In rows and long tables a curve is a cell.
+//
 // No curve is dropped. A truncated or overlong row, or one with a repeated id, is an item whose
 // Read returns the error.
 
@@ -74,7 +78,8 @@ struct BatchCurve {
   std::string id;
   Expected<IvCurve> curve;  // or the error of reading it
   std::map<std::string, std::string>
-      beside;  // values that are not evaluated: date, rated_power_W, ...
+      beside;                      // values that are not evaluated: date, rated_power_W, ...
+  std::vector<IvCurve> more = {};  // the other curves of the same cell, with whole_cells
 };
 
 // A sequence of curves for a batch.

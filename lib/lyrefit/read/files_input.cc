@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/batch_input.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/line_scanner.h"
 #include "lyrefit/read/row_names.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A file that is read whole: by ReadCurve when its only curve is wanted, or completely at the first
-// call of Next().
+// call of Next(). With whole_cells its items are cells.
 class WholeFile : public FileInput {
  public:
   WholeFile(const std::string& path, std::string name, bool several, const ReadOptions& options)
@@ -42,9 +43,10 @@ class WholeFile : public FileInput {
 
   BatchCurve Read(const BatchItem& item) const override {
     if (!several_) return {item.id, ReadCurve(path_, options_), {}};
-    Expected<IvCurve> curve = curves_[item.in_file].curve;
+    const NamedCurve& found = curves_[item.in_file];
+    Expected<IvCurve> curve = found.curve;
     if (curve) curve->name = item.id;
-    return {item.id, std::move(curve), {}};
+    return {item.id, std::move(curve), {}, found.more};
   }
 
   Expected<void> AddTo(ByteSum* sum, std::int64_t until) const override {
@@ -59,21 +61,41 @@ class WholeFile : public FileInput {
   struct NamedCurve {
     std::string id;  // in the file
     Expected<IvCurve> curve;
+    std::vector<IvCurve> more = {};  // the others of the same cell
   };
 
   void Load() {
-    const auto text = ReadDecodedFile(path_, options_.largest_file_bytes);
-    if (!text) return Refuse(text.error());
-    Expected<CurveSet> set = CurveSetOfFile(*text, path_, options_);
+    Expected<CurveSet> set = ReadSet();
     if (!set) return Refuse(set.error());
     for (IvCurve& curve : set->curves) {
       curve.assumptions.insert(curve.assumptions.begin(), set->assumptions.begin(),
                                set->assumptions.end());
-      curves_.push_back({AsLevel(curve.name), std::move(curve)});
+      if (options_.whole_cells && options_.area_cm2) curve.notes.area_cm2 = options_.area_cm2;
     }
-    for (const RejectedCurve& rejected : set->rejected) {
-      curves_.push_back({AsLevel(rejected.id), tl::unexpected(rejected.error)});
+    const std::vector<RejectedCurve> rejected = std::move(set->rejected);
+    if (options_.whole_cells) {
+      for (CellCurves& cell : SplitIntoCells(std::move(*set))) AddCell(std::move(cell));
+    } else {
+      for (IvCurve& curve : set->curves) {
+        curves_.push_back({AsLevel(curve.name), std::move(curve)});
+      }
     }
+    for (const RejectedCurve& one : rejected) {
+      curves_.push_back({AsLevel(one.id), tl::unexpected(one.error)});
+    }
+  }
+
+  Expected<CurveSet> ReadSet() const {
+    if (options_.whole_cells) return ReadMeasurement(path_, options_);
+    TRY(const auto text, ReadDecodedFile(path_, options_.largest_file_bytes));
+    return CurveSetOfFile(text, path_, options_);
+  }
+
+  void AddCell(CellCurves cell) {
+    NamedCurve named = {AsLevel(cell.name), std::move(cell.curves.front())};
+    cell.curves.erase(cell.curves.begin());
+    named.more = std::move(cell.curves);
+    curves_.push_back(std::move(named));
   }
 
   void Refuse(const Error& error) { curves_.push_back({"", tl::unexpected(error)}); }

@@ -17,7 +17,7 @@
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/make_curve.h"
 #include "lyrefit/read/number_text.h"
-#include "lyrefit/read/results_above.h"
+#include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/sweep_order.h"
 #include "lyrefit/read/table_columns.h"
@@ -25,11 +25,6 @@
 
 namespace lyrefit {
 namespace {
-
-// The id of the element `key` inside the element `id`.
-std::string Below(const std::string& id, const std::string& key) {
-  return id.empty() ? key : fmt::format("{}.{}", id, key);
-}
 
 using nlohmann::json;
 
@@ -199,17 +194,10 @@ Sidecar StatedNumbers(const json& object, const std::string& id, bool nomad) {
     const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
     if (!number) continue;
     const std::string label = nomad ? LabelInNomad(key) : key;
-    TakeStatement(label, *number, Quoted(Below(id, key)), &head);
+    TakeStatement(label, *number, Quoted(MemberId(id, key)), &head);
   }
   head.said.assumptions = HeadSentences(head);
   return head.said;
-}
-
-// Whether an object holds nothing but scalars, such as the settings beside the readings.
-bool HoldsScalarsOnly(const json& object) {
-  return object.is_object() && std::none_of(object.begin(), object.end(), [](const json& value) {
-           return value.is_structured();
-         });
 }
 
 // What the scalars of an object, and of objects of scalars in it, state.
@@ -217,25 +205,9 @@ Sidecar StatedIn(const json& object, const Surroundings& around) {
   Sidecar stated;
   for (const auto& [key, value] : object.items()) {
     if (!HoldsScalarsOnly(value)) continue;
-    stated = Merge(std::move(stated), StatedNumbers(value, Below(around.id, key), around.nomad));
+    stated = Merge(std::move(stated), StatedNumbers(value, MemberId(around.id, key), around.nomad));
   }
   return Merge(std::move(stated), StatedNumbers(object, around.id, around.nomad));
-}
-
-// The results that an object, or an object of scalars in it, states.
-std::vector<StatedResult> ResultsIn(const json& object, const Surroundings& around) {
-  std::vector<StatedResult> results;
-  const auto take = [&](const json& from, const std::string& id) {
-    for (const auto& [key, value] : from.items()) {
-      const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
-      if (number && IsResult(key)) results.push_back({0, key, *number, Quoted(Below(id, key))});
-    }
-  };
-  for (const auto& [key, value] : object.items()) {
-    if (HoldsScalarsOnly(value)) take(value, Below(around.id, key));
-  }
-  take(object, around.id);
-  return results;
 }
 
 // Sets the unit of a current that names none from a current density beside it. With the area of the
@@ -321,7 +293,7 @@ Expected<bool> TakeRecords(FoundCurves* found, const Records& records, const Sur
   for (const Channel& channel : chosen) {
     TRY(ApplyUnitWishes(found->options, channel, &columns));
     TakeUnitOfDensity(records, around.stated, found->options, channel.current, &columns);
-    const std::string own = Below(around.id, ChannelName(columns, channel));
+    const std::string own = MemberId(around.id, ChannelName(columns, channel));
     const std::string& id = channels.size() > 1 ? own : around.id;
     auto raw = CurveOfRecords(records, columns, channel, found->options, {found->path});
     if (!raw) {
@@ -341,7 +313,7 @@ Expected<void> FindCurvesIn(FoundCurves* found, const json& node, Surroundings a
   if (node.is_object()) {
     around.nomad = around.nomad || node.contains("jv_curve");
     around.stated = Merge(StatedIn(node, around), around.stated);
-    if (auto results = ResultsIn(node, around); !results.empty()) around.results = results;
+    if (auto results = ResultsIn(node, around.id); !results.empty()) around.results = results;
     SweepDirection direction = ReadTag(TextOf(node, "direction")).direction;
     if (direction == SweepDirection::kUnknown) {
       direction = ReadTag(TextOf(node, "cell_name")).direction;
@@ -360,7 +332,7 @@ Expected<void> FindCurvesIn(FoundCurves* found, const json& node, Surroundings a
     const std::string key = node.is_object() ? item.key() : std::to_string(place);
     // The readings of one direction stand below the object that names it.
     const bool named = around.direction != SweepDirection::kUnknown && node.is_object();
-    around.id = named ? id : NameOf(*item, Below(id, key));
+    around.id = named ? id : NameOf(*item, MemberId(id, key));
     TRY(FindCurvesIn(found, *item, around));
   }
   return {};

@@ -148,7 +148,9 @@ Expected<std::unique_ptr<BatchInput>> OpenJson(const LookedAt& file, std::string
     return Fail(fmt::format("expected rows {}, found a JSON document: name its file", Within(path)),
                 path);
   }
-  if (json.shape == JsonShape::kList) return JsonListInput(path, name, json.key, options);
+  if (json.shape == JsonShape::kList && !options.whole_cells) {
+    return JsonListInput(path, name, json.key, options);
+  }
   return WholeFileInput(path, name, true, options);
 }
 
@@ -199,7 +201,8 @@ Expected<std::unique_ptr<BatchInput>> OpenText(const LookedAt& file, std::string
                             Within(path)),
                 path);
   }
-  return WholeFileInput(path, name, HoldsMeasurements(head, path, options), options);
+  const bool several = options.whole_cells || HoldsMeasurements(head, path, options);
+  return WholeFileInput(path, name, several, options);
 }
 
 }  // namespace
@@ -216,7 +219,7 @@ Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const s
     const bool one = !IsReadOnce(path) &&
                      SizeOfFile(path) <= static_cast<std::int64_t>(head.size()) &&
                      !IsRowsFile(path) && lines > 0;
-    if (one) return WholeFileInput(path, name, false, options);
+    if (one) return WholeFileInput(path, name, options.whole_cells, options);
     return Fail("expected rows in UTF-8, found UTF-16: save the file as UTF-8", path);
   }
   return OpenText({path, name, options, &scanner}, head);

@@ -19,31 +19,6 @@ namespace {
 
 constexpr char kResultsDelimiter = '\t';
 
-constexpr std::string_view kKeyPointResults[] = {"isc", "jsc",  "voc",  "imp",
-                                                 "vmp", "impp", "vmpp", "pmp"};
-constexpr std::string_view kOtherResults[] = {"jmp",
-                                              "jmpp",
-                                              "umpp",
-                                              "pmpp",
-                                              "pmax",
-                                              "mpp",
-                                              "ff",
-                                              "fillfactor",
-                                              "eff",
-                                              "efficiency",
-                                              "pce",
-                                              "rs",
-                                              "rsh",
-                                              "rseries",
-                                              "rshunt",
-                                              "seriesresistance",
-                                              "shuntresistance"};
-
-template <std::size_t kSize>
-bool IsOneOf(const std::string_view (&names)[kSize], std::string_view name) {
-  return std::find(std::begin(names), std::end(names), name) != std::end(names);
-}
-
 int PlaceOf(const Fields& names, std::string_view wanted) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (ResultName(names[i]) == wanted) return static_cast<int>(i);
@@ -103,17 +78,6 @@ void KeepValues(const ResultsAbove& results, int number, TableHead* head) {
 }
 
 }  // namespace
-
-bool AreKeyPoints(const Fields& names) {
-  return std::count_if(names.begin(), names.end(), [](const std::string& name) {
-           return IsOneOf(kKeyPointResults, ResultName(name));
-         }) >= 3;
-}
-
-bool IsResult(std::string_view label) {
-  const std::string name = ResultName(label);
-  return IsOneOf(kKeyPointResults, name) || IsOneOf(kOtherResults, name);
-}
 
 bool TakeResults(std::string_view line, int number, ResultsAbove* results, TableHead* head) {
   auto fields = SplitFields(line, kResultsDelimiter);

@@ -9,13 +9,6 @@
 
 namespace lyrefit {
 
-// Whether the names are key points such as Isc and Voc, with or without units.
-bool AreKeyPoints(const Fields& names);
-
-// Whether a name is that of a result or a rated value: a key point, fill factor, efficiency, a
-// resistance.
-bool IsResult(std::string_view label);
-
 // A table of results above the readings, one row a sweep. Its last column names the sweeps.
 struct ResultsAbove {
   Fields names;

@@ -28,7 +28,9 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "strings_in_parallel",
                                       "bypass_diodes",
                                       "bandgap_eV",
+                                      "EgRef",
                                       "bandgap_slope_per_K",
+                                      "dEgdT",
                                       "isc_tempco_per_K",
                                       "isc_tempco_A_per_K",
                                       "alpha_Isc_A_per_K",
@@ -161,8 +163,8 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   ReadConditionKeys(reading);
   DeviceNotes& notes = reading->sidecar.notes;
   ReadWhole(reading, {"bypass_diodes"}, 0, "a number from 0 up", &notes.bypass_diodes);
-  ReadNumber(reading, {"bandgap_eV"}, Sign::kPositive, &notes.bandgap_eV);
-  ReadNumber(reading, {"bandgap_slope_per_K"}, Sign::kAny, &notes.bandgap_slope_per_K);
+  ReadNumber(reading, {"bandgap_eV", "EgRef"}, Sign::kPositive, &notes.bandgap_eV);
+  ReadNumber(reading, {"bandgap_slope_per_K", "dEgdT"}, Sign::kAny, &notes.bandgap_slope_per_K);
   ReadNumber(reading, {"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
   ReadNumber(reading, {"isc_tempco_A_per_K", "alpha_Isc_A_per_K"}, Sign::kAny,
              &notes.isc_tempco_A_per_K);

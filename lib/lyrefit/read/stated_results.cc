@@ -1,14 +1,56 @@
 #include "lyrefit/read/stated_results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
+#include "lyrefit/read/table_header.h"
 
 namespace lyrefit {
+
+using nlohmann::json;
+
 namespace {
+
+constexpr std::string_view kKeyPointResults[] = {"isc", "jsc",  "voc",  "imp",
+                                                 "vmp", "impp", "vmpp", "pmp"};
+constexpr std::string_view kOtherResults[] = {"jmp",
+                                              "jmpp",
+                                              "umpp",
+                                              "pmpp",
+                                              "pmax",
+                                              "mpp",
+                                              "ff",
+                                              "fillfactor",
+                                              "eff",
+                                              "efficiency",
+                                              "pce",
+                                              "rs",
+                                              "rsh",
+                                              "rseries",
+                                              "rshunt",
+                                              "seriesresistance",
+                                              "shuntresistance"};
+
+template <std::size_t kSize>
+bool IsOneOf(const std::string_view (&names)[kSize], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+// Whether an object holds weights of a fit under the names of results: "fit_weight".
+bool AreWeights(std::string_view key) {
+  const std::vector<LabelWord> words = SplitLabel(key);
+  return std::any_of(words.begin(), words.end(), [](const LabelWord& word) {
+    return word.text == "weight" || word.text == "weights";
+  });
+}
 
 // Number of the words before the first that is marked as a unit.
 std::size_t EndOfName(const std::vector<LabelWord>& words) {
@@ -51,6 +93,24 @@ std::string ResultName(std::string_view label) {
 std::string ResultUnit(std::string_view label) {
   const std::vector<LabelWord> words = SplitLabel(label);
   return JoinWords(words, EndOfName(words), words.size());
+}
+
+bool AreKeyPoints(const std::vector<std::string>& names) {
+  return std::count_if(names.begin(), names.end(), [](const std::string& name) {
+           return IsOneOf(kKeyPointResults, ResultName(name));
+         }) >= 3;
+}
+
+bool IsResult(std::string_view label) {
+  const std::string name = ResultName(label);
+  return IsOneOf(kKeyPointResults, name) || IsOneOf(kOtherResults, name);
+}
+
+void TakeColumnNames(std::string_view line, std::vector<std::string>* names) {
+  const auto fields = SplitFields(line, '\t');
+  if (!fields || fields->size() < 3) return;
+  names->assign(fields->begin() + 1, fields->end());
+  while (!names->empty() && names->back().empty()) names->pop_back();
 }
 
 ResultLine ReadResultLine(std::string_view line, const std::vector<std::string>& names,
@@ -96,6 +156,32 @@ std::vector<StatedResult> ResultsOf(const std::vector<ResultLine>& lines,
       results.push_back({static_cast<int>(sweep), line.label, *value, line.source});
     }
   }
+  return results;
+}
+
+std::string MemberId(const std::string& id, const std::string& key) {
+  return id.empty() ? key : fmt::format("{}.{}", id, key);
+}
+
+bool HoldsScalarsOnly(const json& object) {
+  return object.is_object() && std::none_of(object.begin(), object.end(), [](const json& value) {
+           return value.is_structured();
+         });
+}
+
+std::vector<StatedResult> ResultsIn(const json& object, const std::string& id) {
+  std::vector<StatedResult> results;
+  const auto take = [&](const json& from, const std::string& above) {
+    for (const auto& [key, value] : from.items()) {
+      const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
+      if (number && IsResult(key))
+        results.push_back({0, key, *number, Quoted(MemberId(above, key))});
+    }
+  };
+  for (const auto& [key, value] : object.items()) {
+    if (HoldsScalarsOnly(value) && !AreWeights(key)) take(value, MemberId(id, key));
+  }
+  take(object, id);
   return results;
 }
 

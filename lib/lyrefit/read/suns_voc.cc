@@ -80,7 +80,7 @@ Expected<void> LightToCurrent(const SunsVocColumns& columns, std::optional<doubl
                 "of {:.6g} A: series resistance is not in it",
                 brightest)
           : fmt::format(
-                "a Suns-Voc trace, read as the curve of a short-circuit current of {:.6g} at "
+                "a Suns-Voc trace, read as the curve of a short-circuit current of {:.6g} A at "
                 "one sun: series resistance is not in it",
                 *isc));
   return {};

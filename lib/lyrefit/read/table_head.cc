@@ -10,7 +10,6 @@
 
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/number_text.h"
-#include "lyrefit/read/results_above.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {
@@ -352,17 +351,6 @@ void ReadLine(HeadLineState* state, std::string_view line) {
   if (!ReadPart(state, line)) ReadWords(state, line);
 }
 
-// Keeps the names of a line "\ta_Forward\ta_Reverse" or "Parameter\tb_rev\tb_for", to which the values
-// of the lines below it belong.
-void TakeColumnNames(std::string_view line, TableHead* head) {
-  const auto fields = SplitFields(line, '\t');
-  if (!fields || fields->size() < 3) return;
-  head->column_names.assign(fields->begin() + 1, fields->end());
-  while (!head->column_names.empty() && head->column_names.back().empty()) {
-    head->column_names.pop_back();
-  }
-}
-
 }  // namespace
 
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
@@ -371,7 +359,7 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));
-  if (!state.holds_number) TakeColumnNames(line, head);
+  if (!state.holds_number) TakeColumnNames(line, &head->column_names);
   if (kind == HeadLine::kText && state.holds_number && !state.understood) {
     const bool is_result = IsResult(line.substr(0, line.find_first_of(":=\t;,")));
     (is_result ? head->results : head->left).push_back(source);

@@ -44,7 +44,7 @@ class TreeInput : public BatchInput {
     weight_ = WeightOf(*file);
     path_ = file->path;
     id_ = prefix_ + (prefix_.empty() || file->id.empty() ? "" : "/") + file->id;
-    if (file->refusal.empty() && HoldsSeveral()) {
+    if (file->refusal.empty() && (options_.whole_cells || HoldsSeveral())) {
       TRY(several_, OpenInput(path_, id_, options_));
       return Next();
     }

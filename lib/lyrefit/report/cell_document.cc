@@ -280,8 +280,10 @@ Document CellDocument(const CellReport& report) {
 std::string CellText(const CellReport& report) { return DrawText(CellDocument(report)); }
 
 std::string BriefCell(const CellReport& report) {
-  return report.name + ": " + CellVerdict(report) +
-         BriefMarks(report.interrupted, true, report.warnings.size()) + "\n";
+  std::string text = report.name + ": " + CellVerdict(report);
+  const std::string marks = BriefMarks(report.interrupted, true, report.warnings.size());
+  if (!marks.empty() && text.back() == '.') text.pop_back();  // the marks go on with a comma
+  return text + marks + "\n";
 }
 
 }  // namespace lyrefit

@@ -12,14 +12,14 @@ Section SeriesResistanceSection(const CellReport& report) {
   Section section = {"Series resistance"};
   if (report.series_resistance.empty()) return section;
   const bool area = std::isfinite(report.area_cm2);
-  block::Table table = {"lrrrw", {{"from", "ohm", "ohm cm2", "95 % (ohm)", ""}}};
+  block::Table table = {"lrrw", {{"from", "ohm", "ohm cm2", "95 % (ohm)"}}};
   std::vector<std::string> notes;
   for (const SeriesResistance& one : report.series_resistance) {
     const Ranged& ohm = one.ohm;
     const bool ranged = std::isfinite(ohm.low_95) && std::isfinite(ohm.high_95);
     table.rows.push_back({one.method, Significant(ohm.value, 4),
                           area ? Significant(report.PerArea(ohm.value), 4) : "-",
-                          ranged ? Range(ohm.low_95, ohm.high_95) : "", one.missing});
+                          ranged ? Range(ohm.low_95, ohm.high_95) : one.missing});
     const std::string method = one.method.substr(0, one.method.find(','));
     const std::string note = method + ": " + one.note;
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);

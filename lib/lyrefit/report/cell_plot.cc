@@ -20,7 +20,7 @@ std::string CurrentLabel(const CellReport& report) {
   return std::isfinite(report.area_cm2) ? "Current density (mA/cm2)" : "Current (A)";
 }
 
-// Lit sweeps in one colour each, forward as lines, reverse dashed; the model of a diode as points.
+// Readings of the lit sweeps, one look each.
 Panel CurvePanel(const CellReport& report, std::vector<LegendEntry>* legend) {
   Panel panel{"Lit curves", {"Voltage (V)"}, {CurrentLabel(report)}};
   panel.zero_line = true;
@@ -61,8 +61,8 @@ Panel LightPanel(const CellReport& report) {
     for (const VocPoint& point : over.points) points.Add(point.light_A, point.voc_V);
     Series line{SeriesKind::kLine, LookOf(index++), 1};
     const double n = over.junction_n();
-    line.name = fmt::format("n = {}{}", Significant(n, 3),
-                            over.rises_to_low_light ? " at the brightest light" : "");
+    line.name =
+        fmt::format("n = {}{}", Significant(n, 3), over.rises_to_low_light ? " (brightest)" : "");
     // Through the brightest point, down to the darkest light.
     const VocPoint &top = over.points.back(), &bottom = over.points.front();
     const double thermal_V =
@@ -70,8 +70,9 @@ Panel LightPanel(const CellReport& report) {
     const double drop = n * thermal_V * std::log(top.light_A / bottom.light_A);
     line.Add(bottom.light_A, top.voc_V - drop);
     line.Add(top.light_A, top.voc_V);
-    panel.notes.push_back({points.name + ": " + line.name, line.look.colour, 0.03,
-                           0.95 - 0.08 * (index - 1), "left"});
+    // Below the points, which rise to the right.
+    panel.notes.push_back({points.name + ": " + line.name, line.look.colour, 0.97,
+                           0.05 + 0.08 * (index - 1), "right"});
     panel.series.push_back(std::move(line));
     panel.series.push_back(std::move(points));
   }
@@ -123,7 +124,7 @@ Panel WaterfallPanel(const CellReport& report, const FillFactorLosses& losses) {
     bar.name = names[k];
     for (const auto& [dx, y] :
          {std::pair(-kHalf, start), std::pair(-kHalf, to[k]), std::pair(kHalf, to[k]),
-          std::pair(kHalf, start), std::pair(-kHalf, start)}) {
+          std::pair(kHalf, start), std::pair(-kHalf, start), std::pair(-kHalf, to[k])}) {
       bar.Add(x + dx, y);
     }
     panel.series.push_back(std::move(bar));
@@ -165,11 +166,19 @@ Expected<void> PlotCell(const CellReport& report, const std::string& path, PlotP
 
 block::Figure FigureBlock(const CellReport& report) {
   block::Figure block;
-  block.caption =
-      "Lit curves; open-circuit voltages over light with lines of the junction's n; dark curve; "
-      "fill "
-      "factor from the ideal diode to the measured one, with 95 % intervals of each loss.";
   block.figure = CellFigure(report);
+  std::vector<std::string> shown;
+  if (report.main != -1) shown.emplace_back("lit curves");
+  if (!report.over_light.empty()) {
+    shown.emplace_back("open-circuit voltages over light with lines of the junction's n");
+  }
+  if (report.dark) shown.emplace_back("dark curve");
+  if (std::any_of(report.losses.begin(), report.losses.end(),
+                  [](const FillFactorLosses& losses) { return losses.missing.empty(); })) {
+    shown.emplace_back(
+        "fill factor from the ideal diode to the measured one, with 95 % intervals of each loss");
+  }
+  block.caption = fmt::format("From the upper left: {}.", fmt::join(shown, "; "));
   return block;
 }
 

@@ -148,10 +148,11 @@ block::Figure FigureBlock(const Certificate& certificate) {
 block::Figure FigureBlock(const FamilyReport& report, const CurveSet& set) {
   block::Figure shown;
   if (report.curves.empty() || set.curves.empty()) return shown;
-  shown.caption =
+  shown.caption = fmt::format(
       "Measured points and model of up to twelve curves spread over the irradiances; beside them, "
-      "over irradiance, the RMSE of each curve and its mean residual. The colour is the cell "
-      "temperature.";
+      "over irradiance, {}. The colour is the cell temperature.",
+      report.key_points ? "the errors of Pmp and Voc under each condition"
+                        : "the RMSE of each curve and its mean residual");
   shown.figure = FamilyFigure(report, set);
   block::Table table = {"lrrrrr",
                         {{"curve", "irradiance (W/m2)", "temperature (C)", "points",

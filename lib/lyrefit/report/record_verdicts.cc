@@ -27,6 +27,18 @@ std::string PartOfIsc(double rmse_A, double isc_A) {
   return fmt::format(", {} % of Isc", Significant(100 * rmse_A / isc_A, 2));
 }
 
+// How well a fit of key points gives the power of the conditions.
+std::string KeyPointWords(const KeyPointSummary& found) {
+  const auto percent = [](double part) { return Significant(100 * part, 2); };
+  std::string words = fmt::format(": Pmp within {} % of nominal power (rms)",
+                                  percent(found.max_power_of_reference));
+  if (found.held_out > 0) {
+    words += fmt::format(", {} % where a condition is held out",
+                         percent(found.held_out_max_power_of_reference));
+  }
+  return words;
+}
+
 }  // namespace
 
 std::string ResidualVerdict(const ResidualStatistics& r) {
@@ -63,10 +75,12 @@ std::string FamilyVerdict(const FamilyReport& report) {
   std::string text =
       OneByOne(report)
           ? fmt::format("Every curve has a {} model of its own", ModelTitle(spec.model))
-          : fmt::format("One {} device by the law of {} explains the curves",
-                        ModelTitle(spec.model), LawTitle(spec.law));
-  text += fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
-                      PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
+          : fmt::format("One {} device by the law of {} explains the {}", ModelTitle(spec.model),
+                        LawTitle(spec.law), report.key_points ? "key points" : "curves");
+  text += report.key_points
+              ? KeyPointWords(*report.key_points)
+              : fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
+                            PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
   if (outlier > 0) {
     text += fmt::format("; {} look{} like another device", Plural(outlier, "curve"),
                         outlier == 1 ? "s" : "");

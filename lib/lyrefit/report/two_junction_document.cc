@@ -119,10 +119,11 @@ Document TwoJunctionDocument(const TwoJunctionReport& report) {
   document.banners = Banners(report.interrupted, report.usable, report.not_usable_because, {});
   document.verdict = TwoJunctionVerdict(report);
   document.head = TwoJunctionHead(report);
-  Section picture;
-  AddFigure({"Measured points and model", "", TwoJunctionFigure(report)}, &picture);
+  AddFigure({"Measured points and model of each curve; residuals below them.", "",
+             TwoJunctionFigure(report)},
+            &document.head);
   AddSections({TwoJunctionParameters(report), ListSection("What would decide", report.decided_by),
-               RmseSection(report), CurveSection(report), picture, HowSection(report),
+               RmseSection(report), CurveSection(report), HowSection(report),
                WarningSection(report.warnings)},
               &document);
   return document;

@@ -36,25 +36,23 @@ const MatrixModule kPvsystModule = {TranslationLaw::kPvsyst,
                                      {"R_sh_exp", 5.5},
                                      {"alpha_sc", 1e-3},
                                      {"EgRef", 1.121}}};
-const MatrixModule kDeSotoModule = {TranslationLaw::kDeSoto,
-                                    {{"I_L_ref", 6},
-                                     {"I_o_ref", 3e-10},
-                                     {"n", 1.1},
-                                     {"R_s", 0.25},
-                                     {"R_sh_ref", 250},
-                                     {"alpha_sc", 3e-3},
-                                     {"EgRef", 1.14},
-                                     {"dEgdT", -0.0002677}}};
-const MatrixModule kCecModule = {TranslationLaw::kCec,
-                                 {{"I_L_ref", 6},
-                                  {"I_o_ref", 3e-10},
-                                  {"n", 1.1},
-                                  {"R_s", 0.25},
-                                  {"R_sh_ref", 250},
-                                  {"alpha_sc", 3e-3},
-                                  {"Adjust", 12},
-                                  {"EgRef", 1.121},
-                                  {"dEgdT", -0.0002677}}};
+
+// A module by De Soto's law, or one that differs from it by `more`.
+MatrixModule DeSotoModule(TranslationLaw law, const std::map<std::string, double>& more) {
+  MatrixModule module{law, more};
+  module.values.insert({{"I_L_ref", 6},
+                        {"I_o_ref", 3e-10},
+                        {"n", 1.1},
+                        {"R_s", 0.25},
+                        {"R_sh_ref", 250},
+                        {"alpha_sc", 3e-3},
+                        {"dEgdT", -0.0002677}});
+  return module;
+}
+
+const MatrixModule kDeSotoModule = DeSotoModule(TranslationLaw::kDeSoto, {{"EgRef", 1.14}});
+const MatrixModule kCecModule =
+    DeSotoModule(TranslationLaw::kCec, {{"Adjust", 12}, {"EgRef", 1.121}});
 
 using Conditions2 = std::vector<std::pair<double, double>>;  // W/m2, C
 const Conditions2 kIec = {{100, 15},  {100, 25},  {200, 15},  {200, 25},  {400, 25},  {400, 50},

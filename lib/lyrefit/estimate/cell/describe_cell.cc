@@ -16,7 +16,7 @@
 #include "lyrefit/estimate/cell/joint_estimate.h"
 #include "lyrefit/estimate/cell/series_resistance.h"
 #include "lyrefit/estimate/cell/superposition.h"
-#include "lyrefit/read/dark.h"
+#include "lyrefit/read/cells.h"
 
 namespace lyrefit {
 namespace {
@@ -309,27 +309,15 @@ void Warn(CellReport* report) {
 
 // Several lit curves of one file under one light are several devices.
 Expected<void> CheckIsOneCell(const CurveSet& cell) {
-  std::vector<const IvCurve*> seen;
-  for (const IvCurve& curve : cell.curves) {
-    if (!curve.irradiance_W_m2.empty() || curve.suns_voc_A || IsStatedDark(curve) || IsDark(curve))
-      continue;
-    for (const IvCurve* other : seen) {
-      const double light = curve.conditions.irradiance_W_m2;
-      if (other->source != curve.source ||
-          std::fabs(other->conditions.irradiance_W_m2 - light) > kSameLight * light) {
-        continue;
-      }
-      std::string names;
-      for (const IvCurve& one : cell.curves) names += (names.empty() ? "" : ", ") + one.name;
-      return Fail(
-          fmt::format("this file holds several cells ({}): choose one with --column NAME|N, or "
-                      "describe each with lyrefit batch",
-                      names),
-          curve.source);
-    }
-    seen.push_back(&curve);
+  if (!HoldsSeveralCells(cell, UnstatedDark::kDark)) return {};
+  std::string names;
+  for (const CellCurves& one : SplitIntoCells(cell)) {
+    names += (names.empty() ? "" : ", ") + one.name;
   }
-  return {};
+  return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME, or "
+                          "describe each with lyrefit batch --task cell",
+                          names),
+              cell.curves.front().source);
 }
 
 }  // namespace

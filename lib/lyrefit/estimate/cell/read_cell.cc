@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/cell/describe_cell.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/read/dark.h"
 #include "lyrefit/read/key_points.h"
 
@@ -27,6 +29,29 @@ std::optional<double> CurrentAtOneSun(const CurveSet& cell) {
   return isc;
 }
 
+// The curves of the cell that `options.column` names, lit and dark, in a file of several cells.
+// nullopt: it names none.
+std::optional<CurveSet> NamedCell(const std::string& file, ReadOptions options) {
+  const std::string wanted = std::move(options.column);
+  options.column.clear();
+  auto set = ReadMeasurement(file, options);
+  if (!set || !HoldsSeveralCells(*set, UnstatedDark::kDark)) return std::nullopt;
+  std::vector<CellCurves> cells = SplitIntoCells(*set);
+  const auto found = std::find_if(cells.begin(), cells.end(),
+                                  [&](const CellCurves& cell) { return cell.name == wanted; });
+  if (found == cells.end()) return std::nullopt;
+  set->curves = std::move(found->curves);
+  set->rejected.clear();
+  return std::move(*set);
+}
+
+Expected<CurveSet> ReadFile(const std::string& file, const ReadOptions& options) {
+  if (!options.column.empty()) {
+    if (auto cell = NamedCell(file, options)) return std::move(*cell);
+  }
+  return ReadMeasurement(file, options);
+}
+
 void Append(CurveSet more, CurveSet* all) {
   all->name += (all->name.empty() ? "" : " + ") + more.name;
   all->source += (all->source.empty() ? "" : ", ") + more.source;
@@ -41,7 +66,7 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
   CurveSet all;
   std::vector<std::string> later;
   for (const std::string& file : files) {
-    auto set = ReadMeasurement(file, options);
+    auto set = ReadFile(file, options);
     if (set) {
       Append(std::move(*set), &all);
     } else {
@@ -51,7 +76,7 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
   ReadOptions with_isc = options;
   if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all);
   for (const std::string& file : later) {
-    TRY(CurveSet set, ReadMeasurement(file, with_isc));
+    TRY(CurveSet set, ReadFile(file, with_isc));
     Append(std::move(set), &all);
   }
   for (IvCurve& curve : all.curves) {

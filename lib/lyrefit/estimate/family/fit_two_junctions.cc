@@ -210,4 +210,30 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
   return report;
 }
 
+Expected<CurveSet> GatherCurves(std::vector<CurveSet> sets) {
+  CurveSet all;
+  for (CurveSet& set : sets) {
+    if (all.name.empty()) all.name = sets.size() == 1 ? set.name : set.curves.front().name;
+    for (IvCurve& curve : set.curves) {
+      const bool twice =
+          std::any_of(all.curves.begin(), all.curves.end(),
+                      [&](const IvCurve& other) { return other.name == curve.name; });
+      if (twice) return Fail("two curves are named " + curve.name, curve.source);
+      all.curves.push_back(std::move(curve));
+    }
+  }
+  if (sets.size() > 1) all.name += fmt::format(" and {} more", sets.size() - 1);
+  return all;
+}
+
+TwoJunctionOptions WithOptionsOf(const FitOptions& fit, TwoJunctionOptions options) {
+  options.bounds = fit.bounds.overrides;
+  options.fixed = fit.fixed;
+  options.constants = fit.constants;
+  options.search = fit.search;
+  options.intervals = fit.intervals;
+  options.threads = fit.threads;
+  return options;
+}
+
 }  // namespace lyrefit

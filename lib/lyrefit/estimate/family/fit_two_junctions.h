@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/estimate/family/two_junction_options.h"
 #include "lyrefit/estimate/family/two_junction_report.h"
+#include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/read/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -24,5 +28,12 @@ namespace LYREFIT_PUBLIC lyrefit {
 Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set,
                                             const TwoJunctionOptions& options = {},
                                             const Observer& observer = {});
+
+// The curves of several measurements as one set for FitTwoJunctions(). Error: two curves of one
+// name.
+Expected<CurveSet> GatherCurves(std::vector<CurveSet> sets);
+
+// `options` with bounds, fixed values, constants, search, intervals and threads of a fit.
+TwoJunctionOptions WithOptionsOf(const FitOptions& fit, TwoJunctionOptions options);
 
 }  // namespace lyrefit

@@ -8,6 +8,7 @@
 
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/intervals.h"
+#include "lyrefit/estimate/refine/profile.h"
 
 namespace lyrefit {
 namespace {
@@ -18,16 +19,6 @@ constexpr IntervalRules kTwoJunctionRules = {
     "the data do not fix it: another parameter takes its place"};
 constexpr int kRestarts = 3;
 constexpr double kFarOutside = 9;  // rise at which a refit is given up, of that at the end
-
-RefineOptions ProfileOptions(const StopToken& stop) {
-  RefineOptions how;
-  how.small = true;
-  how.let_in = false;
-  how.max_rounds = 10;
-  how.max_iterations = how.first_iterations = 200;
-  how.stop = stop;
-  return how;
-}
 
 std::vector<Estimate> EstimatesOf(const TwoJunctionProblem& problem,
                                   const std::vector<double>& searched, const RefineEnd& best) {

@@ -8,6 +8,7 @@
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/estimate/refine/curve_model.h"
 #include "lyrefit/estimate/refine/other_optima.h"
+#include "lyrefit/estimate/refine/profile.h"
 #include "lyrefit/estimate/refine/reporting_model.h"
 #include "lyrefit/model/reporting_units.h"
 
@@ -65,17 +66,6 @@ bool ResidualsAreNoise(const CurveEnd& fit) {
   return std::sqrt(fit.end.mean_square) > 1e-11 * fit.problem.current_scale_A;
 }
 
-// Cheap solver options for hundreds of refits.
-RefineOptions Briefly(const StopToken& stop) {
-  RefineOptions how;
-  how.small = true;
-  how.let_in = false;
-  how.max_rounds = 10;
-  how.max_iterations = how.first_iterations = 200;
-  how.stop = stop;
-  return how;
-}
-
 // Other optima of a device with effects whose sum of squares rises by less than reach^2 variances,
 // in internal units.
 std::vector<FitPoint> FindMoreOptima(const CurveEnd& fit, const std::vector<FitPoint>& ends,
@@ -84,7 +74,7 @@ std::vector<FitPoint> FindMoreOptima(const CurveEnd& fit, const std::vector<FitP
   if (effects.effects == nullptr) return {};
   const double rise = reach * reach * VarianceOf(fit.spare_readings, fit.problem, fit.end) /
                       static_cast<double>(fit.problem.voltage_V.size());
-  OptimumQuery query{fit.end.mean_square + rise, Briefly(stop)};
+  OptimumQuery query{fit.end.mean_square + rise, ProfileOptions(stop)};
   query.how.cutoff = query.highest;
   return FindOtherOptima(CurveModel(fit.problem), effects, fit.end, ends, query);
 }
@@ -121,7 +111,7 @@ class CurveProfiles {
       return FindProfileSide(problem_, end_, query, stop_);
     }
     query.local_optima = reported_optima_;
-    ProfileSide side = FindProfileSide(model_, reported_, query, Briefly(stop_));
+    ProfileSide side = FindProfileSide(model_, reported_, query, ProfileOptions(stop_));
     side.better = Internal(effects_, std::move(side.better));
     return side;
   }

@@ -299,6 +299,16 @@ class FixedModel : public FitModel {
 
 }  // namespace
 
+RefineOptions ProfileOptions(const StopToken& stop) {
+  RefineOptions how;
+  how.small = true;
+  how.let_in = false;
+  how.max_rounds = 10;
+  how.max_iterations = how.first_iterations = 200;
+  how.stop = stop;
+  return how;
+}
+
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             const ProfileRefits& refits) {
   return Side(model, best, query, refits).Find();

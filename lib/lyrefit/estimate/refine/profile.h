@@ -47,6 +47,9 @@ struct ProfileRefits {
   std::function<bool(double value, double target, double tolerance, FitPoint* there)> elsewhere;
 };
 
+// Cheap solver options for the hundreds of refits of a profile.
+RefineOptions ProfileOptions(const StopToken& stop);
+
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             const ProfileRefits& refits);
 

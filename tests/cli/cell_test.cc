@@ -75,6 +75,7 @@ TEST(CellCommand, DescribesTheCellThatIsNamedLitAndDark) {
           TwoPixels());
   const AppResult run = RunApp("cell '" + table + "' --column b --no-fit");
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("cell pixels b\n"));
   EXPECT_THAT(run.out, HasSubstr("forward, dark"));
   EXPECT_THAT(run.out, HasSubstr("Isc 0.002000 A"));
   EXPECT_THAT(RunApp("cell '" + table + "'").err, HasSubstr("several cells (a, b)"));

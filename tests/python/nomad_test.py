@@ -46,6 +46,11 @@ class Nomad(unittest.TestCase):
         light_W = cell["illumination_intensity"] * cell["device_area"]
         self.assertAlmostEqual(cell["efficiency"], 100 * power_W / light_W, delta=1e-9)
 
+    def test_plugin_keeps_the_curves(self):
+        """Where `data_file` is set, nomad-hysprint reads the file anew and replaces the curves."""
+        self.assertNotIn("data_file", self.archive["data"])
+        self.assertIn("lit_dark.csv", self.archive["data"]["description"])
+
     def test_curves_are_read_back(self):
         """An archive is a file that lyrefit reads: the curves come back with area and light."""
         curves = self.archive["data"]["jv_curve"]
@@ -79,14 +84,14 @@ class Nomad(unittest.TestCase):
         record = lyrefit.cell(silicon, area_cm2=165.34)
         hand = example["by_hand"](record, window_V=(0.5, 0.6), lights_A=(0.67, 6.7))
         self.assertIn(example["compared"](record, hand, {}), PAGE)
-        self.assertNotIn("series_resistance", example["entry"](record, "")["data"]["jv_curve"][0])  # void
+        self.assertNotIn("series_resistance", example["entry"](record)["data"]["jv_curve"][0])  # void
         stated = {"hydiris_six_pixels.jv.txt": ("b", 0.9547480140667368),
                   "kit_average_column.jv.csv": ("", 1.021169),
                   "hzb_names_then_units.txt": ("c", 1.202260), "hzb_new_format.jv.json": ("", 0.030763706927841555)}
         for name, (column, voc_V) in stated.items():
             with self.subTest(name):
                 record = lyrefit.cell(LABORATORY / name, column=column)
-                curves = example["entry"](record, name)["data"]["jv_curve"]
+                curves = example["entry"](record)["data"]["jv_curve"]
                 found_V = [curve["open_circuit_voltage"] for curve in curves if not curve["dark"]]
                 self.assertLess(min(abs(found / voc_V - 1) for found in found_V), 1e-3)
                 self.assertEqual(len(found_V), 2)  # up and down

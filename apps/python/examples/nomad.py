@@ -51,8 +51,9 @@ def jv_curve(sweep, area_cm2):
     return section
 
 
-def entry(record, data_file):
+def entry(record):
     """The archive of what `lyrefit.cell` found: `data`, and the best sweep in `results`."""
+    # Without `data_file`: the plugin would read that file with its own parser, over these curves.
     area_cm2 = record["area_cm2"]
     sweeps = [sweep for sweep in record["sweeps"] if sweep["kind"] in ("lit", "dark")]
     curves = [jv_curve(sweep, area_cm2) for sweep in sweeps]
@@ -61,7 +62,7 @@ def entry(record, data_file):
         "data": {
             "m_def": JV,
             "name": record["name"],
-            "data_file": data_file,
+            "description": f"{record['source']}, read by lyrefit {record['lyrefit_version']}",
             "active_area": area_cm2,
             "intensity": best["light_intensity"],
             "jv_curve": curves,
@@ -209,7 +210,7 @@ hand = by_hand(record, window_V=(0.7, 0.8), lights_A=(0.5e-3, 5.5e-3))
 hand["resistance_series_two_lights"] = rs_of_two_lights(record, 1000, 300)
 table = compared(record, hand, MADE_WITH)
 print(table)
-archive, analysis = entry(record, "lit_dark.csv"), diode_entry(record)
+archive, analysis = entry(record), diode_entry(record)
 pathlib.Path("cell.archive.json").write_text(json.dumps(archive, indent=1))
 pathlib.Path("cell_diode.archive.json").write_text(json.dumps(analysis, indent=1))
 print(json.dumps(archive["results"], indent=1))

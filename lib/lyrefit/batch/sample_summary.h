@@ -13,10 +13,10 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // Median and quartiles, interpolated linearly between the sorted values.
 struct Quartiles {
-  std::int64_t count = 0;  // number of values
-  double low = kUnknown;   // lower quartile
-  double median = kUnknown;
-  double high = kUnknown;  // upper quartile
+  std::int64_t count = 0;    // number of values
+  double low = kUnknown;     // lower quartile
+  double median = kUnknown;  // the middle one, or the mean of the two in the middle
+  double high = kUnknown;    // upper quartile
 };
 
 // Quantities of the statistics of a sample: columns of the rows of task `cell` after "forward_" and
@@ -26,11 +26,11 @@ inline constexpr std::array<const char*, 5> kSampleQuantities = {"efficiency", "
 
 // The working pixels of a sample in one direction.
 struct SampleDirection {
-  std::string direction;  // "forward" or "reverse"
-  std::array<Quartiles, kSampleQuantities.size()> quantities;
+  std::string direction;                                       // "forward" or "reverse"
+  std::array<Quartiles, kSampleQuantities.size()> quantities;  // as kSampleQuantities names them
   std::string champion;  // id of the pixel of the highest efficiency; without areas, of most power
-  double champion_efficiency = kUnknown;
-  double champion_pmp_W = kUnknown;
+  double champion_efficiency = kUnknown;  // a fraction; NaN without an area
+  double champion_pmp_W = kUnknown;       // its power
 };
 
 // The pixels of one sample.

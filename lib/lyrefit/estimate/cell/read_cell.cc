@@ -40,6 +40,7 @@ std::optional<CurveSet> NamedCell(const std::string& file, ReadOptions options) 
   const auto found = std::find_if(cells.begin(), cells.end(),
                                   [&](const CellCurves& cell) { return cell.name == wanted; });
   if (found == cells.end()) return std::nullopt;
+  set->name += " " + found->name;
   set->curves = std::move(found->curves);
   set->rejected.clear();
   return std::move(*set);

@@ -163,6 +163,21 @@ TEST_F(BatchCommand, WritesPagesOfStringsThatThePlantsPageLeadsTo) {
   EXPECT_THAT(plant, HasSubstr("<h1>Elm</h1>"));
 }
 
+TEST_F(BatchCommand, CountsThePixelsOfASubstrate) {
+  const std::string cells = "batch '" + DataFolder("cell") + "/substrate.csv' --task cell --out '" +
+                            folder_.Path("cells") + "' ";
+  const AppResult done = RunApp(cells);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("2 of 4 work, yield 50 %; hysteresis of pairs: 2 normal"));
+  EXPECT_THAT(done.out, HasSubstr("c: shorted; d: dead"));
+  EXPECT_EQ(LinesIn(folder_.Path("cells") + "/samples.csv"), 3);
+  EXPECT_THAT(FileText(folder_.Path("cells") + "/results.schema.json"), HasSubstr("\"samples\""));
+  EXPECT_THAT(RunApp(cells + "--resume").out, HasSubstr("all rows were there before"));
+  const AppResult strict = RunApp(cells + "--force --least-efficiency 14.9");
+  EXPECT_THAT(strict.out, HasSubstr("1 of 4 work, yield 25 %"));
+  EXPECT_THAT(RunApp(cells + "--force --noise field").err, HasSubstr("--noise is not for"));
+}
+
 TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
   const std::string command = " '" + file_ + "' --out '" + folder_.Path("never") + "'";
   ExpectRefusals("batch",
@@ -172,6 +187,7 @@ TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
                      {command + " --shard 4/3", "expected K/N with K from 1 to N"},
                      {command + " --probability 0.9", "--probability is for --task diagnose"},
                      {command + " --task diagnose --model dd", "--model is for --task fit"},
+                     {command + " --least-jsc 1", "--least-jsc is for --task cell"},
                      {command + " --resume --force", "only one of --resume and --force"},
                      {" '" + file_ + "'", "--out is required"},
                      {" '" + folder_.Path("") + "' --out '" + folder_.Path("in") + "'",

@@ -457,6 +457,17 @@ def make_files(folder):
     suns = 10 ** np.arange(-2.5, 0.31, 0.1)
     voc = [brentq(lambda v: diode_current(v, [cell[0] * s] + cell[1:], thermal), 0, 1.5) for s in suns]
     trace = write("suns", "suns,Voc (V)", list(zip(suns, voc)))
+    coarse = np.arange(-0.1, 0.961, 0.02)
+    noise = lambda: 1e-6 * random.standard_normal(len(coarse))  # noqa: E731
+    pixels = {"a_Forward_Light": diode_current(coarse, worse, thermal) + noise(),
+              "a_Reverse_Light": diode_current(coarse, cell, thermal) + noise(),
+              "a_Forward_Dark": diode_current(coarse, [0] + cell[1:], thermal) + noise(),
+              "b_Forward_Light": diode_current(coarse, [5.2e-3] + worse[1:], thermal) + noise(),
+              "b_Reverse_Light": diode_current(coarse, [5.2e-3] + cell[1:], thermal) + noise(),
+              "c_Forward_Light": 1e-3 - coarse / 20, "c_Reverse_Light": 1e-3 - coarse / 20,
+              "d_Forward_Light": 1e-9 * noise(), "d_Reverse_Light": 1e-9 * noise()}
+    write("substrate", ",".join(["voltage (V)", *("Current (A)_" + name for name in pixels)]),
+          list(zip(coarse, *pixels.values())))
     return [[pair], [lights], [both], [both, trace], [pair, trace, both], [pair, lights]]
 
 

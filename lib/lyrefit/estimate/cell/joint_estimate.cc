@@ -166,12 +166,7 @@ void FindJointIntervals(const JointEnd& fit, const std::vector<ErrorModel>& erro
   const int degrees = std::max(1, ReadingsOf(problem) - FreeParameters(problem));
   intervals.t.assign(intervals.estimates.size(), StudentT95(degrees));
   intervals.profile = [&](const ProfileQuery& query) {
-    RefineOptions how;
-    how.small = true;
-    how.max_rounds = 10;
-    how.max_iterations = how.first_iterations = 200;
-    how.stop = progress.stop();
-    return FindProfileSide(model, fit.end, query, how);
+    return FindProfileSide(model, fit.end, query, ProfileOptions(progress.stop()));
   };
   IntervalReport found = FindIntervals(std::move(intervals), progress);
   joint->estimates = std::move(found.estimates);

@@ -29,7 +29,7 @@ Record RecordOf(const Cell& cell) {
 
 class CellResult : public Result {
  public:
-  explicit CellResult(Cell cell) : Result(RecordOf(cell)) {}
+  explicit CellResult(const Cell& cell) : Result(RecordOf(cell)) {}
 };
 
 bool AreFiles(py::handle curves) {

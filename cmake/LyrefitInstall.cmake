@@ -18,6 +18,7 @@ set(LYREFIT_PUBLIC_HEADERS
   estimate/cell/ideality_over_light.h
   estimate/cell/series_resistance.h
   estimate/cell/superposition.h
+  estimate/cell/joint_estimate.h
   estimate/cell/describe_cell.h
   estimate/family/coefficients.h
   estimate/family/data_sheet.h

@@ -197,7 +197,11 @@ Section FitSection(const CellReport& report) {
   }
   if (table.rows.empty()) return section;
   AddTable(std::move(table), &section);
-  section.blocks.emplace_back(block::Legend{"RMSE: solved-current; intervals: --json"});
+  section.blocks.emplace_back(block::Legend{
+      report.joint
+          ? "RMSE: solved-current; intervals: --json"
+          : "RMSE: solved-current; intervals: --json; Rsh of one light is a shunt or collection "
+            "that depends on voltage: a second light or the dark curve decides"});
   return section;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/report/cell_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -14,9 +15,12 @@ block::Table JointParameters(const CellReport& report, const JointEstimate& join
   const bool area = std::isfinite(report.area_cm2);
   for (const Estimate& e : joint.estimates) {
     const bool resistance = e.info.unit == "ohm";
+    // A perfect shunt is a bound of its conductance.
+    const bool perfect = IsConductance(e.info.kind) && e.at_bound == BoundSide::kUpper;
+    const double value = perfect ? kInfinity : e.refined;
     table.rows.push_back(
-        {LabelWithUnit(e.info), Significant(e.refined, 5),
-         area && resistance ? Significant(report.PerArea(e.refined), 4) + " ohm cm2" : "",
+        {LabelWithUnit(e.info), Significant(value, 5),
+         area && resistance ? Significant(report.PerArea(value), 4) + " ohm cm2" : "",
          Significant(e.standard_error, 2), Range(e.low_95, e.high_95), EstimateMarks(e)});
   }
   return table;
@@ -48,8 +52,7 @@ block::Table JointMisfits(const CellReport& report, const JointEstimate& joint) 
     const CellSweep& sweep = report.sweeps[one.sweep];
     table.rows.push_back({sweep.name, Scientific(one.rms, 3),
                           std::isfinite(one.own_rms) ? Scientific(one.own_rms, 3) : "-",
-                          Scientific(one.noise, 2),
-                          sweep.kind == SweepKind::kSunsVoc ? "V" : "A"});
+                          Scientific(one.noise, 2), sweep.kind == SweepKind::kSunsVoc ? "V" : "A"});
   }
   return table;
 }

@@ -61,8 +61,11 @@ Section FillFactorSection(const CellReport& report) {
     }
     AddTable(std::move(table), &section);
     section.blocks.emplace_back(block::Legend{fmt::format(
-        "the last FF is the measured one; Green's FF0: {} % with n = 1, {} % with the fitted n",
-        Significant(100 * losses.green_n1, 4), Significant(100 * losses.green_fitted, 4))});
+        "the last FF is the measured one; Green's FF0: {} % with n = 1, {} % with the fitted n{}",
+        Significant(100 * losses.green_n1, 4), Significant(100 * losses.green_fitted, 4),
+        report.joint
+            ? ""
+            : "; shunt: of one light, it may as well be collection that depends on voltage")});
   }
   return section;
 }

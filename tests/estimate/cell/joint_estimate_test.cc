@@ -170,8 +170,8 @@ TEST(JointEstimate, ASecondDiodeIsFound) {
   for (const double light : {1000.0, 0.0}) {
     IvCurve curve = CellSweepOf(cell.truth, light);
     const std::vector<double> p = {5.5e-3 * light / 1000, 1e-15, 1.15, 6, 9000, 1e-11, 2};
-    curve.current_A = SolveCurrents(MakeDevice(Model::kDoubleDiode, curve.conditions), p.data(),
-                                    curve.voltage_V);
+    curve.current_A =
+        SolveCurrents(MakeDevice(Model::kDoubleDiode, curve.conditions), p.data(), curve.voltage_V);
     for (double& current : curve.current_A) current += kJointNoise_A * random.Normal();
     curves.push_back(std::move(curve));
   }

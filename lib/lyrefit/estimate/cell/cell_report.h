@@ -216,11 +216,11 @@ struct Superposition {
 
 // One measurement of a joint estimate.
 struct JointMeasurement {
-  int sweep = 0;             // index into CellReport::sweeps
-  int readings = 0;          // that are fitted
-  double rms = kUnknown;     // of the residuals: A, V of a Suns-Voc trace
-  double noise = kUnknown;   // of a reading, from second differences, in the same unit
-  double own_rms = kUnknown; // of the sweep's own fit
+  int sweep = 0;              // index into CellReport::sweeps
+  int readings = 0;           // that are fitted
+  double rms = kUnknown;      // of the residuals: A, V of a Suns-Voc trace
+  double noise = kUnknown;    // of a reading, from second differences, in the same unit
+  double own_rms = kUnknown;  // of the sweep's own fit
   // Standard error of each estimate without this measurement over that with all of them, at least 1;
   // NaN: not known without it.
   std::vector<double> without;

@@ -31,7 +31,8 @@ struct JointEnd {
 
 int ReadingsOf(const CellProblem& problem) {
   int readings = 0;
-  for (const CellBlock& block : problem.blocks) readings += static_cast<int>(block.voltage_V.size());
+  for (const CellBlock& block : problem.blocks)
+    readings += static_cast<int>(block.voltage_V.size());
   return readings;
 }
 
@@ -113,7 +114,8 @@ double WhitenedSquares(const CellProblem& problem, const std::vector<double>& p,
   double squares = 0;
   for (std::size_t b = 0; b < errors.size(); ++b) {
     RowMatrix residual(errors[b].size(), 1);
-    if (!model.Evaluate(static_cast<int>(b), p.data(), nullptr, residual.data(), nullptr, nullptr)) {
+    if (!model.Evaluate(static_cast<int>(b), p.data(), nullptr, residual.data(), nullptr,
+                        nullptr)) {
       return kUnknown;
     }
     Whiten(errors[b], {}, residual);
@@ -122,8 +124,10 @@ double WhitenedSquares(const CellProblem& problem, const std::vector<double>& p,
   return squares;
 }
 
-// The p-value of one diode against a second one of n = 2, under the errors of the fit with two.
+// The p-value of one diode against a second one of n = 2, under the errors of the fit with two. NaN:
+// that fit failed.
 double SecondDiodeP(const JointEnd& one, const JointEnd& two) {
+  if (two.end.p.empty()) return kUnknown;
   const std::vector<ErrorModel> errors = FindBlockErrors(two.cell, two.end.p);
   CellProblem single = one.cell.problem;
   single.error_A = two.cell.problem.error_A;
@@ -134,17 +138,6 @@ double SecondDiodeP(const JointEnd& one, const JointEnd& two) {
   const int degrees = std::max(1, readings - FreeParameters(two.cell.problem));
   return FTestPValue(WhitenedSquares(single, one.end.p, errors) / readings,
                      WhitenedSquares(two.cell.problem, two.end.p, errors) / readings, 1, degrees);
-}
-
-// Standard errors with errors that neighbours share over those with independent ones; 1 where one of
-// them is unknown.
-std::vector<double> StretchOf(const std::vector<double>& shared, const std::vector<double>& own) {
-  std::vector<double> stretch;
-  for (std::size_t i = 0; i < shared.size(); ++i) {
-    const double ratio = shared[i] / own[i];
-    stretch.push_back(std::isfinite(ratio) ? ratio : 1);
-  }
-  return stretch;
 }
 
 void FindJointIntervals(const JointEnd& fit, const std::vector<ErrorModel>& errors,
@@ -215,11 +208,10 @@ void VoidJoint(const CellReport& report, const JointEnd& fit, const CellOptions&
     const double part = one.rms / (trace ? fit.cell.voc_V : fit.cell.isc_A);
     const double times = one.rms / one.own_rms;
     if (part <= kMisfit && !(part > kNotShared && times > kTimesOwn)) continue;
-    joint->void_because.push_back(fmt::format("one set of parameters misses {} by {:.2g} % of {}{}",
-                                              sweep.name, 100 * part, trace ? "Voc" : "Isc",
-                                              times > kTimesOwn
-                                                  ? fmt::format(", {:.3g} times its own fit", times)
-                                                  : ""));
+    joint->void_because.push_back(
+        fmt::format("one set of parameters misses {} by {:.2g} % of {}{}", sweep.name, 100 * part,
+                    trace ? "Voc" : "Isc",
+                    times > kTimesOwn ? fmt::format(", {:.3g} times its own fit", times) : ""));
   }
   const double n = Named(*joint, "n1").refined;
   if (n > options.ideal_n) {
@@ -243,11 +235,12 @@ void DescribeShunt(const JointEnd& fit, JointEstimate* joint) {
   }
   const double lit = collection.refined * fit.end.p[brightest], dark = 1 / shunt.refined;
   if (!(lit + dark > 0)) return;
-  const bool loses = collection.low_95 > 0, leaks = std::isfinite(shunt.high_95) &&
-                                                    shunt.high_95 < shunt.bounds.upper;
+  const bool loses = collection.low_95 > 0,
+             leaks = std::isfinite(shunt.high_95) && shunt.high_95 < shunt.bounds.upper;
   if (loses && leaks) {
     joint->shunt = fmt::format(
-        "of the conductance at short circuit {:.0f} % goes with the light (collection that depends on "
+        "of the conductance at short circuit {:.0f} % goes with the light (collection that depends "
+        "on "
         "voltage) and {:.0f} % stays in the dark (shunt)",
         100 * lit / (lit + dark), 100 * dark / (lit + dark));
   } else if (loses) {
@@ -256,7 +249,8 @@ void DescribeShunt(const JointEnd& fit, JointEstimate* joint) {
         "no shunt is needed";
   } else if (leaks) {
     joint->shunt =
-        "the conductance at short circuit stays in the dark: a shunt; no loss of collection is needed";
+        "the conductance at short circuit stays in the dark: a shunt; no loss of collection is "
+        "needed";
   } else {
     joint->shunt = "neither a shunt nor a loss of collection is needed";
   }

@@ -26,9 +26,9 @@ constexpr double kLeastShunt = 0.01;        // of Voc / Isc
 constexpr double kSecondIdeality = 2;       // recombination in the depletion region
 constexpr double kLeastFactor = 0.2;        // of the lights of a Suns-Voc trace
 constexpr double kMostFactor = 5;
-constexpr double kExact = 1e-9;             // least error of a reading, of Isc or Voc
-constexpr std::size_t kFewReadings = 12;    // that do not show their own errors
-constexpr double kErrorOfFew = 1e-3;        // least error of one of them, of Isc or Voc
+constexpr double kExact = 1e-9;           // least error of a reading, of Isc or Voc
+constexpr std::size_t kFewReadings = 12;  // that do not show their own errors
+constexpr double kErrorOfFew = 1e-3;      // least error of one of them, of Isc or Voc
 
 void Add(ParameterInfo info, double lower, double upper, CellProblem* problem) {
   problem->parameters.push_back(std::move(info));
@@ -46,8 +46,7 @@ void AddShared(const CellOptions& options, JointCell* cell) {
     const bool second = i == IdealityIndex(1);
     switch (info.kind) {
       case ParameterKind::kSaturation:
-        Add(info, kLeastSaturation * cell->isc_A,
-            kMostSaturation * cell->isc_A, &problem);
+        Add(info, kLeastSaturation * cell->isc_A, kMostSaturation * cell->isc_A, &problem);
         break;
       case ParameterKind::kIdeality:
         Add(info, second ? kSecondIdeality : 1, second ? kSecondIdeality : options.largest_n,
@@ -102,22 +101,22 @@ void AddTrace(const CellSweep& sweep, bool lit, JointCell* cell) {
        "factor of the lights that the trace states", ParameterKind::kPlain, 0.1},
       lit ? kLeastFactor : 1, lit ? kMostFactor : 1, &problem);
   cell->noise.push_back(NoiseFromDifferences(logarithm, block.voltage_V));
-  cell->least_error.push_back(
-      LeastError(block.voltage_V.size(), cell->noise.back(), cell->voc_V));
+  cell->least_error.push_back(LeastError(block.voltage_V.size(), cell->noise.back(), cell->voc_V));
   problem.blocks.push_back(std::move(block));
 }
 
-// Isc and Voc of the brightest curve; without one those of the dark curve's reach.
+// Isc and Voc of the brightest curve; in their place what the curve reaches.
 void FindScales(const CellReport& report, const std::vector<int>& lights, int dark,
                 JointCell* cell) {
   const CellSweep& first = report.sweeps[lights.empty() ? dark : lights.front()];
   cell->isc_A = lights.empty() ? -first.current_A.back() : first.key.short_circuit_current_A;
-  cell->voc_V = lights.empty() ? first.voltage_V.back() : first.key.open_circuit_voltage_V;
+  const double voc = first.key.open_circuit_voltage_V;  // NaN: not reached
+  cell->voc_V = voc > 0 ? voc : first.voltage_V.back();
   cell->problem.current_scale_A = cell->isc_A;
   cell->problem.voltage_scale_V = cell->voc_V;
 }
 
-// The voltage above which neighbouring readings lie apart by it counts as the length of the path.
+// What a relative departure of the model from the cell is a part of.
 double DepartureScale(const CellBlock& block, std::size_t k, double photocurrent_A,
                       double thermal_V) {
   if (block.open_circuit) return thermal_V;

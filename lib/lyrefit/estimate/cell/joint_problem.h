@@ -13,11 +13,11 @@ namespace lyrefit {
 // The measurements of a cell as blocks of one problem.
 struct JointCell {
   CellProblem problem;
-  std::vector<int> sweep;     // of each block, index into CellReport::sweeps
-  std::vector<double> noise;  // of a reading of each block, from second differences
+  std::vector<int> sweep;           // of each block, index into CellReport::sweeps
+  std::vector<double> noise;        // of a reading of each block, from second differences
   std::vector<double> least_error;  // of a reading of each block
-  double isc_A = 0;           // of the brightest curve; in the dark the largest current
-  double voc_V = 0;           // largest open-circuit voltage, else the largest voltage
+  double isc_A = 0;                 // of the brightest curve; in the dark the largest current
+  double voc_V = 0;  // of the brightest curve; where it is not reached the largest voltage
 };
 
 // Blocks of the lit sweeps `lights` (indices, the brightest first), of `dark` (-1: none) and of all

@@ -42,7 +42,7 @@ Spread SpreadOf(const CurveEnd& fit, std::vector<bool> active) {
 }
 
 // Ratio of the standard errors under `errors` to those of the fit itself. The parameters at bounds
-// are freed for it. A parameter without a finite ratio gets the largest of the others.
+// are freed for it.
 std::vector<double> FindStretch(const CurveEnd& fit, const std::vector<Estimate>& estimates) {
   if (fit.errors == nullptr) return {};
   std::vector<bool> fixed;
@@ -50,15 +50,7 @@ std::vector<double> FindStretch(const CurveEnd& fit, const std::vector<Estimate>
   for (const Estimate& e : estimates) fixed.push_back(!e.free());
   CurveEnd plain = fit;
   plain.errors = nullptr;
-  std::vector<double> stretch = SpreadOf(fit, fixed).standard_error;
-  const std::vector<double> own = SpreadOf(plain, fixed).standard_error;
-  double largest = 1;
-  for (std::size_t i = 0; i < stretch.size(); ++i) {
-    stretch[i] /= own[i];
-    if (std::isfinite(stretch[i])) largest = std::max(largest, stretch[i]);
-  }
-  for (double& ratio : stretch) ratio = std::isfinite(ratio) ? ratio : largest;
-  return stretch;
+  return StretchOf(SpreadOf(fit, fixed).standard_error, SpreadOf(plain, fixed).standard_error);
 }
 
 // A profile compares sums of squares, which has no meaning if the residuals are only rounding.

@@ -126,8 +126,8 @@ bool CellModel::Evaluate(int block, const double* p, const double* /*local*/, do
                          double* slopes, double* /*local_slopes*/) const {
   const CellBlock& measured = problem_.blocks[block];
   if (slopes != nullptr) {
-    std::fill_n(slopes, static_cast<std::ptrdiff_t>(shape().size()) * shape().blocks[block].residuals,
-                0.0);
+    std::fill_n(slopes,
+                static_cast<std::ptrdiff_t>(shape().size()) * shape().blocks[block].residuals, 0.0);
   }
   return measured.open_circuit ? EvaluateOpenCircuit(measured, p, residuals, slopes)
                                : EvaluateCurve(block, p, residuals, slopes);

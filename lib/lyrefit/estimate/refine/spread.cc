@@ -1,5 +1,6 @@
 #include "lyrefit/estimate/refine/spread.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/dense.h"
@@ -144,6 +145,17 @@ Spread FindSpread(const FitModel& model, const FitPoint& point, const std::vecto
       TransposedTimes(Eigen::MatrixXd(taken), Eigen::MatrixXd(covariance_times(taken)));
   found.half = Times(found.half, LowerRoot(shared));
   return SpreadOf(now, found, model.shape().size(), 1);
+}
+
+std::vector<double> StretchOf(const std::vector<double>& under, const std::vector<double>& own) {
+  std::vector<double> stretch;
+  double largest = 1;
+  for (std::size_t i = 0; i < under.size(); ++i) {
+    stretch.push_back(under[i] / own[i]);
+    if (std::isfinite(stretch[i])) largest = std::max(largest, stretch[i]);
+  }
+  for (double& ratio : stretch) ratio = std::isfinite(ratio) ? ratio : largest;
+  return stretch;
 }
 
 }  // namespace lyrefit

@@ -5,8 +5,9 @@
     python3 cell_reference.py --write FOLDER
 
 Without files it makes measurements of a diode cell: up and down, five lights, lit and dark, a Suns-Voc trace; `--write`
-leaves them in a folder (data/cell). Figures must agree within 1e-6; those of a fit are compared with a fit by SciPy, those of a covariance within 1e-3, since that
-is computed here by differences. Exit code 77: no SciPy.
+leaves them in a folder (data/cell). Figures must agree within 1e-6; those of a fit are compared with a fit by SciPy, those
+of a covariance within 1e-3, since that is computed here by differences. Of the joint model the optimum and what each
+measurement adds are compared. Exit code 77: no SciPy.
 """
 import json
 import math
@@ -405,6 +406,62 @@ def check_superposition(found, sweeps):
         same("Voc shift", found["voc_shift_V"], voc - np.interp(math.log(isc), np.log(y[rows]), x[rows]), 1e-6, 1e-8)
 
 
+def check_joint(joint, sweeps, thermal):
+    """The joint optimum: residuals, a Gauss-Newton step, and what each measurement adds."""
+    kinds = {sweeps[one["sweep"]]["kind"] for one in joint["measurements"]}
+    if joint["missing"] or joint["second_diode"] or "Suns-Voc" in kinds:
+        return
+    estimates = joint["parameters"]
+    at = {name: e["refined"] for name, e in estimates.items()}
+    free = [name for name, e in estimates.items() if not e["fixed"]]
+    readings = sum(one["readings"] for one in joint["measurements"])
+    spread = math.sqrt(readings / (readings - len(free)))
+    errors = [one["rms"] * spread for one in joint["measurements"]]
+
+    def residuals(p, k):
+        sweep = sweeps[joint["measurements"][k]["sweep"]]
+        iph = p.get("photocurrent[" + sweep["name"] + "]", 0)
+        shunt = 1 / (1 / p["resistance_shunt"] + p["collection_slope"] * iph)
+        diode = [iph, p["saturation_current"], p["n"], p["resistance_series"], shunt]
+        v, i = np.array(sweep["data"]["voltage_V"]), np.array(sweep["data"]["current_A"])
+        return diode_current(v, diode, thermal) - i
+
+    jacobians = []
+    for k, one in enumerate(joint["measurements"]):
+        rest = residuals(at, k)
+        same("joint rms", one["rms"], math.sqrt(np.mean(rest * rest)), 1e-6, 1e-15)
+        columns = []
+        for name in free:
+            step = 1e-5 * at[name] or 1e-7
+            sides = [residuals({**at, name: at[name] + d}, k) for d in (step, -step)]
+            columns.append((sides[0] - sides[1]) / (2 * step) / errors[k])
+        jacobians.append(np.array(columns).T)
+
+    def standard_errors(some):
+        stacked = np.vstack(some)
+        scale = np.linalg.norm(stacked, axis=0)
+        scale[scale == 0] = 1
+        _, sizes, v = np.linalg.svd(stacked / scale)
+        if len(sizes) < len(free) or sizes[-1] < 1e-9 * sizes[0]:
+            return None
+        return np.sqrt(((v.T / sizes) ** 2).sum(axis=1)) / scale
+
+    own = standard_errors(jacobians)
+    inside = [k for k, name in enumerate(free) if not estimates[name]["at_bound"]]
+    stacked = np.vstack(jacobians)[:, inside]
+    step = np.linalg.lstsq(stacked * own[inside], np.concatenate([r / e for r, e in zip(
+        [residuals(at, k) for k in range(len(errors))], errors)]), rcond=None)[0]
+    same("joint optimum: a further step in standard errors", float(np.abs(step).max()), 0, 0, 0.03)
+    for k, one in enumerate(joint["measurements"]):
+        others = standard_errors([j for i, j in enumerate(jacobians) if i != k])
+        for name, ratio in one["standard_error_without"].items():
+            if others is None:
+                continue
+            expected = others[free.index(name)] / own[free.index(name)]
+            # Differences do not make a Jacobian exactly singular.
+            same("standard error without", ratio, expected if expected < 1e5 else math.inf, 1e-2)
+
+
 def check(report):
     if report["area_cm2"] is None:
         report["area_cm2"] = math.nan
@@ -423,6 +480,8 @@ def check(report):
     for losses in report["fill_factor_losses"]:
         check_losses(losses, sweeps, thermal)
     check_superposition(report["superposition"], sweeps)
+    if report["joint"]:
+        check_joint(report["joint"], sweeps, thermal)
 
 
 def make_files(folder):

@@ -106,6 +106,12 @@ def diode_figures(record):
             methods = {start: own for start, own in methods.items() if own != name}  # two lights: the brightest
             figures.append(row(f"resistance_series_{name}", "ohm*cm**2", *(
                 record["area_cm2"] * found[key] for key in ("ohm", "low_95_ohm", "high_95_ohm"))))
+    joint = record["joint"]
+    if joint and not joint["missing"] and not joint["void_because"]:
+        n, rs = joint["parameters"]["n"], joint["parameters"]["resistance_series"]
+        figures.append(row("n_joint", "", *(n[key] for key in ("refined", "low_95", "high_95"))))
+        figures.append(row("resistance_series_joint", "ohm*cm**2", *(
+            record["area_cm2"] * rs[key] for key in ("refined", "low_95", "high_95"))))
     if record["pseudo_fill_factor"]:
         figures.append(row("pseudo_fill_factor", "", record["pseudo_fill_factor"]["value"]))
     return figures
@@ -182,11 +188,13 @@ def rs_of_two_lights(record, bright_Wm2, dim_Wm2):
 
 # %%
 MADE_WITH = {"n_dark_fit": 1.4, "n_suns_voc_brightest": 1.4, "resistance_series_lit_dark": 1.5,
-             "resistance_series_suns_voc": 1.5, "resistance_series_two_lights": 1.5, "resistance_series_fit": 1.5}
+             "resistance_series_suns_voc": 1.5, "resistance_series_two_lights": 1.5, "resistance_series_fit": 1.5,
+             "n_joint": 1.4, "resistance_series_joint": 1.5}
 FIGURES = {"n_dark_fit": "n, dark curve", "n_suns_voc_brightest": "n, Suns-Voc", "pseudo_fill_factor": "pseudo-FF",
            "resistance_series_two_lights": "Rs, two lights (ohm cm2)",
            "resistance_series_lit_dark": "Rs, lit against dark (ohm cm2)",
-           "resistance_series_suns_voc": "Rs, Suns-Voc (ohm cm2)", "resistance_series_fit": "Rs, fit (ohm cm2)"}
+           "resistance_series_suns_voc": "Rs, Suns-Voc (ohm cm2)", "resistance_series_fit": "Rs, fit (ohm cm2)",
+           "n_joint": "n, all in one model", "resistance_series_joint": "Rs, all in one model (ohm cm2)"}
 
 
 def compared(record, hand, made_with):

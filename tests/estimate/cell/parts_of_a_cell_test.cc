@@ -5,6 +5,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/estimate/cell/compare_directions.h"
+#include "lyrefit/estimate/cell/compare_stated.h"
 #include "lyrefit/estimate/cell/describe_sweep.h"
 #include "lyrefit/estimate/cell/fill_factor_losses.h"
 #include "lyrefit/estimate/cell/ideality_over_light.h"
@@ -132,6 +133,20 @@ TEST(FillFactors, OfVocOverLightAreThoseOfTheDiode) {
   // Only points near Voc: the power point is not among them.
   points.erase(points.begin(), points.end() - 3);
   EXPECT_TRUE(std::isnan(PseudoFillFactorOf(0.035, points)));
+}
+
+TEST(StatedKeyPoints, ADensityNeedsAnArea) {
+  CellSweep sweep;
+  sweep.key.short_circuit_current_A = 5.5e-3;
+  const std::vector<StatedResult> stated = {{0, "J_sc", 22.1, "line 2"},
+                                            {0, "I_sc", 5.51, "line 3"}};
+  const auto with = CompareStated(stated, sweep, 0.25);
+  ASSERT_EQ(with.size(), 2U);
+  EXPECT_NEAR(with[0].found, 22, 1e-9);
+  EXPECT_NEAR(with[1].found, 5.5, 1e-9);
+  const auto without = CompareStated(stated, sweep, kUnknown);
+  ASSERT_EQ(without.size(), 1U);
+  EXPECT_EQ(without[0].name, "I_sc");
 }
 
 TEST(Slopes, AreTakenNearTheAxes) {

@@ -42,6 +42,9 @@ constexpr StatedUnit kStatedUnits[] = {
     {"mw", 1e3, false},  {"wcm2", 1, true},      {"mwcm2", 1e3, true}, {"wm2", 1e4, true},
     {"pct", 100, false}, {"percent", 100, false}};
 
+// Largest difference in ln of a stated density from a reading that is one.
+constexpr double kReadingsAreDensities = 0.1;
+
 // The value of the quantity in the unit of the label. Without a unit: that of the usual ones which
 // is nearest to the stated value.
 double FoundIn(const Quantity& quantity, const std::string& unit, double stated) {
@@ -72,6 +75,9 @@ std::vector<StatedKeyPoint> CompareStated(const std::vector<StatedResult>& resul
       }
       const double stated = std::fabs(result.value);
       const double value = FoundIn(quantity, ResultUnit(result.label), stated);
+      // Without an area a density is comparable only if the readings are densities too.
+      const bool density = name.front() == 'j' && !std::isfinite(area_cm2);
+      if (density && std::fabs(std::log(stated / value)) > kReadingsAreDensities) continue;
       if (std::isfinite(value)) found.push_back({result.label, stated, value, result.source});
     }
   }

@@ -163,6 +163,24 @@ TEST(JointEstimate, EveryMeasurementAddsToTheCertainty) {
   EXPECT_NEAR(ParameterOf(joint, "s[Suns-Voc]").refined, 1, 0.01);
 }
 
+TEST(JointEstimate, ADarkCurveThatDoesNotConductHasNone) {
+  RandomStream random(2);
+  Measured cell;
+  IvCurve dark = CellSweepOf(kCellTruth, 0);
+  for (std::size_t k = 0; k < dark.size(); ++k) {
+    dark.voltage_V[k] -= 1;
+    dark.current_A[k] = -dark.voltage_V[k] / 9000;
+  }
+  const auto reverse = DescribeCell(CellOf({dark, TraceOf(cell, 2e-4, &random)}));
+  ASSERT_TRUE(reverse);
+  EXPECT_FALSE(reverse->joint);
+
+  const auto forward = DescribeCell(
+      CellOf({CellSweepOf(kCellTruth, 0, false, kJointNoise_A), TraceOf(cell, 2e-4, &random)}));
+  ASSERT_TRUE(forward && forward->joint);
+  EXPECT_NEAR(ParameterOf(*forward->joint, "n1").refined, kCellTruth[2], 0.02);
+}
+
 TEST(JointEstimate, ASecondDiodeIsFound) {
   Measured cell;
   cell.dark = true;

@@ -264,7 +264,8 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
                                                const Observer& observer) {
   if (lights.empty() && dark < 0) return std::nullopt;
   JointCell cell = MakeJointCell(report, lights, dark, options, /*second_diode=*/false);
-  if (cell.problem.blocks.size() < 2) return std::nullopt;
+  // A dark curve that does not conduct has no scale.
+  if (cell.problem.blocks.size() < 2 || !(cell.isc_A > 0 && cell.voc_V > 0)) return std::nullopt;
   JointEstimate joint;
   const std::vector<std::vector<double>> starts = JointStarts(cell, report);
   const ProgressReporter progress(observer, "joint estimate", 0);

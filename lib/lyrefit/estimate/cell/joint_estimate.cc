@@ -85,20 +85,6 @@ JointEnd FitJointly(JointCell cell, std::vector<std::vector<double>> starts,
   return found;
 }
 
-std::vector<Estimate> EstimatesOf(const CellProblem& problem, const RefineEnd& end) {
-  std::vector<Estimate> estimates;
-  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
-    Estimate e;
-    e.info = problem.parameters[i];
-    e.bounds.lower = problem.lower[i];
-    e.bounds.upper = problem.upper[i];
-    e.fixed = problem.lower[i] == problem.upper[i];
-    e.refined = end.p[i];
-    estimates.push_back(std::move(e));
-  }
-  return estimates;
-}
-
 std::vector<bool> FixedOf(const CellProblem& problem) {
   std::vector<bool> fixed;
   for (std::size_t i = 0; i < problem.lower.size(); ++i) {
@@ -146,7 +132,8 @@ void FindJointIntervals(const JointEnd& fit, const std::vector<ErrorModel>& erro
   const CellProblem& problem = fit.cell.problem;
   const CellModel model(problem);
   IntervalProblem intervals;
-  intervals.estimates = EstimatesOf(problem, fit.end);
+  intervals.estimates =
+      MakeEstimates(problem.parameters, problem.lower, problem.upper, {}, fit.end.p);
   intervals.active = fit.end.active;
   intervals.rules = kJointRules;
   intervals.threads = options.threads;

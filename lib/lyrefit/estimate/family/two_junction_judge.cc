@@ -20,22 +20,6 @@ constexpr IntervalRules kTwoJunctionRules = {
 constexpr int kRestarts = 3;
 constexpr double kFarOutside = 9;  // rise at which a refit is given up, of that at the end
 
-std::vector<Estimate> EstimatesOf(const TwoJunctionProblem& problem,
-                                  const std::vector<double>& searched, const RefineEnd& best) {
-  std::vector<Estimate> estimates;
-  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
-    Estimate e;
-    e.info = problem.parameters[i];
-    e.bounds.lower = problem.lower[i];
-    e.bounds.upper = problem.upper[i];
-    e.fixed = problem.lower[i] == problem.upper[i];
-    e.searched = searched[i];
-    e.refined = best.p[i];
-    estimates.push_back(std::move(e));
-  }
-  return estimates;
-}
-
 // The device has these limits by its nature; to reach one of them says something.
 bool IsNaturalEnd(const ParameterInfo& info, bool upper) {
   if (info.kind == ParameterKind::kSeries || info.kind == ParameterKind::kPlain) return !upper;
@@ -163,7 +147,8 @@ IntervalReport IntervalsAt(const PreparedTwoJunctions& prepared, const TwoJuncti
   const int degrees = prepared.readings - prepared.free_parameters;
   const double variance = end.best.mean_square * prepared.readings / degrees;
   IntervalProblem problem;
-  problem.estimates = EstimatesOf(prepared.problem, searched, end.best);
+  problem.estimates = MakeEstimates(prepared.problem.parameters, prepared.problem.lower,
+                                    prepared.problem.upper, searched, end.best.p);
   problem.active = end.best.active;
   problem.rules = kTwoJunctionRules;
   problem.threads = options.threads;

@@ -277,6 +277,25 @@ ParameterRange SymmetricRange(ParameterKind kind, double value, double standard_
   return {std::max(range.low, bounds.lower), std::min(range.high, bounds.upper)};
 }
 
+std::vector<Estimate> MakeEstimates(const std::vector<ParameterInfo>& infos,
+                                    const std::vector<double>& lower,
+                                    const std::vector<double>& upper,
+                                    const std::vector<double>& searched,
+                                    const std::vector<double>& refined) {
+  std::vector<Estimate> estimates;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    Estimate e;
+    e.info = infos[i];
+    e.bounds.lower = lower[i];
+    e.bounds.upper = upper[i];
+    e.fixed = lower[i] == upper[i];
+    if (!searched.empty()) e.searched = searched[i];
+    e.refined = refined[i];
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
 IntervalReport FindIntervals(IntervalProblem problem, const ProgressReporter& progress) {
   return Finder(std::move(problem), progress).Find();
 }

@@ -58,6 +58,14 @@ struct IntervalProblem {
   std::function<ProfileSide(const ProfileQuery&)> profile;
 };
 
+// Estimates of parameters with these bounds, equal ones of a fixed parameter. `searched`: values
+// before the fit; empty: none.
+std::vector<Estimate> MakeEstimates(const std::vector<ParameterInfo>& infos,
+                                    const std::vector<double>& lower,
+                                    const std::vector<double>& upper,
+                                    const std::vector<double>& searched,
+                                    const std::vector<double>& refined);
+
 struct IntervalReport {
   std::vector<Estimate> estimates;
   std::vector<Correlation> correlations;  // strong ones, the strongest first

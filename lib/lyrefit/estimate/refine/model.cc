@@ -1,5 +1,6 @@
 #include "lyrefit/estimate/refine/model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lyrefit {
@@ -26,6 +27,25 @@ std::vector<FitParameter> MakeFitParameters(const std::vector<ParameterInfo>& in
     parameter.may_vanish = parameter.kind == ParameterKind::kSaturation && lower[i] <= 0;
   }
   return parameters;
+}
+
+void SetBlocks(const std::vector<int>& readings, ModelShape* shape) {
+  shape->points = 0;
+  for (const int count : readings) {
+    shape->blocks.push_back({count, 0});
+    shape->points += count;
+  }
+}
+
+void SetParameters(const std::vector<ParameterInfo>& infos, const std::vector<double>& lower,
+                   const std::vector<double>& upper, ModelShape* shape) {
+  shape->parameters = MakeFitParameters(infos, lower, upper);
+  const double perfect = shape->resistance_scale() / kPerfectConductance;
+  for (FitParameter& parameter : shape->parameters) {
+    if (parameter.kind == ParameterKind::kShunt && !parameter.fixed()) {
+      parameter.upper = std::min(parameter.upper, perfect);
+    }
+  }
 }
 
 double FitModel::MeanSquare(const FitPoint& point) const {

@@ -52,6 +52,14 @@ std::vector<FitParameter> MakeFitParameters(const std::vector<ParameterInfo>& in
                                             const std::vector<double>& lower,
                                             const std::vector<double>& upper);
 
+// Sets blocks of these numbers of readings, without local unknowns.
+void SetBlocks(const std::vector<int>& readings, ModelShape* shape);
+
+// Sets the parameters. The upper bounds of free shunts are at most a perfect one in the shape's
+// scales.
+void SetParameters(const std::vector<ParameterInfo>& infos, const std::vector<double>& lower,
+                   const std::vector<double>& upper, ModelShape* shape);
+
 struct FitPoint {
   std::vector<double> p;      // natural parameters
   std::vector<double> local;  // unknowns of the blocks, one block after the other

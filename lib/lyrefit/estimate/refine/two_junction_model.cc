@@ -8,22 +8,15 @@ namespace {
 
 ModelShape ShapeOf(const TwoJunctionProblem& problem) {
   ModelShape shape;
-  shape.points = 0;
+  std::vector<int> readings;
   for (const TwoJunctionCurve& curve : problem.curves) {
-    const int points = static_cast<int>(curve.voltage_V.size());
-    shape.blocks.push_back({points, 0});
-    shape.points += points;
+    readings.push_back(static_cast<int>(curve.voltage_V.size()));
   }
+  SetBlocks(readings, &shape);
   shape.current_scale_A = problem.current_scale_A;
   shape.voltage_scale_V = problem.voltage_scale_V;
   shape.thermal_voltage_V = problem.thermal_voltage_V;
-  shape.parameters = MakeFitParameters(problem.parameters, problem.lower, problem.upper);
-  const double perfect = shape.resistance_scale() / kPerfectConductance;
-  for (FitParameter& parameter : shape.parameters) {
-    if (parameter.kind == ParameterKind::kShunt && !parameter.fixed()) {
-      parameter.upper = std::min(parameter.upper, perfect);
-    }
-  }
+  SetParameters(problem.parameters, problem.lower, problem.upper, &shape);
   return shape;
 }
 

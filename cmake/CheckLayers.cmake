@@ -18,15 +18,17 @@ set(ALLOWED_estimate/cell base read model estimate/refine estimate/fit)
 set(ALLOWED_certify base read model estimate/refine estimate/fit)
 set(ALLOWED_diagnose base read model model/effects search estimate certify)
 set(ALLOWED_translate base read model model/effects estimate/fit estimate/family diagnose)
+set(ALLOWED_trend base read model estimate)
 # Computes nothing.
-set(ALLOWED_report base read model search estimate/fit estimate/family estimate/cell certify diagnose translate)
+set(ALLOWED_report base read model search estimate/fit estimate/family estimate/cell certify diagnose translate
+    trend)
 # A separate library with its own writers in study/report. The core's writers do not depend on it.
 set(ALLOWED_study base read model model/effects search estimate certify report)
 # A separate library for many curves, their rows and their page.
 set(ALLOWED_batch base read model model/effects estimate/fit estimate/family estimate/cell certify diagnose
     translate report)
 set(FOLDERS base read model model/effects search estimate/refine estimate/fit estimate/family estimate/cell certify
-    diagnose translate report study batch)
+    diagnose translate trend report study batch)
 # A folder that is named in FOLDERS, or the module: that of "study/report/plots.h" is study.
 set(IN_FOLDER "^lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")
 

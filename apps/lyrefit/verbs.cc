@@ -5,7 +5,7 @@ namespace lyrefit {
 std::vector<const Verb*> ProgramVerbs() {
   return {&kFitVerb,         &kSimulateVerb,  &kCertifyVerb, &kCompareVerb,  &kBudgetVerb,
           &kSensitivityVerb, &kDataSheetVerb, &kAuditVerb,   &kDiagnoseVerb, &kCellVerb,
-          &kTranslateVerb,   &kPackVerb,      &kBatchVerb,   &kMergeVerb,    &kHelpVerb,
+          &kTrendVerb, &kTranslateVerb,   &kPackVerb,      &kBatchVerb,   &kMergeVerb,    &kHelpVerb,
           &kCompletionVerb,  &kManVerb};
 }
 

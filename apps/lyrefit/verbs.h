@@ -17,6 +17,7 @@ extern const Verb kDataSheetVerb;
 extern const Verb kAuditVerb;
 extern const Verb kDiagnoseVerb;
 extern const Verb kCellVerb;
+extern const Verb kTrendVerb;
 extern const Verb kTranslateVerb;
 extern const Verb kPackVerb;
 extern const Verb kBatchVerb;

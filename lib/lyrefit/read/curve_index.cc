@@ -25,6 +25,7 @@ struct IndexLayout {
   int id = kNoColumn;
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
+  int date = kNoColumn;
 };
 
 bool Contains(const std::string& text, std::string_view part) {
@@ -58,6 +59,17 @@ int FindCondition(const std::vector<Column>& columns, ColumnKind kind, std::stri
   return found;
 }
 
+// The first column named as a date.
+int FindDate(const std::vector<Column>& columns) {
+  for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
+    const std::string label = LowerCase(columns[i].label);
+    for (const char* name : {"timestamp", "date", "datetime", "time"}) {
+      if (label == name) return i;
+    }
+  }
+  return kNoColumn;
+}
+
 Expected<IndexLayout> FindIndexLayout(std::string_view header, int line, const std::string& path,
                                       IndexIds ids) {
   for (const char delimiter : kDelimiters) {
@@ -70,6 +82,7 @@ Expected<IndexLayout> FindIndexLayout(std::string_view header, int line, const s
     if (layout.id == kNoColumn) continue;
     layout.irradiance = FindCondition(layout.columns, ColumnKind::kIrradiance, "module");
     layout.temperature = FindCondition(layout.columns, ColumnKind::kTemperature, "module");
+    layout.date = FindDate(layout.columns);
     for (const int used : {layout.irradiance, layout.temperature}) {
       if (used == kNoColumn || layout.columns[used].refusal.empty()) continue;
       return Fail(layout.columns[used].refusal, path, line, FieldColumn(header, delimiter, used));
@@ -123,6 +136,7 @@ Expected<void> ReadIndexRow(IndexRows* rows, std::string_view line, int number) 
     return rows->row.RefuseField(rows->layout.irradiance, "an irradiance from 0 W/m2 up");
   }
   TRY(row.temperature_C, NumberOfRow(rows, rows->layout.temperature));
+  if (rows->layout.date != kNoColumn) row.date = std::string(rows->row[rows->layout.date]);
   if (!rows->index.rows.try_emplace(id, std::move(row)).second) {
     return rows->row.Refuse(
         fmt::format("expected one row a curve, found a second one of curve {}", Quoted(id)),

@@ -14,6 +14,7 @@ namespace lyrefit {
 struct IndexRow {
   std::optional<double> irradiance_W_m2;
   std::optional<double> temperature_C;
+  std::string date;  // as written; empty: none
   Error missing;  // the error to report if the set has no such curve
 };
 
@@ -31,7 +32,8 @@ enum class IndexIds {
 
 // Reads a table with one row for each curve. The column `curve`, `sweep` or `file` holds the id. Of
 // several temperatures, that of the cell is preferred to that of the module. Air temperatures and
-// irradiances of other planes are ignored.
+// irradiances of other planes are ignored. A column `timestamp`, `date`, `datetime` or `time` is the
+// date of the measurement.
 Expected<CurveIndex> ReadCurveIndex(const std::string& path, IndexIds ids,
                                     const ReadOptions& options);
 

@@ -100,6 +100,7 @@ void CurveSetBuilder::ApplyIndex(const Sidecar& own, Sidecar* stated, IvCurve* c
   const IndexRow& row = found->second;
   if (index_->states_irradiance) stated->irradiance_W_m2 = row.irradiance_W_m2;
   if (index_->states_temperature) stated->temperature_C = row.temperature_C;
+  if (!row.date.empty()) stated->notes.date = row.date;
   SayWhereTheyDiffer(About::kIrradiance, "W/m2", own.irradiance_W_m2, row.irradiance_W_m2,
                      0.02 * own.irradiance_W_m2.value_or(0), curve);
   SayWhereTheyDiffer(About::kTemperature, "C", own.temperature_C, row.temperature_C, 1, curve);

@@ -18,6 +18,7 @@ struct DataSheetFit;
 struct FamilyReport;
 struct OutlierSweeps;
 struct TranslationReport;
+struct TrendReport;
 
 // One row for each file, in the given order. Columns: file, name, model, objective,
 // cells_in_series, temperature_C, irradiance_Wm2, points; the parameters by symbol and unit (Iph_A,
@@ -58,6 +59,10 @@ std::string CecLibraryCsv(const CecModule& module);
 // One row for each procedure: curve, procedure, recommended, the six key points, each followed by
 // its expanded uncertainty (..._U), why_not.
 std::string TranslationCsv(const TranslationReport& report);
+
+// One row for each day of a trend: its quantities at standard conditions, then the parts of the loss
+// in percent of the expected energy.
+std::string TrendCsv(const TrendReport& report);
 
 // How to write texts that a spreadsheet would run as a formula.
 enum class CsvTexts {

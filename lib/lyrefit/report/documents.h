@@ -22,6 +22,7 @@ struct FittedFile;
 struct ReferenceComparison;
 struct OutlierSweeps;
 struct TranslationReport;
+struct TrendReport;
 struct TwoJunctionReport;
 
 // A fit: results, then their reliability. '*' marks the fitted objective.
@@ -87,5 +88,11 @@ std::string DataSheetText(const DataSheetFit& fit);
 Document TranslationDocument(const TranslationReport& report);
 std::string TranslationText(const TranslationReport& report);
 std::string BriefTranslation(const TranslationReport& report);
+
+// What changed in a device over time: losses by part, steps and onsets, rates. The brief text is the
+// verdict.
+Document TrendDocument(const TrendReport& report);
+std::string TrendText(const TrendReport& report);
+std::string BriefTrend(const TrendReport& report);
 
 }  // namespace lyrefit

@@ -72,6 +72,7 @@ void to_json(Json& j, const Estimate& e) {
             {"whole", e.bounds.whole > 0 ? Json(e.bounds.whole) : Json()}});
 }
 
+LYREFIT_JSON_FIELDS(Ranged, value, low_95, high_95)
 LYREFIT_JSON_FIELDS(RmsePair, measured_current_A, solved_current_A)
 LYREFIT_JSON_FIELDS(KeyPoints, short_circuit_current_A, open_circuit_voltage_V, max_power_voltage_V,
                     max_power_current_A, max_power_W, fill_factor)

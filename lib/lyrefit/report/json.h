@@ -27,6 +27,8 @@
 // member `effect`.
 namespace LYREFIT_PUBLIC lyrefit {
 
+struct TrendReport;
+
 // How many readings of the curve a report repeats under `data`.
 enum class JsonPoints {
   kAll,
@@ -95,5 +97,8 @@ std::string OutlierSweepsJson(const OutlierSweeps& outlier);
 // Uncertainties are in the units of their values; expanded ones have k = 2. `points` holds the
 // curves.
 std::string TranslationJson(const TranslationReport& report);
+
+// Quantities with their days, the loss by part, onsets.
+std::string TrendJson(const TrendReport& report);
 
 }  // namespace lyrefit

@@ -5,7 +5,6 @@
 
 namespace lyrefit {
 
-LYREFIT_JSON_FIELDS(Ranged, value, low_95, high_95)
 LYREFIT_JSON_FIELDS(StatedKeyPoint, name, stated, found, source)
 LYREFIT_JSON_FIELDS(DirectionPair, forward, reverse, index_power, index_area, index_at_80,
                     index_at_50, gap_percent, noise_percent, voc_difference_V, isc_difference,

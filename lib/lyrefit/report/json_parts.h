@@ -56,6 +56,7 @@ void to_json(Json& j, const IvCurve& curve);  // name, source, conditions and as
 void to_json(Json& j, const OptionEcho& option);
 void to_json(Json& j, const ParameterInfo& info);
 void to_json(Json& j, const Estimate& estimate);
+void to_json(Json& j, const Ranged& record);
 void to_json(Json& j, const RmsePair& record);
 void to_json(Json& j, const KeyPoints& record);
 void to_json(Json& j, const Correlation& record);

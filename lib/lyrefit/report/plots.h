@@ -18,6 +18,7 @@ struct Diagnosis;
 struct FamilyReport;
 struct FitReport;
 struct TranslationReport;
+struct TrendReport;
 struct TwoJunctionReport;
 
 // A fit. Above: current and power over voltage, measured points and model. Below: residuals with a
@@ -66,5 +67,11 @@ Expected<void> PlotDataSheet(const DataSheetFit& fit, const std::string& path);
 Figure TranslationFigure(const TranslationReport& report);
 Expected<void> PlotTranslation(const TranslationReport& report, const std::string& path,
                                PlotPoints points = PlotPoints::kThinned);
+
+// A trend: the daily losses by part, then every quantity with its regression and the days of its
+// changes.
+Figure TrendFigure(const TrendReport& report);
+Expected<void> PlotTrend(const TrendReport& report, const std::string& path,
+                         PlotPoints points = PlotPoints::kThinned);
 
 }  // namespace lyrefit

@@ -19,6 +19,7 @@ struct CurveSet;
 struct DataSheetFit;
 struct MemberConditions;
 struct TranslationReport;
+struct TrendReport;
 
 // fits_document.cc: parameters of the largest model; smaller models have the first of them.
 std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
@@ -96,5 +97,6 @@ Section ChecklistSection(const Checklist& checklist);
 void AddMeasurement(const TranslationReport& report, Section* section);
 std::string TranslationVerdict(const TranslationReport& report);
 block::Figure FigureBlock(const TranslationReport& report);
+block::Figure FigureBlock(const TrendReport& report);
 
 }  // namespace lyrefit

@@ -9,6 +9,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/estimate/refine/estimate.h"
 #include "lyrefit/read/assumption.h"
 #include "lyrefit/read/key_points.h"
 
@@ -40,13 +41,6 @@ template <>
 struct EnumTable<ScanDirection> {
   static constexpr EnumText<ScanDirection> kRows[] = {{ScanDirection::kForward, "forward"},
                                                       {ScanDirection::kReverse, "reverse"}};
-};
-
-// A value with its 95 % interval.
-struct Ranged {
-  double value = kUnknown;  // the estimate
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
 };
 
 // A key point that the file states for a sweep, beside the computed one.

@@ -34,6 +34,13 @@ struct EnumTable<IntervalMethod> {
       {IntervalMethod::kUnsettled, "unsettled profile"}};
 };
 
+// A value with its 95 % interval.
+struct Ranged {
+  double value = kUnknown;  // the estimate
+  double low_95 = kUnknown;
+  double high_95 = kUnknown;
+};
+
 // One parameter: its values after the search and after the polish, in reporting units. NaN: not
 // available (no polish, or no finite standard error).
 struct Estimate {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "lyrefit/base/public.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// Seconds per day.
+constexpr double kDay_s = 86400;
+
+// Seconds since 1970-01-01 00:00 of a date with or without a time of day, of these forms:
+//   2025-03-12, 2025-03-12 10:30, 2025-03-12T10:30:05.5, 2025/3/12 10:30   year first
+//   12.03.2025 10:30                                                       day first, with points
+//   03/25/2025, 25/03/2025 10:30                  only if one of the first two numbers exceeds 12
+// "Z" and an offset such as +01:00 are read and ignored: a series keeps the clock of its logger.
+// Empty: another form, or no date of the calendar.
+std::optional<double> ReadDateTime(std::string_view text);
+
+// "2025-03-12"; "-" for NaN.
+std::string DateText(double seconds);
+// "2025-03-12 10:30:05"; "-" for NaN.
+std::string DateTimeText(double seconds);
+
+}  // namespace lyrefit

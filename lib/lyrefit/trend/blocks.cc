@@ -1,0 +1,203 @@
+#include "lyrefit/trend/blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/read/date_time.h"
+#include "lyrefit/trend/loss_split.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kDaysForDays = 20;  // shorter series are cut into more blocks
+constexpr double kShortBlocks = 40;
+constexpr double kSteppedTimes = 4;     // misfit of a stepped sweep over the median
+constexpr double kSteppedLeast = 0.004;  // and of Isc
+
+bool Counts(const TrendRow& row) {
+  return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
+}
+
+double SpanOf(const std::vector<TrendRow>& rows) {
+  return rows.empty() ? 0 : rows.back().time_s - rows.front().time_s;
+}
+
+void MarkDim(double least_W_m2, std::vector<TrendRow>* rows) {
+  for (TrendRow& row : *rows) {
+    if (row.state == TrendRowState::kUsed && row.irradiance_W_m2 < least_W_m2) {
+      row.state = TrendRowState::kDim;
+    }
+  }
+}
+
+void MarkStepped(std::vector<TrendRow>* rows) {
+  std::vector<double> misfits;
+  for (const TrendRow& row : *rows) {
+    if (row.state == TrendRowState::kUsed && std::isfinite(row.misfit)) {
+      misfits.push_back(row.misfit);
+    }
+  }
+  const double most = std::max(kSteppedTimes * Median(misfits), kSteppedLeast);
+  for (TrendRow& row : *rows) {
+    if (row.state == TrendRowState::kUsed && row.misfit > most) row.state = TrendRowState::kStepped;
+  }
+}
+
+// Numbers the blocks that have rows that count.
+void CutBlocks(TrendBlocks* blocks) {
+  const double span = SpanOf(blocks->rows);
+  blocks->length_s =
+      span >= kDaysForDays * kDay_s ? kDay_s : std::max(span / kShortBlocks, 1e-3);
+  const double origin = blocks->length_s == kDay_s
+                            ? kDay_s * std::floor(blocks->rows.front().time_s / kDay_s)
+                            : blocks->rows.front().time_s;
+  std::vector<TrendRow> counting;
+  double last = -1;
+  for (const TrendRow& row : blocks->rows) {
+    if (!Counts(row)) continue;
+    const double number = std::floor((row.time_s - origin) / blocks->length_s);
+    if (number != last) {
+      blocks->time_s.push_back(0);
+      blocks->used.push_back(0);
+      last = number;
+    }
+    blocks->time_s.back() += row.time_s;
+    ++blocks->used.back();
+    blocks->block.push_back(static_cast<int>(blocks->time_s.size()) - 1);
+    counting.push_back(row);
+  }
+  for (std::size_t b = 0; b < blocks->size(); ++b) blocks->time_s[b] /= blocks->used[b];
+  blocks->rows = std::move(counting);
+}
+
+// Value of a row that is followed; NaN: none.
+double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
+  if (row.state != TrendRowState::kUsed) return kUnknown;
+  if (what < kTrendParameters) return row.parameters[what];
+  if (row.lost_substrings > 0) return kUnknown;
+  TrendState state = row.parameters;
+  state[kTrendLight] = std::exp(row.parameters[kTrendLight]) *
+                       blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  return std::log(PowerOf(*blocks.device, state, row.temperature_C) / row.power_W());
+}
+
+void FindLevels(int what, TrendBlocks* blocks) {
+  std::vector<ConditionedValue> values;
+  for (std::size_t i = 0; i < blocks->rows.size(); ++i) {
+    const TrendRow& row = blocks->rows[i];
+    const double value = Followed(*blocks, row, what);
+    if (!std::isfinite(value)) continue;
+    values.push_back({blocks->block[i], FeaturesAt(blocks->LightOn(row), row.temperature_C), value});
+  }
+  blocks->departures[what] = FitWithinBlocks(values);
+  blocks->level[what].assign(blocks->size(), kUnknown);
+  std::vector<ConditionedValue> own;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    own.push_back(values[i]);
+    if (i + 1 < values.size() && values[i + 1].block == values[i].block) continue;
+    blocks->level[what][values[i].block] = BlockMean(own, blocks->departures[what]);
+    own.clear();
+  }
+  std::vector<double> first;
+  for (std::size_t b = 0; b < blocks->size(); ++b) {
+    const double level = blocks->level[what][b];
+    if (blocks->IsReference(b) && std::isfinite(level)) first.push_back(level);
+  }
+  if (first.empty()) {
+    blocks->reference[what] = kUnknown;
+    return;
+  }
+  std::vector<ConditionedValue> plain;
+  plain.reserve(first.size());
+  for (const double level : first) plain.push_back({0, {}, level});
+  blocks->reference[what] = BlockMean(plain, {});
+}
+
+// Median level of the blocks around `b`, at most three away on either side.
+double LevelAround(const TrendBlocks& blocks, int what, int b) {
+  std::vector<double> near;
+  constexpr int kReach = 3;
+  const int last = static_cast<int>(blocks.size()) - 1;
+  for (int reach = kReach; near.empty() && reach <= last + kReach; reach *= 2) {
+    for (int k = std::max(b - reach, 0); k <= std::min(b + reach, last); ++k) {
+      const double level = blocks.level[what][k];
+      if (std::isfinite(level)) near.push_back(level);
+    }
+  }
+  return near.empty() ? blocks.reference[what] : Median(near);
+}
+
+void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
+  const TrendDevice& device = *blocks.device;
+  const double expected_A = device.Photocurrent(row->irradiance_W_m2, row->temperature_C);
+  const Features features = FeaturesAt(blocks.LightOn(*row), row->temperature_C);
+  TrendState before{}, after = row->parameters;
+  for (int i = 0; i < kTrendParameters; ++i) {
+    const double departure = Departure(blocks.departures[i], features);
+    before[i] = blocks.reference[i] + departure;
+    if (row->state == TrendRowState::kStepped && i != kTrendLight) {
+      after[i] = LevelAround(blocks, i, block) + departure;
+    }
+  }
+  if (row->state == TrendRowState::kStepped) {
+    after[kTrendLight] = std::log(row->isc_A / expected_A);
+  }
+  for (TrendState* state : {&before, &after}) {
+    (*state)[kTrendLight] = expected_A * std::exp((*state)[kTrendLight]);
+    (*state)[kTrendShunt] = std::max((*state)[kTrendShunt], 0.0);
+  }
+  const double scale = std::exp(-(blocks.reference[kModelExcess] +
+                                  Departure(blocks.departures[kModelExcess], features)));
+  row->expected_W = scale * PowerOf(device, before, row->temperature_C);
+  const auto shares = SplitLoss(device, before, after, row->temperature_C);
+  double sum = 0;
+  for (int i = 0; i < kTrendParameters; ++i) {
+    row->parts_W[i] = scale * shares[i];
+    sum += row->parts_W[i];
+  }
+  row->parts_W[kPartMismatch] = row->expected_W - row->power_W() - sum;
+}
+
+}  // namespace
+
+double TrendBlocks::LightOn(const TrendRow& row) const {
+  const double light = row.irradiance_W_m2 / 1000;
+  if (row.state == TrendRowState::kStepped) return light;
+  return light * std::exp(row.parameters[kTrendLight]);
+}
+
+TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
+                       const TrendOptions& options) {
+  TrendBlocks blocks;
+  blocks.device = &device;
+  std::stable_sort(rows.begin(), rows.end(), [](const TrendRow& one, const TrendRow& other) {
+    return one.time_s < other.time_s;
+  });
+  MarkDim(options.least_irradiance_W_m2, &rows);
+  MarkStepped(&rows);
+  for (const TrendRow& row : rows) ++blocks.states[static_cast<std::size_t>(row.state)];
+  blocks.rows = std::move(rows);
+  if (blocks.rows.empty()) return blocks;
+  const double first = blocks.rows.front().time_s;
+  // At most a third of the series is its own reference.
+  const double reference = std::min(options.reference_days * kDay_s, SpanOf(blocks.rows) / 3);
+  blocks.reference_end_s = first + reference;
+  CutBlocks(&blocks);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    blocks.reference_blocks += blocks.IsReference(b) ? 1 : 0;
+  }
+  ParallelFor(kFollowed, options.threads, [&](int what) { FindLevels(what, &blocks); });
+  return blocks;
+}
+
+void SplitLosses(int threads, TrendBlocks* blocks) {
+  ParallelFor(static_cast<int>(blocks->rows.size()), threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    SplitRow(*blocks, blocks->block[at], &blocks->rows[at]);
+  });
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lyrefit/trend/standard_conditions.h"
+#include "lyrefit/trend/trend_device.h"
+#include "lyrefit/trend/trend_options.h"
+#include "lyrefit/trend/trend_report.h"
+
+namespace lyrefit {
+
+// Position of ln(power of the fitted model over the measured one), beside the parameters.
+constexpr int kModelExcess = kTrendParameters;
+constexpr int kFollowed = kTrendParameters + 1;
+
+// The measurements of a series in blocks: days, or shorter spans of a short series.
+struct TrendBlocks {
+  const TrendDevice* device = nullptr;
+  std::vector<TrendRow> rows;    // those that count, by time
+  std::array<std::int64_t, kTrendRowStates> states{};  // number of all rows by state
+  std::vector<int> block;        // of each row, ascending from 0
+  std::vector<double> time_s;    // mean of the rows of each block
+  std::vector<int> used;         // rows of each block that count
+  double length_s = 0;           // of a block
+  double reference_end_s = 0;    // end of the reference blocks
+  int reference_blocks = 0;      // number of blocks before it
+  std::array<Features, kFollowed> departures{};  // from the law
+  // Means at standard conditions; NaN: a block without a usable row.
+  std::array<std::vector<double>, kFollowed> level;
+  std::array<double, kFollowed> reference{};  // mean over the reference blocks
+
+  std::size_t size() const { return time_s.size(); }
+  bool IsReference(std::size_t b) const { return time_s[b] <= reference_end_s; }
+  // Light on the device as a part of 1000 W/m2.
+  double LightOn(const TrendRow& row) const;
+};
+
+// Orders the rows, marks dim and stepped ones, finds departures and levels. `device` must outlive
+// the result.
+TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
+                       const TrendOptions& options);
+
+// Fills the expected power and the parts of the loss of every row that counts.
+void SplitLosses(int threads, TrendBlocks* blocks);
+
+}  // namespace lyrefit

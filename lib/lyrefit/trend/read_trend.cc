@@ -1,0 +1,213 @@
+#include "lyrefit/trend/read_trend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/curve_set.h"
+#include "lyrefit/read/date_time.h"
+#include "lyrefit/read/operating_points.h"
+#include "lyrefit/trend/trend_device.h"
+
+namespace lyrefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTogether = 512;  // sweeps reduced at once
+
+constexpr const char* kTimeNames[] = {"date", "timestamp", "time", "datetime", "tmst"};
+
+// A date in a file's name: the digits of "module7_20250312_1030", "2025-03-12T10-30-05".
+std::optional<double> DateInName(std::string_view name) {
+  for (std::size_t begin = 0; begin + 8 <= name.size(); ++begin) {
+    if (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1])) != 0) continue;
+    std::string digits;
+    for (std::size_t i = begin; i < name.size() && digits.size() < 14; ++i) {
+      const char c = name[i];
+      if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+        digits += c;
+      } else if (digits.size() % 2 != 0 || std::string_view("-_T :.").find(c) == std::string::npos) {
+        break;
+      }
+    }
+    if (digits.size() < 8) continue;
+    const std::string text =
+        digits.size() < 12
+            ? fmt::format("{}-{}-{}", digits.substr(0, 4), digits.substr(4, 2), digits.substr(6, 2))
+            : fmt::format("{}-{}-{} {}:{}:{}", digits.substr(0, 4), digits.substr(4, 2),
+                          digits.substr(6, 2), digits.substr(8, 2), digits.substr(10, 2),
+                          digits.size() >= 14 ? digits.substr(12, 2) : "00");
+    if (const auto time = ReadDateTime(text)) return time;
+  }
+  return std::nullopt;
+}
+
+Expected<double> TimeOf(const std::map<std::string, std::string>& beside, const std::string& id,
+                        const std::string& where) {
+  for (const char* name : kTimeNames) {
+    const auto found = beside.find(name);
+    if (found == beside.end()) continue;
+    const auto time = ReadDateTime(found->second);
+    if (time) return *time;
+    return Fail(fmt::format("expected a date such as 2025-03-12 10:30 in {}, found \"{}\"", name,
+                            found->second),
+                where);
+  }
+  if (const auto time = DateInName(id)) return *time;
+  return Fail(
+      "expected the time of the sweep, as date or timestamp beside it or in the file's name, found "
+      "none",
+      where);
+}
+
+// Reduces sweeps as they come: once the law is known, in groups.
+class SeriesReader {
+ public:
+  SeriesReader(const TrendReadOptions& reading, const TrendOptions& options)
+      : reading_(reading), options_(options), known_(reading.law.has_value()) {
+    if (known_) series_ = *reading.law;
+  }
+
+  Expected<void> Take(IvCurve curve, double time_s) {
+    if (reading_.prepare) TRY(reading_.prepare(&curve));
+    curve.assumptions = {};
+    curve.stated = {};
+    if (waiting_.empty() && !known_) first_s_ = time_s;
+    waiting_.push_back({std::move(curve), time_s});
+    const bool covered = time_s > first_s_ + options_.reference_days * kDay_s;
+    if (!known_ && covered) TRY(FindLaw());
+    if (known_ && waiting_.size() >= kTogether) Reduce();
+    return {};
+  }
+
+  void TakeBroken(double time_s, const std::string& reason) {
+    TrendRow row;
+    row.time_s = time_s;
+    row.reason = reason;
+    broken_.push_back(std::move(row));
+  }
+
+  Expected<TrendSeries> End() {
+    if (!known_) TRY(FindLaw());
+    Reduce();
+    series_.rows.insert(series_.rows.end(), broken_.begin(), broken_.end());
+    return std::move(series_);
+  }
+
+ private:
+  Expected<void> FindLaw() {
+    TRY(series_, SeriesOfSweeps(waiting_, options_));
+    known_ = true;
+    return {};
+  }
+
+  void Reduce() {
+    AppendSweeps(waiting_, options_.threads, &series_);
+    waiting_.clear();
+  }
+
+  const TrendReadOptions& reading_;
+  const TrendOptions& options_;
+  TrendSeries series_;
+  std::vector<TimedSweep> waiting_;
+  std::vector<TrendRow> broken_;
+  double first_s_ = 0;
+  bool known_ = false;  // whether the law is
+};
+
+bool IsSetFolder(const std::string& input) {
+  std::error_code error;
+  return fs::is_directory(input, error) && fs::exists(fs::path(input) / "curves.csv", error);
+}
+
+Expected<void> ReadSet(const std::string& input, const TrendReadOptions& reading,
+                       SeriesReader* reader) {
+  TRY(CurveSet set, ReadCurveSet(input, reading.reading.reading));
+  for (IvCurve& curve : set.curves) {
+    std::map<std::string, std::string> beside;
+    if (!curve.notes.date.empty()) beside["date"] = curve.notes.date;
+    TRY(const double time_s, TimeOf(beside, curve.name, input + ", curve " + curve.name));
+    TRY(reader->Take(std::move(curve), time_s));
+  }
+  for (const RejectedCurve& rejected : set.rejected) {
+    reader->TakeBroken(kUnknown, rejected.error.message);
+  }
+  return {};
+}
+
+Expected<void> ReadStream(const std::vector<std::string>& inputs, const TrendReadOptions& reading,
+                          const ProgressReporter& progress, SeriesReader* reader) {
+  TRY(const auto source, OpenBatch(inputs, reading.reading));
+  while (true) {
+    TRY(const std::optional<BatchItem> item, source->Next());
+    if (!item) return {};
+    BatchCurve read = source->Read(*item);
+    const Expected<double> time = TimeOf(read.beside, read.id, item->where);
+    if (!read.curve) {
+      reader->TakeBroken(time.value_or(kUnknown), read.curve.error().message);
+      continue;
+    }
+    if (!time) return tl::unexpected(time.error());
+    TRY(reader->Take(std::move(*read.curve), *time));
+    if (progress.Step()) return Fail("interrupted");
+  }
+}
+
+std::string NameOfInput(const std::vector<std::string>& inputs) {
+  fs::path path = inputs.front();
+  if (path.filename().empty()) path = path.parent_path();
+  return path.stem().string();
+}
+
+}  // namespace
+
+Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
+                                const TrendReadOptions& reading, const TrendOptions& options,
+                                const Observer& observer) {
+  if (inputs.empty()) return Fail("expected sweeps, found no file");
+  SeriesReader reader(reading, options);
+  const ProgressReporter progress(observer, "sweeps", 0);
+  std::vector<std::string> streams;
+  for (const std::string& input : inputs) {
+    if (IsSetFolder(input)) {
+      TRY(ReadSet(input, reading, &reader));
+    } else {
+      streams.push_back(input);
+    }
+  }
+  if (!streams.empty()) TRY(ReadStream(streams, reading, progress, &reader));
+  TRY(TrendSeries series, reader.End());
+  if (series.name.empty()) series.name = NameOfInput(inputs);
+  return series;
+}
+
+Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
+                                          const TrendReadOptions& reading) {
+  if (files.empty()) return Fail("expected a table of operating points, found no file");
+  if (!reading.law) {
+    return Fail(
+        "operating points alone do not tell the law of their module: name it (--module), as a file "
+        "of pvlib, PVsyst or SAM",
+        files.front());
+  }
+  TrendSeries series = *reading.law;
+  for (const std::string& file : files) {
+    TRY(const std::vector<OperatingReading> points,
+        ReadOperatingTable(file, reading.reading.reading.largest_file_bytes));
+    for (const OperatingReading& point : points) {
+      AppendOperatingPoint(point.time_s, point.irradiance_W_m2, point.temperature_C,
+                           point.voltage_V, point.current_A, &series);
+    }
+  }
+  if (series.name.empty()) series.name = NameOfInput(files);
+  return series;
+}
+
+}  // namespace lyrefit

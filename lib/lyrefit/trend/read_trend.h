@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/error.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/public.h"
+#include "lyrefit/read/batch_source.h"
+#include "lyrefit/trend/trend_options.h"
+#include "lyrefit/trend/trend_series.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// How the measurements of a trend are read.
+struct TrendReadOptions {
+  BatchReadOptions reading;
+  // A series whose law is used, of a module file or a state; unset: that of the sweeps themselves.
+  // Operating points need it.
+  std::optional<TrendSeries> law;
+  // Adds known conditions to each curve after it is read. Empty: none.
+  std::function<Expected<void>(IvCurve* curve)> prepare;
+};
+
+// Reads sweeps of one device in constant memory but for the sweeps of the reference days (if the
+// law is theirs) and a row of numbers each: in any shape of batch_source.h, each with the time of
+// its measurement under date, timestamp, time, datetime or tmst, as a text of read/date_time.h; or,
+// in a folder tree, with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv").
+// A sweep that cannot be read is an unusable row with the reason. Errors: those of the source; a
+// sweep without a time; no law.
+Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
+                                const TrendReadOptions& reading, const TrendOptions& options,
+                                const Observer& observer = {});
+
+// Reads a table of operating points with the columns time (or date, timestamp, datetime, tmst),
+// irradiance, temperature (of the module or cell), vmp and imp (or v_mp, i_mp, voltage, current;
+// also with units, as vmp_V), CSV, TSV or with semicolons, one measurement a row. A row with a
+// missing value is an unusable one. Errors, with file, line and column: a column that is missing, a
+// text that is neither a number nor a missing value, no module.
+Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
+                                          const TrendReadOptions& reading);
+
+// The state of a trend on disk: its law and its rows, a line each. A sweep is appended without
+// reading the others.
+//
+// Writes the law of `series` and its rows into a new state, or appends the rows to one. Rows of a
+// time that the state has already are left out; returns the number of those that were written.
+// Errors: a file that is no state, or of another law; a file that cannot be written.
+Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series);
+
+// Reads a state. Errors, with the line: another file, a broken line.
+Expected<TrendSeries> ReadTrendState(const std::string& path);
+// The series of a state without its rows.
+Expected<TrendSeries> ReadTrendStateHead(const std::string& path);
+// Whether a file is the state of a trend.
+bool IsTrendState(const std::string& path);
+
+}  // namespace lyrefit

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace lyrefit {
+
+// Regression of a daily series with errors that neighbouring days share:
+//   y_i = X_i b + u_i + e_i
+// u is a first-order autoregressive process in continuous time, with correlation
+// exp(-ln 2 |t_i - t_j| / half_life) between days, so that gaps need no filling; e is independent,
+// with variance spread_i times that of a usual day. The Kalman filter of this state whitens the
+// series and the columns of X in linear time (Harvey 1989, "Forecasting, Structural Time Series
+// Models and the Kalman Filter", 3.4). Sizes and half-life maximise the restricted likelihood on a
+// grid. Days far from the regression get a larger spread (Huber's weights), so that they do not
+// steer it.
+
+// Sizes of the errors of a series.
+struct NoiseModel {
+  double sigma = 0;           // of e on a day of spread 1, in the unit of the series
+  double shared_sigma = 0;    // of u, in the same unit
+  double half_life_days = 0;  // of u; 0: there is no u
+};
+
+// A daily series and its regression.
+struct TimeSeries {
+  std::vector<double> days;    // ascending
+  std::vector<double> values;  // one for each day
+  std::vector<double> spread;  // relative variance of e, 1 on a usual day
+};
+
+// Divides out the errors: independent columns of unit variance (in units of `sigma`).
+Eigen::MatrixXd Whiten(const NoiseModel& noise, const TimeSeries& series,
+                       const Eigen::MatrixXd& columns);
+
+// Covariance of the errors of two days, in the squared unit of the series.
+double ErrorCovariance(const NoiseModel& noise, const TimeSeries& series, std::size_t i,
+                       std::size_t j);
+
+struct TimeFit {
+  NoiseModel noise;
+  std::vector<double> spread;  // as in the series, larger on outlying days
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;  // of the coefficients
+  double degrees = 0;          // of freedom of the sizes of the errors, as independent days
+  double t_95() const;         // Student's factor of a 95 % interval
+};
+
+// Fits the regression with the columns `design` (days x coefficients, full rank; at least two days
+// more than columns).
+TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design);
+
+}  // namespace lyrefit

@@ -1,0 +1,79 @@
+#include "lyrefit/trend/trend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lyrefit/base/seconds.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/base/version.h"
+#include "lyrefit/read/date_time.h"
+#include "lyrefit/trend/blocks.h"
+#include "lyrefit/trend/quantities.h"
+#include "lyrefit/trend/trend_device.h"
+#include "lyrefit/trend/trend_words.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kLeastBlocks = 5;
+
+void CountReasons(const std::vector<TrendRow>& rows, TrendReport* report) {
+  std::map<std::string, TrendReason> reasons;
+  for (const TrendRow& row : rows) {
+    if (row.reason.empty()) continue;
+    TrendReason& reason = reasons[row.reason];
+    reason.reason = row.reason;
+    ++reason.rows;
+  }
+  for (const auto& [text, reason] : reasons) report->reasons.push_back(reason);
+}
+
+void DescribeSeries(const TrendSeries& series, const TrendBlocks& blocks, TrendReport* report) {
+  report->name = series.name;
+  report->source = series.source;
+  report->law = series.law;
+  report->cells_in_series = series.device->cells_in_series;
+  report->substrings = series.device->substrings;
+  report->ideality = series.device->n;
+  report->rows = static_cast<std::int64_t>(series.rows.size());
+  report->states = blocks.states;
+  report->days = blocks.size();
+  report->first_s = blocks.rows.front().time_s;
+  report->last_s = blocks.rows.back().time_s;
+  report->reference_end_s = blocks.reference_end_s;
+  CountReasons(series.rows, report);
+}
+
+}  // namespace
+
+Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& options,
+                                const Observer& observer) {
+  TRY(ValidateOptions(options, kTrendOptionTable));
+  const Instant start = Now();
+  TrendReport report;
+  report.version = Version();
+  report.seed = options.seed;
+  report.options = NonDefaults(options, kTrendOptionTable);
+  const ProgressReporter progress(observer, "trend", 2);
+  TrendBlocks blocks = MakeBlocks(*series.device, series.rows, options);
+  if (blocks.size() < kLeastBlocks || blocks.reference_blocks < 1) {
+    return Fail(fmt::format(
+        "expected usable measurements at {} times or more, found {}: {} of {} measurements count",
+        kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size()));
+  }
+  DescribeSeries(series, blocks, &report);
+  SplitLosses(options.threads, &blocks);
+  progress.Step();
+  FindQuantities(blocks, options, &report);
+  FindLosses(blocks, options, &report);
+  FindOnsets(blocks, &report);
+  AddWords(&report);
+  progress.Step();
+  report.seconds = SecondsSince(start);
+  return report;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/enum_text.h"
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/option.h"
+#include "lyrefit/base/public.h"
+#include "lyrefit/estimate/refine/estimate.h"
+
+// Records of a trend: what changed in a device over time. Times are seconds since 1970-01-01 of the
+// clock of the logger (read/date_time.h). Unknown values are NaN.
+namespace LYREFIT_PUBLIC lyrefit {
+
+// What the measurements are.
+enum class TrendSource {
+  kSweeps,           // I-V curves
+  kOperatingPoints,  // voltage and current at maximum power
+};
+
+template <>
+struct EnumTable<TrendSource> {
+  static constexpr EnumText<TrendSource> kRows[] = {
+      {TrendSource::kSweeps, "sweeps"}, {TrendSource::kOperatingPoints, "operating points"}};
+};
+
+// What became of a measurement.
+enum class TrendRowState {
+  kUsed,        // its parameters and its power count
+  kStepped,     // a step or a rough shape: its light and power count, its other parameters do not
+  kDim,         // less light than TrendOptions::least_irradiance_W_m2: its power counts
+  kLimited,     // the inverter limited power: nothing counts
+  kOffMaximum,  // not at maximum power: nothing counts
+  kUnusable,    // nothing counts; see the reason
+};
+
+template <>
+struct EnumTable<TrendRowState> {
+  static constexpr EnumText<TrendRowState> kRows[] = {
+      {TrendRowState::kUsed, "used"},          {TrendRowState::kStepped, "stepped"},
+      {TrendRowState::kDim, "dim"},            {TrendRowState::kLimited, "limited"},
+      {TrendRowState::kOffMaximum, "off maximum"}, {TrendRowState::kUnusable, "unusable"}};
+};
+
+// Number of states.
+constexpr int kTrendRowStates = 6;
+
+// Positions of the parameters that are followed over time.
+enum TrendParameter { kTrendLight, kTrendSeries, kTrendRecombination, kTrendShunt, kTrendParameters };
+// Positions of the parts of a loss of power. The first four are those of the parameters.
+enum TrendPart { kPartMismatch = kTrendParameters, kTrendParts };
+
+// One measurement, reduced to standard conditions.
+struct TrendRow {
+  double time_s = kUnknown;
+  double irradiance_W_m2 = kUnknown;  // as stated
+  double temperature_C = kUnknown;    // of the cells, as stated
+  double voltage_V = kUnknown;        // at maximum power
+  double current_A = kUnknown;        // at maximum power
+  double isc_A = kUnknown;            // of a sweep
+  double voc_V = kUnknown;            // of a sweep
+  double expected_W = kUnknown;       // power of the reference in these conditions
+  // ln of photocurrent over its expectation; ohm; ln of the saturation current in A at 25 C; S. Of
+  // the whole device with all its substrings.
+  std::array<double, kTrendParameters> parameters = {kUnknown, kUnknown, kUnknown, kUnknown};
+  double misfit = kUnknown;   // rms of current residuals over Isc
+  int lost_substrings = 0;    // without voltage
+  std::array<double, kTrendParts> parts_W = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  TrendRowState state = TrendRowState::kUnusable;
+  std::string reason;         // of an unusable one
+
+  // Power in W.
+  double power_W() const { return voltage_V * current_A; }
+};
+
+// Number of measurements that are unusable for one reason.
+struct TrendReason {
+  std::string reason;    // with the place of the first
+  std::int64_t rows = 0;  // number of measurements
+};
+
+// A change of a quantity on a day.
+struct TrendChange {
+  bool onset = false;       // the rate changes; else the level
+  double time_s = kUnknown;  // the first day after it
+  double earliest_s = kUnknown;  // 95 % range of that day
+  double latest_s = kUnknown;    // its other end
+  Ranged size;              // step: unit of the quantity; onset: that unit a year
+  double p_value = kUnknown;  // over all days
+};
+
+// A day of a quantity.
+struct TrendDay {
+  double time_s = kUnknown;  // mean time of its measurements
+  double value = kUnknown;   // at standard conditions
+  double fitted = kUnknown;  // of the regression
+  int rows = 0;              // measurements behind it
+};
+
+// A quantity over time.
+struct TrendQuantity {
+  std::string name;   // "resistance_series"
+  std::string title;  // "series resistance"
+  std::string unit;   // "ohm"
+  double reference = kUnknown;  // over the reference days
+  Ranged rate_per_year;         // in its unit, before any onset, without steps
+  Ranged rate_percent;          // of the reference, a year; NaN without a meaning
+  std::vector<TrendChange> changes;
+  double seasonal = kUnknown;   // amplitude over the year; NaN: not separable from a trend
+  double day_scatter = kUnknown;  // standard deviation of a day
+  double shared_scatter = kUnknown;  // of what neighbouring days share
+  double half_life_days = 0;    // of that
+  std::vector<TrendDay> days;
+  std::string missing;          // why it is not known; then the others are empty
+};
+
+// A loss against the reference days, in percent of the energy or power that they let expect.
+struct TrendLoss {
+  std::string name;    // "light", "resistance_series", "recombination", "shunt", "mismatch", "total"
+  Ranged energy_percent;  // over all days after the reference
+  Ranged now_percent;     // over the last 30 days with data
+};
+
+// An onset or a step to the worse, with what it may be.
+struct TrendOnset {
+  std::string quantity;  // name of the quantity
+  double time_s = kUnknown;      // day
+  double earliest_s = kUnknown;  // 95 % range
+  double latest_s = kUnknown;    // its other end
+  double lost_percent = kUnknown;  // of power, over the last 30 days, by this part
+  std::string cause;     // "rising series resistance"
+  std::string sentence;  // what it is and what to do
+};
+
+// Result of FindTrend.
+struct TrendReport {
+  std::string version;  // of lyrefit
+  std::string name;     // of the device
+  TrendSource source = TrendSource::kSweeps;
+  std::uint64_t seed = 0;
+  std::vector<OptionEcho> options;
+  int cells_in_series = 1;
+  int substrings = 0;             // with a bypass diode; 0: not known
+  double ideality = kUnknown;     // of the law, held
+  std::string law;                // where the law is from
+  double first_s = kUnknown;      // time of the first measurement
+  double last_s = kUnknown;       // time of the last one
+  double reference_end_s = kUnknown;  // end of the reference days
+  std::int64_t rows = 0;          // measurements
+  std::array<std::int64_t, kTrendRowStates> states{};  // their number by TrendRowState
+  std::vector<TrendReason> reasons;      // of the unusable ones
+  std::size_t days = 0;           // days with data
+  double reference_power_W = kUnknown;   // at standard conditions, over the reference days
+  double energy_kWh = kUnknown;   // measured, if the rows are evenly spaced
+  std::vector<TrendQuantity> quantities;
+  std::vector<TrendLoss> losses;  // parts, then the total
+  // Daily parts of the loss in percent of the expected energy, in the order of `losses`, without the
+  // total; for pictures.
+  std::vector<std::vector<TrendDay>> loss_days;
+  std::vector<TrendOnset> onsets;
+  std::string verdict;            // in one sentence or a few
+  std::vector<std::string> not_decided;  // what the measurements cannot tell, and what would
+  std::vector<std::string> warnings;
+  bool interrupted = false;
+  double seconds = 0;             // of computing
+};
+
+}  // namespace lyrefit

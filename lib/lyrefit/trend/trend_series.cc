@@ -1,0 +1,97 @@
+#include "lyrefit/trend/trend_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/date_time.h"
+#include "lyrefit/trend/trend_device.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kSweepsForLaw = 60;
+
+// The brighter half of the sweeps of the reference days, at most kSweepsForLaw of them, evenly.
+std::vector<const IvCurve*> SweepsForLaw(const std::vector<TimedSweep>& sweeps,
+                                         const TrendOptions& options) {
+  double first = kInfinity;
+  for (const TimedSweep& sweep : sweeps) first = std::min(first, sweep.time_s);
+  std::vector<const IvCurve*> chosen;
+  for (const TimedSweep& sweep : sweeps) {
+    const bool early = sweep.time_s <= first + options.reference_days * kDay_s;
+    const bool bright = sweep.curve.irradiance_known && sweep.curve.temperature_known &&
+                        sweep.curve.conditions.irradiance_W_m2 >= options.least_irradiance_W_m2;
+    if (early && bright) chosen.push_back(&sweep.curve);
+  }
+  std::stable_sort(chosen.begin(), chosen.end(), [](const IvCurve* one, const IvCurve* other) {
+    return one->conditions.irradiance_W_m2 > other->conditions.irradiance_W_m2;
+  });
+  chosen.resize((chosen.size() + 1) / 2);
+  if (chosen.size() <= kSweepsForLaw) return chosen;
+  std::vector<const IvCurve*> even;
+  for (std::size_t k = 0; k < kSweepsForLaw; ++k) {
+    even.push_back(chosen[k * chosen.size() / kSweepsForLaw]);
+  }
+  return even;
+}
+
+}  // namespace
+
+Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource source,
+                                     const TrendOptions& options) {
+  TRY(TrendDevice device, DeviceOfModule(module));
+  device.substrings = options.bypass_diodes;
+  TrendSeries series;
+  series.source = source;
+  series.device = std::make_shared<const TrendDevice>(device);
+  series.law = module.name;
+  return series;
+}
+
+Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
+                                     const TrendOptions& options) {
+  const std::vector<const IvCurve*> chosen = SweepsForLaw(sweeps, options);
+  TRY(TrendDevice device, DeviceOfSweeps(chosen));
+  if (options.bypass_diodes > 0) device.substrings = options.bypass_diodes;
+  TrendSeries series;
+  series.device = std::make_shared<const TrendDevice>(device);
+  series.law = fmt::format("{} sweeps of the reference days", chosen.size());
+  return series;
+}
+
+void AppendSweeps(const std::vector<TimedSweep>& sweeps, int threads, TrendSeries* series) {
+  const std::size_t before = series->rows.size();
+  series->rows.resize(before + sweeps.size());
+  ParallelFor(static_cast<int>(sweeps.size()), threads, [&](int i) {
+    const TimedSweep& sweep = sweeps[static_cast<std::size_t>(i)];
+    series->rows[before + static_cast<std::size_t>(i)] =
+        ReduceSweep(*series->device, sweep.curve, sweep.time_s);
+  });
+}
+
+void AppendOperatingPoint(double time_s, double irradiance_W_m2, double temperature_C,
+                          double voltage_V, double current_A, TrendSeries* series) {
+  TrendRow row;
+  row.time_s = time_s;
+  row.irradiance_W_m2 = irradiance_W_m2;
+  row.temperature_C = temperature_C;
+  row.voltage_V = voltage_V;
+  row.current_A = current_A;
+  const bool known = std::isfinite(time_s) && std::isfinite(irradiance_W_m2) &&
+                     std::isfinite(temperature_C) && std::isfinite(voltage_V) &&
+                     std::isfinite(current_A);
+  if (!known) {
+    row.reason = "a value is missing";
+  } else if (!(irradiance_W_m2 > 0) || !(voltage_V > 0) || !(current_A > 0)) {
+    row.reason = "dark";
+  } else {
+    row.state = TrendRowState::kUsed;
+  }
+  series->rows.push_back(std::move(row));
+}
+
+}  // namespace lyrefit

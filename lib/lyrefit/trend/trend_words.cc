@@ -1,0 +1,92 @@
+#include "lyrefit/trend/trend_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/read/date_time.h"
+
+namespace lyrefit {
+namespace {
+
+bool Decided(const Ranged& one) { return one.low_95 > 0 || one.high_95 < 0; }
+
+std::string PowerVerdict(const TrendReport& report) {
+  const TrendLoss& total = report.losses.back();
+  const Ranged& energy = total.energy_percent;
+  if (!std::isfinite(energy.value)) return "The series is too short for a loss.";
+  std::string text = fmt::format(
+      "Since the reference the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy than it would have "
+      "given unchanged",
+      std::fabs(energy.value), energy.value < 0 ? -energy.high_95 : energy.low_95,
+      energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less");
+  const TrendLoss* largest = nullptr;
+  for (std::size_t p = 0; p + 1 < report.losses.size(); ++p) {
+    const TrendLoss& loss = report.losses[p];
+    if (!(loss.energy_percent.low_95 > 0)) continue;
+    if (largest == nullptr || loss.energy_percent.value > largest->energy_percent.value) {
+      largest = &loss;
+    }
+  }
+  if (largest != nullptr) {
+    text += fmt::format(", {:.1f} % of it by {}", largest->energy_percent.value,
+                        PartTitle(largest->name));
+  } else if (!Decided(energy)) {
+    text += ": no loss is shown";
+  }
+  return text + ".";
+}
+
+std::string OnsetVerdict(const TrendReport& report) {
+  std::string text;
+  for (const TrendOnset& onset : report.onsets) {
+    text += fmt::format(" From {}: {}.", DateText(onset.time_s), onset.cause);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string PartTitle(const std::string& part) {
+  if (part == "resistance_series") return "series resistance";
+  if (part == "light") return "light (dirt, shade on all cells, or the light sensor)";
+  if (part == "mismatch") return "mismatch (shade on a part, bypassed substrings)";
+  return part;
+}
+
+void AddWords(TrendReport* report) {
+  report->verdict = PowerVerdict(*report) + OnsetVerdict(*report);
+  const double days = (report->last_s - report->first_s) / kDay_s;
+  for (const TrendLoss& loss : report->losses) {
+    if (loss.name == "light" && Decided(loss.energy_percent)) {
+      report->not_decided.emplace_back(
+          "Dirt on the module, an ageing glass and a light sensor that drifts or is cleaned look "
+          "alike: wash the module and take a sweep before and after, or compare the sensor with "
+          "another one.");
+    }
+    if (loss.name == "recombination" && Decided(loss.energy_percent)) {
+      report->not_decided.emplace_back(
+          "A temperature sensor that comes off or drifts looks like recombination: compare it with "
+          "Voc at sunrise, when all are at the temperature of the air.");
+    }
+  }
+  if (days < 710) {
+    report->not_decided.emplace_back(
+        "A season and a trend are told apart from two years on; rates of a shorter series may "
+        "contain a season that the law of light and temperature leaves.");
+  }
+  for (const TrendQuantity& quantity : report->quantities) {
+    if (!quantity.missing.empty()) {
+      report->not_decided.push_back(
+          fmt::format("{}: {}.", quantity.title, quantity.missing));
+    }
+  }
+  const std::int64_t unusable = report->states[static_cast<int>(TrendRowState::kUnusable)];
+  if (unusable * 5 > report->rows) {
+    report->warnings.push_back(fmt::format("{} of {} measurements are unusable.", unusable,
+                                           report->rows));
+  }
+}
+
+}  // namespace lyrefit

@@ -53,7 +53,8 @@ Eigen::MatrixXd Centred(const std::vector<ConditionedValue>& values,
 
 Features FeaturesAt(double light, double temperature_C) {
   const double ln = std::log(std::max(light, kDimmest));
-  return {(temperature_C - 25) / 10, ln, ln * ln};
+  const double warm = (temperature_C - 25) / 10;
+  return {warm, ln, ln * ln, warm * ln, warm * warm};
 }
 
 double Departure(const Features& coefficients, const Features& features) {

@@ -8,13 +8,13 @@
 namespace lyrefit {
 
 // How a parameter that a law takes as constant follows light and temperature in truth (two diodes
-// in place of one, a sensor that lags): linear in three features of the conditions, 0 at 1000 W/m2
-// and 25 C. The coefficients are found from differences within blocks of neighbouring measurements
+// in place of one, a sensor that lags): linear in features of the conditions, 0 at 1000 W/m2 and
+// 25 C. The coefficients are found from differences within blocks of neighbouring measurements
 // (days), so that no trend and no season gets into them.
-constexpr int kConditionFeatures = 3;
+constexpr int kConditionFeatures = 5;
 using Features = std::array<double, kConditionFeatures>;
 
-// (T - 25 C) / 10 K, ln g, (ln g)^2 for the light g on the device, as a part of 1000 W/m2.
+// t = (T - 25 C) / 10 K, ln g, (ln g)^2, t ln g, t^2 for the light g on the device, as a part of 1000 W/m2.
 Features FeaturesAt(double light, double temperature_C);
 
 // The sum of coefficients times features.

@@ -75,7 +75,7 @@ Design DrawDesign(Random* random) {
   const double light = random->Uniform(0.001, 0.003), diffusion = random->Uniform(0.02, 0.08);
   const double recombination = random->Uniform(0.1, 0.3), shunt = random->Uniform(0.2, 0.6);
   const double series = random->Uniform(0.01, 0.05), warm = random->Uniform(0.2, 1.0);
-  double mean = 0;
+  double mean = 0, mean_K = 0;
   for (int c = 0; c < kClasses; ++c) {
     Cell& cell = design.cells[c] = like;
     cell.photocurrent *= 1 + light * Usual(random);
@@ -86,8 +86,10 @@ Design DrawDesign(Random* random) {
     design.warmer[c] = warm * Usual(random);
     design.stress[c] = random->Uniform(-0.7, 0.7);
     mean += design.stress[c] / kClasses;
+    mean_K += design.warmer[c] / kClasses;
   }
   for (double& stress : design.stress) stress -= mean;
+  for (double& kelvin : design.warmer) kelvin -= mean_K;
   for (BypassDiode& diode : design.diodes) {
     const double drop = random->Uniform(0.40, 0.60), ohmic = random->Uniform(0.1, 0.25) * drop;
     diode.scale_V = random->Uniform(1.02, 1.15) * kVoltPerKelvin * kStandardKelvin;

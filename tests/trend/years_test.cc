@@ -233,15 +233,17 @@ TEST(Years, ClockChangeMovesSummerByAnHour) {
 }
 
 TEST(Years, TruthListsQuantitiesAndOnsets) {
-  const Request request = Short("bypass=30,series=2,step=0.1");
+  Request request = Short("bypass=30,series=2,step=0.1,pid=130");
+  request.effects.step_day = 60;
   const auto truth = nlohmann::json::parse(TruthJson(request, Simulate(request, BuiltIn())));
   const auto& series = truth.at("quantities").at(0);
   EXPECT_EQ(series.at("name"), "resistance_series");
   EXPECT_NEAR(series.at("rate_per_year").get<double>(), 0.02 * series.at("at_start").get<double>(),
               1e-6);
-  EXPECT_EQ(series.at("steps").at(0).at("date"), "2025-09-01");
+  EXPECT_EQ(series.at("steps").at(0).at("date"), "2025-03-02");
   EXPECT_EQ(truth.at("onsets").at(0).at("cause"), "bypass_short");
   EXPECT_EQ(truth.at("onsets").at(0).at("date"), "2025-01-31");
+  EXPECT_EQ(truth.at("onsets").size(), 2);  // the third is after the end
   EXPECT_THAT(truth.at("varies"), testing::ElementsAre("mismatch", "resistance_series"));
 }
 

@@ -96,6 +96,9 @@ void Begin(const Request& request, ModuleYear* year) {
   Random instruments(SeedOf(seed, kInstruments)), gaps(SeedOf(seed, kGaps));
   year->design = DrawDesign(&design);
   year->effects = request.random ? DrawEffects(request.days, &effects) : request.effects;
+  for (int* day : {&year->effects.bypass_day, &year->effects.step_day, &year->effects.pid_day}) {
+    if (*day >= request.days) *day = -1;  // after the end
+  }
   const double rated_W = LitModule(year->design, State{}, 1, 298.15).MaximumPower().power();
   if (request.perfect) {
     year->instruments = Perfect(request);

@@ -125,7 +125,7 @@ std::vector<DayCover> MakeCover(const Effects& effects, const Weather& weather, 
       snow = std::min(1.0, snow + falls);
       through = thick;
     } else {
-      const double melts = day.sky == Sky::kClear ? 0.5 : day.sky == Sky::kBroken ? 0.3 : 0.12;
+      const double melts = day.sky == Sky::kClear ? 0.9 : day.sky == Sky::kBroken ? 0.6 : 0.25;
       snow -= slides * (melts + (day.air_C > 1 ? 0.1 * day.air_C : 0)) + (day.rain > 0 ? 0.4 : 0);
       snow = std::max(snow, 0.0);
     }

@@ -134,7 +134,7 @@ Held Hold(const Inverter& inverter, const Operating& maximum, bool curtailed, Li
     held.at = Throttled(maximum, limit, module);
     held.mode = inverter.limit_W > limit ? Mode::kCurtailed : Mode::kClipped;
   } else {
-    held.at.voltage = maximum.voltage * (1 + away);
+    held.at.voltage = std::min(maximum.voltage * (1 + away), 0.98 * module->OpenCircuit());
     held.at.current = module->AtVoltage(held.at.voltage, 1, maximum.current).current;
   }
   held.at.voltage =

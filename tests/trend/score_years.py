@@ -86,18 +86,21 @@ def in_percent(quantity):
 
 
 def rates_of(truth, report):
-    stated = {quantity["name"]: quantity for quantity in report.get("quantities", [])}
+    stated = {named(quantity["name"]): quantity for quantity in report.get("quantities", [])}
     for quantity in truth["quantities"]:
         if quantity["rate_per_year"] is None:
             continue
         claim = stated.get(quantity["name"], {})
+        other = claim.get("unit", quantity["unit"]) != quantity["unit"] and not in_percent(claim)
+        if other and quantity["rate_per_year"] != 0:
+            continue  # a conductance, a voltage: only "does not change" can be compared
         rate = claim.get("rate_per_year")
         true = quantity["rate_percent_per_year"] if in_percent(claim) else quantity["rate_per_year"]
         row = {"quantity": quantity["name"], "truth": true, "stated": complete(rate, "value", "low_95", "high_95")}
         if row["stated"]:
             row.update(value=rate["value"], low=rate["low_95"], high=rate["high_95"], holds=holds(rate, true))
             # In per cent of the first value, so that modules can be put side by side.
-            scale = 1 if in_percent(claim) else 100 / quantity["at_start"]
+            scale = 1 if in_percent(claim) or other else 100 / quantity["at_start"]
             row.update(error=scale * (rate["value"] - true), half=scale * (rate["high_95"] - rate["low_95"]) / 2)
         yield row
 
@@ -160,10 +163,23 @@ def sizes_of(truth, report, days):
                     yield holds(claim["size"], step["size"])
 
 
+def true_loss(truth, report, part):
+    """Loss over all days less that of a usual reference day, in % of the undamaged energy."""
+    if part == "total":
+        return sum(true_loss(truth, report, one) for one in PARTS[1:])
+    if "reference_end" not in report or "daily" not in truth:
+        return truth["loss"]["energy_percent"][part]
+    daily, end = truth["daily"], report["reference_end"][:10]
+    days = [(date, whole, missing) for date, whole, missing
+            in zip(daily["date"], daily["undamaged_Wh"], daily["lost_Wh"][part]) if whole > 0]
+    usual = np.median([missing / whole for date, whole, missing in days if date <= end])
+    return 100 * (sum(day[2] for day in days) / sum(day[1] for day in days) - usual)
+
+
 def losses_of(truth, report):
     stated = report.get("loss", {}).get("energy_percent", {})
     for part in PARTS:
-        figure, true = stated.get(part), truth["loss"]["energy_percent"][part]
+        figure, true = stated.get(part), true_loss(truth, report, part)
         row = {"part": part, "truth": true, "stated": complete(figure, "value")}
         if row["stated"]:
             row.update(value=figure["value"], error=figure["value"] - true)

@@ -38,7 +38,7 @@ Section TrendHead(const TrendReport& report) {
                        Significant(report.reference_power_W, 4)),
            &head);
   AddField("law",
-           fmt::format("De Soto, {}, n = {} held, from {}",
+           fmt::format("De Soto, {}, n = {}, from {}",
                        Plural(report.cells_in_series, "cell"), Significant(report.ideality, 4),
                        report.law),
            &head);
@@ -62,8 +62,8 @@ Section LossSection(const TrendReport& report) {
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(block::Legend{
-      "of the energy after the reference days, and of the power of the last 30 days, that the device "
-      "of the reference would have given; shares by Shapley, they add up to the total"});
+      "of the energy over all days, and over the last 30 days, that the device of the reference would "
+      "have given; shares by Shapley, they add up to the total"});
   return section;
 }
 
@@ -90,7 +90,7 @@ Section QuantitySection(const TrendReport& report) {
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(block::Legend{
-      "rates without steps, before the first onset; seasonal: amplitude, from two years on"});
+      "mean rates, without steps; seasonal: amplitude, from two years on"});
   return section;
 }
 

@@ -71,6 +71,13 @@ void CutBlocks(TrendBlocks* blocks) {
   }
   for (std::size_t b = 0; b < blocks->size(); ++b) blocks->time_s[b] /= blocks->used[b];
   blocks->rows = std::move(counting);
+  blocks->mean.resize(blocks->size());
+  for (std::size_t i = 0; i < blocks->rows.size(); ++i) {
+    const TrendRow& row = blocks->rows[i];
+    const Features own = FeaturesAt(blocks->LightOn(row), row.temperature_C);
+    const int b = blocks->block[i];
+    for (int f = 0; f < kConditionFeatures; ++f) blocks->mean[b][f] += own[f] / blocks->used[b];
+  }
 }
 
 // Value of a row that is followed; NaN: none.
@@ -78,9 +85,9 @@ double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
   if (row.state != TrendRowState::kUsed) return kUnknown;
   if (what < kTrendParameters) return row.parameters[what];
   if (row.lost_substrings > 0) return kUnknown;
-  TrendState state = row.parameters;
-  state[kTrendLight] = std::exp(row.parameters[kTrendLight]) *
-                       blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  const double expected_A =
+      blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  const TrendState state = StateOf(*blocks.device, row.parameters, expected_A, row.temperature_C);
   return std::log(PowerOf(*blocks.device, state, row.temperature_C) / row.power_W());
 }
 
@@ -134,7 +141,7 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
   const TrendDevice& device = *blocks.device;
   const double expected_A = device.Photocurrent(row->irradiance_W_m2, row->temperature_C);
   const Features features = FeaturesAt(blocks.LightOn(*row), row->temperature_C);
-  TrendState before{}, after = row->parameters;
+  std::array<double, kTrendParameters> before{}, after = row->parameters;
   for (int i = 0; i < kTrendParameters; ++i) {
     const double departure = Departure(blocks.departures[i], features);
     before[i] = blocks.reference[i] + departure;
@@ -145,18 +152,16 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
   if (row->state == TrendRowState::kStepped) {
     after[kTrendLight] = std::log(row->isc_A / expected_A);
   }
-  for (TrendState* state : {&before, &after}) {
-    (*state)[kTrendLight] = expected_A * std::exp((*state)[kTrendLight]);
-    (*state)[kTrendShunt] = std::max((*state)[kTrendShunt], 0.0);
-  }
+  const TrendState reference = StateOf(device, before, expected_A, row->temperature_C);
+  const TrendState now = StateOf(device, after, expected_A, row->temperature_C);
   const double scale = std::exp(-(blocks.reference[kModelExcess] +
                                   Departure(blocks.departures[kModelExcess], features)));
-  row->expected_W = scale * PowerOf(device, before, row->temperature_C);
-  const auto shares = SplitLoss(device, before, after, row->temperature_C);
+  row->expected_W = scale * PowerOf(device, reference, row->temperature_C);
+  row->parts_W = SplitLoss(device, reference, now, row->temperature_C);
   double sum = 0;
-  for (int i = 0; i < kTrendParameters; ++i) {
-    row->parts_W[i] = scale * shares[i];
-    sum += row->parts_W[i];
+  for (double& part : row->parts_W) {
+    part *= scale;
+    sum += part;
   }
   row->parts_W[kPartMismatch] = row->expected_W - row->power_W() - sum;
 }

@@ -23,6 +23,7 @@ struct TrendBlocks {
   std::vector<int> block;        // of each row, ascending from 0
   std::vector<double> time_s;    // mean of the rows of each block
   std::vector<int> used;         // rows of each block that count
+  std::vector<Features> mean;    // features of the rows of each block
   double length_s = 0;           // of a block
   double reference_end_s = 0;    // end of the reference blocks
   int reference_blocks = 0;      // number of blocks before it

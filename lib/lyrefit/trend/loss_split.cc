@@ -1,32 +1,42 @@
 #include "lyrefit/trend/loss_split.h"
 
 namespace lyrefit {
+namespace {
 
-double PowerOf(const TrendDevice& device, const TrendState& state, double temperature_C) {
-  return MaximumPower(device, state[kTrendLight], state[kTrendSeries], state[kTrendRecombination],
-                      state[kTrendShunt], temperature_C);
+constexpr int kExchanged = kPartMismatch;  // parts before it
+
+// `before` with the parts of the set taken from `after`.
+TrendState Mixed(const TrendState& before, const TrendState& after, int set) {
+  const auto has = [set](int part) { return (set >> part & 1) != 0; };
+  TrendState state = before;
+  if (has(kPartLight)) state.photocurrent_A = after.photocurrent_A;
+  if (has(kPartSeries)) state.resistance_series_ohm = after.resistance_series_ohm;
+  if (has(kPartRecombination)) {
+    state.ln_saturation_current = after.ln_saturation_current;
+    state.n = after.n;
+  }
+  if (has(kPartShunt)) state.shunt_conductance_S = after.shunt_conductance_S;
+  return state;
 }
 
-std::array<double, kTrendParameters> SplitLoss(const TrendDevice& device, const TrendState& before,
-                                               const TrendState& after, double temperature_C) {
-  constexpr int kSets = 1 << kTrendParameters;
-  // Weights of a set of this size in the mean over all orders: s! (3 - s)! / 4!.
-  constexpr std::array<double, kTrendParameters> kWeight = {1.0 / 4, 1.0 / 12, 1.0 / 12, 1.0 / 4};
+}  // namespace
+
+std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const TrendState& before,
+                                          const TrendState& after, double temperature_C) {
+  constexpr int kSets = 1 << kExchanged;
+  // Weight of a set of this size in the mean over all orders of four: s! (3 - s)! / 4!.
+  constexpr std::array<double, kExchanged> kWeight = {1.0 / 4, 1.0 / 12, 1.0 / 12, 1.0 / 4};
   std::array<double, kSets> power{};
   for (int set = 0; set < kSets; ++set) {
-    TrendState state = before;
-    for (int i = 0; i < kTrendParameters; ++i) {
-      if ((set >> i & 1) != 0) state[i] = after[i];
-    }
-    power[set] = PowerOf(device, state, temperature_C);
+    power[set] = PowerOf(device, Mixed(before, after, set), temperature_C);
   }
-  std::array<double, kTrendParameters> shares{};
-  for (int i = 0; i < kTrendParameters; ++i) {
+  std::array<double, kTrendParts> shares{};
+  for (int part = 0; part < kExchanged; ++part) {
     for (int set = 0; set < kSets; ++set) {
-      if ((set >> i & 1) != 0) continue;
+      if ((set >> part & 1) != 0) continue;
       int size = 0;
-      for (int k = 0; k < kTrendParameters; ++k) size += set >> k & 1;
-      shares[i] += kWeight[size] * (power[set] - power[set | 1 << i]);
+      for (int k = 0; k < kExchanged; ++k) size += set >> k & 1;
+      shares[part] += kWeight[size] * (power[set] - power[set | 1 << part]);
     }
   }
   return shares;

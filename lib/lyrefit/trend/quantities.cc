@@ -9,7 +9,6 @@
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/date_time.h"
 #include "lyrefit/trend/change_points.h"
-#include "lyrefit/trend/loss_split.h"
 
 namespace lyrefit {
 namespace {
@@ -18,6 +17,7 @@ constexpr double kYear_days = 365.25;
 constexpr double kTwo_pi = 6.283185307179586;
 constexpr std::size_t kLeastForSizes = 8;   // days from which a regression has errors
 constexpr double kRecent_days = 30;         // "now"
+constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
 constexpr double kFewSweeps = 3;            // spread of a day of one sweep is 1 + 3
 constexpr int kMonitored = 4;               // quantities whose onsets are claimed
 
@@ -38,18 +38,17 @@ double LightPercent(const TrendBlocks& blocks, double level) {
 
 double AsItIs(const TrendBlocks& /*blocks*/, double level) { return level; }
 
-// Voltage in V at 25 C that the change of the saturation current costs.
-double RecombinationVolts(const TrendBlocks& blocks, double level) {
-  return blocks.device->ThermalVoltage(kReferenceTemperature_C) *
-         (level - blocks.reference[kTrendRecombination]);
+// Voltage in V that the device has lost since the reference.
+double LostVoltage(const TrendBlocks& blocks, double level) {
+  return blocks.reference[kTrendVoltage] - level;
 }
 
 constexpr QuantityKind kQuantityKinds[] = {
     {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false},
     {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false},
     {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true},
-    {"recombination", "voltage lost by recombination", "V", kTrendRecombination,
-     RecombinationVolts, true},
+    {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true},
+    {"n", "ideality of the diode", "", kTrendIdeality, AsItIs, false},
     {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true},
     {"mismatch", "power lost by mismatch", "%", -1, AsItIs, true},
 };
@@ -89,6 +88,11 @@ struct BlockSeries {
   std::vector<std::size_t> of;
 };
 
+// Features of the conditions that a regression of days has: temperature and light.
+constexpr int kBetweenDays = 2;
+
+double SpanDays(const TimeSeries& series) { return series.days.back() - series.days.front(); }
+
 template <class Value>
 BlockSeries SeriesOf(const TrendBlocks& blocks, const Value& value) {
   BlockSeries out;
@@ -105,7 +109,7 @@ BlockSeries SeriesOf(const TrendBlocks& blocks, const Value& value) {
 
 // Columns: 1, years, and a year's sine and cosine where the series has two years.
 Eigen::MatrixXd DesignOf(const TimeSeries& series, bool* seasonal) {
-  *seasonal = series.days.back() - series.days.front() >= 2 * kYear_days - 20;
+  *seasonal = SpanDays(series) >= 2 * kYear_days - 20;
   Eigen::MatrixXd design(static_cast<Eigen::Index>(series.days.size()), *seasonal ? 4 : 2);
   for (Eigen::Index i = 0; i < design.rows(); ++i) {
     const double years = series.days[static_cast<std::size_t>(i)] / kYear_days;
@@ -118,6 +122,25 @@ Eigen::MatrixXd DesignOf(const TimeSeries& series, bool* seasonal) {
   return design;
 }
 
+// The mean features of each block less those of the reference.
+Eigen::MatrixXd WithConditions(const TrendBlocks& blocks, const BlockSeries& own,
+                               const Eigen::MatrixXd& design) {
+  Eigen::RowVectorXd reference = Eigen::RowVectorXd::Zero(kBetweenDays);
+  Eigen::MatrixXd wider(design.rows(), design.cols() + kBetweenDays);
+  double count = 0;
+  for (std::size_t k = 0; k < own.of.size(); ++k) {
+    const Features& mean = blocks.mean[own.of[k]];
+    const auto i = static_cast<Eigen::Index>(k);
+    for (int f = 0; f < kBetweenDays; ++f) wider(i, design.cols() + f) = mean[f];
+    if (!blocks.IsReference(own.of[k])) continue;
+    reference += wider.row(i).rightCols(kBetweenDays);
+    ++count;
+  }
+  wider.leftCols(design.cols()) = design;
+  if (count > 0) wider.rightCols(kBetweenDays).rowwise() -= reference / count;
+  return wider;
+}
+
 Ranged RangedOf(double value, double error, double factor) {
   return {value, value - factor * error, value + factor * error};
 }
@@ -128,38 +151,40 @@ Ranged Scaled(const Ranged& one, double by) {
   return out;
 }
 
-// Change of the apparent ln of the saturation current at 25 C per kelvin of error of the sensor:
-// the voltage is the same, the law is taken at another temperature.
-double SaturationErrorPerKelvin(const TrendDevice& device) {
+// Error of the voltage in V per kelvin of error of the temperature sensor.
+double VoltsPerKelvin(const TrendDevice& device) {
   constexpr double kUsual_C = 45;
-  const auto apparent = [&](double temperature_C) {
-    const double voc = device.ThermalVoltage(kUsual_C) *
-                       (std::log(device.photocurrent_A) - device.ln_saturation_current -
-                        device.SaturationShift(kUsual_C));
-    return -voc / device.ThermalVoltage(temperature_C) - device.SaturationShift(temperature_C);
-  };
-  return std::fabs(apparent(kUsual_C + 0.5) - apparent(kUsual_C - 0.5));
+  return std::fabs(device.OpenCircuit(device.photocurrent_A, kUsual_C + 0.5) -
+                   device.OpenCircuit(device.photocurrent_A, kUsual_C - 0.5));
 }
 
-// Change of power in % by one unit of ln of the saturation current.
-double PercentPerSaturation(const TrendBlocks& blocks) {
-  TrendState state = {blocks.device->photocurrent_A, blocks.reference[kTrendSeries],
-                      blocks.reference[kTrendRecombination],
-                      std::max(blocks.reference[kTrendShunt], 0.0)};
-  const double before = PowerOf(*blocks.device, state, kReferenceTemperature_C);
-  state[kTrendRecombination] += 0.1;
-  return 1000 * (1 - PowerOf(*blocks.device, state, kReferenceTemperature_C) / before);
+// The device of the reference at 1000 W/m2 and 25 C.
+TrendState ReferenceState(const TrendBlocks& blocks, double lost_V) {
+  std::array<double, kTrendParameters> parameters{};
+  std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
+  parameters[kTrendVoltage] -= lost_V;
+  return StateOf(*blocks.device, parameters, blocks.device->photocurrent_A,
+                 kReferenceTemperature_C);
+}
+
+// Change of power in % by a lost volt.
+double PercentPerVolt(const TrendBlocks& blocks) {
+  constexpr double kStep_V = 0.01;
+  const double before = PowerOf(*blocks.device, ReferenceState(blocks, 0), kReferenceTemperature_C);
+  const double after =
+      PowerOf(*blocks.device, ReferenceState(blocks, kStep_V), kReferenceTemperature_C);
+  return 100 * (1 - after / before) / kStep_V;
 }
 
 // Standard deviation of what drifting instruments add in a year, in the quantity's unit.
 double DriftOf(const std::string& name, const TrendBlocks& blocks, const TrendOptions& options) {
   const double light = options.irradiance_drift_percent;
-  const double ln_is = SaturationErrorPerKelvin(*blocks.device) * options.temperature_drift_K;
-  const double power = PercentPerSaturation(blocks) * ln_is;
+  const double volts = VoltsPerKelvin(*blocks.device) * options.temperature_drift_K;
   if (name == "light") return light;
-  if (name == "p_mp" || name == "total") return std::hypot(light, power);
-  if (name != "recombination") return 0;
-  return blocks.device->ThermalVoltage(kReferenceTemperature_C) * ln_is;
+  if (name == "p_mp" || name == "total") {
+    return std::hypot(light, PercentPerVolt(blocks) * volts);
+  }
+  return name == "recombination" ? volts : 0;
 }
 
 double ReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
@@ -182,16 +207,34 @@ TrendChange ChangeOf(const ChangePoint& point, const TimeFit& fit, double first_
   return change;
 }
 
-void FillQuantity(const TrendBlocks& blocks, const BlockSeries& own, const TrendOptions& options,
-                  bool monitored, TrendQuantity* quantity) {
+// The mean rate over the series, without steps, as a sum of coefficients: the rate at the start, and
+// the part of the time after each onset times what it adds.
+Eigen::VectorXd MeanRate(const TimeSeries& series, const ChangingSeries& found) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(found.design.cols());
+  weights[1] = 1;
+  for (const ChangePoint& change : found.changes) {
+    if (change.kind != ChangeKind::kOnset) continue;
+    weights[change.column] = (series.days.back() - change.day) / SpanDays(series);
+  }
+  return weights;
+}
+
+// Fills a quantity. `conditions`: whether the regression has those of the days. Returns their
+// coefficients.
+std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const BlockSeries& own,
+                                              const TrendOptions& options, bool monitored,
+                                              bool conditions, TrendQuantity* quantity) {
+  std::array<double, kBetweenDays> between{};
   if (own.of.size() < kLeastForSizes) {
     quantity->missing = own.of.empty() ? "no measurement tells it" : "too few days tell it";
-    return;
+    return between;
   }
-  const double years =
-      std::max((own.series.days.back() - own.series.days.front()) / kYear_days, 1e-9);
+  const double years = std::max(SpanDays(own.series) / kYear_days, 1e-9);
   bool seasonal = false;
-  const Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
+  Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
+  const Eigen::Index first_condition = design.cols();
+  conditions = conditions && SpanDays(own.series) >= kLeastForConditions_days;
+  if (conditions) design = WithConditions(blocks, own, design);
   ChangeOptions changes;
   changes.seed = options.seed;
   changes.level = std::min(options.false_alarms_per_year * std::max(years, 0.1) / kMonitored, 0.2);
@@ -200,9 +243,10 @@ void FillQuantity(const TrendBlocks& blocks, const BlockSeries& own, const Trend
   const TimeFit& fit = found.fit;
   quantity->reference = ReferenceMean(blocks, own);
   const double drift = DriftOf(quantity->name, blocks, options);
-  const double error = std::hypot(std::sqrt(fit.covariance(1, 1)), drift);
-  quantity->rate_per_year = RangedOf(fit.coefficients[1], error, fit.t_95());
-  const bool relative = quantity->unit != "%" && quantity->name != "recombination";
+  const Eigen::VectorXd mean = MeanRate(own.series, found);
+  const double error = std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift);
+  quantity->rate_per_year = RangedOf(mean.dot(fit.coefficients), error, fit.t_95());
+  const bool relative = quantity->unit != "%" && !quantity->unit.empty() && quantity->name != "recombination";
   if (relative && quantity->reference > 0) {
     quantity->rate_percent = Scaled(quantity->rate_per_year, 100 / quantity->reference);
   } else if (!relative && quantity->unit == "%") {
@@ -219,10 +263,39 @@ void FillQuantity(const TrendBlocks& blocks, const BlockSeries& own, const Trend
             [](const TrendChange& one, const TrendChange& other) {
               return one.time_s < other.time_s;
             });
-  const Eigen::VectorXd fitted = found.design * fit.coefficients;
+  Eigen::VectorXd values =
+      Eigen::Map<const Eigen::VectorXd>(own.series.values.data(), found.design.rows());
+  Eigen::VectorXd fitted = found.design * fit.coefficients;
+  if (conditions) {
+    const Eigen::VectorXd part = found.design.middleCols(first_condition, kBetweenDays) *
+                                 fit.coefficients.segment(first_condition, kBetweenDays);
+    values -= part;
+    fitted -= part;
+    for (int f = 0; f < kBetweenDays; ++f) between[f] = fit.coefficients[first_condition + f];
+  }
   for (std::size_t k = 0; k < own.of.size(); ++k) {
-    quantity->days.push_back({blocks.time_s[own.of[k]], own.series.values[k],
-                              fitted[static_cast<Eigen::Index>(k)], blocks.used[own.of[k]]});
+    const auto i = static_cast<Eigen::Index>(k);
+    quantity->days.push_back({blocks.time_s[own.of[k]], values[i], fitted[i],
+                              blocks.used[own.of[k]]});
+  }
+  return between;
+}
+
+// Adds coefficients between days to those within days.
+void Condition(int what, const std::array<double, kBetweenDays>& between, TrendBlocks* blocks) {
+  Features reference{};
+  for (std::size_t b = 0; b < blocks->size(); ++b) {
+    if (!blocks->IsReference(b)) continue;
+    for (int f = 0; f < kBetweenDays; ++f) {
+      reference[f] += blocks->mean[b][f] / blocks->reference_blocks;
+    }
+  }
+  for (int f = 0; f < kBetweenDays; ++f) {
+    blocks->departures[what][f] += between[f];
+    blocks->reference[what] -= between[f] * reference[f];
+    for (std::size_t b = 0; b < blocks->size(); ++b) {
+      blocks->level[what][b] -= between[f] * blocks->mean[b][f];
+    }
   }
 }
 
@@ -272,48 +345,66 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   return ranged;
 }
 
+TrendQuantity* NamedLike(const QuantityKind& kind, TrendQuantity* quantity) {
+  quantity->name = kind.name;
+  quantity->title = kind.title;
+  quantity->unit = kind.unit;
+  return quantity;
+}
+
 }  // namespace
 
-void FindQuantities(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
-  const std::vector<BlockSums> sums = SumsOf(blocks);
+void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendReport* report) {
   constexpr int kCount = std::size(kQuantityKinds);
   report->quantities.resize(kCount);
+  std::array<std::array<double, kBetweenDays>, kCount> between{};
   ParallelFor(kCount, options.threads, [&](int i) {
     const QuantityKind& kind = kQuantityKinds[i];
-    TrendQuantity& quantity = report->quantities[static_cast<std::size_t>(i)];
-    quantity.name = kind.name;
-    quantity.title = kind.title;
-    quantity.unit = kind.unit;
-    const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
-      if (kind.followed >= 0) {
-        const double level = blocks.level[kind.followed][b];
-        return std::isfinite(level) ? kind.value(blocks, level) : kUnknown;
-      }
-      return quantity.name == "p_mp" ? 100 - TotalPercent(sums[b])
-                                     : PercentOf(sums[b], kPartMismatch);
+    if (kind.followed < 0) return;
+    TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
+    const BlockSeries own = SeriesOf(*blocks, [&](std::size_t b) {
+      const double level = blocks->level[kind.followed][b];
+      return std::isfinite(level) ? kind.value(*blocks, level) : kUnknown;
     });
-    FillQuantity(blocks, own, options, kind.monitored, &quantity);
+    between[i] = FillQuantity(*blocks, own, options, kind.monitored, kind.monitored, quantity);
   });
-  const TrendState state = {
-      blocks.device->photocurrent_A * std::exp(blocks.reference[kTrendLight]),
-      blocks.reference[kTrendSeries], blocks.reference[kTrendRecombination],
-      std::max(blocks.reference[kTrendShunt], 0.0)};
-  report->reference_power_W = PowerOf(*blocks.device, state, kReferenceTemperature_C) *
-                              std::exp(-blocks.reference[kModelExcess]);
+  for (int i = 0; i < kCount; ++i) {
+    const QuantityKind& kind = kQuantityKinds[i];
+    if (kind.followed < 0) continue;
+    const double scale = kind.value(*blocks, blocks->reference[kind.followed] + 0.5) -
+                         kind.value(*blocks, blocks->reference[kind.followed] - 0.5);
+    for (double& one : between[i]) one /= scale;
+    Condition(kind.followed, between[i], blocks);
+  }
+  report->reference_power_W =
+      PowerOf(*blocks->device, ReferenceState(*blocks, 0), kReferenceTemperature_C) *
+      std::exp(-blocks->reference[kModelExcess]);
+}
+
+void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
+  const std::vector<BlockSums> sums = SumsOf(blocks);
+  ParallelFor(std::size(kQuantityKinds), options.threads, [&](int i) {
+    const QuantityKind& kind = kQuantityKinds[i];
+    if (kind.followed >= 0) return;
+    TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
+    const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
+      return quantity->name == "p_mp" ? 100 - TotalPercent(sums[b])
+                                      : PercentOf(sums[b], kPartMismatch);
+    });
+    FillQuantity(blocks, own, options, kind.monitored, false, quantity);
+  });
 }
 
 void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
   const std::vector<BlockSums> sums = SumsOf(blocks);
-  std::vector<double> after(blocks.size(), 0), recent(blocks.size(), 0);
+  std::vector<double> all(blocks.size(), 0), recent(blocks.size(), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (!blocks.IsReference(b)) after[b] = sums[b].expected_W;
+    all[b] = sums[b].expected_W;
     if (blocks.time_s[b] > blocks.time_s.back() - kRecent_days * kDay_s &&
         !blocks.IsReference(b)) {
       recent[b] = sums[b].expected_W;
     }
   }
-  const double volts = PercentPerSaturation(blocks) /
-                       blocks.device->ThermalVoltage(kReferenceTemperature_C);
   for (int p = 0; p <= kTrendParts; ++p) {
     const bool total = p == kTrendParts;
     TrendLoss loss;
@@ -322,9 +413,9 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
       return total ? TotalPercent(sums[b]) : PercentOf(sums[b], p);
     });
     double drift = DriftOf(loss.name, blocks, options);
-    if (loss.name == "recombination") drift *= volts;
-    const bool daily = p == kTrendLight || p == kPartMismatch || total;
-    loss.energy_percent = MeanLoss(blocks, own, after, daily, drift);
+    if (loss.name == "recombination") drift *= PercentPerVolt(blocks);
+    const bool daily = p == kPartLight || p == kPartMismatch || total;
+    loss.energy_percent = MeanLoss(blocks, own, all, daily, drift);
     loss.now_percent = MeanLoss(blocks, own, recent, daily, drift);
     report->losses.push_back(std::move(loss));
     if (total) continue;

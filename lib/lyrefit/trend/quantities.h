@@ -6,9 +6,14 @@
 
 namespace lyrefit {
 
-// Fills the quantities of a report: the regressions of light, parameters, mismatch and power on
-// time, with their changes. Needs the losses of every row (SplitLosses).
-void FindQuantities(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report);
+// Fills the quantities of a report that are parameters: their regressions on time, with their
+// changes. In a series of most of a year the regression also has what the law leaves of light and
+// temperature between days, which departures and levels then contain.
+void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendReport* report);
+
+// Fills the quantities that are losses: mismatch and power. Needs the losses of every row
+// (SplitLosses).
+void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report);
 
 // Fills the losses and their days. Needs the quantities.
 void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report);

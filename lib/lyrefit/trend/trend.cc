@@ -65,9 +65,10 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
         kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size()));
   }
   DescribeSeries(series, blocks, &report);
-  SplitLosses(options.threads, &blocks);
+  FindParameters(options, &blocks, &report);
   progress.Step();
-  FindQuantities(blocks, options, &report);
+  SplitLosses(options.threads, &blocks);
+  FindPowers(blocks, options, &report);
   FindLosses(blocks, options, &report);
   FindOnsets(blocks, &report);
   AddWords(&report);

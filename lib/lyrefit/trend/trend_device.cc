@@ -81,11 +81,6 @@ int LostSubstrings(const TrendDevice& device, double voc_V, double expected_V) {
   return static_cast<int>(whole);
 }
 
-double OpenCircuit(const TrendDevice& device, double photocurrent_A, double temperature_C) {
-  const double is = std::exp(device.ln_saturation_current + device.SaturationShift(temperature_C));
-  return device.ThermalVoltage(temperature_C) * std::log1p(photocurrent_A / is);
-}
-
 }  // namespace
 
 double TrendDevice::ThermalVoltage(double temperature_C) const {
@@ -103,6 +98,32 @@ double TrendDevice::SaturationShift(double temperature_C) const {
 double TrendDevice::Photocurrent(double irradiance_W_m2, double temperature_C) const {
   return photocurrent_A * irradiance_W_m2 / kReferenceIrradiance_W_m2 *
          (1 + isc_tempco_per_K * (temperature_C - kReferenceTemperature_C));
+}
+
+double TrendDevice::OpenCircuit(double photocurrent, double temperature_C) const {
+  return ThermalVoltage(temperature_C) *
+         (std::log(photocurrent) - ln_saturation_current - SaturationShift(temperature_C));
+}
+
+TrendState StateOf(const TrendDevice& device, const std::array<double, kTrendParameters>& parameters,
+                   double expected_A, double temperature_C) {
+  const double n = parameters[kTrendIdeality];
+  const double voc = device.OpenCircuit(expected_A, temperature_C) + parameters[kTrendVoltage];
+  const double a = device.ThermalVoltage(temperature_C) * n / device.n;
+  return {expected_A * std::exp(parameters[kTrendLight]),
+          std::max(parameters[kTrendSeries], 0.0),
+          std::log(expected_A) - voc / a, n, std::max(parameters[kTrendShunt], 0.0)};
+}
+
+double PowerOf(const TrendDevice& device, const TrendState& state, double temperature_C) {
+  const double is = std::exp(state.ln_saturation_current);
+  const double rsh = state.shunt_conductance_S > 0 ? 1 / state.shunt_conductance_S : kInfinity;
+  const double a = device.ThermalVoltage(temperature_C) * state.n / device.n;
+  double i_sc = 0, v_oc = 0, i_mp = 0, v_mp = 0, p_mp = 0, i_x = 0, i_xx = 0;
+  KeyPointsOf(
+      DiodeOf(&state.photocurrent_A, &is, &state.resistance_series_ohm, &rsh, &a, 1),
+      {&i_sc, &v_oc, &i_mp, &v_mp, &p_mp, &i_x, &i_xx});
+  return p_mp;
 }
 
 Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {
@@ -129,7 +150,7 @@ Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {
 }
 
 SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
-                  double nNsVth_1, double n, bool free_n) {
+                  double nNsVth_1, double n) {
   SweepFit out;
   const KeyPoints key = FindKeyPoints(voltage_V, current_A);
   double isc = key.short_circuit_current_A;
@@ -141,7 +162,6 @@ SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double
   problem.residuals = static_cast<int>(voltage_V.size());
   problem.lower = {0, -150, 0, 0, 0.3};
   problem.upper = {3 * isc, std::log(isc), scale, 10 / scale, 6};
-  problem.fixed = {0, 0, 0, 0, static_cast<char>(free_n ? 0 : 1)};
   problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
     return EvaluateSweep(voltage_V, current_A, nNsVth_1, p, residuals, jacobian);
   };
@@ -157,56 +177,48 @@ SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double
 }
 
 Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps) {
-  std::vector<double> n, iph, rs, ln_is, gsh;
   TrendDevice device;
-  for (const bool first : {true, false}) {
-    if (!first) device.n = Median(n);
-    for (const IvCurve* curve : sweeps) {
-      if (!IsSweep(*curve)) continue;
-      if (first) device.cells_in_series = curve->conditions.cells_in_series;
-      const DeviceNotes& notes = curve->notes;
-      device.substrings = notes.bypass_diodes.value_or(device.substrings);
-      device.bandgap_eV = notes.bandgap_eV.value_or(device.bandgap_eV);
-      device.bandgap_slope_per_K = notes.bandgap_slope_per_K.value_or(device.bandgap_slope_per_K);
-      device.isc_tempco_per_K = notes.isc_tempco_per_K.value_or(device.isc_tempco_per_K);
-      const SweepFit fit =
-          FitSweep(curve->voltage_V, curve->current_A, ThermalAtOne(*curve), device.n, first);
-      if (!fit.usable) continue;
-      if (first) {
-        n.push_back(fit.n);
-        continue;
-      }
-      const double light = curve->conditions.irradiance_W_m2 / kReferenceIrradiance_W_m2;
-      const double warm = 1 + device.isc_tempco_per_K * (Celsius(*curve) - kReferenceTemperature_C);
-      iph.push_back(fit.photocurrent_A / (light * warm));
-      rs.push_back(fit.resistance_series_ohm);
-      ln_is.push_back(fit.ln_saturation_current - device.SaturationShift(Celsius(*curve)));
-      gsh.push_back(fit.shunt_conductance_S);
-    }
-    if (n.empty()) {
-      return Fail(
-          "expected sweeps with a stated irradiance and temperature that a single diode describes, "
-          "found none among the reference days");
-    }
+  std::vector<const IvCurve*> fitted;
+  std::vector<SweepFit> fits;
+  std::vector<double> n, iph, rs, ln_is, gsh;
+  for (const IvCurve* curve : sweeps) {
+    if (!IsSweep(*curve)) continue;
+    device.cells_in_series = curve->conditions.cells_in_series;
+    const DeviceNotes& notes = curve->notes;
+    device.substrings = notes.bypass_diodes.value_or(device.substrings);
+    device.bandgap_eV = notes.bandgap_eV.value_or(device.bandgap_eV);
+    device.bandgap_slope_per_K = notes.bandgap_slope_per_K.value_or(device.bandgap_slope_per_K);
+    device.isc_tempco_per_K = notes.isc_tempco_per_K.value_or(device.isc_tempco_per_K);
+    const SweepFit fit =
+        FitSweep(curve->voltage_V, curve->current_A, ThermalAtOne(*curve), device.n);
+    if (!fit.usable) continue;
+    fitted.push_back(curve);
+    fits.push_back(fit);
+    n.push_back(fit.n);
+    rs.push_back(fit.resistance_series_ohm);
+    gsh.push_back(fit.shunt_conductance_S);
+  }
+  if (fits.empty()) {
+    return Fail(
+        "expected sweeps with a stated irradiance and temperature that a single diode describes, "
+        "found none among the reference days");
+  }
+  device.n = Median(n);
+  device.resistance_series_ohm = Median(rs);
+  device.shunt_conductance_S = Median(gsh);
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    // The saturation current that gives the same open-circuit voltage with the common n.
+    const double voc = fits[k].n * (std::log(fits[k].photocurrent_A) - fits[k].ln_saturation_current);
+    const double celsius = Celsius(*fitted[k]);
+    ln_is.push_back(std::log(fits[k].photocurrent_A) - voc / device.n -
+                    device.SaturationShift(celsius));
+    const double light = fitted[k]->conditions.irradiance_W_m2 / kReferenceIrradiance_W_m2;
+    const double warm = 1 + device.isc_tempco_per_K * (celsius - kReferenceTemperature_C);
+    iph.push_back(fits[k].photocurrent_A / (light * warm));
   }
   device.photocurrent_A = Median(iph);
-  device.resistance_series_ohm = Median(rs);
   device.ln_saturation_current = Median(ln_is);
-  device.shunt_conductance_S = Median(gsh);
   return device;
-}
-
-double MaximumPower(const TrendDevice& device, double photocurrent_A, double resistance_series_ohm,
-                    double ln_saturation_current, double shunt_conductance_S,
-                    double temperature_C) {
-  const double is = std::exp(ln_saturation_current + device.SaturationShift(temperature_C));
-  const double rsh = shunt_conductance_S > 0 ? 1 / shunt_conductance_S : kInfinity;
-  const double a = device.ThermalVoltage(temperature_C);
-  const double rs = std::max(resistance_series_ohm, 0.0);
-  double i_sc = 0, v_oc = 0, i_mp = 0, v_mp = 0, p_mp = 0, i_x = 0, i_xx = 0;
-  KeyPointsOf(DiodeOf(&photocurrent_A, &is, &rs, &rsh, &a, 1),
-              {&i_sc, &v_oc, &i_mp, &v_mp, &p_mp, &i_x, &i_xx});
-  return p_mp;
 }
 
 TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double time_s) {
@@ -232,22 +244,23 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
     return row;
   }
   row.lost_substrings =
-      LostSubstrings(device, row.voc_V, OpenCircuit(device, row.isc_A, row.temperature_C));
+      LostSubstrings(device, row.voc_V, device.OpenCircuit(row.isc_A, row.temperature_C));
   const double left =
       device.substrings > 0
           ? 1 - static_cast<double>(row.lost_substrings) / device.substrings
           : 1;
-  const SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
-                                device.n, false);
+  const SweepFit fit =
+      FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left, device.n);
   if (!fit.usable) {
     row.reason = "no single diode describes it";
     return row;
   }
-  row.parameters = {
-      std::log(fit.photocurrent_A / device.Photocurrent(row.irradiance_W_m2, row.temperature_C)),
-      fit.resistance_series_ohm / left,
-      fit.ln_saturation_current - device.SaturationShift(row.temperature_C),
-      fit.shunt_conductance_S * left};
+  const double expected_A = device.Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  const double voc =
+      fit.n * ThermalAtOne(curve) * (std::log(expected_A) - fit.ln_saturation_current);
+  row.parameters = {std::log(fit.photocurrent_A / expected_A), fit.resistance_series_ohm / left,
+                    voc - device.OpenCircuit(expected_A, row.temperature_C), fit.n,
+                    fit.shunt_conductance_S * left};
   row.misfit = fit.rms_A / row.isc_A;
   row.state = TrendRowState::kUsed;
   return row;

@@ -11,9 +11,9 @@
 
 namespace lyrefit {
 
-// The device whose changes are followed, by De Soto's law with one diode (model/translation.h). Its
-// ideality, band gap and temperature coefficient are held. Thus saturation current, series
-// resistance, shunt and photocurrent of every sweep are well determined.
+// The device whose changes are followed, by De Soto's law with one diode (model/translation.h). The
+// law carries the voltage of a sweep to standard conditions: what is followed is how much the
+// diode's own voltage differs from it, since n and saturation current are almost exchangeable.
 struct TrendDevice {
   int cells_in_series = 1;
   int substrings = 0;  // with a bypass diode; 0: not known
@@ -33,12 +33,31 @@ struct TrendDevice {
   double SaturationShift(double temperature_C) const;
   // A, at light `irradiance_W_m2`.
   double Photocurrent(double irradiance_W_m2, double temperature_C) const;
+  // V, of the diode alone at a photocurrent.
+  double OpenCircuit(double photocurrent_A, double temperature_C) const;
 };
+
+// A device in one condition.
+struct TrendState {
+  double photocurrent_A = 0;
+  double resistance_series_ohm = 0;
+  double ln_saturation_current = 0;  // in A, at the condition's temperature
+  double n = 1;
+  double shunt_conductance_S = 0;
+};
+
+// The device with these parameters (TrendParameter) where the law expects `expected_A` as its
+// photocurrent.
+TrendState StateOf(const TrendDevice& device, const std::array<double, kTrendParameters>& parameters,
+                   double expected_A, double temperature_C);
+
+// Power at maximum power in W.
+double PowerOf(const TrendDevice& device, const TrendState& state, double temperature_C);
 
 // The law of a module file. Errors: two diodes, an infinite photocurrent.
 Expected<TrendDevice> DeviceOfModule(const NamedParameters& module);
 
-// Parameters of one sweep that are fitted with a held n, and those with n free.
+// Parameters that a sweep is fitted with.
 struct SweepFit {
   double photocurrent_A = kUnknown;
   double resistance_series_ohm = kUnknown;
@@ -49,18 +68,13 @@ struct SweepFit {
   bool usable = false;
 };
 
-// Least squares of the solved current. `nNsVth` at n = 1, in V; `n`: held, unless `free_n`.
+// Least squares of the solved current from `n` on. `nNsVth_1`: at n = 1, in V.
 SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
-                  double nNsVth_1, double n, bool free_n);
+                  double nNsVth_1, double n);
 
-// The law of these sweeps, which are of one device: medians of their fits with n free. Errors: not
+// The law of these sweeps, which are of one device: medians of their fits. Errors: not
 // one of them can be fitted.
 Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps);
-
-// Power at maximum power in W of the device with these parameters.
-double MaximumPower(const TrendDevice& device, double photocurrent_A, double resistance_series_ohm,
-                    double ln_saturation_current, double shunt_conductance_S,
-                    double temperature_C);
 
 // The row of a sweep at the conditions stated for it: parameters at standard conditions, key points,
 // lost substrings. Without the expected power and the parts of the loss.

@@ -49,9 +49,23 @@ struct EnumTable<TrendRowState> {
 constexpr int kTrendRowStates = 6;
 
 // Positions of the parameters that are followed over time.
-enum TrendParameter { kTrendLight, kTrendSeries, kTrendRecombination, kTrendShunt, kTrendParameters };
-// Positions of the parts of a loss of power. The first four are those of the parameters.
-enum TrendPart { kPartMismatch = kTrendParameters, kTrendParts };
+enum TrendParameter {
+  kTrendLight,     // ln of the photocurrent over its expectation
+  kTrendSeries,    // series resistance, ohm
+  kTrendVoltage,   // open-circuit voltage of the diode less that of the law, V
+  kTrendIdeality,  // n
+  kTrendShunt,     // shunt conductance, S
+  kTrendParameters
+};
+// Positions of the parts of a loss of power.
+enum TrendPart {
+  kPartLight,
+  kPartSeries,
+  kPartRecombination,  // voltage and ideality of the diode
+  kPartShunt,
+  kPartMismatch,
+  kTrendParts
+};
 
 // One measurement, reduced to standard conditions.
 struct TrendRow {
@@ -63,9 +77,9 @@ struct TrendRow {
   double isc_A = kUnknown;            // of a sweep
   double voc_V = kUnknown;            // of a sweep
   double expected_W = kUnknown;       // power of the reference in these conditions
-  // ln of photocurrent over its expectation; ohm; ln of the saturation current in A at 25 C; S. Of
-  // the whole device with all its substrings.
-  std::array<double, kTrendParameters> parameters = {kUnknown, kUnknown, kUnknown, kUnknown};
+  // Of the whole device with all its substrings.
+  std::array<double, kTrendParameters> parameters = {kUnknown, kUnknown, kUnknown, kUnknown,
+                                                     kUnknown};
   double misfit = kUnknown;   // rms of current residuals over Isc
   int lost_substrings = 0;    // without voltage
   std::array<double, kTrendParts> parts_W = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
@@ -106,7 +120,7 @@ struct TrendQuantity {
   std::string title;  // "series resistance"
   std::string unit;   // "ohm"
   double reference = kUnknown;  // over the reference days
-  Ranged rate_per_year;         // in its unit, before any onset, without steps
+  Ranged rate_per_year;         // in its unit, mean over the series, without steps
   Ranged rate_percent;          // of the reference, a year; NaN without a meaning
   std::vector<TrendChange> changes;
   double seasonal = kUnknown;   // amplitude over the year; NaN: not separable from a trend
@@ -120,7 +134,7 @@ struct TrendQuantity {
 // A loss against the reference days, in percent of the energy or power that they let expect.
 struct TrendLoss {
   std::string name;    // "light", "resistance_series", "recombination", "shunt", "mismatch", "total"
-  Ranged energy_percent;  // over all days after the reference
+  Ranged energy_percent;  // over all days
   Ranged now_percent;     // over the last 30 days with data
 };
 
@@ -144,7 +158,7 @@ struct TrendReport {
   std::vector<OptionEcho> options;
   int cells_in_series = 1;
   int substrings = 0;             // with a bypass diode; 0: not known
-  double ideality = kUnknown;     // of the law, held
+  double ideality = kUnknown;     // of the law
   std::string law;                // where the law is from
   double first_s = kUnknown;      // time of the first measurement
   double last_s = kUnknown;       // time of the last one

@@ -79,7 +79,7 @@ Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& p
   return series;
 }
 
-// [time, irradiance, temperature, V, I, Isc, Voc, four parameters, misfit, lost substrings, state,
+// [time, irradiance, temperature, V, I, Isc, Voc, five parameters, misfit, lost substrings, state,
 // reason]
 std::string LineOfRow(const TrendRow& row) {
   StateJson line = StateJson::array();
@@ -97,10 +97,10 @@ std::string LineOfRow(const TrendRow& row) {
 
 Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, int number) {
   const nlohmann::json line = nlohmann::json::parse(text, nullptr, false);
-  constexpr std::size_t kMembers = 15;
-  if (!line.is_array() || line.size() != kMembers || !line[12].is_number_integer() ||
-      !line[13].is_number_integer() || !line[14].is_string() || line[13] < 0 ||
-      line[13] >= kTrendRowStates) {
+  constexpr std::size_t kMembers = 16;
+  if (!line.is_array() || line.size() != kMembers || !line[13].is_number_integer() ||
+      !line[14].is_number_integer() || !line[15].is_string() || line[14] < 0 ||
+      line[14] >= kTrendRowStates) {
     return Fail("this line is no row of a trend, the file is damaged", path, number);
   }
   TrendRow row;
@@ -112,10 +112,10 @@ Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, i
   row.isc_A = NumberOf(line[5]);
   row.voc_V = NumberOf(line[6]);
   for (int i = 0; i < kTrendParameters; ++i) row.parameters[i] = NumberOf(line[7 + i]);
-  row.misfit = NumberOf(line[11]);
-  row.lost_substrings = line[12];
-  row.state = static_cast<TrendRowState>(line[13].get<int>());
-  row.reason = line[14];
+  row.misfit = NumberOf(line[12]);
+  row.lost_substrings = line[13];
+  row.state = static_cast<TrendRowState>(line[14].get<int>());
+  row.reason = line[15];
   return row;
 }
 

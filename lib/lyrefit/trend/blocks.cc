@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/base/quantile.h"
 #include "lyrefit/read/date_time.h"
 #include "lyrefit/trend/loss_split.h"
 
@@ -16,6 +16,7 @@ constexpr double kDaysForDays = 20;  // shorter series are cut into more blocks
 constexpr double kShortBlocks = 40;
 constexpr double kSteppedTimes = 4;     // misfit of a stepped sweep over the median
 constexpr double kSteppedLeast = 0.004;  // and of Isc
+constexpr double kCovered = 0.85;  // light of a covered device, of its 90 % quantile
 
 bool Counts(const TrendRow& row) {
   return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
@@ -43,6 +44,36 @@ void MarkStepped(std::vector<TrendRow>* rows) {
   const double most = std::max(kSteppedTimes * Median(misfits), kSteppedLeast);
   for (TrendRow& row : *rows) {
     if (row.state == TrendRowState::kUsed && row.misfit > most) row.state = TrendRowState::kStepped;
+  }
+}
+
+// Marks sweeps of a device under snow or in shade: far less light than it usually has.
+void MarkCovered(std::vector<TrendRow>* rows) {
+  std::vector<double> lights;
+  for (const TrendRow& row : *rows) {
+    if (row.state == TrendRowState::kUsed) lights.push_back(row.parameters[kTrendLight]);
+  }
+  if (lights.empty()) return;
+  std::sort(lights.begin(), lights.end());
+  const double least = Quantile(lights, 0.9) + std::log(kCovered);
+  for (TrendRow& row : *rows) {
+    const bool covered = row.parameters[kTrendLight] < least;
+    if (row.state == TrendRowState::kUsed && covered) row.state = TrendRowState::kStepped;
+  }
+}
+
+// The reference begins with the first day on which the device is not covered.
+void FindReference(const TrendOptions& options, TrendBlocks* blocks) {
+  const auto first = std::find_if(blocks->rows.begin(), blocks->rows.end(), [](const auto& row) {
+    return row.state == TrendRowState::kUsed;
+  });
+  if (first == blocks->rows.end()) return;
+  // At most a third of the series is its own reference.
+  const double length =
+      std::min(options.reference_days * kDay_s, (blocks->rows.back().time_s - first->time_s) / 3);
+  blocks->reference_end_s = first->time_s + length;
+  for (std::size_t b = 0; b < blocks->size(); ++b) {
+    blocks->reference_blocks += blocks->IsReference(b) ? 1 : 0;
   }
 }
 
@@ -88,7 +119,8 @@ double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
   const double expected_A =
       blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
   const TrendState state = StateOf(*blocks.device, row.parameters, expected_A, row.temperature_C);
-  return std::log(PowerOf(*blocks.device, state, row.temperature_C) / row.power_W());
+  return std::log(MaximumPowerPoint(*blocks.device, state, row.temperature_C).power_W() /
+                  row.power_W());
 }
 
 void FindLevels(int what, TrendBlocks* blocks) {
@@ -156,7 +188,8 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
   const TrendState now = StateOf(device, after, expected_A, row->temperature_C);
   const double scale = std::exp(-(blocks.reference[kModelExcess] +
                                   Departure(blocks.departures[kModelExcess], features)));
-  row->expected_W = scale * PowerOf(device, reference, row->temperature_C);
+  row->expected_W =
+      scale * MaximumPowerPoint(device, reference, row->temperature_C).power_W();
   row->parts_W = SplitLoss(device, reference, now, row->temperature_C);
   double sum = 0;
   for (double& part : row->parts_W) {
@@ -164,6 +197,10 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
     sum += part;
   }
   row->parts_W[kPartMismatch] = row->expected_W - row->power_W() - sum;
+  // A device of fewer equal substrings has the same currents at proportionally lower voltages.
+  if (row->lost_substrings > 0) {
+    row->substrings_W = (row->expected_W - sum) * row->lost_substrings / device.substrings;
+  }
 }
 
 }  // namespace
@@ -183,17 +220,12 @@ TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
   });
   MarkDim(options.least_irradiance_W_m2, &rows);
   MarkStepped(&rows);
+  MarkCovered(&rows);
   for (const TrendRow& row : rows) ++blocks.states[static_cast<std::size_t>(row.state)];
   blocks.rows = std::move(rows);
   if (blocks.rows.empty()) return blocks;
-  const double first = blocks.rows.front().time_s;
-  // At most a third of the series is its own reference.
-  const double reference = std::min(options.reference_days * kDay_s, SpanOf(blocks.rows) / 3);
-  blocks.reference_end_s = first + reference;
   CutBlocks(&blocks);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    blocks.reference_blocks += blocks.IsReference(b) ? 1 : 0;
-  }
+  FindReference(options, &blocks);
   ParallelFor(kFollowed, options.threads, [&](int what) { FindLevels(what, &blocks); });
   return blocks;
 }

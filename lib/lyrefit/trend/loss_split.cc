@@ -12,8 +12,8 @@ TrendState Mixed(const TrendState& before, const TrendState& after, int set) {
   if (has(kPartLight)) state.photocurrent_A = after.photocurrent_A;
   if (has(kPartSeries)) state.resistance_series_ohm = after.resistance_series_ohm;
   if (has(kPartRecombination)) {
-    state.ln_saturation_current = after.ln_saturation_current;
-    state.n = after.n;
+    state.saturation_current_A = after.saturation_current_A;
+    state.saturation_current_2_A = after.saturation_current_2_A;
   }
   if (has(kPartShunt)) state.shunt_conductance_S = after.shunt_conductance_S;
   return state;
@@ -28,7 +28,8 @@ std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const Trend
   constexpr std::array<double, kExchanged> kWeight = {1.0 / 4, 1.0 / 12, 1.0 / 12, 1.0 / 4};
   std::array<double, kSets> power{};
   for (int set = 0; set < kSets; ++set) {
-    power[set] = PowerOf(device, Mixed(before, after, set), temperature_C);
+    power[set] =
+        MaximumPowerPoint(device, Mixed(before, after, set), temperature_C).power_W();
   }
   std::array<double, kTrendParts> shares{};
   for (int part = 0; part < kExchanged; ++part) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/read/date_time.h"
 #include "lyrefit/trend/quantities.h"
 
@@ -23,17 +24,6 @@ double LostNow(const TrendReport& report, const std::string& quantity) {
   return kUnknown;
 }
 
-// Most frequent number of lost substrings of the rows from a time on, up to 30 days later.
-int LostSubstringsAfter(const TrendBlocks& blocks, double time_s) {
-  constexpr double kAfter_s = 30 * kDay_s;
-  std::vector<int> counts(16, 0);
-  for (const TrendRow& row : blocks.rows) {
-    if (row.time_s < time_s || row.time_s > time_s + kAfter_s) continue;
-    ++counts[std::min<std::size_t>(row.lost_substrings, counts.size() - 1)];
-  }
-  return static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-}
-
 bool HasOnsetNear(const TrendReport& report, const std::string& quantity, double time_s) {
   for (const TrendQuantity& one : report.quantities) {
     if (one.name != quantity) continue;
@@ -51,23 +41,14 @@ struct CauseWords {
   std::string action;
 };
 
-CauseWords WordsOfMismatch(const TrendBlocks& blocks, const TrendChange& change) {
-  const int lost = LostSubstringsAfter(blocks, change.time_s);
-  if (lost > 0) {
-    return {fmt::format("{} of {} substrings without voltage", lost, blocks.device->substrings),
-            "Voc is lower by whole substrings: a bypass diode is shorted, or a cell string is open "
-            "and bypassed",
-            "measure the voltage of each substring at the junction box and replace the diode"};
+CauseWords WordsOf(const TrendReport& report, const TrendQuantity& quantity,
+                   const TrendChange& change) {
+  if (quantity.name == "mismatch") {
+    return {"growing mismatch",
+            "power is lost that neither light nor resistances explain: shade, dirt or snow on a "
+            "part, broken cells",
+            "look at the module at the time of its losses; diagnose one of the sweeps"};
   }
-  return {"growing mismatch",
-          "power is lost that neither light nor resistances explain: shade, dirt or snow on a part, "
-          "broken cells",
-          "look at the module at the time of its losses; diagnose one of the sweeps"};
-}
-
-CauseWords WordsOf(const TrendReport& report, const TrendBlocks& blocks,
-                   const TrendQuantity& quantity, const TrendChange& change) {
-  if (quantity.name == "mismatch") return WordsOfMismatch(blocks, change);
   if (quantity.name == "resistance_series") {
     return change.onset ? CauseWords{"growing series resistance",
                                      "solder joints or interconnects age, or a contact corrodes",
@@ -95,14 +76,66 @@ CauseWords WordsOf(const TrendReport& report, const TrendBlocks& blocks,
           "thermography; electroluminescence at low current"};
 }
 
+// Lost substrings of each block, by the median of its sweeps; -1: no sweep.
+std::vector<int> LostByBlock(const TrendBlocks& blocks) {
+  std::vector<std::vector<double>> lost(blocks.size());
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    if (blocks.rows[i].state != TrendRowState::kUsed) continue;
+    lost[blocks.block[i]].push_back(blocks.rows[i].lost_substrings);
+  }
+  std::vector<int> median(blocks.size(), -1);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!lost[b].empty()) median[b] = static_cast<int>(UpperMedian(lost[b]));
+  }
+  return median;
+}
+
+// Adds an onset where the number of lost substrings rises and stays so for ten days of data, or to
+// the end of the series but for at least three.
+void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
+  constexpr int kStays = 10, kLeast = 3;
+  const std::vector<int> lost = LostByBlock(blocks);
+  int before = 0;
+  double last_s = blocks.time_s.front();
+  for (std::size_t b = 0; b < lost.size(); ++b) {
+    if (lost[b] < 0) continue;
+    int stays = 0;
+    std::size_t k = b;
+    for (; k < lost.size() && stays < kStays; ++k) {
+      if (lost[k] < 0) continue;
+      if (lost[k] <= before) break;
+      ++stays;
+    }
+    const bool stayed = stays >= kStays || (k == lost.size() && stays >= kLeast);
+    if (lost[b] > before && stayed) {
+      TrendOnset onset;
+      onset.quantity = "mismatch";
+      onset.time_s = onset.latest_s = blocks.time_s[b];
+      onset.earliest_s = last_s;
+      onset.lost_percent = LostNow(*report, "mismatch");
+      onset.cause = fmt::format("{} of {} substrings without voltage", lost[b],
+                                blocks.device->substrings);
+      onset.sentence =
+          "Voc is lower by whole substrings: a bypass diode is shorted, or a cell string is open "
+          "and bypassed. To do: measure the voltage of each substring at the junction box and "
+          "replace the diode.";
+      report->onsets.push_back(std::move(onset));
+      before = lost[b];
+    } else if (lost[b] < before) {
+      before = lost[b];
+    }
+    last_s = blocks.time_s[b];
+  }
+}
+
 }  // namespace
 
 void FindOnsets(const TrendBlocks& blocks, TrendReport* report) {
   for (const TrendQuantity& quantity : report->quantities) {
-    if (quantity.name == "p_mp" || quantity.name == "light") continue;
+    if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
-      const CauseWords words = WordsOf(*report, blocks, quantity, change);
+      const CauseWords words = WordsOf(*report, quantity, change);
       TrendOnset onset;
       onset.quantity = quantity.name;
       onset.time_s = change.time_s;
@@ -114,6 +147,7 @@ void FindOnsets(const TrendBlocks& blocks, TrendReport* report) {
       report->onsets.push_back(std::move(onset));
     }
   }
+  FindLostSubstrings(blocks, report);
   std::stable_sort(
       report->onsets.begin(), report->onsets.end(),
       [](const TrendOnset& one, const TrendOnset& other) { return one.time_s < other.time_s; });

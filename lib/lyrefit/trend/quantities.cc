@@ -18,7 +18,6 @@ constexpr double kTwo_pi = 6.283185307179586;
 constexpr std::size_t kLeastForSizes = 8;   // days from which a regression has errors
 constexpr double kRecent_days = 30;         // "now"
 constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
-constexpr double kFewSweeps = 3;            // spread of a day of one sweep is 1 + 3
 constexpr int kMonitored = 4;               // quantities whose onsets are claimed
 
 // What a quantity is and how it is found from a block.
@@ -36,6 +35,8 @@ double LightPercent(const TrendBlocks& blocks, double level) {
   return 100 * std::exp(level - blocks.reference[kTrendLight]);
 }
 
+double AsPercent(const TrendBlocks& /*blocks*/, double level) { return 100 * level; }
+
 double AsItIs(const TrendBlocks& /*blocks*/, double level) { return level; }
 
 // Voltage in V that the device has lost since the reference.
@@ -48,9 +49,9 @@ constexpr QuantityKind kQuantityKinds[] = {
     {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false},
     {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true},
     {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true},
-    {"n", "ideality of the diode", "", kTrendIdeality, AsItIs, false},
+    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false},
     {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true},
-    {"mismatch", "power lost by mismatch", "%", -1, AsItIs, true},
+    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true},
 };
 
 constexpr const char* kPartNames[] = {"light", "resistance_series", "recombination", "shunt",
@@ -59,6 +60,7 @@ constexpr const char* kPartNames[] = {"light", "resistance_series", "recombinati
 // Sums of a block.
 struct BlockSums {
   double expected_W = 0;
+  double substrings_W = 0;
   std::array<double, kTrendParts> parts_W{};
 };
 
@@ -67,6 +69,7 @@ std::vector<BlockSums> SumsOf(const TrendBlocks& blocks) {
   for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
     BlockSums& sum = sums[blocks.block[i]];
     sum.expected_W += blocks.rows[i].expected_W;
+    sum.substrings_W += blocks.rows[i].substrings_W;
     for (int p = 0; p < kTrendParts; ++p) sum.parts_W[p] += blocks.rows[i].parts_W[p];
   }
   return sums;
@@ -102,7 +105,7 @@ BlockSeries SeriesOf(const TrendBlocks& blocks, const Value& value) {
     out.of.push_back(b);
     out.series.days.push_back((blocks.time_s[b] - blocks.time_s.front()) / kDay_s);
     out.series.values.push_back(one);
-    out.series.spread.push_back(1 + kFewSweeps / blocks.used[b]);
+    out.series.counts.push_back(blocks.used[b]);
   }
   return out;
 }
@@ -158,21 +161,21 @@ double VoltsPerKelvin(const TrendDevice& device) {
                    device.OpenCircuit(device.photocurrent_A, kUsual_C - 0.5));
 }
 
-// The device of the reference at 1000 W/m2 and 25 C.
-TrendState ReferenceState(const TrendBlocks& blocks, double lost_V) {
+// Power in W of the device of the reference at 1000 W/m2 and 25 C with a voltage less.
+double PowerAt(const TrendBlocks& blocks, double lost_V) {
   std::array<double, kTrendParameters> parameters{};
   std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
   parameters[kTrendVoltage] -= lost_V;
-  return StateOf(*blocks.device, parameters, blocks.device->photocurrent_A,
-                 kReferenceTemperature_C);
+  const TrendState state = StateOf(*blocks.device, parameters, blocks.device->photocurrent_A,
+                                   kReferenceTemperature_C);
+  return MaximumPowerPoint(*blocks.device, state, kReferenceTemperature_C).power_W();
 }
 
 // Change of power in % by a lost volt.
 double PercentPerVolt(const TrendBlocks& blocks) {
   constexpr double kStep_V = 0.01;
-  const double before = PowerOf(*blocks.device, ReferenceState(blocks, 0), kReferenceTemperature_C);
-  const double after =
-      PowerOf(*blocks.device, ReferenceState(blocks, kStep_V), kReferenceTemperature_C);
+  const double before = PowerAt(blocks, 0);
+  const double after = PowerAt(blocks, kStep_V);
   return 100 * (1 - after / before) / kStep_V;
 }
 
@@ -329,13 +332,15 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   bool seasonal = false;
   const Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
   const TimeFit fit = FitTime(own.series, design);
+  TimeSeries series = own.series;
+  series.spread = fit.spread;
   double variance = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (share[i] == 0) continue;
-    variance += share[i] * share[i] * fit.noise.sigma * fit.noise.sigma * own.series.spread[i];
+    variance += share[i] * share[i] * fit.noise.sigma * fit.noise.sigma * series.spread[i];
     if (changes_daily || fit.noise.half_life_days <= 0) continue;
     for (std::size_t j = 0; j < n; ++j) {
-      if (j != i) variance += share[i] * share[j] * ErrorCovariance(fit.noise, own.series, i, j);
+      if (j != i) variance += share[i] * share[j] * ErrorCovariance(fit.noise, series, i, j);
     }
     variance += share[i] * share[i] * fit.noise.shared_sigma * fit.noise.shared_sigma;
   }
@@ -349,6 +354,7 @@ TrendQuantity* NamedLike(const QuantityKind& kind, TrendQuantity* quantity) {
   quantity->name = kind.name;
   quantity->title = kind.title;
   quantity->unit = kind.unit;
+  quantity->monitored = kind.monitored;
   return quantity;
 }
 
@@ -376,9 +382,7 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
     for (double& one : between[i]) one /= scale;
     Condition(kind.followed, between[i], blocks);
   }
-  report->reference_power_W =
-      PowerOf(*blocks->device, ReferenceState(*blocks, 0), kReferenceTemperature_C) *
-      std::exp(-blocks->reference[kModelExcess]);
+  report->reference_power_W = PowerAt(*blocks, 0) * std::exp(-blocks->reference[kModelExcess]);
 }
 
 void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
@@ -389,7 +393,8 @@ void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
     const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
       return quantity->name == "p_mp" ? 100 - TotalPercent(sums[b])
-                                      : PercentOf(sums[b], kPartMismatch);
+                                      : PercentOf(sums[b], kPartMismatch) -
+                                           100 * sums[b].substrings_W / sums[b].expected_W;
     });
     FillQuantity(blocks, own, options, kind.monitored, false, quantity);
   });

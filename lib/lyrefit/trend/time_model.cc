@@ -85,15 +85,39 @@ Regression RegressionOf(const Gains& gains, const TimeSeries& series,
 constexpr double kRatios[] = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 40, 100};
 constexpr double kHalfLives[] = {1, 2, 4, 8, 15, 30, 60, 120};
 
+constexpr double kPerMeasurement[] = {0, 1, 3, 10, 30};  // k of 1 + k / count
+
 struct BestNoise {
   double ratio = 0;
   double half_life = 0;
 };
 
+// Relative variances 1 + k / count, times those of `outlying`.
+void SetSpread(double k, const std::vector<double>& outlying, TimeSeries* series) {
+  series->spread.resize(series->days.size());
+  for (std::size_t i = 0; i < series->spread.size(); ++i) {
+    series->spread[i] = outlying[i] * (1 + k / series->counts[i]);
+  }
+}
+
 // The likelihood of a longer memory has to be clearly larger: each size takes half a unit.
-BestNoise BestNoiseOf(const TimeSeries& series, const Eigen::MatrixXd& design) {
+BestNoise BestNoiseOf(const std::vector<double>& outlying, const Eigen::MatrixXd& design,
+                      TimeSeries* fitted) {
   BestNoise best;
-  double highest = RegressionOf(GainsOf(0, 0, series), series, design).log_likelihood;
+  TimeSeries& series = *fitted;
+  double highest = -HUGE_VAL, usual = 0;
+  for (const double k : kPerMeasurement) {
+    SetSpread(k, outlying, &series);
+    for (const double ratio : {0.0, 1.0, 8.0}) {
+      const Regression one =
+          RegressionOf(GainsOf(ratio, ratio > 0 ? 8 : 0, series), series, design);
+      if (one.log_likelihood <= highest) continue;
+      highest = one.log_likelihood;
+      usual = k;
+    }
+  }
+  SetSpread(usual, outlying, &series);
+  highest = RegressionOf(GainsOf(0, 0, series), series, design).log_likelihood;
   const double span = series.days.back() - series.days.front();
   for (const double half_life : kHalfLives) {
     if (half_life > span / 3) break;
@@ -144,22 +168,23 @@ TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design) {
   constexpr double kHuber = 2.5;            // residuals beyond it count less
   constexpr double kMedianToSigma = 1.4826;  // of a median of absolute normal deviates
   TimeSeries weighted = series;
+  std::vector<double> outlying(series.days.size(), 1);
   BestNoise noise;
   Regression fit;
   for (int round = 0; round < kRounds; ++round) {
-    noise = BestNoiseOf(weighted, design);
+    noise = BestNoiseOf(outlying, design, &weighted);
     fit = RegressionOf(GainsOf(noise.ratio, noise.half_life, weighted), weighted, design);
     if (round + 1 == kRounds) break;
-    std::vector<double> sizes(weighted.spread.size());
+    std::vector<double> sizes(outlying.size());
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       sizes[i] = std::fabs(fit.residuals[static_cast<Eigen::Index>(i)]);
     }
     const double sigma = kMedianToSigma * Median(sizes);
     bool changed = false;
-    for (std::size_t i = 0; i < weighted.spread.size(); ++i) {
+    for (std::size_t i = 0; i < outlying.size(); ++i) {
       const double size = sizes[i] / sigma;
       if (!(size > kHuber)) continue;
-      weighted.spread[i] *= (size / kHuber) * (size / kHuber);
+      outlying[i] *= (size / kHuber) * (size / kHuber);
       changed = true;
     }
     if (!changed) break;

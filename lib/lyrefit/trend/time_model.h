@@ -10,7 +10,8 @@ namespace lyrefit {
 //   y_i = X_i b + u_i + e_i
 // u is a first-order autoregressive process in continuous time, with correlation
 // exp(-ln 2 |t_i - t_j| / half_life) between days, so that gaps need no filling; e is independent,
-// with variance spread_i times that of a usual day. The Kalman filter of this state whitens the
+// with a variance that falls with the
+// number of measurements of the day, 1 + k / count. The Kalman filter of this state whitens the
 // series and the columns of X in linear time (Harvey 1989, "Forecasting, Structural Time Series
 // Models and the Kalman Filter", 3.4). Sizes and half-life maximise the restricted likelihood on a
 // grid. Days far from the regression get a larger spread (Huber's weights), so that they do not
@@ -27,7 +28,8 @@ struct NoiseModel {
 struct TimeSeries {
   std::vector<double> days;    // ascending
   std::vector<double> values;  // one for each day
-  std::vector<double> spread;  // relative variance of e, 1 on a usual day
+  std::vector<double> counts;  // measurements of each day
+  std::vector<double> spread;  // relative variance of e, 1 on a usual day; set by FitTime
 };
 
 // Divides out the errors: independent columns of unit variance (in units of `sigma`).
@@ -40,7 +42,7 @@ double ErrorCovariance(const NoiseModel& noise, const TimeSeries& series, std::s
 
 struct TimeFit {
   NoiseModel noise;
-  std::vector<double> spread;  // as in the series, larger on outlying days
+  std::vector<double> spread;  // of the series; larger on days of few measurements and outliers
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of the coefficients
   double degrees = 0;          // of freedom of the sizes of the errors, as independent days

@@ -4,58 +4,14 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/estimate/refine/least_squares.h"
-#include "lyrefit/model/single_diodes.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/key_points.h"
+#include "lyrefit/trend/fit_sweep.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr std::size_t kLeastReadings = 8;
-
-// Positions in the vector that is fitted; n is the last.
-enum FittedAt { kFitIph, kFitLnIs, kFitRs, kFitGsh, kFitN, kFitted };
-
-SingleDiodes DiodeOf(const double* iph, const double* is, const double* rs, const double* rsh,
-                     const double* a, std::size_t size) {
-  SingleDiodes diode;
-  diode.size = size;
-  diode.photocurrent = {iph, 0};
-  diode.saturation_current = {is, 0};
-  diode.resistance_series = {rs, 0};
-  diode.resistance_shunt = {rsh, 0};
-  diode.nNsVth = {a, 0};
-  return diode;
-}
-
-// Currents of the readings less the measured ones, and their derivatives by the implicit equation.
-bool EvaluateSweep(const std::vector<double>& voltage, const std::vector<double>& current,
-                   double thermal_V, const double* p, double* residuals, double* jacobian) {
-  const double a = p[kFitN] * thermal_V;
-  const double is = std::exp(p[kFitLnIs]);
-  const double rsh = p[kFitGsh] > 0 ? 1 / p[kFitGsh] : kInfinity;
-  const std::size_t size = voltage.size();
-  CurrentsAt(DiodeOf(p + kFitIph, &is, p + kFitRs, &rsh, &a, size), {voltage.data(), 1},
-             residuals);
-  for (std::size_t k = 0; k < size; ++k) {
-    if (!std::isfinite(residuals[k])) return false;
-    if (jacobian != nullptr) {
-      const double junction = voltage[k] + residuals[k] * p[kFitRs];
-      const double rise = std::exp(junction / a);
-      const double slope = is * rise / a + p[kFitGsh];
-      const double factor = 1 / (1 + p[kFitRs] * slope);
-      double* const row = jacobian + k * kFitted;
-      row[kFitIph] = factor;
-      row[kFitLnIs] = -factor * is * (rise - 1);
-      row[kFitRs] = -factor * residuals[k] * slope;
-      row[kFitGsh] = -factor * junction;
-      row[kFitN] = factor * is * rise * junction / (a * p[kFitN]);
-    }
-    residuals[k] -= current[k];
-  }
-  return true;
-}
 
 bool IsSweep(const IvCurve& curve) {
   return curve.size() >= kLeastReadings && curve.irradiance_known && curve.temperature_known &&
@@ -66,19 +22,86 @@ double Celsius(const IvCurve& curve) {
   return curve.conditions.cell_temperature_K - kZeroCelsius_K;
 }
 
+// Ns Vt in V.
 double ThermalAtOne(const IvCurve& curve) {
   return curve.conditions.ModuleThermalVoltage(ConstantSet::kCodata);
 }
 
+// ln of the first diode's saturation current at T over that at 25 C, and half the band gap's part
+// of it.
+struct SaturationShift {
+  double first;
+  double second;
+};
+
+SaturationShift ShiftAt(const TrendDevice& device, double temperature_C) {
+  const double kelvin = temperature_C + kZeroCelsius_K;
+  const double k_eV = ThermalVoltage(1.0, ConstantSet::kCodata);
+  const double ratio = std::log(kelvin / kReferenceTemperature_K);
+  const double barrier = DeSotoBarrier(device.bandgap_eV, device.bandgap_slope_per_K,
+                                       kReferenceTemperature_K, kelvin, k_eV);
+  return {3 * ratio + barrier, 2.5 * ratio + 0.5 * barrier};
+}
+
+// exp(V / 2 a) at which diodes with these saturation currents carry a current.
+double HalfExponential(double current, double first, double second) {
+  if (!(first > 0)) return current / second;
+  return 2 * current / (second + std::sqrt(second * second + 4 * first * current));
+}
+
 // Substrings without voltage: what is missing of Voc, if it is near a whole number of them.
 int LostSubstrings(const TrendDevice& device, double voc_V, double expected_V) {
-  constexpr int kMostTold = 8;        // beyond, one is as small as the errors of a temperature
-  constexpr double kNear = 0.35;      // of a substring
+  constexpr int kMostTold = 8;    // beyond, one is as small as the errors of a temperature
+  constexpr double kNear = 0.35;  // of a substring
   if (device.substrings < 2 || device.substrings > kMostTold) return 0;
   const double lost = device.substrings * (1 - voc_V / expected_V);
   const double whole = std::round(lost);
   if (whole < 1 || whole >= device.substrings || std::fabs(lost - whole) > kNear) return 0;
   return static_cast<int>(whole);
+}
+
+// Ideality of the first diode, so that those of both have that of a single one between them.
+double FirstIdeality(double single) {
+  constexpr double kMostOfTwo = 1.6;
+  if (single < 1.05) return std::min(1.0, 0.95 * single);
+  return single <= kMostOfTwo ? 1 : single / 1.4;
+}
+
+// A device whose light, cells and coefficients are those that the sweeps state.
+TrendDevice StatedDevice(const std::vector<const IvCurve*>& sweeps) {
+  TrendDevice device;
+  for (const IvCurve* curve : sweeps) {
+    const DeviceNotes& notes = curve->notes;
+    device.cells_in_series = curve->conditions.cells_in_series;
+    device.substrings = notes.bypass_diodes.value_or(device.substrings);
+    device.bandgap_eV = notes.bandgap_eV.value_or(device.bandgap_eV);
+    device.bandgap_slope_per_K = notes.bandgap_slope_per_K.value_or(device.bandgap_slope_per_K);
+    device.isc_tempco_per_K = notes.isc_tempco_per_K.value_or(device.isc_tempco_per_K);
+  }
+  return device;
+}
+
+std::vector<SweepFit> FitAll(const std::vector<const IvCurve*>& sweeps, double n, SweepFree free,
+                             std::vector<const IvCurve*>* fitted) {
+  std::vector<SweepFit> fits;
+  fitted->clear();
+  for (const IvCurve* curve : sweeps) {
+    if (!IsSweep(*curve)) continue;
+    const SweepFit fit =
+        FitSweep(curve->voltage_V, curve->current_A, ThermalAtOne(*curve), n, free);
+    if (!fit.usable) continue;
+    fits.push_back(fit);
+    fitted->push_back(curve);
+  }
+  return fits;
+}
+
+template <class Value>
+double MedianOf(const std::vector<SweepFit>& fits, const Value& value) {
+  std::vector<double> values;
+  values.reserve(fits.size());
+  for (const SweepFit& fit : fits) values.push_back(value(fit));
+  return Median(std::move(values));
 }
 
 }  // namespace
@@ -88,42 +111,59 @@ double TrendDevice::ThermalVoltage(double temperature_C) const {
          lyrefit::ThermalVoltage(temperature_C + kZeroCelsius_K, ConstantSet::kCodata);
 }
 
-double TrendDevice::SaturationShift(double temperature_C) const {
-  const double kelvin = temperature_C + kZeroCelsius_K;
-  const double k_eV = lyrefit::ThermalVoltage(1.0, ConstantSet::kCodata);
-  return 3 * std::log(kelvin / kReferenceTemperature_K) +
-         DeSotoBarrier(bandgap_eV, bandgap_slope_per_K, kReferenceTemperature_K, kelvin, k_eV);
-}
-
 double TrendDevice::Photocurrent(double irradiance_W_m2, double temperature_C) const {
   return photocurrent_A * irradiance_W_m2 / kReferenceIrradiance_W_m2 *
          (1 + isc_tempco_per_K * (temperature_C - kReferenceTemperature_C));
 }
 
 double TrendDevice::OpenCircuit(double photocurrent, double temperature_C) const {
-  return ThermalVoltage(temperature_C) *
-         (std::log(photocurrent) - ln_saturation_current - SaturationShift(temperature_C));
+  const SaturationShift shift = ShiftAt(*this, temperature_C);
+  const double half =
+      HalfExponential(photocurrent, saturation_current_A * std::exp(shift.first),
+                      saturation_current_2_A * std::exp(shift.second));
+  return 2 * ThermalVoltage(temperature_C) * std::log(half);
 }
 
 TrendState StateOf(const TrendDevice& device, const std::array<double, kTrendParameters>& parameters,
                    double expected_A, double temperature_C) {
-  const double n = parameters[kTrendIdeality];
   const double voc = device.OpenCircuit(expected_A, temperature_C) + parameters[kTrendVoltage];
-  const double a = device.ThermalVoltage(temperature_C) * n / device.n;
+  const double half = std::exp(-0.5 * voc / device.ThermalVoltage(temperature_C));
+  const double second = std::min(parameters[kTrendSecond], 1.0);
   return {expected_A * std::exp(parameters[kTrendLight]),
-          std::max(parameters[kTrendSeries], 0.0),
-          std::log(expected_A) - voc / a, n, std::max(parameters[kTrendShunt], 0.0)};
+          std::max(parameters[kTrendSeries], 0.0), (1 - second) * expected_A * half * half,
+          second * expected_A * half, std::max(parameters[kTrendShunt], 0.0)};
 }
 
-double PowerOf(const TrendDevice& device, const TrendState& state, double temperature_C) {
-  const double is = std::exp(state.ln_saturation_current);
-  const double rsh = state.shunt_conductance_S > 0 ? 1 / state.shunt_conductance_S : kInfinity;
-  const double a = device.ThermalVoltage(temperature_C) * state.n / device.n;
-  double i_sc = 0, v_oc = 0, i_mp = 0, v_mp = 0, p_mp = 0, i_x = 0, i_xx = 0;
-  KeyPointsOf(
-      DiodeOf(&state.photocurrent_A, &is, &state.resistance_series_ohm, &rsh, &a, 1),
-      {&i_sc, &v_oc, &i_mp, &v_mp, &p_mp, &i_x, &i_xx});
-  return p_mp;
+TrendPoint MaximumPowerPoint(const TrendDevice& device, const TrendState& state,
+                             double temperature_C) {
+  // P = I (Vd - I Rs), where I is a function of the junction voltage Vd alone. Newton's method on
+  // dP/dVd = I + Vd I' - 2 Rs I I'.
+  const double a = device.ThermalVoltage(temperature_C);
+  const double iph = state.photocurrent_A, rs = state.resistance_series_ohm;
+  const double voc = 2 * a *
+                     std::log(HalfExponential(iph, state.saturation_current_A,
+                                              state.saturation_current_2_A));
+  double junction = voc - a * std::log(std::max(voc / a, 2.0));
+  double low = 0, high = voc, current = 0;
+  constexpr int kSteps = 60;
+  for (int step = 0; step < kSteps; ++step) {
+    const double half = std::exp(0.5 * junction / a);
+    const double first = state.saturation_current_A * half * half;
+    const double second = state.saturation_current_2_A * half;
+    current = iph - first - second - state.shunt_conductance_S * junction;
+    const double slope = -(first + 0.5 * second) / a - state.shunt_conductance_S;
+    const double bend = -(first + 0.25 * second) / (a * a);
+    const double rise = current + junction * slope - 2 * rs * current * slope;
+    const double curvature =
+        2 * slope + junction * bend - 2 * rs * (slope * slope + current * bend);
+    (rise > 0 ? low : high) = junction;
+    double next = curvature < 0 ? junction - rise / curvature : 0.5 * (low + high);
+    if (!(next > low) || !(next < high)) next = 0.5 * (low + high);
+    const double change = std::fabs(next - junction);
+    junction = next;
+    if (change < 1e-11 * voc) break;
+  }
+  return {junction - current * rs, current};
 }
 
 Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {
@@ -144,80 +184,43 @@ Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {
   if (!(device.photocurrent_A > 0)) return Fail("the module has no photocurrent", module.name);
   device.isc_tempco_per_K = alpha / device.photocurrent_A;
   device.resistance_series_ohm = at(law.resistance_series, 0);
-  device.ln_saturation_current = std::log(at(law.saturation_current, 0));
+  device.saturation_current_A = at(law.saturation_current, 0);
   device.shunt_conductance_S = 1 / at(law.resistance_shunt, kInfinity);
   return device;
 }
 
-SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
-                  double nNsVth_1, double n) {
-  SweepFit out;
-  const KeyPoints key = FindKeyPoints(voltage_V, current_A);
-  double isc = key.short_circuit_current_A;
-  if (!(isc > 0)) isc = *std::max_element(current_A.begin(), current_A.end());
-  const double voc = key.open_circuit_voltage_V;
-  if (!(isc > 0) || !(voc > 0)) return out;
-  const double scale = voc / isc;
-  LeastSquaresProblem problem;
-  problem.residuals = static_cast<int>(voltage_V.size());
-  problem.lower = {0, -150, 0, 0, 0.3};
-  problem.upper = {3 * isc, std::log(isc), scale, 10 / scale, 6};
-  problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
-    return EvaluateSweep(voltage_V, current_A, nNsVth_1, p, residuals, jacobian);
-  };
-  const double ln_is = std::log(isc) - voc / (n * nNsVth_1);
-  const LeastSquaresEnd end = SolveLeastSquares(
-      problem, {isc, ln_is, 0.02 * scale, 1e-3 / scale, n}, UpTo(60, 1e-10));
-  if (!end.usable) return out;
-  out = {end.p[kFitIph], end.p[kFitRs],  end.p[kFitLnIs],
-         end.p[kFitGsh], end.p[kFitN],
-         std::sqrt(end.sum_of_squares / static_cast<double>(voltage_V.size())),
-         true};
-  return out;
-}
-
 Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps) {
-  TrendDevice device;
+  TrendDevice device = StatedDevice(sweeps);
   std::vector<const IvCurve*> fitted;
-  std::vector<SweepFit> fits;
-  std::vector<double> n, iph, rs, ln_is, gsh;
-  for (const IvCurve* curve : sweeps) {
-    if (!IsSweep(*curve)) continue;
-    device.cells_in_series = curve->conditions.cells_in_series;
-    const DeviceNotes& notes = curve->notes;
-    device.substrings = notes.bypass_diodes.value_or(device.substrings);
-    device.bandgap_eV = notes.bandgap_eV.value_or(device.bandgap_eV);
-    device.bandgap_slope_per_K = notes.bandgap_slope_per_K.value_or(device.bandgap_slope_per_K);
-    device.isc_tempco_per_K = notes.isc_tempco_per_K.value_or(device.isc_tempco_per_K);
-    const SweepFit fit =
-        FitSweep(curve->voltage_V, curve->current_A, ThermalAtOne(*curve), device.n);
-    if (!fit.usable) continue;
-    fitted.push_back(curve);
-    fits.push_back(fit);
-    n.push_back(fit.n);
-    rs.push_back(fit.resistance_series_ohm);
-    gsh.push_back(fit.shunt_conductance_S);
+  const std::vector<SweepFit> single = FitAll(sweeps, 1.2, SweepFree::kIdeality, &fitted);
+  if (!single.empty()) {
+    device.n = FirstIdeality(MedianOf(single, [](const SweepFit& fit) { return fit.n; }));
   }
+  const std::vector<SweepFit> fits = FitAll(sweeps, device.n, SweepFree::kSecondDiode, &fitted);
   if (fits.empty()) {
     return Fail(
-        "expected sweeps with a stated irradiance and temperature that a single diode describes, "
-        "found none among the reference days");
+        "expected sweeps with a stated irradiance and temperature that two diodes describe, found "
+        "none among the reference days");
   }
-  device.n = Median(n);
-  device.resistance_series_ohm = Median(rs);
-  device.shunt_conductance_S = Median(gsh);
+  device.resistance_series_ohm =
+      MedianOf(fits, [](const SweepFit& fit) { return fit.resistance_series_ohm; });
+  device.shunt_conductance_S =
+      MedianOf(fits, [](const SweepFit& fit) { return fit.shunt_conductance_S; });
+  std::vector<double> iph, first, second;
   for (std::size_t k = 0; k < fits.size(); ++k) {
-    // The saturation current that gives the same open-circuit voltage with the common n.
-    const double voc = fits[k].n * (std::log(fits[k].photocurrent_A) - fits[k].ln_saturation_current);
+    const SweepFit& fit = fits[k];
     const double celsius = Celsius(*fitted[k]);
-    ln_is.push_back(std::log(fits[k].photocurrent_A) - voc / device.n -
-                    device.SaturationShift(celsius));
+    const double half = std::exp(-0.5 * fit.open_circuit_V / device.ThermalVoltage(celsius));
+    const SaturationShift shift = ShiftAt(device, celsius);
+    first.push_back(fit.diode_A * half * half * std::exp(-shift.first));
+    second.push_back(fit.diode_2_A * half * std::exp(-shift.second));
     const double light = fitted[k]->conditions.irradiance_W_m2 / kReferenceIrradiance_W_m2;
     const double warm = 1 + device.isc_tempco_per_K * (celsius - kReferenceTemperature_C);
-    iph.push_back(fits[k].photocurrent_A / (light * warm));
+    iph.push_back(fit.photocurrent_A / (light * warm));
   }
   device.photocurrent_A = Median(iph);
-  device.ln_saturation_current = Median(ln_is);
+  device.saturation_current_A = Median(first);
+  device.saturation_current_2_A = std::max(Median(second), 0.0);
   return device;
 }
 
@@ -249,20 +252,26 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
       device.substrings > 0
           ? 1 - static_cast<double>(row.lost_substrings) / device.substrings
           : 1;
-  const SweepFit fit =
-      FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left, device.n);
+  const SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
+                                device.n, SweepFree::kSecondDiode);
   if (!fit.usable) {
-    row.reason = "no single diode describes it";
+    row.reason = "no diode model describes it";
     return row;
   }
+  // The voltage at which both diodes carry the expected photocurrent.
   const double expected_A = device.Photocurrent(row.irradiance_W_m2, row.temperature_C);
-  const double voc =
-      fit.n * ThermalAtOne(curve) * (std::log(expected_A) - fit.ln_saturation_current);
+  const double a = device.ThermalVoltage(row.temperature_C);
+  const double half = HalfExponential(expected_A, fit.diode_A, fit.diode_2_A);
+  const double voc = fit.open_circuit_V / left + 2 * a * std::log(half);
   row.parameters = {std::log(fit.photocurrent_A / expected_A), fit.resistance_series_ohm / left,
-                    voc - device.OpenCircuit(expected_A, row.temperature_C), fit.n,
-                    fit.shunt_conductance_S * left};
+                    voc - device.OpenCircuit(expected_A, row.temperature_C),
+                    fit.diode_2_A * half / expected_A, fit.shunt_conductance_S * left};
   row.misfit = fit.rms_A / row.isc_A;
   row.state = TrendRowState::kUsed;
+  if (!std::isfinite(voc)) {
+    row.state = TrendRowState::kUnusable;
+    row.reason = "no diode model describes it";
+  }
   return row;
 }
 

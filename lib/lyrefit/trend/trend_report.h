@@ -30,7 +30,7 @@ struct EnumTable<TrendSource> {
 // What became of a measurement.
 enum class TrendRowState {
   kUsed,        // its parameters and its power count
-  kStepped,     // a step or a rough shape: its light and power count, its other parameters do not
+  kStepped,     // a step, a rough shape or far too little light: only its light and power count
   kDim,         // less light than TrendOptions::least_irradiance_W_m2: its power counts
   kLimited,     // the inverter limited power: nothing counts
   kOffMaximum,  // not at maximum power: nothing counts
@@ -40,7 +40,7 @@ enum class TrendRowState {
 template <>
 struct EnumTable<TrendRowState> {
   static constexpr EnumText<TrendRowState> kRows[] = {
-      {TrendRowState::kUsed, "used"},          {TrendRowState::kStepped, "stepped"},
+      {TrendRowState::kUsed, "used"},          {TrendRowState::kStepped, "shaded"},
       {TrendRowState::kDim, "dim"},            {TrendRowState::kLimited, "limited"},
       {TrendRowState::kOffMaximum, "off maximum"}, {TrendRowState::kUnusable, "unusable"}};
 };
@@ -52,8 +52,8 @@ constexpr int kTrendRowStates = 6;
 enum TrendParameter {
   kTrendLight,     // ln of the photocurrent over its expectation
   kTrendSeries,    // series resistance, ohm
-  kTrendVoltage,   // open-circuit voltage of the diode less that of the law, V
-  kTrendIdeality,  // n
+  kTrendVoltage,   // open-circuit voltage of the diodes less that of the law, V
+  kTrendSecond,    // share of the second diode in the current at open circuit
   kTrendShunt,     // shunt conductance, S
   kTrendParameters
 };
@@ -61,7 +61,7 @@ enum TrendParameter {
 enum TrendPart {
   kPartLight,
   kPartSeries,
-  kPartRecombination,  // voltage and ideality of the diode
+  kPartRecombination,  // both diodes
   kPartShunt,
   kPartMismatch,
   kTrendParts
@@ -82,6 +82,7 @@ struct TrendRow {
                                                      kUnknown};
   double misfit = kUnknown;   // rms of current residuals over Isc
   int lost_substrings = 0;    // without voltage
+  double substrings_W = 0;    // of the part by mismatch: by lost substrings
   std::array<double, kTrendParts> parts_W = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   TrendRowState state = TrendRowState::kUnusable;
   std::string reason;         // of an unusable one
@@ -119,6 +120,7 @@ struct TrendQuantity {
   std::string name;   // "resistance_series"
   std::string title;  // "series resistance"
   std::string unit;   // "ohm"
+  bool monitored = false;  // its changes to the worse are onsets, at the stated rate of false ones
   double reference = kUnknown;  // over the reference days
   Ranged rate_per_year;         // in its unit, mean over the series, without steps
   Ranged rate_percent;          // of the reference, a year; NaN without a meaning
@@ -158,7 +160,7 @@ struct TrendReport {
   std::vector<OptionEcho> options;
   int cells_in_series = 1;
   int substrings = 0;             // with a bypass diode; 0: not known
-  double ideality = kUnknown;     // of the law
+  double ideality = kUnknown;     // of the law's first diode, half that of its second one
   std::string law;                // where the law is from
   double first_s = kUnknown;      // time of the first measurement
   double last_s = kUnknown;       // time of the last one

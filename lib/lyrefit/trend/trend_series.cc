@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::size_t kSweepsForLaw = 60;
 
+double LargestCurrent(const IvCurve& curve) {
+  return curve.current_A.empty()
+             ? 0
+             : *std::max_element(curve.current_A.begin(), curve.current_A.end());
+}
+
 // The brighter half of the sweeps of the reference days, at most kSweepsForLaw of them, evenly.
 std::vector<const IvCurve*> SweepsForLaw(const std::vector<TimedSweep>& sweeps,
                                          const TrendOptions& options) {
@@ -28,7 +34,7 @@ std::vector<const IvCurve*> SweepsForLaw(const std::vector<TimedSweep>& sweeps,
     if (early && bright) chosen.push_back(&sweep.curve);
   }
   std::stable_sort(chosen.begin(), chosen.end(), [](const IvCurve* one, const IvCurve* other) {
-    return one->conditions.irradiance_W_m2 > other->conditions.irradiance_W_m2;
+    return LargestCurrent(*one) > LargestCurrent(*other);
   });
   chosen.resize((chosen.size() + 1) / 2);
   if (chosen.size() <= kSweepsForLaw) return chosen;

@@ -44,7 +44,8 @@ StateJson HeadOfSeries(const TrendSeries& series) {
           {"isc_tempco_per_K", device.isc_tempco_per_K},
           {"photocurrent", device.photocurrent_A},
           {"resistance_series", device.resistance_series_ohm},
-          {"ln_saturation_current", device.ln_saturation_current},
+          {"saturation_current", device.saturation_current_A},
+          {"saturation_current_2", device.saturation_current_2_A},
           {"conductance_shunt", device.shunt_conductance_S}};
 }
 
@@ -67,7 +68,8 @@ Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& p
                                    {"isc_tempco_per_K", &device.isc_tempco_per_K},
                                    {"photocurrent", &device.photocurrent_A},
                                    {"resistance_series", &device.resistance_series_ohm},
-                                   {"ln_saturation_current", &device.ln_saturation_current},
+                                   {"saturation_current", &device.saturation_current_A},
+                                   {"saturation_current_2", &device.saturation_current_2_A},
                                    {"conductance_shunt", &device.shunt_conductance_S}}) {
     const auto found = head.find(key);
     if (found == head.end() || !found->is_number()) {

@@ -30,6 +30,7 @@ Json QuantityJson(const TrendQuantity& quantity) {
           {"reference", quantity.reference},
           {"rate_per_year", quantity.rate_per_year},
           {"rate_percent", quantity.rate_percent},
+          {"rate_until", DateJson(quantity.rate_until_s)},
           {"steps", steps},
           {"onsets", onsets},
           {"seasonal", quantity.seasonal},

@@ -18,6 +18,10 @@ constexpr double kTwo_pi = 6.283185307179586;
 constexpr std::size_t kLeastForSizes = 8;   // days from which a regression has errors
 constexpr double kRecent_days = 30;         // "now"
 constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
+constexpr double kLeastForRate_days = 30;   // a shorter series has no rate a year
+constexpr double kScaleError = 0.02;        // of sizes: gains, temperature of the cells, model
+constexpr double kLeastForShortRate_days = 60;  // of a part of the series
+constexpr double kUnmonitoredLevel = 0.002;
 constexpr int kMonitored = 4;               // quantities whose onsets are claimed
 
 // What a quantity is and how it is found from a block.
@@ -204,10 +208,29 @@ TrendChange ChangeOf(const ChangePoint& point, const TimeFit& fit, double first_
   change.time_s = first_s + point.day * kDay_s;
   change.earliest_s = first_s + point.day_low * kDay_s;
   change.latest_s = first_s + point.day_high * kDay_s;
-  change.size = RangedOf(fit.coefficients[point.column],
-                         std::sqrt(fit.covariance(point.column, point.column)), fit.t_95());
+  const double size = fit.coefficients[point.column];
+  const double error = std::sqrt(fit.covariance(point.column, point.column));
+  change.size = RangedOf(size, std::hypot(error, kScaleError * size), fit.t_95());
   change.p_value = point.p_value;
   return change;
+}
+
+// The rate in percent of the reference a year.
+void SetPercent(TrendQuantity* quantity) {
+  if (quantity->unit == "%") {
+    quantity->rate_percent = quantity->rate_per_year;
+  } else if (quantity->name != "recombination" && quantity->reference > 0) {
+    quantity->rate_percent = Scaled(quantity->rate_per_year, 100 / quantity->reference);
+  }
+}
+
+Eigen::MatrixXd DesignOfLine(const TimeSeries& series) {
+  Eigen::MatrixXd design(static_cast<Eigen::Index>(series.days.size()), 2);
+  for (Eigen::Index i = 0; i < design.rows(); ++i) {
+    design(i, 0) = 1;
+    design(i, 1) = series.days[static_cast<std::size_t>(i)] / kYear_days;
+  }
+  return design;
 }
 
 // The mean rate over the series, without steps, as a sum of coefficients: the rate at the start, and
@@ -241,20 +264,19 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   ChangeOptions changes;
   changes.seed = options.seed;
   changes.level = std::min(options.false_alarms_per_year * std::max(years, 0.1) / kMonitored, 0.2);
-  if (!monitored) changes.level = std::min(changes.level, 0.01);
+  if (!monitored) changes.level = std::min(changes.level, kUnmonitoredLevel);
   const ChangingSeries found = FitChanges(own.series, design, changes);
   const TimeFit& fit = found.fit;
   quantity->reference = ReferenceMean(blocks, own);
   const double drift = DriftOf(quantity->name, blocks, options);
   const Eigen::VectorXd mean = MeanRate(own.series, found);
-  const double error = std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift);
-  quantity->rate_per_year = RangedOf(mean.dot(fit.coefficients), error, fit.t_95());
-  const bool relative = quantity->unit != "%" && !quantity->unit.empty() && quantity->name != "recombination";
-  if (relative && quantity->reference > 0) {
-    quantity->rate_percent = Scaled(quantity->rate_per_year, 100 / quantity->reference);
-  } else if (!relative && quantity->unit == "%") {
-    quantity->rate_percent = quantity->rate_per_year;
+  const double rate = mean.dot(fit.coefficients);
+  const double error =
+      std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift, kScaleError * rate);
+  if (SpanDays(own.series) >= kLeastForRate_days) {
+    quantity->rate_per_year = RangedOf(rate, error, fit.t_95());
   }
+  SetPercent(quantity);
   if (seasonal) quantity->seasonal = std::hypot(fit.coefficients[2], fit.coefficients[3]);
   quantity->day_scatter = fit.noise.sigma;
   quantity->shared_scatter = fit.noise.shared_sigma;
@@ -302,8 +324,8 @@ void Condition(int what, const std::array<double, kBetweenDays>& between, TrendB
   }
 }
 
-// The mean of a part over blocks with these weights, less that over the reference blocks. The
-// errors of days count, and those that neighbouring days share where the part does not change from
+// The mean of a part over blocks with these weights. It is 0 over the reference blocks, whose errors
+// count too. The errors of days count, and those that neighbouring days share where the part does not change from
 // day to day itself, as light and snow do.
 Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
                 const std::vector<double>& weights, bool changes_daily, double drift_per_year) {
@@ -315,7 +337,7 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
     first_count += blocks.IsReference(own.of[k]) ? 1 : 0;
   }
   Ranged out;
-  if (!(sum > 0)) return out;
+  if (!(sum > 0) || !(first_count > 0)) return out;
   double value = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double weight = weights[own.of[k]] / sum;
@@ -326,14 +348,13 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
     first_day += own.series.days[k] / first_count;
     share[k] -= 1 / first_count;
   }
-  value -= ReferenceMean(blocks, own);
   out.value = value;
   if (n < kLeastForSizes) return out;
   bool seasonal = false;
   const Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
   const TimeFit fit = FitTime(own.series, design);
   TimeSeries series = own.series;
-  series.spread = fit.spread;
+  series.spread = changes_daily ? fit.usual_spread : fit.spread;
   double variance = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (share[i] == 0) continue;
@@ -348,6 +369,41 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   const double error = std::hypot(std::sqrt(std::max(variance, 0.0)), drift);
   const Ranged ranged = RangedOf(value, error, fit.t_95());
   return ranged;
+}
+
+// Uneven shunts bend the knee of a curve as series resistance and recombination do. Where the shunt
+// grows from a day on, the rates of these are those before it.
+void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options,
+                     TrendReport* report) {
+  const auto named = [&](const char* name) {
+    return std::find_if(report->quantities.begin(), report->quantities.end(),
+                        [&](const TrendQuantity& one) { return one.name == name; });
+  };
+  double begin_s = kInfinity;
+  for (const TrendChange& change : named("conductance_shunt")->changes) {
+    if (change.size.value > 0) begin_s = std::min(begin_s, change.earliest_s);
+  }
+  if (!std::isfinite(begin_s)) return;
+  for (const char* name : {"resistance_series", "recombination"}) {
+    TrendQuantity& quantity = *named(name);
+    TimeSeries before;
+    for (const TrendDay& day : quantity.days) {
+      if (day.time_s >= begin_s) break;
+      before.days.push_back((day.time_s - blocks.time_s.front()) / kDay_s);
+      before.values.push_back(day.value);
+      before.counts.push_back(day.rows);
+    }
+    quantity.rate_until_s = begin_s;
+    quantity.rate_per_year = quantity.rate_percent = Ranged();
+    if (before.days.size() < kLeastForSizes || SpanDays(before) < kLeastForShortRate_days) continue;
+    const TimeFit fit = FitTime(before, DesignOfLine(before));
+    const double rate = fit.coefficients[1];
+    const double error =
+        std::hypot(std::sqrt(fit.covariance(1, 1)), DriftOf(name, blocks, options),
+                   kScaleError * rate);
+    quantity.rate_per_year = RangedOf(rate, error, fit.t_95());
+    SetPercent(&quantity);
+  }
 }
 
 TrendQuantity* NamedLike(const QuantityKind& kind, TrendQuantity* quantity) {
@@ -372,7 +428,7 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
       const double level = blocks->level[kind.followed][b];
       return std::isfinite(level) ? kind.value(*blocks, level) : kUnknown;
     });
-    between[i] = FillQuantity(*blocks, own, options, kind.monitored, kind.monitored, quantity);
+    between[i] = FillQuantity(*blocks, own, options, kind.monitored, true, quantity);
   });
   for (int i = 0; i < kCount; ++i) {
     const QuantityKind& kind = kQuantityKinds[i];
@@ -382,6 +438,7 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
     for (double& one : between[i]) one /= scale;
     Condition(kind.followed, between[i], blocks);
   }
+  RateBeforeShunt(*blocks, options, report);
   report->reference_power_W = PowerAt(*blocks, 0) * std::exp(-blocks->reference[kModelExcess]);
 }
 

@@ -192,6 +192,10 @@ TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design) {
   TimeFit out;
   out.noise = {std::sqrt(fit.variance), std::sqrt(fit.variance * noise.ratio), noise.half_life};
   out.spread = weighted.spread;
+  out.usual_spread.resize(outlying.size());
+  for (std::size_t i = 0; i < outlying.size(); ++i) {
+    out.usual_spread[i] = weighted.spread[i] / outlying[i];
+  }
   out.coefficients = fit.coefficients;
   out.covariance = fit.variance * fit.inverse;
   out.degrees = EffectiveDays(noise, weighted) - static_cast<double>(design.cols());

@@ -43,6 +43,7 @@ double ErrorCovariance(const NoiseModel& noise, const TimeSeries& series, std::s
 struct TimeFit {
   NoiseModel noise;
   std::vector<double> spread;  // of the series; larger on days of few measurements and outliers
+  std::vector<double> usual_spread;  // without outliers
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of the coefficients
   double degrees = 0;          // of freedom of the sizes of the errors, as independent days

@@ -124,6 +124,7 @@ struct TrendQuantity {
   double reference = kUnknown;  // over the reference days
   Ranged rate_per_year;         // in its unit, mean over the series, without steps
   Ranged rate_percent;          // of the reference, a year; NaN without a meaning
+  double rate_until_s = kUnknown;  // the rate is that before this time; NaN: of the whole series
   std::vector<TrendChange> changes;
   double seasonal = kUnknown;   // amplitude over the year; NaN: not separable from a trend
   double day_scatter = kUnknown;  // standard deviation of a day

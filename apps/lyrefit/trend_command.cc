@@ -26,7 +26,8 @@ constexpr char kTrendFooter[] =
     "  lyrefit trend today.csv --append module7.state && lyrefit trend module7.state\n"
     "  lyrefit trend --operating inverter.csv --module module.json\n"
     "\n"
-    "All sweeps are of one device, each with its time (date, timestamp), light and temperature, in\n"
+    "All sweeps are of one device, each with its time (date, timestamp), light and temperature, "
+    "in\n"
     "any shape that batch reads.\n"
     "\n"
     "Exit codes: 0 fine, 1 bad input or options, 130 stopped by Ctrl-C.";
@@ -124,8 +125,7 @@ Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
   if (series.rows.size() <= kShown) {
     for (const TrendRow& row : series.rows) text += RowText(row);
   }
-  text += fmt::format("{} of {} appended to {}\n", written, series.rows.size(),
-                      request.state_file);
+  text += fmt::format("{} of {} appended to {}\n", written, series.rows.size(), request.state_file);
   TRY(WriteText(verb, [&] { return text; }));
   return kExitFine;
 }

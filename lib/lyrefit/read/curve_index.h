@@ -15,7 +15,7 @@ struct IndexRow {
   std::optional<double> irradiance_W_m2;
   std::optional<double> temperature_C;
   std::string date;  // as written; empty: none
-  Error missing;  // the error to report if the set has no such curve
+  Error missing;     // the error to report if the set has no such curve
 };
 
 struct CurveIndex {

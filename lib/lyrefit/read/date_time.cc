@@ -32,8 +32,7 @@ Calendar DateOf(std::int64_t days) {
   days += 719468;
   const std::int64_t era = (days >= 0 ? days : days - 146096) / 146097;
   const std::int64_t of_era = days - era * 146097;
-  const std::int64_t year =
-      (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
+  const std::int64_t year = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
   const int of_year = static_cast<int>(of_era - (365 * year + year / 4 - year / 100));
   const int shifted = (5 * of_year + 2) / 153;
   const int day = of_year - (153 * shifted + 2) / 5 + 1;
@@ -94,8 +93,8 @@ bool ReadDate(DateScanner* scan, Calendar* date) {
   } else if (between == '.') {
     *date = {part[2], part[1], part[0]};
   } else if (between == '/' && (part[0] > 12) != (part[1] > 12)) {
-    *date = part[0] > 12 ? Calendar{part[2], part[1], part[0]}
-                         : Calendar{part[2], part[0], part[1]};
+    *date =
+        part[0] > 12 ? Calendar{part[2], part[1], part[0]} : Calendar{part[2], part[0], part[1]};
   } else {
     return false;
   }
@@ -164,8 +163,8 @@ std::string DateTimeText(double seconds) {
   if (!std::isfinite(seconds)) return "-";
   const double whole = std::floor(seconds + 0.5);
   const auto of_day = static_cast<std::int64_t>(whole - kDay_s * std::floor(whole / kDay_s));
-  return fmt::format("{} {:02d}:{:02d}:{:02d}", DateText(whole), of_day / 3600,
-                     of_day / 60 % 60, of_day % 60);
+  return fmt::format("{} {:02d}:{:02d}:{:02d}", DateText(whole), of_day / 3600, of_day / 60 % 60,
+                     of_day % 60);
 }
 
 }  // namespace lyrefit

@@ -42,8 +42,7 @@ std::string NameOf(std::string_view label) {
 
 bool IsOneOf(const std::string& name, std::initializer_list<const char*> names, char unit) {
   return std::any_of(names.begin(), names.end(), [&](const char* one) {
-    return name == one || name == std::string(one) + unit ||
-           name == std::string(one) + 'm' + unit;
+    return name == one || name == std::string(one) + unit || name == std::string(one) + 'm' + unit;
   });
 }
 
@@ -94,7 +93,7 @@ Expected<double> NumberOrMissing(TableRow* row, int field) {
 }  // namespace
 
 Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& path,
-                                                         std::int64_t largest_file_bytes) {
+                                                           std::int64_t largest_file_bytes) {
   TRY(const DecodedText text, ReadDecodedFile(path, largest_file_bytes));
   LineReader lines(text.text);
   std::string_view line;

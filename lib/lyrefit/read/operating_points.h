@@ -25,6 +25,6 @@ struct OperatingReading {
 // columns are ignored. Errors, with line and column: a column that is missing; a time that is no
 // date; a text that is neither a number nor a word for a missing value.
 Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& path,
-                                                         std::int64_t largest_file_bytes);
+                                                           std::int64_t largest_file_bytes);
 
 }  // namespace lyrefit

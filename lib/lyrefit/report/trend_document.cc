@@ -38,9 +38,8 @@ Section TrendHead(const TrendReport& report) {
                        Significant(report.reference_power_W, 4)),
            &head);
   AddField("law",
-           fmt::format("De Soto, {}, n = {}, from {}",
-                       Plural(report.cells_in_series, "cell"), Significant(report.ideality, 4),
-                       report.law),
+           fmt::format("De Soto, {}, n = {}, from {}", Plural(report.cells_in_series, "cell"),
+                       Significant(report.ideality, 4), report.law),
            &head);
   AddField("seed", fmt::format("{}", report.seed), &head);
   for (const TrendReason& reason : report.reasons) {
@@ -52,18 +51,19 @@ Section TrendHead(const TrendReport& report) {
 
 Section LossSection(const TrendReport& report) {
   Section section = {"Losses against the reference"};
-  block::Table table = {"lrlrl",
-                        {{"", "energy", "95 % interval", "last 30 days", "95 % interval"},
-                         {"", "%", "%", "%", "%"}}};
+  block::Table table = {
+      "lrlrl",
+      {{"", "energy", "95 % interval", "last 30 days", "95 % interval"}, {"", "%", "%", "%", "%"}}};
   for (const TrendLoss& loss : report.losses) {
     table.rows.push_back({PartTitle(loss.name), Significant(loss.energy_percent.value, 3),
                           TrendRange(loss.energy_percent), Significant(loss.now_percent.value, 3),
                           TrendRange(loss.now_percent)});
   }
   AddTable(std::move(table), &section);
-  section.blocks.emplace_back(block::Legend{
-      "of the energy over all days, and over the last 30 days, that the device of the reference would "
-      "have given; shares by Shapley, they add up to the total"});
+  section.blocks.emplace_back(
+      block::Legend{"of the energy over all days, and over the last 30 days, that the device of "
+                    "the reference would "
+                    "have given; shares by Shapley, they add up to the total"});
   return section;
 }
 
@@ -72,32 +72,30 @@ Section QuantitySection(const TrendReport& report) {
   block::Table table = {"lrrlrl",
                         {{"", "reference", "a year", "95 % interval", "% a year", "seasonal"}}};
   for (const TrendQuantity& quantity : report.quantities) {
-    const std::string title =
-        quantity.unit.empty() ? quantity.title
-                              : fmt::format("{} ({})", quantity.title, quantity.unit);
+    const std::string title = quantity.unit.empty()
+                                  ? quantity.title
+                                  : fmt::format("{} ({})", quantity.title, quantity.unit);
     if (!quantity.missing.empty()) {
       table.rows.push_back({title, "-", quantity.missing});
       continue;
     }
-    table.rows.push_back({title, Significant(quantity.reference, 4),
-                          Significant(quantity.rate_per_year.value, 3),
-                          TrendRange(quantity.rate_per_year),
-                          std::isfinite(quantity.rate_percent.value)
-                              ? fmt::format("{:+.2f}", quantity.rate_percent.value)
-                              : "",
-                          std::isfinite(quantity.seasonal) ? Significant(quantity.seasonal, 2)
-                                                           : ""});
+    table.rows.push_back(
+        {title, Significant(quantity.reference, 4), Significant(quantity.rate_per_year.value, 3),
+         TrendRange(quantity.rate_per_year),
+         std::isfinite(quantity.rate_percent.value)
+             ? fmt::format("{:+.2f}", quantity.rate_percent.value)
+             : "",
+         std::isfinite(quantity.seasonal) ? Significant(quantity.seasonal, 2) : ""});
   }
   AddTable(std::move(table), &section);
-  section.blocks.emplace_back(block::Legend{
-      "mean rates, without steps; seasonal: amplitude, from two years on"});
+  section.blocks.emplace_back(
+      block::Legend{"mean rates, without steps; seasonal: amplitude, from two years on"});
   return section;
 }
 
 Section ChangeSection(const TrendReport& report) {
   Section section = {"Steps and onsets"};
-  block::Table table = {"llllrl",
-                        {{"date", "between", "", "quantity", "size", "95 % interval"}}};
+  block::Table table = {"llllrl", {{"date", "between", "", "quantity", "size", "95 % interval"}}};
   for (const TrendQuantity& quantity : report.quantities) {
     for (const TrendChange& change : quantity.changes) {
       table.rows.push_back(
@@ -111,10 +109,10 @@ Section ChangeSection(const TrendReport& report) {
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
   for (const TrendOnset& onset : report.onsets) {
-    section.blocks.emplace_back(block::Entry{
-        fmt::format("{}, from {} ({} .. {})", onset.cause, DateText(onset.time_s),
-                    DateText(onset.earliest_s), DateText(onset.latest_s)),
-        {onset.sentence}});
+    section.blocks.emplace_back(
+        block::Entry{fmt::format("{}, from {} ({} .. {})", onset.cause, DateText(onset.time_s),
+                                 DateText(onset.earliest_s), DateText(onset.latest_s)),
+                     {onset.sentence}});
   }
   return section;
 }

@@ -40,8 +40,8 @@ Axis TimeAxis(const TrendReport& report) {
 }
 
 Panel QuantityPanel(const TrendReport& report, const TrendQuantity& quantity) {
-  Panel panel{fmt::format("{} ({})", quantity.title, quantity.unit), TimeAxis(report),
-              {quantity.unit}};
+  Panel panel{
+      fmt::format("{} ({})", quantity.title, quantity.unit), TimeAxis(report), {quantity.unit}};
   panel.height = 220;
   Series points{SeriesKind::kPoints, {kGrey, 1, 7}, 1, 0.3};
   points.name = "a day";
@@ -70,8 +70,8 @@ Panel QuantityPanel(const TrendReport& report, const TrendQuantity& quantity) {
 
 // Daily losses, one part on the other, as medians of a week so that a picture shows them.
 Panel LossPanel(const TrendReport& report, std::vector<LegendEntry>* legend) {
-  Panel panel{"Loss against the reference, by part (% of the expected energy)", TimeAxis(report),
-              {"%"}};
+  Panel panel{
+      "Loss against the reference, by part (% of the expected energy)", TimeAxis(report), {"%"}};
   panel.height = 260;
   panel.zero_line = true;
   for (std::size_t p = 0; p < report.loss_days.size(); ++p) {
@@ -108,7 +108,8 @@ block::Figure FigureBlock(const TrendReport& report) {
   block::Figure block;
   block.figure = TrendFigure(report);
   block.caption =
-      "Above left: what each part takes, day by day. Else a point is a day at standard conditions, the "
+      "Above left: what each part takes, day by day. Else a point is a day at standard conditions, "
+      "the "
       "line is the regression, a band the 95 % range of the day of a step or an onset.";
   return block;
 }

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kDaysForDays = 20;  // shorter series are cut into more blocks
 constexpr double kShortBlocks = 40;
-constexpr double kSteppedTimes = 4;     // misfit of a stepped sweep over the median
+constexpr double kSteppedTimes = 4;      // misfit of a stepped sweep over the median
 constexpr double kSteppedLeast = 0.004;  // and of Isc
-constexpr double kCovered = 0.85;  // light of a covered device, of its 90 % quantile
+constexpr double kCovered = 0.85;        // light of a covered device, of its 90 % quantile
 
 bool Counts(const TrendRow& row) {
   return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
@@ -80,8 +80,7 @@ void FindReference(const TrendOptions& options, TrendBlocks* blocks) {
 // Numbers the blocks that have rows that count.
 void CutBlocks(TrendBlocks* blocks) {
   const double span = SpanOf(blocks->rows);
-  blocks->length_s =
-      span >= kDaysForDays * kDay_s ? kDay_s : std::max(span / kShortBlocks, 1e-3);
+  blocks->length_s = span >= kDaysForDays * kDay_s ? kDay_s : std::max(span / kShortBlocks, 1e-3);
   const double origin = blocks->length_s == kDay_s
                             ? kDay_s * std::floor(blocks->rows.front().time_s / kDay_s)
                             : blocks->rows.front().time_s;
@@ -114,10 +113,11 @@ void CutBlocks(TrendBlocks* blocks) {
 // Value of a row that is followed; NaN: none.
 double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
   if (row.state != TrendRowState::kUsed) return kUnknown;
+  const bool repeated = what != kTrendLight && what != kModelExcess && !row.represents;
+  if (repeated || !std::isfinite(row.parameters[kTrendLight])) return kUnknown;
   if (what < kTrendParameters) return row.parameters[what];
   if (row.lost_substrings > 0) return kUnknown;
-  const double expected_A =
-      blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  const double expected_A = blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
   const TrendState state = StateOf(*blocks.device, row.parameters, expected_A, row.temperature_C);
   return std::log(MaximumPowerPoint(*blocks.device, state, row.temperature_C).power_W() /
                   row.power_W());
@@ -129,7 +129,8 @@ void FindLevels(int what, TrendBlocks* blocks) {
     const TrendRow& row = blocks->rows[i];
     const double value = Followed(*blocks, row, what);
     if (!std::isfinite(value)) continue;
-    values.push_back({blocks->block[i], FeaturesAt(blocks->LightOn(row), row.temperature_C), value});
+    values.push_back(
+        {blocks->block[i], FeaturesAt(blocks->LightOn(row), row.temperature_C), value});
   }
   blocks->departures[what] = FitWithinBlocks(values);
   blocks->level[what].assign(blocks->size(), kUnknown);
@@ -186,10 +187,9 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
   }
   const TrendState reference = StateOf(device, before, expected_A, row->temperature_C);
   const TrendState now = StateOf(device, after, expected_A, row->temperature_C);
-  const double scale = std::exp(-(blocks.reference[kModelExcess] +
-                                  Departure(blocks.departures[kModelExcess], features)));
-  row->expected_W =
-      scale * MaximumPowerPoint(device, reference, row->temperature_C).power_W();
+  const double scale = std::exp(
+      -(blocks.reference[kModelExcess] + Departure(blocks.departures[kModelExcess], features)));
+  row->expected_W = scale * MaximumPowerPoint(device, reference, row->temperature_C).power_W();
   row->parts_W = SplitLoss(device, reference, now, row->temperature_C);
   double sum = 0;
   for (double& part : row->parts_W) {

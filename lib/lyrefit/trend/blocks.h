@@ -18,16 +18,16 @@ constexpr int kFollowed = kTrendParameters + 1;
 // The measurements of a series in blocks: days, or shorter spans of a short series.
 struct TrendBlocks {
   const TrendDevice* device = nullptr;
-  std::vector<TrendRow> rows;    // those that count, by time
+  std::vector<TrendRow> rows;                          // those that count, by time
   std::array<std::int64_t, kTrendRowStates> states{};  // number of all rows by state
-  std::vector<int> block;        // of each row, ascending from 0
-  std::vector<double> time_s;    // mean of the rows of each block
-  std::vector<int> used;         // rows of each block that count
-  std::vector<Features> mean;    // features of the rows of each block
-  double length_s = 0;           // of a block
-  double reference_end_s = 0;    // end of the reference blocks
-  int reference_blocks = 0;      // number of blocks before it
-  std::array<Features, kFollowed> departures{};  // from the law
+  std::vector<int> block;                              // of each row, ascending from 0
+  std::vector<double> time_s;                          // mean of the rows of each block
+  std::vector<int> used;                               // rows of each block that count
+  std::vector<Features> mean;                          // features of the rows of each block
+  double length_s = 0;                                 // of a block
+  double reference_end_s = 0;                          // end of the reference blocks
+  int reference_blocks = 0;                            // number of blocks before it
+  std::array<Features, kFollowed> departures{};        // from the law
   // Means at standard conditions; NaN: a block without a usable row.
   std::array<std::vector<double>, kFollowed> level;
   std::array<double, kFollowed> reference{};  // mean over the reference blocks

@@ -9,7 +9,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr std::size_t kLeastDays = 10;      // on each side of a change
+constexpr std::size_t kLeastDays = 10;        // on each side of a change
 constexpr std::size_t kMostCandidates = 400;  // days that are tried
 constexpr double kYear_days = 365.25;
 
@@ -25,10 +25,9 @@ std::vector<ChangeCandidate> CandidatesOf(const TimeSeries& series,
   if (n < 2 * kLeastDays) return candidates;
   const std::size_t every = 1 + (n - 2 * kLeastDays) / kMostCandidates;
   for (std::size_t i = kLeastDays; i + kLeastDays <= n; i += every) {
-    const bool near =
-        std::any_of(changes.begin(), changes.end(), [&](const ChangePoint& change) {
-          return std::fabs(change.day - series.days[i]) < static_cast<double>(kLeastDays);
-        });
+    const bool near = std::any_of(changes.begin(), changes.end(), [&](const ChangePoint& change) {
+      return std::fabs(change.day - series.days[i]) < static_cast<double>(kLeastDays);
+    });
     if (near) continue;
     candidates.push_back({ChangeKind::kStep, i});
     candidates.push_back({ChangeKind::kOnset, i});

@@ -24,11 +24,11 @@ struct EnumTable<ChangeKind> {
 // Where a series changes. The size is a coefficient of the regression.
 struct ChangePoint {
   ChangeKind kind = ChangeKind::kStep;
-  double day = 0;       // the first day after a step; the day from which the rate differs
-  double day_low = 0;   // 95 % range of the day, by the likelihood
+  double day = 0;      // the first day after a step; the day from which the rate differs
+  double day_low = 0;  // 95 % range of the day, by the likelihood
   double day_high = 0;
-  double p_value = 1;   // over all days and both kinds
-  int column = 0;       // of the design
+  double p_value = 1;  // over all days and both kinds
+  int column = 0;      // of the design
 };
 
 struct ChangeOptions {

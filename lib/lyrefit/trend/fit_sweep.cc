@@ -22,7 +22,7 @@ struct SweepData {
 
 // Current through the junction and its slope at a junction voltage.
 struct Junction {
-  double first;   // currents of the diodes
+  double first;  // currents of the diodes
   double second;
   double current;
   double slope;  // of what the diodes and the shunt take, over voltage
@@ -94,9 +94,9 @@ SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double
   problem.evaluate = [&](const double* p, double* residuals, double* jacobian) {
     return EvaluateSweep(data, p, residuals, jacobian);
   };
-  const LeastSquaresEnd end =
-      SolveLeastSquares(problem, {isc, single ? 0.9 : 0.7, single ? 0 : 0.2, 0.02 * scale, 1e-3 / scale, n},
-                        UpTo(60, 1e-10));
+  const LeastSquaresEnd end = SolveLeastSquares(
+      problem, {isc, single ? 0.9 : 0.7, single ? 0 : 0.2, 0.02 * scale, 1e-3 / scale, n},
+      UpTo(60, 1e-10));
   if (!end.usable) return out;
   out.photocurrent_A = end.p[kFitIph];
   out.resistance_series_ohm = end.p[kFitRs];

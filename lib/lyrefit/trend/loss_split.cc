@@ -28,8 +28,7 @@ std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const Trend
   constexpr std::array<double, kExchanged> kWeight = {1.0 / 4, 1.0 / 12, 1.0 / 12, 1.0 / 4};
   std::array<double, kSets> power{};
   for (int set = 0; set < kSets; ++set) {
-    power[set] =
-        MaximumPowerPoint(device, Mixed(before, after, set), temperature_C).power_W();
+    power[set] = MaximumPowerPoint(device, Mixed(before, after, set), temperature_C).power_W();
   }
   std::array<double, kTrendParts> shares{};
   for (int part = 0; part < kExchanged; ++part) {

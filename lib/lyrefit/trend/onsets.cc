@@ -61,10 +61,11 @@ CauseWords WordsOf(const TrendReport& report, const TrendQuantity& quantity,
   const std::string other =
       quantity.name == "recombination" ? "conductance_shunt" : "recombination";
   if (HasOnsetNear(report, other, change.time_s)) {
-    return {"potential-induced degradation",
-            "shunt and recombination grow together, as by potential-induced degradation (PID)",
-            "measure the string's potential to ground and its insulation; electroluminescence shows "
-            "dark cells at the negative end"};
+    return {
+        "potential-induced degradation",
+        "shunt and recombination grow together, as by potential-induced degradation (PID)",
+        "measure the string's potential to ground and its insulation; electroluminescence shows "
+        "dark cells at the negative end"};
   }
   if (quantity.name == "recombination") {
     return {"growing recombination",
@@ -113,8 +114,8 @@ void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
       onset.time_s = onset.latest_s = blocks.time_s[b];
       onset.earliest_s = last_s;
       onset.lost_percent = LostNow(*report, "mismatch");
-      onset.cause = fmt::format("{} of {} substrings without voltage", lost[b],
-                                blocks.device->substrings);
+      onset.cause =
+          fmt::format("{} of {} substrings without voltage", lost[b], blocks.device->substrings);
       onset.sentence =
           "Voc is lower by whole substrings: a bypass diode is shorted, or a cell string is open "
           "and bypassed. To do: measure the voltage of each substring at the junction box and "

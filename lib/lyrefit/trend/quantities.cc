@@ -15,14 +15,15 @@ namespace {
 
 constexpr double kYear_days = 365.25;
 constexpr double kTwo_pi = 6.283185307179586;
-constexpr std::size_t kLeastForSizes = 8;   // days from which a regression has errors
-constexpr double kRecent_days = 30;         // "now"
+constexpr std::size_t kLeastForSizes = 8;         // days from which a regression has errors
+constexpr double kRecent_days = 30;               // "now"
 constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
-constexpr double kLeastForRate_days = 30;   // a shorter series has no rate a year
-constexpr double kScaleError = 0.02;        // of sizes: gains, temperature of the cells, model
-constexpr double kLeastForShortRate_days = 60;  // of a part of the series
+constexpr double kLeastForRate_days = 30;         // a shorter series has no rate a year
+constexpr double kScaleError = 0.02;             // of sizes: gains, temperature of the cells, model
+constexpr double kLeastForShortRate_days = 120;  // of a part of the series
+constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
 constexpr double kUnmonitoredLevel = 0.002;
-constexpr int kMonitored = 4;               // quantities whose onsets are claimed
+constexpr int kMonitored = 4;  // quantities whose onsets are claimed
 
 // What a quantity is and how it is found from a block.
 struct QuantityKind {
@@ -170,8 +171,8 @@ double PowerAt(const TrendBlocks& blocks, double lost_V) {
   std::array<double, kTrendParameters> parameters{};
   std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
   parameters[kTrendVoltage] -= lost_V;
-  const TrendState state = StateOf(*blocks.device, parameters, blocks.device->photocurrent_A,
-                                   kReferenceTemperature_C);
+  const TrendState state =
+      StateOf(*blocks.device, parameters, blocks.device->photocurrent_A, kReferenceTemperature_C);
   return MaximumPowerPoint(*blocks.device, state, kReferenceTemperature_C).power_W();
 }
 
@@ -191,6 +192,7 @@ double DriftOf(const std::string& name, const TrendBlocks& blocks, const TrendOp
   if (name == "p_mp" || name == "total") {
     return std::hypot(light, PercentPerVolt(blocks) * volts);
   }
+  if (name == "resistance_series") return kLawError * blocks.reference[kTrendSeries];
   return name == "recombination" ? volts : 0;
 }
 
@@ -284,10 +286,9 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   for (const ChangePoint& point : found.changes) {
     quantity->changes.push_back(ChangeOf(point, fit, blocks.time_s.front()));
   }
-  std::sort(quantity->changes.begin(), quantity->changes.end(),
-            [](const TrendChange& one, const TrendChange& other) {
-              return one.time_s < other.time_s;
-            });
+  std::sort(
+      quantity->changes.begin(), quantity->changes.end(),
+      [](const TrendChange& one, const TrendChange& other) { return one.time_s < other.time_s; });
   Eigen::VectorXd values =
       Eigen::Map<const Eigen::VectorXd>(own.series.values.data(), found.design.rows());
   Eigen::VectorXd fitted = found.design * fit.coefficients;
@@ -300,8 +301,8 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   }
   for (std::size_t k = 0; k < own.of.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    quantity->days.push_back({blocks.time_s[own.of[k]], values[i], fitted[i],
-                              blocks.used[own.of[k]]});
+    quantity->days.push_back(
+        {blocks.time_s[own.of[k]], values[i], fitted[i], blocks.used[own.of[k]]});
   }
   return between;
 }
@@ -373,8 +374,7 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
 
 // Uneven shunts bend the knee of a curve as series resistance and recombination do. Where the shunt
 // grows from a day on, the rates of these are those before it.
-void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options,
-                     TrendReport* report) {
+void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
   const auto named = [&](const char* name) {
     return std::find_if(report->quantities.begin(), report->quantities.end(),
                         [&](const TrendQuantity& one) { return one.name == name; });
@@ -398,9 +398,8 @@ void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options,
     if (before.days.size() < kLeastForSizes || SpanDays(before) < kLeastForShortRate_days) continue;
     const TimeFit fit = FitTime(before, DesignOfLine(before));
     const double rate = fit.coefficients[1];
-    const double error =
-        std::hypot(std::sqrt(fit.covariance(1, 1)), DriftOf(name, blocks, options),
-                   kScaleError * rate);
+    const double error = std::hypot(std::sqrt(fit.covariance(1, 1)), DriftOf(name, blocks, options),
+                                    kScaleError * rate);
     quantity.rate_per_year = RangedOf(rate, error, fit.t_95());
     SetPercent(&quantity);
   }
@@ -451,7 +450,7 @@ void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
       return quantity->name == "p_mp" ? 100 - TotalPercent(sums[b])
                                       : PercentOf(sums[b], kPartMismatch) -
-                                           100 * sums[b].substrings_W / sums[b].expected_W;
+                                            100 * sums[b].substrings_W / sums[b].expected_W;
     });
     FillQuantity(blocks, own, options, kind.monitored, false, quantity);
   });
@@ -462,8 +461,7 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
   std::vector<double> all(blocks.size(), 0), recent(blocks.size(), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     all[b] = sums[b].expected_W;
-    if (blocks.time_s[b] > blocks.time_s.back() - kRecent_days * kDay_s &&
-        !blocks.IsReference(b)) {
+    if (blocks.time_s[b] > blocks.time_s.back() - kRecent_days * kDay_s && !blocks.IsReference(b)) {
       recent[b] = sums[b].expected_W;
     }
   }
@@ -474,7 +472,7 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
       return total ? TotalPercent(sums[b]) : PercentOf(sums[b], p);
     });
-    double drift = DriftOf(loss.name, blocks, options);
+    double drift = loss.name == "resistance_series" ? 0 : DriftOf(loss.name, blocks, options);
     if (loss.name == "recombination") drift *= PercentPerVolt(blocks);
     const bool daily = p == kPartLight || p == kPartMismatch || total;
     loss.energy_percent = MeanLoss(blocks, own, all, daily, drift);

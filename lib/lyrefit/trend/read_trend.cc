@@ -33,7 +33,8 @@ std::optional<double> DateInName(std::string_view name) {
       const char c = name[i];
       if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
         digits += c;
-      } else if (digits.size() % 2 != 0 || std::string_view("-_T :.").find(c) == std::string::npos) {
+      } else if (digits.size() % 2 != 0 ||
+                 std::string_view("-_T :.").find(c) == std::string::npos) {
         break;
       }
     }

@@ -9,9 +9,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kHuberAt = 1.5;       // standard deviations
-constexpr double kToSigma = 1.4826;    // of a median of absolute normal deviates
-constexpr double kDimmest = 0.1;       // below, the features stay what they are there
+constexpr double kHuberAt = 1.5;     // standard deviations
+constexpr double kToSigma = 1.4826;  // of a median of absolute normal deviates
+constexpr double kDimmest = 0.1;     // below, the features stay what they are there
 constexpr std::size_t kLeastValues = 30;
 
 double WeightOf(double residual, double sigma) {
@@ -73,8 +73,7 @@ Features FitWithinBlocks(const std::vector<ConditionedValue>& values) {
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::MatrixXd rows = Centred(values, ends, weights);
     const Eigen::MatrixXd x = weights.cwiseSqrt().asDiagonal() * rows.leftCols(kConditionFeatures);
-    const Eigen::VectorXd y =
-        weights.cwiseSqrt().cwiseProduct(rows.rightCols(1).col(0));
+    const Eigen::VectorXd y = weights.cwiseSqrt().cwiseProduct(rows.rightCols(1).col(0));
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(kRank);
     const Eigen::VectorXd found = solver.compute(x).solve(y);

@@ -11,6 +11,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/read/date_time.h"
 #include "lyrefit/trend/blocks.h"
+#include "lyrefit/trend/operating_rows.h"
 #include "lyrefit/trend/quantities.h"
 #include "lyrefit/trend/trend_device.h"
 #include "lyrefit/trend/trend_words.h"
@@ -58,7 +59,11 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   report.seed = options.seed;
   report.options = NonDefaults(options, kTrendOptionTable);
   const ProgressReporter progress(observer, "trend", 2);
-  TrendBlocks blocks = MakeBlocks(*series.device, series.rows, options);
+  std::vector<TrendRow> rows = series.rows;
+  if (series.source == TrendSource::kOperatingPoints) {
+    ReduceOperatingPoints(*series.device, options, &rows);
+  }
+  TrendBlocks blocks = MakeBlocks(*series.device, std::move(rows), options);
   if (blocks.size() < kLeastBlocks || blocks.reference_blocks < 1) {
     return Fail(fmt::format(
         "expected usable measurements at {} times or more, found {}: {} of {} measurements count",

@@ -118,20 +118,20 @@ double TrendDevice::Photocurrent(double irradiance_W_m2, double temperature_C) c
 
 double TrendDevice::OpenCircuit(double photocurrent, double temperature_C) const {
   const SaturationShift shift = ShiftAt(*this, temperature_C);
-  const double half =
-      HalfExponential(photocurrent, saturation_current_A * std::exp(shift.first),
-                      saturation_current_2_A * std::exp(shift.second));
+  const double half = HalfExponential(photocurrent, saturation_current_A * std::exp(shift.first),
+                                      saturation_current_2_A * std::exp(shift.second));
   return 2 * ThermalVoltage(temperature_C) * std::log(half);
 }
 
-TrendState StateOf(const TrendDevice& device, const std::array<double, kTrendParameters>& parameters,
-                   double expected_A, double temperature_C) {
+TrendState StateOf(const TrendDevice& device,
+                   const std::array<double, kTrendParameters>& parameters, double expected_A,
+                   double temperature_C) {
   const double voc = device.OpenCircuit(expected_A, temperature_C) + parameters[kTrendVoltage];
   const double half = std::exp(-0.5 * voc / device.ThermalVoltage(temperature_C));
   const double second = std::min(parameters[kTrendSecond], 1.0);
-  return {expected_A * std::exp(parameters[kTrendLight]),
-          std::max(parameters[kTrendSeries], 0.0), (1 - second) * expected_A * half * half,
-          second * expected_A * half, std::max(parameters[kTrendShunt], 0.0)};
+  return {expected_A * std::exp(parameters[kTrendLight]), std::max(parameters[kTrendSeries], 0.0),
+          (1 - second) * expected_A * half * half, second * expected_A * half,
+          std::max(parameters[kTrendShunt], 0.0)};
 }
 
 TrendPoint MaximumPowerPoint(const TrendDevice& device, const TrendState& state,
@@ -140,9 +140,9 @@ TrendPoint MaximumPowerPoint(const TrendDevice& device, const TrendState& state,
   // dP/dVd = I + Vd I' - 2 Rs I I'.
   const double a = device.ThermalVoltage(temperature_C);
   const double iph = state.photocurrent_A, rs = state.resistance_series_ohm;
-  const double voc = 2 * a *
-                     std::log(HalfExponential(iph, state.saturation_current_A,
-                                              state.saturation_current_2_A));
+  const double voc =
+      2 * a *
+      std::log(HalfExponential(iph, state.saturation_current_A, state.saturation_current_2_A));
   double junction = voc - a * std::log(std::max(voc / a, 2.0));
   double low = 0, high = voc, current = 0;
   constexpr int kSteps = 60;
@@ -249,9 +249,7 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
   row.lost_substrings =
       LostSubstrings(device, row.voc_V, device.OpenCircuit(row.isc_A, row.temperature_C));
   const double left =
-      device.substrings > 0
-          ? 1 - static_cast<double>(row.lost_substrings) / device.substrings
-          : 1;
+      device.substrings > 0 ? 1 - static_cast<double>(row.lost_substrings) / device.substrings : 1;
   const SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
                                 device.n, SweepFree::kSecondDiode);
   if (!fit.usable) {

@@ -49,8 +49,9 @@ struct TrendState {
 
 // The device with these parameters (TrendParameter) where the law expects `expected_A` as its
 // photocurrent.
-TrendState StateOf(const TrendDevice& device, const std::array<double, kTrendParameters>& parameters,
-                   double expected_A, double temperature_C);
+TrendState StateOf(const TrendDevice& device,
+                   const std::array<double, kTrendParameters>& parameters, double expected_A,
+                   double temperature_C);
 
 // A point of a device's curve.
 struct TrendPoint {

@@ -39,10 +39,12 @@ enum class TrendRowState {
 
 template <>
 struct EnumTable<TrendRowState> {
-  static constexpr EnumText<TrendRowState> kRows[] = {
-      {TrendRowState::kUsed, "used"},          {TrendRowState::kStepped, "shaded"},
-      {TrendRowState::kDim, "dim"},            {TrendRowState::kLimited, "limited"},
-      {TrendRowState::kOffMaximum, "off maximum"}, {TrendRowState::kUnusable, "unusable"}};
+  static constexpr EnumText<TrendRowState> kRows[] = {{TrendRowState::kUsed, "used"},
+                                                      {TrendRowState::kStepped, "shaded"},
+                                                      {TrendRowState::kDim, "dim"},
+                                                      {TrendRowState::kLimited, "limited"},
+                                                      {TrendRowState::kOffMaximum, "off maximum"},
+                                                      {TrendRowState::kUnusable, "unusable"}};
 };
 
 // Number of states.
@@ -50,11 +52,11 @@ constexpr int kTrendRowStates = 6;
 
 // Positions of the parameters that are followed over time.
 enum TrendParameter {
-  kTrendLight,     // ln of the photocurrent over its expectation
-  kTrendSeries,    // series resistance, ohm
-  kTrendVoltage,   // open-circuit voltage of the diodes less that of the law, V
-  kTrendSecond,    // share of the second diode in the current at open circuit
-  kTrendShunt,     // shunt conductance, S
+  kTrendLight,    // ln of the photocurrent over its expectation
+  kTrendSeries,   // series resistance, ohm
+  kTrendVoltage,  // open-circuit voltage of the diodes less that of the law, V
+  kTrendSecond,   // share of the second diode in the current at open circuit
+  kTrendShunt,    // shunt conductance, S
   kTrendParameters
 };
 // Positions of the parts of a loss of power.
@@ -80,12 +82,15 @@ struct TrendRow {
   // Of the whole device with all its substrings.
   std::array<double, kTrendParameters> parameters = {kUnknown, kUnknown, kUnknown, kUnknown,
                                                      kUnknown};
-  double misfit = kUnknown;   // rms of current residuals over Isc
-  int lost_substrings = 0;    // without voltage
-  double substrings_W = 0;    // of the part by mismatch: by lost substrings
+  // Its series resistance, diodes and shunt are a value of its day; false: they repeat those of
+  // other rows.
+  bool represents = true;
+  double misfit = kUnknown;  // rms of current residuals over Isc
+  int lost_substrings = 0;   // without voltage
+  double substrings_W = 0;   // of the part by mismatch: by lost substrings
   std::array<double, kTrendParts> parts_W = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   TrendRowState state = TrendRowState::kUnusable;
-  std::string reason;         // of an unusable one
+  std::string reason;  // of an unusable one
 
   // Power in W.
   double power_W() const { return voltage_V * current_A; }
@@ -93,18 +98,18 @@ struct TrendRow {
 
 // Number of measurements that are unusable for one reason.
 struct TrendReason {
-  std::string reason;    // with the place of the first
+  std::string reason;     // with the place of the first
   std::int64_t rows = 0;  // number of measurements
 };
 
 // A change of a quantity on a day.
 struct TrendChange {
-  bool onset = false;       // the rate changes; else the level
-  double time_s = kUnknown;  // the first day after it
+  bool onset = false;            // the rate changes; else the level
+  double time_s = kUnknown;      // the first day after it
   double earliest_s = kUnknown;  // 95 % range of that day
   double latest_s = kUnknown;    // its other end
-  Ranged size;              // step: unit of the quantity; onset: that unit a year
-  double p_value = kUnknown;  // over all days
+  Ranged size;                   // step: unit of the quantity; onset: that unit a year
+  double p_value = kUnknown;     // over all days
 };
 
 // A day of a quantity.
@@ -117,39 +122,39 @@ struct TrendDay {
 
 // A quantity over time.
 struct TrendQuantity {
-  std::string name;   // "resistance_series"
-  std::string title;  // "series resistance"
-  std::string unit;   // "ohm"
+  std::string name;        // "resistance_series"
+  std::string title;       // "series resistance"
+  std::string unit;        // "ohm"
   bool monitored = false;  // its changes to the worse are onsets, at the stated rate of false ones
-  double reference = kUnknown;  // over the reference days
-  Ranged rate_per_year;         // in its unit, mean over the series, without steps
-  Ranged rate_percent;          // of the reference, a year; NaN without a meaning
+  double reference = kUnknown;     // over the reference days
+  Ranged rate_per_year;            // in its unit, mean over the series, without steps
+  Ranged rate_percent;             // of the reference, a year; NaN without a meaning
   double rate_until_s = kUnknown;  // the rate is that before this time; NaN: of the whole series
   std::vector<TrendChange> changes;
-  double seasonal = kUnknown;   // amplitude over the year; NaN: not separable from a trend
-  double day_scatter = kUnknown;  // standard deviation of a day
+  double seasonal = kUnknown;        // amplitude over the year; NaN: not separable from a trend
+  double day_scatter = kUnknown;     // standard deviation of a day
   double shared_scatter = kUnknown;  // of what neighbouring days share
-  double half_life_days = 0;    // of that
+  double half_life_days = 0;         // of that
   std::vector<TrendDay> days;
-  std::string missing;          // why it is not known; then the others are empty
+  std::string missing;  // why it is not known; then the others are empty
 };
 
 // A loss against the reference days, in percent of the energy or power that they let expect.
 struct TrendLoss {
-  std::string name;    // "light", "resistance_series", "recombination", "shunt", "mismatch", "total"
+  std::string name;  // "light", "resistance_series", "recombination", "shunt", "mismatch", "total"
   Ranged energy_percent;  // over all days
   Ranged now_percent;     // over the last 30 days with data
 };
 
 // An onset or a step to the worse, with what it may be.
 struct TrendOnset {
-  std::string quantity;  // name of the quantity
-  double time_s = kUnknown;      // day
-  double earliest_s = kUnknown;  // 95 % range
-  double latest_s = kUnknown;    // its other end
+  std::string quantity;            // name of the quantity
+  double time_s = kUnknown;        // day
+  double earliest_s = kUnknown;    // 95 % range
+  double latest_s = kUnknown;      // its other end
   double lost_percent = kUnknown;  // of power, over the last 30 days, by this part
-  std::string cause;     // "rising series resistance"
-  std::string sentence;  // what it is and what to do
+  std::string cause;               // "rising series resistance"
+  std::string sentence;            // what it is and what to do
 };
 
 // Result of FindTrend.
@@ -160,29 +165,29 @@ struct TrendReport {
   std::uint64_t seed = 0;
   std::vector<OptionEcho> options;
   int cells_in_series = 1;
-  int substrings = 0;             // with a bypass diode; 0: not known
-  double ideality = kUnknown;     // of the law's first diode, half that of its second one
-  std::string law;                // where the law is from
-  double first_s = kUnknown;      // time of the first measurement
-  double last_s = kUnknown;       // time of the last one
+  int substrings = 0;                 // with a bypass diode; 0: not known
+  double ideality = kUnknown;         // of the law's first diode, half that of its second one
+  std::string law;                    // where the law is from
+  double first_s = kUnknown;          // time of the first measurement
+  double last_s = kUnknown;           // time of the last one
   double reference_end_s = kUnknown;  // end of the reference days
-  std::int64_t rows = 0;          // measurements
+  std::int64_t rows = 0;              // measurements
   std::array<std::int64_t, kTrendRowStates> states{};  // their number by TrendRowState
-  std::vector<TrendReason> reasons;      // of the unusable ones
-  std::size_t days = 0;           // days with data
-  double reference_power_W = kUnknown;   // at standard conditions, over the reference days
-  double energy_kWh = kUnknown;   // measured, if the rows are evenly spaced
+  std::vector<TrendReason> reasons;                    // of the unusable ones
+  std::size_t days = 0;                                // days with data
+  double reference_power_W = kUnknown;  // at standard conditions, over the reference days
+  double energy_kWh = kUnknown;         // measured, if the rows are evenly spaced
   std::vector<TrendQuantity> quantities;
   std::vector<TrendLoss> losses;  // parts, then the total
   // Daily parts of the loss in percent of the expected energy, in the order of `losses`, without the
   // total; for pictures.
   std::vector<std::vector<TrendDay>> loss_days;
   std::vector<TrendOnset> onsets;
-  std::string verdict;            // in one sentence or a few
+  std::string verdict;                   // in one sentence or a few
   std::vector<std::string> not_decided;  // what the measurements cannot tell, and what would
   std::vector<std::string> warnings;
   bool interrupted = false;
-  double seconds = 0;             // of computing
+  double seconds = 0;  // of computing
 };
 
 }  // namespace lyrefit

@@ -24,11 +24,11 @@ struct TimedSweep {
 
 // Measurements of one device, reduced to standard conditions, in any order.
 struct TrendSeries {
-  std::string name;                    // of the device
+  std::string name;  // of the device
   TrendSource source = TrendSource::kSweeps;
   std::shared_ptr<const TrendDevice> device;  // the law that they are reduced by
-  std::string law;                     // where it is from, in a few words
-  std::vector<TrendRow> rows;          // one for each measurement
+  std::string law;                            // where it is from, in a few words
+  std::vector<TrendRow> rows;                 // one for each measurement
 };
 
 // A series without rows and name, by the law of a module file. Errors: a module with two diodes.

@@ -151,15 +151,16 @@ Expected<TrendSeries> ReadTrendState(const std::string& path) {
 
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series) {
   TRY(const auto log, AppendLog::Open(path, kStateKind));
-  const std::string head = HeadOfSeries(series).dump(-1, ' ', false,
-                                                     StateJson::error_handler_t::replace);
+  const std::string head =
+      HeadOfSeries(series).dump(-1, ' ', false, StateJson::error_handler_t::replace);
   std::set<double> times;
   TRY(log->TakeUp([&](const std::string& line, int number) -> Expected<void> {
     if (number == 1) {
       if (line == head) return {};
-      return Fail("this state follows a device by another law: begin another one, or append by the "
-                  "law that it has",
-                  path, 1);
+      return Fail(
+          "this state follows a device by another law: begin another one, or append by the "
+          "law that it has",
+          path, 1);
     }
     // The time is the first number of a line: [1741775400.0,...
     char* end = nullptr;

@@ -17,7 +17,8 @@ std::string PowerVerdict(const TrendReport& report) {
   const Ranged& energy = total.energy_percent;
   if (!std::isfinite(energy.value)) return "The series is too short for a loss.";
   std::string text = fmt::format(
-      "Since the reference the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy than it would have "
+      "Since the reference the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy than it would "
+      "have "
       "given unchanged",
       std::fabs(energy.value), energy.value < 0 ? -energy.high_95 : energy.low_95,
       energy.value < 0 ? -energy.low_95 : energy.high_95, energy.value < 0 ? "more" : "less");
@@ -78,14 +79,13 @@ void AddWords(TrendReport* report) {
   }
   for (const TrendQuantity& quantity : report->quantities) {
     if (!quantity.missing.empty()) {
-      report->not_decided.push_back(
-          fmt::format("{}: {}.", quantity.title, quantity.missing));
+      report->not_decided.push_back(fmt::format("{}: {}.", quantity.title, quantity.missing));
     }
   }
   const std::int64_t unusable = report->states[static_cast<int>(TrendRowState::kUnusable)];
   if (unusable * 5 > report->rows) {
-    report->warnings.push_back(fmt::format("{} of {} measurements are unusable.", unusable,
-                                           report->rows));
+    report->warnings.push_back(
+        fmt::format("{} of {} measurements are unusable.", unusable, report->rows));
   }
 }
 

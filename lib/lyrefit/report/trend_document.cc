@@ -76,7 +76,7 @@ Section QuantitySection(const TrendReport& report) {
                                   ? quantity.title
                                   : fmt::format("{} ({})", quantity.title, quantity.unit);
     if (!quantity.missing.empty()) {
-      table.rows.push_back({title, "-", quantity.missing});
+      table.rows.push_back({title, "-", "-"});
       continue;
     }
     table.rows.push_back(

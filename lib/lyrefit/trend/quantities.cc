@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/date_time.h"
@@ -22,6 +23,9 @@ constexpr double kLeastForRate_days = 30;         // a shorter series has no rat
 constexpr double kScaleError = 0.02;             // of sizes: gains, temperature of the cells, model
 constexpr double kLeastForShortRate_days = 120;  // of a part of the series
 constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
+constexpr double kPartError = 0.05;  // of every part, in % of energy: of the model
+// Of the shunt's part: what shunts of unlike cells move to series resistance and recombination.
+constexpr double kUnevenShunt = 0.15;
 constexpr double kUnmonitoredLevel = 0.002;
 constexpr int kMonitored = 4;  // quantities whose onsets are claimed
 
@@ -33,7 +37,9 @@ struct QuantityKind {
   int followed;  // position among the levels; -1: of the losses
   // Value of a level, or of the sums of a block.
   double (*value)(const TrendBlocks& blocks, double level);
-  bool monitored;  // its changes count as false alarms where there is none
+  bool monitored;  // its changes to the worse are onsets
+  bool changes;    // whether changes are looked for
+  bool operating;  // whether operating points tell it
 };
 
 double LightPercent(const TrendBlocks& blocks, double level) {
@@ -50,13 +56,16 @@ double LostVoltage(const TrendBlocks& blocks, double level) {
 }
 
 constexpr QuantityKind kQuantityKinds[] = {
-    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false},
-    {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false},
-    {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true},
-    {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true},
-    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false},
-    {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true},
-    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true},
+    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, false, true},
+    {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false,
+     true, true},
+    {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true, true, true},
+    {"recombination", "voltage lost by recombination", "V", kTrendVoltage, LostVoltage, true, true,
+     true},
+    {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
+     false},
+    {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false},
+    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true, true, true},
 };
 
 constexpr const char* kPartNames[] = {"light", "resistance_series", "recombination", "shunt",
@@ -82,6 +91,17 @@ std::vector<BlockSums> SumsOf(const TrendBlocks& blocks) {
 
 double PercentOf(const BlockSums& sum, int part) {
   return 100 * sum.parts_W[part] / sum.expected_W;
+}
+
+// Mean of a part over blocks with these weights, in percent.
+double MeanPart(const std::vector<BlockSums>& sums, const std::vector<double>& weights, int part) {
+  double value = 0, sum = 0;
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    if (!(weights[b] > 0)) continue;
+    value += weights[b] * PercentOf(sums[b], part);
+    sum += weights[b];
+  }
+  return sum > 0 ? value / sum : 0;
 }
 
 double TotalPercent(const BlockSums& sum) {
@@ -166,10 +186,23 @@ double VoltsPerKelvin(const TrendDevice& device) {
                    device.OpenCircuit(device.photocurrent_A, kUsual_C - 0.5));
 }
 
+// Median light of the reference days as it is, without what would carry it to 1000 W/m2.
+double PlainLight(const TrendBlocks& blocks) {
+  std::vector<double> lights;
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    const TrendRow& row = blocks.rows[i];
+    if (row.state == TrendRowState::kUsed && blocks.IsReference(blocks.block[i])) {
+      lights.push_back(row.parameters[kTrendLight]);
+    }
+  }
+  return Median(lights);
+}
+
 // Power in W of the device of the reference at 1000 W/m2 and 25 C with a voltage less.
 double PowerAt(const TrendBlocks& blocks, double lost_V) {
   std::array<double, kTrendParameters> parameters{};
   std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
+  parameters[kTrendLight] = PlainLight(blocks);
   parameters[kTrendVoltage] -= lost_V;
   const TrendState state =
       StateOf(*blocks.device, parameters, blocks.device->photocurrent_A, kReferenceTemperature_C);
@@ -250,7 +283,7 @@ Eigen::VectorXd MeanRate(const TimeSeries& series, const ChangingSeries& found) 
 // Fills a quantity. `conditions`: whether the regression has those of the days. Returns their
 // coefficients.
 std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const BlockSeries& own,
-                                              const TrendOptions& options, bool monitored,
+                                              const TrendOptions& options, const QuantityKind& kind,
                                               bool conditions, TrendQuantity* quantity) {
   std::array<double, kBetweenDays> between{};
   if (own.of.size() < kLeastForSizes) {
@@ -266,7 +299,8 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   ChangeOptions changes;
   changes.seed = options.seed;
   changes.level = std::min(options.false_alarms_per_year * std::max(years, 0.1) / kMonitored, 0.2);
-  if (!monitored) changes.level = std::min(changes.level, kUnmonitoredLevel);
+  if (!kind.changes) changes.most = 0;
+  if (!kind.monitored) changes.level = std::min(changes.level, kUnmonitoredLevel);
   const ChangingSeries found = FitChanges(own.series, design, changes);
   const TimeFit& fit = found.fit;
   quantity->reference = ReferenceMean(blocks, own);
@@ -325,11 +359,28 @@ void Condition(int what, const std::array<double, kBetweenDays>& between, TrendB
   }
 }
 
+// Mean of a part over the reference blocks of which most rows are used; 0: there are none. It is the
+// rest of the conditions that the law does not know.
+double CleanReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
+  std::vector<int> shaded(blocks.size(), 0);
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    shaded[blocks.block[i]] += blocks.rows[i].state == TrendRowState::kStepped ? 1 : 0;
+  }
+  std::vector<ConditionedValue> first;
+  for (std::size_t k = 0; k < own.of.size(); ++k) {
+    const std::size_t b = own.of[k];
+    if (!blocks.IsReference(b) || 5 * shaded[b] > blocks.used[b]) continue;
+    first.push_back({0, {}, own.series.values[k]});
+  }
+  return first.empty() ? 0 : BlockMean(first, {});
+}
+
 // The mean of a part over blocks with these weights. It is 0 over the reference blocks, whose errors
 // count too. The errors of days count, and those that neighbouring days share where the part does not change from
 // day to day itself, as light and snow do.
 Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
-                const std::vector<double>& weights, bool changes_daily, double drift_per_year) {
+                const std::vector<double>& weights, bool changes_daily, double drift_per_year,
+                double model_error) {
   const std::size_t n = own.of.size();
   std::vector<double> share(n, 0);
   double sum = 0, mean_day = 0, first_day = 0, first_count = 0;
@@ -339,7 +390,7 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   }
   Ranged out;
   if (!(sum > 0) || !(first_count > 0)) return out;
-  double value = 0;
+  double value = -CleanReferenceMean(blocks, own);
   for (std::size_t k = 0; k < n; ++k) {
     const double weight = weights[own.of[k]] / sum;
     value += weight * own.series.values[k];
@@ -367,7 +418,8 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
     variance += share[i] * share[i] * fit.noise.shared_sigma * fit.noise.shared_sigma;
   }
   const double drift = drift_per_year * (mean_day - first_day) / kYear_days;
-  const double error = std::hypot(std::sqrt(std::max(variance, 0.0)), drift);
+  const double error =
+      std::hypot(std::sqrt(std::max(variance, 0.0)), std::hypot(drift, model_error));
   const Ranged ranged = RangedOf(value, error, fit.t_95());
   return ranged;
 }
@@ -423,15 +475,19 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
     const QuantityKind& kind = kQuantityKinds[i];
     if (kind.followed < 0) return;
     TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
+    if (!kind.operating && report->source == TrendSource::kOperatingPoints) {
+      quantity->missing = "operating points hardly depend on it, sweeps tell it";
+      return;
+    }
     const BlockSeries own = SeriesOf(*blocks, [&](std::size_t b) {
       const double level = blocks->level[kind.followed][b];
       return std::isfinite(level) ? kind.value(*blocks, level) : kUnknown;
     });
-    between[i] = FillQuantity(*blocks, own, options, kind.monitored, true, quantity);
+    between[i] = FillQuantity(*blocks, own, options, kind, true, quantity);
   });
   for (int i = 0; i < kCount; ++i) {
     const QuantityKind& kind = kQuantityKinds[i];
-    if (kind.followed < 0) continue;
+    if (kind.followed < 0 || report->quantities[i].days.empty()) continue;
     const double scale = kind.value(*blocks, blocks->reference[kind.followed] + 0.5) -
                          kind.value(*blocks, blocks->reference[kind.followed] - 0.5);
     for (double& one : between[i]) one /= scale;
@@ -452,7 +508,7 @@ void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
                                       : PercentOf(sums[b], kPartMismatch) -
                                             100 * sums[b].substrings_W / sums[b].expected_W;
     });
-    FillQuantity(blocks, own, options, kind.monitored, false, quantity);
+    FillQuantity(blocks, own, options, kind, false, quantity);
   });
 }
 
@@ -474,9 +530,19 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     });
     double drift = loss.name == "resistance_series" ? 0 : DriftOf(loss.name, blocks, options);
     if (loss.name == "recombination") drift *= PercentPerVolt(blocks);
+    if (p == kPartShunt && report->source == TrendSource::kOperatingPoints) {
+      report->losses.push_back({loss.name, {}, {}});
+      report->loss_days.emplace_back();
+      continue;
+    }
     const bool daily = p == kPartLight || p == kPartMismatch || total;
-    loss.energy_percent = MeanLoss(blocks, own, all, daily, drift);
-    loss.now_percent = MeanLoss(blocks, own, recent, daily, drift);
+    const bool mixed = p == kPartSeries || p == kPartRecombination || p == kPartShunt;
+    const auto error = [&](const std::vector<double>& weights) {
+      return mixed ? std::hypot(kPartError, kUnevenShunt * MeanPart(sums, weights, kPartShunt))
+                   : kPartError;
+    };
+    loss.energy_percent = MeanLoss(blocks, own, all, daily, drift, error(all));
+    loss.now_percent = MeanLoss(blocks, own, recent, daily, drift, error(recent));
     report->losses.push_back(std::move(loss));
     if (total) continue;
     std::vector<TrendDay> days;

@@ -72,6 +72,11 @@ void AddWords(TrendReport* report) {
           "Voc at sunrise, when all are at the temperature of the air.");
     }
   }
+  if (report->source == TrendSource::kOperatingPoints) {
+    report->not_decided.emplace_back(
+        "Operating points do not tell a shunt: what it takes is among light and series resistance. "
+        "A sweep in dim light tells it.");
+  }
   if (days < 710) {
     report->not_decided.emplace_back(
         "A season and a trend are told apart from two years on; rates of a shorter series may "

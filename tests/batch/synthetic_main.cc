@@ -14,7 +14,7 @@ constexpr const char* kUsage =
     "lyrefit_synthetic curves --out FILE [--truth FILE] [--count N] [--points P] [--broken SHARE]\n"
     "             [--reversed SHARE] [--seed N] [--shape jsonl|csv]\n"
     "lyrefit_synthetic plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
-    "             [--module FILE] [--strings N] [--seed N] [--threads N]\n"
+    "             [--module FILE] [--strings N] [--years N] [--seed N] [--threads N]\n"
     "lyrefit_synthetic score --results FILE --truth FILE\n";
 
 using Flags = std::map<std::string, std::function<void(const char*)>>;
@@ -71,6 +71,7 @@ int Plant(int argc, char** argv) {
       {"--truth", [&](const char* text) { request.truth = text; }},
       {"--module", [&](const char* text) { request.module = text; }},
       {"--strings", [&](const char* text) { request.strings = std::atoi(text); }},
+      {"--years", [&](const char* text) { request.years = std::atoi(text); }},
       {"--seed", [&](const char* text) { request.seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { request.threads = std::atoi(text); }},
   };

@@ -76,9 +76,9 @@ void GrownTree(Random* random, StringRig* rig) {
 
 // What one sweep of each campaign cannot tell apart is accepted alike.
 constexpr const char* kResistance = "series_resistance|fill_factor";
-constexpr const char* kSubstrings = "substrings|modules";
+constexpr const char* kSubstrings = "substrings";
 constexpr const char* kLight = "light";
-constexpr const char* kKnee = "knee|fill_factor|several";
+constexpr const char* kKnee = "shunt_or_mismatch|fill_factor|several";
 
 }  // namespace
 

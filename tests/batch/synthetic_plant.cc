@@ -35,7 +35,8 @@ std::vector<int> HiddenPlaces(const PlantRequest& request) {
 // The strings of the first campaign in their order.
 std::vector<Slot> FirstSlots(const PlantRequest& request) {
   std::vector<Slot> slots;
-  for (int place = 0; place < request.strings; ++place) slots.push_back({place, place, IdOf(place)});
+  for (int place = 0; place < request.strings; ++place)
+    slots.push_back({place, place, IdOf(place)});
   const std::vector<int> hidden = HiddenPlaces(request);
   for (std::size_t k = 0; k < hidden.size(); ++k) slots[hidden[k]].fault = &PlantFaults()[k];
   return slots;
@@ -79,8 +80,8 @@ std::vector<Slot> LaterSlots(const PlantRequest& request) {
   for (std::size_t k = 0; k < slots.size(); ++k) {
     if (slots[k].change == nullptr || slots[k].change->of != ChangeOf::kNew) continue;
     // Modules of its own at the end of the combiner.
-    const int last = static_cast<int>(k) / kStringsOfCombiner * kStringsOfCombiner +
-                     kStringsOfCombiner - 1;
+    const int last =
+        static_cast<int>(k) / kStringsOfCombiner * kStringsOfCombiner + kStringsOfCombiner - 1;
     const int after = std::min(last, static_cast<int>(slots.size()) - 1);
     Slot added{request.strings + 1000, after, IdOf(after) + "-2"};
     added.change = slots[k].change;
@@ -180,9 +181,9 @@ std::string ChangeTruth(const std::vector<Slot>& slots, const PlantRequest& requ
   ForAll(static_cast<int>(slots.size()), request.threads, [&](int k) {
     const Slot& slot = slots[k];
     if (slot.change == nullptr) return;
-    lines[k] = Text("%s,%s,%s,%s,%.1f,%s\n", slot.id.c_str(), slot.change->name,
-                    slot.change->accepted, slot.partner.c_str(), LostPower(slot, first, request),
-                    slot.change->words);
+    lines[k] =
+        Text("%s,%s,%s,%s,%.1f,%s\n", slot.id.c_str(), slot.change->name, slot.change->accepted,
+             slot.partner.c_str(), LostPower(slot, first, request), slot.change->words);
   });
   std::string text = "id,change,accepted,partner,lost_W,words\n";
   for (const std::string& line : lines) text += line;
@@ -199,7 +200,8 @@ std::string ModuleJson(double rated_W) {
              "  \"rated_power_W\": %.0f,\n  \"short_circuit_current_A\": %.2f,\n"
              "  \"open_circuit_voltage_V\": %.1f,\n  \"max_power_current_A\": %.2f,\n"
              "  \"max_power_voltage_V\": %.1f,\n",
-             kCellsOfModule, kGroupsOfModule, kModules, rated_W, cool.isc, cool.voc, cool.imp, cool.vmp) +
+             kCellsOfModule, kGroupsOfModule, kModules, rated_W, cool.isc, cool.voc, cool.imp,
+             cool.vmp) +
          Text(
              "  \"alpha_sc_percent_K\": %.3f,\n  \"beta_oc_percent_K\": %.3f,\n"
              "  \"gamma_pmp_percent_K\": %.3f\n}\n",

@@ -17,7 +17,7 @@ inline constexpr int kStringsOfCombiner = 25;
 // A string and the conditions of its measurement.
 struct StringRig {
   std::vector<faults::field::Module> modules;
-  double lead_ohm = 0;  // of connectors and cables
+  double lead_ohm = 0;               // of connectors and cables
   double suns = 1, kelvin = 298.15;  // of the string
   faults::field::Sky sky;
   faults::field::Tracer tracer;

@@ -41,8 +41,8 @@ Weather WeatherOf(int place, int years) {
   const int minute = (place % kOfDay) * 70 / 60;
   const double hour = 10.5 + minute / 60.0;
   Weather weather;
-  weather.suns = (day % 2 == 0 ? (later ? 0.92 : 0.96) : (later ? 0.97 : 0.91)) *
-                 std::cos((hour - 13) * 0.26);
+  weather.suns =
+      (day % 2 == 0 ? (later ? 0.92 : 0.96) : (later ? 0.97 : 0.91)) * std::cos((hour - 13) * 0.26);
   weather.kelvin = kCelsius + (later ? 23 : 19) + 1.1 * (hour - 10.5) + 27 * weather.suns;
   weather.date = Text("%d-06-%02d %02d:%02d", 2026 + years, (later ? 21 : 16) + day,
                       (630 + minute) / 60, (630 + minute) % 60);
@@ -215,8 +215,7 @@ Strung Measure(const Slot& slot, const PlantRequest& request) {
                                        KeyPointsOf(CurveOf(WholeString(built.without))).pmax());
   strung.readings = Measured(whole, &lit, noise);
   // The sensor is set up anew at each combiner, and calibrated anew for each campaign.
-  Random sensor(
-      SeedOf(request.seed, 1'000'000 + slot.where / kStringsOfCombiner, request.years));
+  Random sensor(SeedOf(request.seed, 1'000'000 + slot.where / kStringsOfCombiner, request.years));
   const double calibrated = request.years % 2 == 0 ? 1 : 1.012;
   const double gain = calibrated * (1 + 0.004 * sensor.Normal() + 0.006 * noise->Normal());
   const double warmer = request.years % 2 == 0 ? 0 : 0.5;

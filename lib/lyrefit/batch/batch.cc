@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/base/file.h"
 #include "lyrefit/batch/campaign_results.h"
 #include "lyrefit/batch/checkpoint.h"
 #include "lyrefit/batch/pipeline.h"
@@ -210,8 +210,9 @@ Expected<void> TakeEarlier(const BatchTaskType& task, const BatchOptions& option
                            CheckpointHead* head) {
   if (options.before.empty()) return {};
   if (ColumnNamed(kFigureColumns[0], task.columns) == task.columns.size()) {
-    return Fail("earlier results are compared at standard conditions: --before is for --task "
-                "field-test");
+    return Fail(
+        "earlier results are compared at standard conditions: --before is for --task "
+        "field-test");
   }
   std::error_code error;
   if (std::filesystem::equivalent(options.before, options.folder, error)) {

@@ -14,7 +14,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kTested = 4;              // Isc, Voc, FF, Pmax
+constexpr int kTested = 4;  // Isc, Voc, FF, Pmax
 constexpr double kTwoSided = 2;
 constexpr double kMostDegrees = 1e6;  // where Student's t is normal
 
@@ -34,11 +34,11 @@ Ratios LogRatiosOf(const CampaignString& string) {
           logs[kCPmax],
           logs[kCImp] - logs[kCIsc],
           logs[kCVmp] - logs[kCVoc],
-          logs[kCPmax] - logs[kCIsc]};
+          logs[kCFillFactor]};
 }
 
 // Reported standard uncertainty of each change, if no error is common to both campaigns. Those of
-// the last three, in which the light cancels, are that of the fill factor.
+// the last three, in which light cancels, are that of the fill factor.
 Ratios ReportedSigma(const CampaignString& before, const CampaignString& after) {
   Ratios sigma{};
   for (int q = 0; q <= kCPmax; ++q) {
@@ -102,8 +102,8 @@ double ScatterOf(const Compared& compared, const Changes& changes, const Indices
 // Own changes of strings that have one reference, and their scatter. `groups`: number of medians.
 void SetScatter(const Compared& compared, const Indices& members, std::size_t groups,
                 Changes* changes) {
-  const double degrees = std::clamp(
-      kMadEfficiency * static_cast<double>(members.size() - groups), 1.0, kMostDegrees);
+  const double degrees =
+      std::clamp(kMadEfficiency * static_cast<double>(members.size() - groups), 1.0, kMostDegrees);
   for (int q = 0; q < kCampaignRatios; ++q) {
     const double scatter = ScatterOf(compared, *changes, members, q);
     for (const std::int32_t i : members) {
@@ -113,14 +113,56 @@ void SetScatter(const Compared& compared, const Indices& members, std::size_t gr
   for (const std::int32_t i : members) (*changes)[i].degrees = degrees;
 }
 
-// A group that scatters more than the plant has its own scatter.
+// A group that scatters more than the plant by more than chance has its own scatter.
 void WidenByGroup(const Compared& compared, const Indices& members, Changes* changes) {
+  constexpr double kChance = 2;  // standard deviations
+  const double spread = 1 / std::sqrt(2 * kMadEfficiency * static_cast<double>(members.size() - 1));
   for (int q = 0; q < kCampaignRatios; ++q) {
     const double own = ScatterOf(compared, *changes, members, q);
     for (const std::int32_t i : members) {
       float& sigma = (*changes)[i].sigma[q];
-      sigma = std::max(sigma, static_cast<float>(own * compared.weights[i][q]));
+      const auto wider = static_cast<float>(own * compared.weights[i][q]);
+      if (wider > sigma * (1 + kChance * spread)) sigma = wider;
     }
+  }
+}
+
+// Adjusts the fill factor by least squares over the strings within some standard deviations, which
+// are found again with the result.
+void AdjustFill(const Indices& members, Changes* changes) {
+  constexpr int kLeastStrings = 30;
+  constexpr int kRounds = 4;
+  constexpr double kInside = 3;
+  double by_isc = 0, by_voc = 0;
+  if (static_cast<int>(members.size()) < kLeastStrings) return;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> sizes;
+    const auto left = [&](const CampaignChange& change) {
+      return change.own[kCFillFactor] - by_isc * change.own[kCIsc] - by_voc * change.own[kCVoc];
+    };
+    for (const std::int32_t i : members) sizes.push_back(std::fabs(left((*changes)[i])));
+    const double scatter = kNormalMad * Median(std::move(sizes));
+    double ii = 0, iv = 0, vv = 0, fi = 0, fv = 0;
+    for (const std::int32_t i : members) {
+      const CampaignChange& change = (*changes)[i];
+      const double isc = change.own[kCIsc], voc = change.own[kCVoc];
+      if (std::fabs(isc) > kInside * change.sigma[kCIsc] ||
+          std::fabs(voc) > kInside * change.sigma[kCVoc] ||
+          std::fabs(left(change)) > kInside * scatter) {
+        continue;
+      }
+      const double fill = change.own[kCFillFactor];
+      ii += isc * isc, iv += isc * voc, vv += voc * voc, fi += fill * isc, fv += fill * voc;
+    }
+    const double determinant = ii * vv - iv * iv;
+    if (!(determinant > 1e-9 * ii * vv)) return;
+    by_isc = (fi * vv - fv * iv) / determinant;
+    by_voc = (fv * ii - fi * iv) / determinant;
+  }
+  for (const std::int32_t i : members) {
+    CampaignChange& change = (*changes)[i];
+    change.own[kAdjustedFill] = static_cast<float>(
+        change.own[kCFillFactor] - by_isc * change.own[kCIsc] - by_voc * change.own[kCVoc]);
   }
 }
 
@@ -236,8 +278,7 @@ void FindGroups(const Compared& compared, Campaign* campaign) {
     for (double& shift : shifts) shift = std::fabs(shift - middle);
     const double scatter = kNormalMad * Median(shifts);
     const double degrees = std::max(kMadEfficiency * (count - 1), 1.0);
-    const double t =
-        StudentQuantile(1 - campaign->level / (kTwoSided * kTested * count), degrees);
+    const double t = StudentQuantile(1 - campaign->level / (kTwoSided * kTested * count), degrees);
     for (std::size_t g = 0; g < shifts.size(); ++g) {
       if (shifts[g] > t * scatter) campaign->groups[g].differs = true;
     }
@@ -266,7 +307,11 @@ Campaign CompareCampaigns(const std::vector<CampaignString>& before,
     for (const Indices* members : whole) {
       SetOwn(compared.raw, *members, CampaignReference::kGroup, *members, &campaign.changes);
     }
-    if (!in_groups.empty()) SetScatter(compared, in_groups, whole.size(), &campaign.changes);
+    if (!in_groups.empty()) {
+      SetScatter(compared, in_groups, whole.size(), &campaign.changes);
+      AdjustFill(in_groups, &campaign.changes);
+      SetScatter(compared, in_groups, whole.size(), &campaign.changes);
+    }
     for (const Indices* members : whole) WidenByGroup(compared, *members, &campaign.changes);
     const bool plant = static_cast<int>(compared.all.size()) > kLeastPeers;
     const auto reference = plant ? CampaignReference::kPlant : CampaignReference::kNothing;

@@ -20,7 +20,7 @@ namespace lyrefit {
 // least kLeastPeers are compared; else of the others of the plant. Its own change is d = r - median.
 //
 // The usual scatter is s = 1.4826 median |d / w| over the plant, or over its own group if that is
-// larger, as for neighbours (neighbours.h). w is the reported uncertainty of r over the median of
+// larger by more than chance (neighbours.h). w is the reported uncertainty of r over the median of
 // the plant, at least 1: figures that are less sure than usual have a wider limit. The interval of d
 // is d +- t s w with Student's t at 95 % and the degrees of freedom of neighbours.h. A string is
 // changed if one of Isc, Voc, FF, Pmax exceeds t s w with t at level / (8 strings). So the level is
@@ -28,23 +28,28 @@ namespace lyrefit {
 // strings than kLeastPeers + 1 have no common change: r itself is compared with its reported
 // uncertainty.
 //
-// Power lost at standard conditions is P (1 - exp(d)), P of the earlier campaign. d is that of Pmax
-// if Isc changed, else that of Pmax / Isc, in which the errors of the light cancel.
+// Errors of light and temperature of a single sweep move Isc, Voc and FF together. The adjusted fill
+// factor is d(FF) - a d(Isc) - b d(Voc), with a and b by least squares over the strings that did not
+// change. It takes the place of FF where Isc and Voc are within what is usual; its scatter is smaller.
+//
+// Power lost at standard conditions is P (1 - exp(d)), P of the earlier campaign and d the sum over
+// those of Isc, Voc and FF that changed. Voc and FF within what is usual count as unchanged, with half
+// their intervals. If no figure changed, d is that of Pmax.
 
 // Figures that are kept of a string: those of kCampaignFigures, and the maximum power point.
 enum CampaignFigure { kCIsc, kCVoc, kCFillFactor, kCPmax, kCImp, kCVmp, kCampaignKept };
 
-// Changes that are formed of them: Isc, Voc, FF, Pmax, Imp / Isc, Vmp / Voc, Pmax / Isc.
-enum CampaignRatio { kImpPerIsc = 4, kVmpPerVoc, kPmaxPerIsc, kCampaignRatios };
+// Changes that are formed of them: Isc, Voc, FF, Pmax, Imp / Isc, Vmp / Voc, and FF adjusted.
+enum CampaignRatio { kImpPerIsc = 4, kVmpPerVoc, kAdjustedFill, kCampaignRatios };
 
 // A string in one campaign: about 150 bytes.
 struct CampaignString {
   std::string id;
-  std::string cause;  // of the diagnosis; empty: none
+  std::string cause;                            // of the diagnosis; empty: none
   std::array<float, kCampaignKept> values{};    // NaN: unknown
   std::array<float, kCampaignKept> expanded{};  // their uncertainties, k = 2
   std::int32_t bypass_diodes = 0;               // 0: unknown
-  bool repeat = false;  // light or conditions changed during the sweep
+  bool repeat = false;                          // light or conditions changed during the sweep
 };
 
 enum class CampaignKind {
@@ -71,14 +76,17 @@ enum class CampaignReference { kNothing, kPlant, kGroup };
 struct CampaignChange {
   CampaignKind kind = CampaignKind::kNotCompared;
   CampaignReference reference = CampaignReference::kNothing;
-  std::int32_t before = -1;   // index of the string in the earlier campaign; -1: none
+  std::int32_t before = -1;         // index of the string in the earlier campaign; -1: none
+  std::vector<std::int32_t> maybe;  // strings of the later campaign it may be exchanged with
   std::int32_t partner = -1;  // exchanged: index in the later campaign; renamed: in the earlier
-  std::int32_t steps = 0;     // substrings that are missing (> 0) or came back (< 0)
-  std::int32_t rank = 0;      // 1: the largest loss; 0: not changed
+  // Substrings that are missing (> 0) or came back (< 0): the whole numbers in the interval.
+  std::int32_t steps_low = 0, steps_high = 0;
+  std::int32_t rank = 0;                        // 1: the largest loss; 0: not changed
   std::array<float, kCampaignRatios> common{};  // common change
   std::array<float, kCampaignRatios> own{};     // own change
   std::array<float, kCampaignRatios> sigma{};   // scatter of the own change
   double degrees = 0;                           // of freedom of the scatter
+  bool adjusted = false;                        // the fill factor is judged by the adjusted one
   double lost_W = kUnknown, lost_low_W = kUnknown, lost_high_W = kUnknown;
   std::string why_not;  // reason if it is not compared
 };

@@ -12,10 +12,9 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kFigureStrings = 40;
+constexpr std::size_t kRanksOfAction = 8;
 
-std::string Watts(double watts) {
-  return std::isfinite(watts) ? fmt::format("{:.0f}", watts) : "";
-}
+std::string Watts(double watts) { return std::isfinite(watts) ? fmt::format("{:.0f}", watts) : ""; }
 
 std::string PercentText(const PercentChange& change) {
   if (!std::isfinite(change.value)) return "";
@@ -37,7 +36,8 @@ std::string Dates(const CampaignSummary& summary) {
 }
 
 block::Table CommonTable(const CampaignSummary& summary, std::size_t most) {
-  block::Table table = {"lrrrrr", {{"in common", "strings", "Isc, %", "Voc, %", "FF, %", "Pmax, %"}}};
+  block::Table table = {"lrrrrr",
+                        {{"in common", "strings", "Isc, %", "Voc, %", "FF, %", "Pmax, %"}}};
   table.caption =
       "What all strings have in common, with the reported uncertainty; groups that differ from the "
       "plant";
@@ -54,12 +54,16 @@ block::Table CommonTable(const CampaignSummary& summary, std::size_t most) {
 }
 
 block::Table ChangesTable(const CampaignSummary& summary, std::size_t most) {
-  block::Table table = {"rlrlw", {{"rank", "string", "W lost", "change", "what, and what to do"}}};
+  block::Table table = {"rlrrrrl",
+                        {{"rank", "string", "W lost", "Isc, %", "Voc, %", "FF, %", "change"}}};
   const std::size_t shown = std::min(summary.changes.size(), most);
   table.caption = shown < summary.changes.size()
                       ? fmt::format("The first {} of {} strings that changed, by watts lost", shown,
                                     Counted(summary.changed))
                       : "Strings that changed, by watts lost with 95 % intervals";
+  const auto percent = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:+.1f}", value) : "";
+  };
   for (std::size_t k = 0; k < shown; ++k) {
     const StringChange& change = summary.changes[k];
     const bool watts = std::isfinite(change.lost_W);
@@ -67,9 +71,38 @@ block::Table ChangesTable(const CampaignSummary& summary, std::size_t most) {
                           watts ? fmt::format("{} [{}, {}]", Watts(change.lost_W),
                                               Watts(change.lost_low_W), Watts(change.lost_high_W))
                                 : "",
-                          change.kind,
-                          change.sentence + "." +
-                              (change.action.empty() ? "" : " " + change.action)});
+                          percent(change.isc_percent), percent(change.voc_percent),
+                          percent(change.ff_percent), change.kind});
+  }
+  return table;
+}
+
+// "soiling, shading or sensor_offset" of "soiling shading sensor_offset".
+std::string AnyOf(const std::string& words) {
+  std::string text;
+  const std::size_t last = words.rfind(' ');
+  for (std::size_t at = 0; at < words.size(); ++at) {
+    text += words[at] != ' ' ? std::string(1, words[at]) : at == last ? " or " : ", ";
+  }
+  return text;
+}
+
+// What it may be and what to do, once for all strings that it is said of.
+block::Table ActionsTable(const CampaignSummary& summary) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> actions;
+  for (const StringChange& change : summary.changes) {
+    if (change.action.empty()) continue;
+    const std::string what = AnyOf(change.candidates) + ". " + change.action;
+    const auto same = std::find_if(actions.begin(), actions.end(),
+                                   [&](const auto& one) { return one.first == what; });
+    const auto place = static_cast<std::size_t>(same - actions.begin());
+    if (same == actions.end()) actions.push_back({what, {}});
+    actions[place].second.push_back(change.rank > 0 ? std::to_string(change.rank) : change.id);
+  }
+  block::Table table = {"lw", {{"ranks", "may be, and what to do"}}};
+  for (const auto& [what, ranks] : actions) {
+    table.rows.push_back(
+        {Names(ranks, static_cast<std::int64_t>(ranks.size()), kRanksOfAction), what});
   }
   return table;
 }
@@ -77,9 +110,9 @@ block::Table ChangesTable(const CampaignSummary& summary, std::size_t most) {
 }  // namespace
 
 std::string CampaignVerdict(const CampaignSummary& summary) {
-  std::string text = fmt::format(
-      "{} of {} strings changed since the last campaign by more than is usual", summary.changed,
-      Counted(summary.compared));
+  std::string text =
+      fmt::format("{} of {} strings changed since the last campaign by more than is usual",
+                  summary.changed, Counted(summary.compared));
   if (summary.changed > 0) {
     text += fmt::format(": {} lost, {} gained", Power(summary.lost_W), Power(summary.gained_W));
   }
@@ -99,8 +132,9 @@ std::vector<Section> CampaignSections(const CampaignSummary& summary, std::size_
   if (summary.before_version.empty()) return {};
   Section section = {"Since the last campaign"};
   AddSentence(CampaignVerdict(summary), &section);
-  AddField("before", fmt::format("{} strings{}{}", Counted(summary.before_rows),
-                                 Dates(summary).empty() ? "" : ", ", Dates(summary)),
+  AddField("before",
+           fmt::format("{} strings{}{}", Counted(summary.before_rows),
+                       Dates(summary).empty() ? "" : ", ", Dates(summary)),
            &section);
   AddField("level",
            fmt::format("{:g}: the probability that any string without a change is called changed",
@@ -130,7 +164,11 @@ std::vector<Section> CampaignSections(const CampaignSummary& summary, std::size_
     AddTable(CommonTable(summary, most), &section);
     AddSentence(summary.plant.sentence + ".", &section);
   }
-  if (!summary.changes.empty()) AddTable(ChangesTable(summary, most), &section);
+  if (!summary.changes.empty()) {
+    AddTable(ChangesTable(summary, most), &section);
+    block::Table actions = ActionsTable(summary);
+    if (!actions.rows.empty()) AddTable(std::move(actions), &section);
+  }
   for (const std::string& remark : summary.remarks) AddSentence(remark, &section);
   return {std::move(section)};
 }
@@ -153,15 +191,15 @@ block::Figure CampaignFigureOf(const CampaignSummary& summary) {
     if (!std::isfinite(change.lost_W) || bars.rows.size() == kFigureStrings) continue;
     const auto x = static_cast<double>(bars.rows.size());
     bars.Add(x, change.lost_W);
-    bars.texts.push_back(fmt::format("{}: {} W lost, {}", change.id, Watts(change.lost_W),
-                                     change.kind));
+    bars.texts.push_back(
+        fmt::format("{}: {} W lost, {}", change.id, Watts(change.lost_W), change.kind));
     bars.filters.push_back({"=" + change.id});
     intervals.Add(x, change.lost_low_W);
     intervals.Add(x, change.lost_high_W);
     intervals.EndLine();
     panel.x.ticks.push_back({ShortName(change.id), x});
-    shown.readings.rows.push_back({change.id, Watts(change.lost_W), Watts(change.lost_low_W),
-                                   Watts(change.lost_high_W)});
+    shown.readings.rows.push_back(
+        {change.id, Watts(change.lost_W), Watts(change.lost_low_W), Watts(change.lost_high_W)});
   }
   if (bars.rows.empty()) return shown;
   panel.x.low = -0.6;

@@ -17,9 +17,8 @@ constexpr double kSides = 2;
 // power that the series resistance takes.
 constexpr double kVocPerLight = 0.045;
 constexpr double kFillPerLight = -0.06;
-// A step of Voc is one of k substrings if its 95 % interval is narrower than this part of a
-// substring.
-constexpr double kNarrowStep = 0.45;
+// Change of ln(Voc) that a wrong temperature may look like: 6 K. More is missing or added cells.
+constexpr double kVocByTemperature = 0.018;
 // A loss of FF is by resistance if less than this part of it is in Imp / Isc: added resistance
 // moves Vmp, added shunt conductance and mismatch of currents move Imp.
 constexpr double kCurrentPart = 0.5;
@@ -37,14 +36,17 @@ struct Halves {
   std::array<double, kCampaignRatios> limit{};  // of what is usual
 };
 
-// Number of substrings that the change of Voc means; 0: none that the data decide.
-int StepsOf(double voc, double half, int substrings) {
-  if (substrings < 2) return 0;
-  const double part = 1 - std::exp(voc);
-  const double one = 1.0 / substrings;
-  const double steps = std::round(part / one);
-  if (steps == 0 || half > kNarrowStep * one) return 0;
-  return std::fabs(part - steps * one) <= half ? static_cast<int>(steps) : 0;
+// Sets the numbers of substrings that the change of Voc may mean. False: none, or a wrong
+// temperature may be the cause too.
+bool FindSteps(double voc, double half, int substrings, CampaignChange* change) {
+  if (substrings < 2 || std::fabs(voc) - half < kVocByTemperature) return false;
+  const double most = substrings * (1 - std::exp(voc - half));
+  const double least = substrings * (1 - std::exp(voc + half));
+  change->steps_low = static_cast<std::int32_t>(std::ceil(least));
+  change->steps_high = static_cast<std::int32_t>(std::floor(most));
+  if (change->steps_low <= change->steps_high) return true;
+  change->steps_low = change->steps_high = 0;
+  return false;
 }
 
 CampaignKind FillFactorKind(const CampaignChange& change, const Halves& of, bool new_cause,
@@ -54,6 +56,7 @@ CampaignKind FillFactorKind(const CampaignChange& change, const Halves& of, bool
                                      : CampaignKind::kShuntOrMismatch;
   }
   const double fill = change.own[kCFillFactor];
+  if (std::fabs(fill) < of.half[kCFillFactor]) return CampaignKind::kFillFactor;
   const double part = change.own[kImpPerIsc] / fill;
   const double half = of.half[kImpPerIsc] / std::fabs(fill);
   if (part + half < kCurrentPart) return CampaignKind::kSeriesResistance;
@@ -70,12 +73,15 @@ CampaignKind KindOf(const CampaignString& before, const CampaignString& after, c
   const double voc_left = own[kCVoc] - kVocPerLight * light;
   const double fill_left = own[kCFillFactor] - kFillPerLight * light;
   const bool voc = beyond(kCVoc, own[kCVoc]) && beyond(kCVoc, voc_left);
-  const bool fill = beyond(kCFillFactor, own[kCFillFactor]) && beyond(kCFillFactor, fill_left);
+  change->adjusted = !isc && !beyond(kCVoc, own[kCVoc]);
+  const bool fill =
+      change->adjusted ? beyond(kAdjustedFill, own[kAdjustedFill])
+                       : beyond(kCFillFactor, own[kCFillFactor]) && beyond(kCFillFactor, fill_left);
   if (!isc && !voc && !fill && !beyond(kCPmax, own[kCPmax])) return CampaignKind::kNone;
   if (before.repeat || after.repeat) return CampaignKind::kMeasurement;
   const bool new_cause = !after.cause.empty() && after.cause != before.cause;
-  change->steps = voc ? StepsOf(voc_left, of.half[kCVoc], after.bypass_diodes) : 0;
-  if (change->steps != 0 && !isc && !fill) return CampaignKind::kSubstrings;
+  const bool steps = voc && FindSteps(voc_left, of.half[kCVoc], after.bypass_diodes, change);
+  if (steps && !isc && !fill) return CampaignKind::kSubstrings;
   if (isc && !voc && !fill) return CampaignKind::kLight;
   const bool mostly_fill = !voc || std::fabs(own[kCVoc]) < 0.5 * std::fabs(own[kCFillFactor]);
   if (fill && !isc && mostly_fill) return FillFactorKind(*change, of, new_cause, after.cause);
@@ -83,17 +89,31 @@ CampaignKind KindOf(const CampaignString& before, const CampaignString& after, c
   return voc || fill ? CampaignKind::kSeveral : CampaignKind::kPower;
 }
 
-// Power lost, from Pmax / Isc where the current did not change.
+// Power lost by the figures that changed; by Pmax if none did. Voc and FF within what is usual count
+// as unchanged, give or take this part of their intervals.
+constexpr double kUnchangedPart = 0.5;
+
 void SetLost(const CampaignString& before, const Halves& of, CampaignChange* change) {
-  const double power_W = before.values[kCPmax];
-  const bool current = change->kind == CampaignKind::kNone ||
-                       change->kind == CampaignKind::kPower ||
-                       std::fabs(change->own[kCIsc]) > of.limit[kCIsc];
-  const int q = current ? int{kCPmax} : int{kPmaxPerIsc};
-  const double own = change->own[q], half = of.half[q];
-  change->lost_W = power_W * (1 - std::exp(own));
-  change->lost_low_W = power_W * (1 - std::exp(own + half));
-  change->lost_high_W = power_W * (1 - std::exp(own - half));
+  double own = 0, squares = 0;
+  bool changed = false;
+  const int fill = change->adjusted ? int{kAdjustedFill} : int{kCFillFactor};
+  for (const int q : {int{kCIsc}, int{kCVoc}, fill}) {
+    if (std::fabs(change->own[q]) > of.limit[q]) {
+      changed = true;
+      own += change->own[q];
+      squares += of.half[q] * of.half[q];
+    } else if (q != kCIsc) {
+      squares += std::pow(kUnchangedPart * of.half[q], 2);
+    }
+  }
+  if (!changed) {
+    own = change->own[kCPmax];
+    squares = of.half[kCPmax] * of.half[kCPmax];
+  }
+  const double power_W = before.values[kCPmax], half = std::sqrt(squares);
+  change->lost_W = power_W * -std::expm1(own);
+  change->lost_low_W = power_W * -std::expm1(own + half);
+  change->lost_high_W = power_W * -std::expm1(own - half);
 }
 
 bool IsNamed(CampaignKind kind) {

@@ -19,13 +19,12 @@ constexpr double kProfileSize = 4;
 // Two strings differ by the errors of two places, one string by those of one.
 constexpr double kWiderAcross = 1.3;
 // Tail probability of chi-squared below which two profiles are not of one string.
-constexpr double kLeastFit = 1e-3;
+constexpr double kLeastFit = 0.05;
 // A second partner that fits nearly as well leaves the pair undecided: the difference of
 // chi-squared, a ratio of likelihoods of 150.
 constexpr double kApart = 10;
 // More changed strings are not paired.
 constexpr std::size_t kMostPaired = 5000;
-constexpr std::int32_t kNobody = -1;
 
 double LogOf(const CampaignString& string, int q) {
   if (q == kVmpPerVoc) return std::log(double{string.values[kCVmp]} / string.values[kCVoc]);
@@ -57,10 +56,20 @@ Place BetweenOf(const CampaignChange& one, const CampaignChange& other, double w
   return place;
 }
 
-struct Partner {
-  std::int32_t best = kNobody;
-  double misfit = 0, second = 0;  // chi-squared of the best pair and of the next
-};
+constexpr std::size_t kMostPartners = 3;
+
+// Partners of a string that fit, with chi-squared of the pair; the best first.
+using Partners = std::vector<std::pair<double, std::int32_t>>;
+
+// Those that fit about as well as the best.
+std::vector<std::int32_t> LikelyOf(Partners partners) {
+  std::sort(partners.begin(), partners.end());
+  std::vector<std::int32_t> likely;
+  for (const auto& [misfit, other] : partners) {
+    if (misfit - partners.front().first <= kApart) likely.push_back(other);
+  }
+  return likely;
+}
 
 // Strings that differ from their own past in more than the light of their place.
 bool MayBeExchanged(const CampaignChange& change) {
@@ -99,8 +108,8 @@ void FindRenamed(const std::vector<CampaignString>& before,
     if (other == like.end()) continue;
     CampaignChange& change = campaign->changes[ids.front()];
     const CampaignChange& usual = campaign->changes[other->second];
-    const double misfit = Misfit(before[left->second.front()], after[ids.front()],
-                                 BetweenOf(usual, usual, 1));
+    const double misfit =
+        Misfit(before[left->second.front()], after[ids.front()], BetweenOf(usual, usual, 1));
     if (!(ChiSquaredTail(misfit, kProfileSize) > kLeastFit)) continue;
     change.kind = CampaignKind::kRenamed;
     change.partner = left->second.front();
@@ -122,17 +131,7 @@ void FindExchanged(const std::vector<CampaignString>& before,
   const double pairs = count * (count - 1) / 2;
   // The swap has to be better than two changes by the factor pairs / level in likelihood.
   const double least_gain = 2 * std::log(pairs / campaign->level) + kApart;
-  std::map<std::int32_t, Partner> partners;
-  const auto offer = [&](std::int32_t to, std::int32_t other, double misfit) {
-    Partner& partner = partners[to];
-    if (partner.best == kNobody || misfit < partner.misfit) {
-      partner.second = partner.best == kNobody ? kInfinity : partner.misfit;
-      partner.best = other;
-      partner.misfit = misfit;
-    } else {
-      partner.second = std::min(partner.second, misfit);
-    }
-  };
+  std::map<std::int32_t, Partners> partners;
   for (std::size_t a = 0; a < changed.size(); ++a) {
     for (std::size_t b = a + 1; b < changed.size(); ++b) {
       const std::int32_t i = changed[a], j = changed[b];
@@ -143,17 +142,22 @@ void FindExchanged(const std::vector<CampaignString>& before,
                           Misfit(before[changes[j].before], after[j], at);
       if (kept - crossed < least_gain) continue;
       if (!(ChiSquaredTail(crossed, 2 * kProfileSize) > kLeastFit)) continue;
-      offer(i, j, crossed);
-      offer(j, i, crossed);
+      partners[i].emplace_back(crossed, j);
+      partners[j].emplace_back(crossed, i);
     }
   }
-  for (const auto& [i, partner] : partners) {
-    const Partner& back = partners.at(partner.best);
-    const bool decided = partner.second - partner.misfit > kApart &&
-                         back.second - back.misfit > kApart && back.best == i;
-    if (!decided) continue;
+  for (const auto& [i, found] : partners) {
+    const std::vector<std::int32_t> likely = LikelyOf(found);
+    if (likely.size() != 1 || LikelyOf(partners.at(likely.front())) != std::vector{i}) continue;
     changes[i].kind = CampaignKind::kExchanged;
-    changes[i].partner = partner.best;
+    changes[i].partner = likely.front();
+  }
+  for (const auto& [i, found] : partners) {
+    if (changes[i].kind == CampaignKind::kExchanged) continue;
+    for (const std::int32_t other : LikelyOf(found)) {
+      const bool free = changes[other].kind != CampaignKind::kExchanged;
+      if (free && changes[i].maybe.size() < kMostPartners) changes[i].maybe.push_back(other);
+    }
   }
 }
 

@@ -54,9 +54,9 @@ void TakeRow(EarlierRow row, EarlierResults* results) {
 }
 
 tl::unexpected<Error> NoColumn(const char* name, const std::string& path, int line) {
-  return Fail(fmt::format("expected results of batch --task {}, found no column {}", kEarlierTask,
-                          name),
-              path, line);
+  return Fail(
+      fmt::format("expected results of batch --task {}, found no column {}", kEarlierTask, name),
+      path, line);
 }
 
 Expected<double> NumberOf(const nlohmann::json& json, const char* name) {
@@ -65,8 +65,7 @@ Expected<double> NumberOf(const nlohmann::json& json, const char* name) {
   return Fail(fmt::format("{}: expected a number, found {}", name, json.dump()));
 }
 
-Expected<EarlierRow> JsonEarlierRow(const nlohmann::json& json, const std::string& path,
-                                    int line) {
+Expected<EarlierRow> JsonEarlierRow(const nlohmann::json& json, const std::string& path, int line) {
   EarlierRow row;
   for (int k = 0; k < kEarlierTexts; ++k) {
     const auto found = json.find(kEarlierNames[k]);
@@ -139,9 +138,9 @@ Expected<void> ReadCsvRows(const std::string& path, std::istream* file, EarlierR
   for (int line = 2; std::getline(*file, text); ++line) {
     if (!splitter.Split(text)) return Fail("expected closed quotes in one line", path, line, 1);
     if (splitter.size() != places.count) {
-      return Fail(fmt::format("expected {} fields as in the head, found {}", places.count,
-                              splitter.size()),
-                  path, line, 1);
+      return Fail(
+          fmt::format("expected {} fields as in the head, found {}", places.count, splitter.size()),
+          path, line, 1);
     }
     EarlierRow row;
     for (int k = 0; k < kEarlierTexts; ++k) {
@@ -174,7 +173,8 @@ Expected<void> ReadEarlierSchema(const std::string& path, EarlierResults* result
   if (!fs::exists(path, error)) return {};
   TRY(const std::string text, ReadTextFile(path, kLargestEarlierSchema));
   const CheckpointHead schema = CheckpointHead::parse(text, nullptr, false);
-  const bool run = schema.is_object() && schema.contains("lyrefit") && schema["lyrefit"].is_object();
+  const bool run =
+      schema.is_object() && schema.contains("lyrefit") && schema["lyrefit"].is_object();
   if (!run) return Fail("expected the schema of results", path);
   const std::string task = schema["lyrefit"].value("task", "");
   if (task != kEarlierTask) {

@@ -80,9 +80,7 @@ void CampaignResults::Take(const ResultRow& row) {
   later_.push_back(std::move(string));
 }
 
-void CampaignResults::Compare() {
-  campaign_ = CompareCampaigns(earlier_.strings, later_, level_);
-}
+void CampaignResults::Compare() { campaign_ = CompareCampaigns(earlier_.strings, later_, level_); }
 
 std::vector<ResultCell> CampaignResults::NextCells() {
   return CampaignCells(campaign_, earlier_.strings, later_, next_++);

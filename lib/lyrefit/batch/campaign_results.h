@@ -19,11 +19,11 @@ inline constexpr char kBypassDiodesColumn[] = "bypass_diodes";
 
 // The results of an earlier run of task field-test, reduced to the figures that are compared.
 struct EarlierResults {
-  std::string version;                           // of lyrefit; "unknown" without a schema
+  std::string version;                                // of lyrefit; "unknown" without a schema
   CheckpointHead options = CheckpointHead::object();  // of the run; empty without a schema
-  std::string options_place;                     // file that states them
-  std::string first_date, last_date;             // of the sweeps, as written
-  std::vector<CampaignString> strings;           // one for each row
+  std::string options_place;                          // file that states them
+  std::string first_date, last_date;                  // of the sweeps, as written
+  std::vector<CampaignString> strings;                // one for each row
 };
 
 // Reads results.jsonl, else results.csv, of a folder, or one of both files. results.schema.json
@@ -64,8 +64,8 @@ class CampaignResults {
                                                          const std::vector<ResultColumn>& columns);
 
   void Take(const ResultRow& row);
-  void Compare();                        // after the last row
-  std::vector<ResultCell> NextCells();   // of the first row, the second, ...
+  void Compare();                       // after the last row
+  std::vector<ResultCell> NextCells();  // of the first row, the second, ...
   CampaignSummary Summary() const;
 
  private:

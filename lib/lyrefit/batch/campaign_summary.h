@@ -32,11 +32,15 @@ struct CommonChange {
 
 // A string that changed by more than is usual, or that can only be named.
 struct StringChange {
-  std::int64_t rank = 0;  // 1: the largest loss; 0: no power is known
-  std::string id;         // its name in the later campaign
-  std::string kind;       // as in the column change_kind
-  std::string sentence;   // as in the column change_sentence
-  std::string action;     // what to do next
+  std::int64_t rank = 0;          // 1: the largest loss; 0: no power is known
+  std::string id;                 // its name in the later campaign
+  std::string kind;               // as in the column change_kind
+  std::string sentence;           // as in the column change_sentence
+  std::string candidates;         // as in the column change_candidates
+  std::string action;             // what to do next
+  double isc_percent = kUnknown;  // its own changes
+  double voc_percent = kUnknown;
+  double ff_percent = kUnknown;
   double lost_W = kUnknown;
   double lost_low_W = kUnknown;  // 95 % interval
   double lost_high_W = kUnknown;
@@ -48,22 +52,22 @@ struct CampaignSummary {
   std::int64_t before_rows = 0;
   std::string before_first_date;  // of the earlier sweeps, as written
   std::string before_last_date;
-  double level = 0;            // probability that any string without a change is called changed
-  std::int64_t compared = 0;   // number of strings with figures in both campaigns
-  std::int64_t changed = 0;    // of `compared`: by more than is usual
-  double lost_W = 0;           // sum over strings that lost power
-  double gained_W = 0;         // sum over strings that gained power
-  CommonChange plant;          // of all strings
-  std::vector<CommonChange> groups;           // that differ from the plant
-  std::vector<StringChange> changes;          // at most kMostChanges, by rank
+  double level = 0;           // probability that any string without a change is called changed
+  std::int64_t compared = 0;  // number of strings with figures in both campaigns
+  std::int64_t changed = 0;   // of `compared`: by more than is usual
+  double lost_W = 0;          // sum over strings that lost power
+  double gained_W = 0;        // sum over strings that gained power
+  CommonChange plant;         // of all strings
+  std::vector<CommonChange> groups;   // that differ from the plant
+  std::vector<StringChange> changes;  // at most kMostChanges, by rank
   // Number of strings of the earlier campaign only: of groups with and without a later string.
   std::int64_t gone = 0;
   std::int64_t not_repeated = 0;
-  std::int64_t fresh = 0;                     // number of strings of the later campaign only
-  std::vector<std::string> gone_ids;          // the first kMostChanges of them
-  std::vector<std::string> fresh_ids;         // the first kMostChanges of them
+  std::int64_t fresh = 0;              // number of strings of the later campaign only
+  std::vector<std::string> gone_ids;   // the first kMostChanges of them
+  std::vector<std::string> fresh_ids;  // the first kMostChanges of them
   std::vector<std::pair<std::string, std::string>> exchanged;  // pairs of strings
-  std::vector<std::string> remarks;           // what the reader has to know
+  std::vector<std::string> remarks;                            // what the reader has to know
 };
 
 // Number of strings that the summary lists.

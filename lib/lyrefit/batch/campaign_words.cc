@@ -32,10 +32,9 @@ struct EnumTable<CampaignKind> {
 
 template <>
 struct EnumTable<CampaignReference> {
-  static constexpr EnumText<CampaignReference> kRows[] = {
-      {CampaignReference::kGroup, "group"},
-      {CampaignReference::kPlant, "plant"},
-      {CampaignReference::kNothing, "nothing"}};
+  static constexpr EnumText<CampaignReference> kRows[] = {{CampaignReference::kGroup, "group"},
+                                                          {CampaignReference::kPlant, "plant"},
+                                                          {CampaignReference::kNothing, "nothing"}};
 };
 
 namespace {
@@ -66,7 +65,7 @@ constexpr KindWords kKindWords[] = {
      "the voltage of whole groups of cells is missing, the rest as before",
      "Count the modules of the string, then measure the voltage of each.", "repair",
      "the voltage of whole groups of cells came back"},
-    {CampaignKind::kVoltage, "temperature_or_cells temp_offset bypass_short",
+    {CampaignKind::kVoltage, "bypass_short missing_module temperature_or_cells temp_offset",
      "less voltage, the rest as before: warmer cells than stated, or cells that are bypassed or "
      "degraded",
      "Repeat the sweep with a temperature sensor behind a module of the string.",
@@ -87,9 +86,8 @@ constexpr KindWords kKindWords[] = {
      "Sweep again at another light: resistance costs more in strong light, shunts in weak.",
      "repair cleaning", "more fill factor"},
     {CampaignKind::kSeveral, "other_module mismatch shading shunt bypass_short soiling",
-     "several figures fell at once",
-     "Look at the string; then sweep its modules one by one.", "repair cleaning other_module",
-     "several figures changed at once, with more power"},
+     "several figures fell at once", "Look at the string; then sweep its modules one by one.",
+     "repair cleaning other_module", "several figures changed at once, with more power"},
     {CampaignKind::kPower, "soiling shading series_resistance sensor_offset",
      "less power, while no single figure fell by more than is usual", "Repeat the sweep.",
      "cleaning repair sensor_offset", "more power, while no single figure rose"},
@@ -122,13 +120,31 @@ std::string FiguresText(const CampaignChange& change) {
                         Percent(change.own[q] - Half95(change, place)),
                         Percent(change.own[q] + Half95(change, place)));
   }
+  if (change.adjusted) {
+    const double half = Half95(change, kAdjustedFill);
+    text += fmt::format(
+        ", FF adjusted {:+.2f} % [{:+.2f}, {:+.2f}]", Percent(change.own[kAdjustedFill]),
+        Percent(change.own[kAdjustedFill] - half), Percent(change.own[kAdjustedFill] + half));
+  }
   return text;
 }
 
 std::string StepText(const CampaignChange& change, const CampaignString& after) {
-  const int steps = std::abs(change.steps);
-  return fmt::format("; the step is {} of {} bypass diodes{}", steps, after.bypass_diodes,
-                     steps > 1 ? fmt::format(": {} shorted ones, or fewer modules", steps) : "");
+  if (change.kind != CampaignKind::kSubstrings) return "";
+  const int one = std::abs(change.steps_low), other = std::abs(change.steps_high);
+  const int least = std::min(one, other), most = std::max(one, other);
+  return fmt::format("; of {} bypass diodes {} {} of these groups", after.bypass_diodes,
+                     least == most ? std::to_string(least) : fmt::format("{} to {}", least, most),
+                     most == 1 ? "has one" : "have one each");
+}
+
+// "; or exchanged with A or B, whose change is the opposite"
+std::string MaybeText(const CampaignChange& change, const std::vector<CampaignString>& after) {
+  std::string names;
+  for (const std::int32_t other : change.maybe) {
+    names += (names.empty() ? "" : " or ") + after[other].id;
+  }
+  return names.empty() ? "" : "; or exchanged with " + names + ", whose figures changed places";
 }
 
 struct ChangeTexts {
@@ -136,7 +152,7 @@ struct ChangeTexts {
 };
 
 ChangeTexts TextsOf(const Campaign& campaign, const std::vector<CampaignString>& before,
-              const std::vector<CampaignString>& after, std::size_t i) {
+                    const std::vector<CampaignString>& after, std::size_t i) {
   const CampaignChange& change = campaign.changes[i];
   switch (change.kind) {
     case CampaignKind::kNotCompared:
@@ -167,12 +183,13 @@ ChangeTexts TextsOf(const Campaign& campaign, const std::vector<CampaignString>&
                      after[i].cause != before[change.before].cause &&
                      change.kind != CampaignKind::kLight;
   ChangeTexts texts;
-  texts.sentence = fmt::format("{}{}{}: {}", loss ? words.what : words.gained,
-                               change.steps == 0 ? "" : StepText(change, after[i]),
-                               cause ? "; the sweep itself shows " + after[i].cause : "",
-                               FiguresText(change));
+  texts.sentence =
+      fmt::format("{}{}{}: {}", loss ? words.what : words.gained,
+                  StepText(change, after[i]) + MaybeText(change, after),
+                  cause ? "; the sweep itself shows " + after[i].cause : "", FiguresText(change));
   texts.candidates = cause ? after[i].cause : loss ? words.candidates : words.gained_candidates;
-  if (change.steps == 1 && loss) texts.candidates = "bypass_short";
+  if (change.steps_high == 1 && loss) texts.candidates = "bypass_short";
+  if (!change.maybe.empty()) texts.candidates += " exchanged";
   texts.action = loss ? words.action : kNote;
   return texts;
 }
@@ -202,11 +219,9 @@ CommonChange CommonChangeOf(const CampaignGroup& group) {
   return common;
 }
 
-void AppendFigureColumns(const char* figure, std::vector<ResultColumn>* columns) {
+void AppendFigureColumns(const std::string& figure, const std::string& of,
+                         std::vector<ResultColumn>* columns) {
   const std::string name = fmt::format("change_{}_percent", figure);
-  const std::string of = fmt::format(
-      "{} at standard conditions since the earlier campaign, less what its group has in common",
-      figure);
   columns->push_back({name, "%", CellType::kNumber, of});
   columns->push_back({name + "_low_95", "%", CellType::kNumber, "its 95 % interval"});
   columns->push_back({name + "_high_95", "%", CellType::kNumber, "its 95 % interval"});
@@ -233,15 +248,25 @@ std::vector<ResultColumn> CampaignColumns() {
       {"change_lost_W_low_95", "W", kNumber, "its 95 % interval"},
       {"change_lost_W_high_95", "W", kNumber, "its 95 % interval"},
   };
-  for (const char* figure : kCampaignFigures) AppendFigureColumns(figure, &columns);
+  for (const char* figure : kCampaignFigures) {
+    AppendFigureColumns(figure,
+                        fmt::format("{} at standard conditions since the earlier campaign, less "
+                                    "what its group has in common",
+                                    figure),
+                        &columns);
+  }
+  AppendFigureColumns("FF_adjusted",
+                      "the same of FF, less what errors of light and temperature move together "
+                      "with Isc and Voc; none where Isc or Voc changed",
+                      &columns);
   for (const char* figure : kCampaignFigures) {
     columns.push_back({fmt::format("change_common_{}_percent", figure), "%", kNumber,
                        fmt::format("{}: what its group, else the plant, has in common: light, age "
                                    "or a sensor",
                                    figure)});
   }
-  columns.push_back({"change_against", "", kText,
-                     "whose median is the common change: group, plant, or nothing"});
+  columns.push_back(
+      {"change_against", "", kText, "whose median is the common change: group, plant, or nothing"});
   columns.push_back({"change_sentence", "", kText, "the change in one sentence"});
   columns.push_back({"change_action", "", kText, "the next thing to do about it"});
   return columns;
@@ -271,6 +296,12 @@ std::vector<ResultCell> CampaignCells(const Campaign& campaign,
       cells.push_back(NumberCell(Percent(value)));
     }
   }
+  const bool adjusted = has && change.adjusted;
+  const double own = adjusted ? change.own[kAdjustedFill] : kUnknown;
+  const double half = adjusted ? Half95(change, kAdjustedFill) : kUnknown;
+  for (const double value : {own, own - half, own + half}) {
+    cells.push_back(NumberCell(Percent(value)));
+  }
   const bool common = has && change.reference != CampaignReference::kNothing;
   for (std::size_t q = 0; q < kCampaignFigures.size(); ++q) {
     cells.push_back(common ? NumberCell(Percent(change.common[q])) : ResultCell());
@@ -291,8 +322,7 @@ void SummariseCampaign(const Campaign& campaign, const std::vector<CampaignStrin
   }
   for (std::size_t i = 0; i < after.size(); ++i) {
     const CampaignChange& change = campaign.changes[i];
-    const bool fresh =
-        change.kind == CampaignKind::kNew || change.kind == CampaignKind::kRenamed;
+    const bool fresh = change.kind == CampaignKind::kNew || change.kind == CampaignKind::kRenamed;
     if (fresh) {
       ++summary->fresh;
       if (summary->fresh_ids.size() < kMostChanges) summary->fresh_ids.push_back(after[i].id);
@@ -308,9 +338,13 @@ void SummariseCampaign(const Campaign& campaign, const std::vector<CampaignStrin
     const bool listed = change.kind == CampaignKind::kRenamed || change.rank > 0;
     if (!listed || change.rank > static_cast<std::int32_t>(kMostChanges)) continue;
     const ChangeTexts texts = TextsOf(campaign, before, after, i);
+    const auto percent = [&](int q) {
+      return HasChange(change) ? Percent(change.own[q]) : kUnknown;
+    };
     summary->changes.push_back({change.rank, after[i].id, ToText(change.kind), texts.sentence,
-                                texts.action, change.lost_W, change.lost_low_W,
-                                change.lost_high_W});
+                                texts.candidates, texts.action, percent(kCIsc), percent(kCVoc),
+                                percent(change.adjusted ? int{kAdjustedFill} : int{kCFillFactor}),
+                                change.lost_W, change.lost_low_W, change.lost_high_W});
   }
   std::stable_sort(summary->changes.begin(), summary->changes.end(),
                    [](const StringChange& one, const StringChange& other) {

@@ -197,8 +197,7 @@ Document PlantDocument(const PlantContent& content) {
   AddFigure(NeighboursFigure(summary), &neighbours);
   AddSections({found}, &document);
   AddSections(std::move(since), &document);
-  AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)},
-              &document);
+  AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)}, &document);
   return document;
 }
 

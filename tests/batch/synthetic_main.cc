@@ -15,7 +15,7 @@ constexpr const char* kUsage =
     "             [--reversed SHARE] [--seed N] [--shape jsonl|csv]\n"
     "lyrefit_synthetic plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
     "             [--module FILE] [--strings N] [--years N] [--seed N] [--threads N]\n"
-    "lyrefit_synthetic score --results FILE --truth FILE\n";
+    "lyrefit_synthetic score --results FILE --truth FILE [--campaign FILE]\n";
 
 using Flags = std::map<std::string, std::function<void(const char*)>>;
 
@@ -81,13 +81,17 @@ int Plant(int argc, char** argv) {
 
 int Score(int argc, char** argv) {
   made::ScoreRequest request;
+  std::string campaign;
   const Flags flags = {
       {"--results", [&](const char* text) { request.results = text; }},
       {"--truth", [&](const char* text) { request.truth = text; }},
+      {"--campaign", [&](const char* text) { campaign = text; }},
   };
   if (!Read(argc, argv, flags) || request.results.empty() || request.truth.empty()) return Usage();
   std::string text;
-  const int code = Told(made::Score(request, &text));
+  const int code = Told(
+      campaign.empty() ? made::Score(request, &text)
+                       : made::ScoreChanges({request.results, campaign, request.truth}, &text));
   std::fputs(text.c_str(), stdout);
   return code;
 }

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/batch/campaign_summary.h"
+#include "lyrefit/batch/campaign_results.h"
 
 namespace lyrefit {
 namespace {

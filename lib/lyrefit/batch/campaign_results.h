@@ -53,6 +53,10 @@ inline constexpr const char* kExpandedColumns[] = {"Isc_stc_U_A",  "Voc_stc_U_V"
 // sweep.
 bool IsOfSweep(const std::string& about);
 
+// The summary as one JSON object, campaign.json, and back. A missing member keeps its default.
+CheckpointHead CampaignJson(const CampaignSummary& summary);
+CampaignSummary CampaignOf(const CheckpointHead& json);
+
 // Takes the strings of the later campaign from the rows, compares, and gives the cells of the rows
 // in the same order.
 class CampaignResults {

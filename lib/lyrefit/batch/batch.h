@@ -36,7 +36,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                         of task `cell` also the fields of samples.csv, under "samples"
 // The files have the same bytes on any number of threads, machines, shards and resumed runs. Memory
 // does not grow with the number of curves, except by ten numbers a pixel for the statistics of
-// samples.
+// samples, and by 560 bytes a string with earlier results.
 //
 // During the run the rows are in results.part (checkpoint.h). A killed run loses only the curves in
 // progress. A shard of several writes shard-K-of-N.part, and MergeShards combines the shards into

@@ -33,8 +33,8 @@ struct BatchOptions {
   double group_level = 0.001;
   double like_light = 0.05;
   // Results of an earlier run of task field-test on the same plant, a folder or a file: each string
-  // is compared with its own earlier figures (campaign.h). Empty: none. They are kept in memory,
-  // about 300 bytes a string.
+  // is compared with its own earlier figures (campaign.h). Empty: none. The figures of both runs are
+  // kept in memory, 560 bytes a string.
   std::string before;
   double change_level = 0.05;
   // Pages of single curves in the folder of the results: see string_pages.h.

@@ -197,6 +197,26 @@ void FindGone(const std::vector<CampaignString>& before, const std::vector<Campa
   }
 }
 
+// Adds the string at index `k` of the later campaign, if both sweeps have all figures.
+void AddPair(const CampaignString& before, const CampaignString& after, std::size_t k,
+             CampaignChange* change, Compared* compared) {
+  const Ratios now = LogRatiosOf(after), then = LogRatiosOf(before);
+  bool known = true, known_then = true;
+  for (int q = 0; q < kCampaignRatios; ++q) {
+    compared->raw[k][q] = now[q] - then[q];
+    known = known && std::isfinite(now[q]);
+    known_then = known_then && std::isfinite(then[q]);
+  }
+  if (!known || !known_then) {
+    change->why_not = known ? "the earlier sweep has no figures at standard conditions"
+                            : "this sweep has no figures at standard conditions";
+    return;
+  }
+  compared->sigmas[k] = ReportedSigma(before, after);
+  compared->groups[ParentOf(after.id)].push_back(static_cast<std::int32_t>(k));
+  compared->all.push_back(static_cast<std::int32_t>(k));
+}
+
 // Pairs each later string with its earlier one.
 Compared PairById(const std::vector<CampaignString>& before,
                   const std::vector<CampaignString>& after, Campaign* campaign) {
@@ -216,28 +236,12 @@ Compared PairById(const std::vector<CampaignString>& before,
     const auto found = earlier.find(after[k].id);
     if (found == earlier.end()) {
       change.kind = CampaignKind::kNew;
-      continue;
-    }
-    if (found->second.size() > 1 || later[after[k].id].size() > 1) {
+    } else if (found->second.size() > 1 || later[after[k].id].size() > 1) {
       change.why_not = "several curves have this id";
-      continue;
+    } else {
+      change.before = found->second.front();
+      AddPair(before[change.before], after[k], k, &change, &compared);
     }
-    change.before = found->second.front();
-    const Ratios now = LogRatiosOf(after[k]), then = LogRatiosOf(before[change.before]);
-    bool known = true, known_then = true;
-    for (int q = 0; q < kCampaignRatios; ++q) {
-      compared.raw[k][q] = now[q] - then[q];
-      known = known && std::isfinite(now[q]);
-      known_then = known_then && std::isfinite(then[q]);
-    }
-    if (!known || !known_then) {
-      change.why_not = known ? "the earlier sweep has no figures at standard conditions"
-                             : "this sweep has no figures at standard conditions";
-      continue;
-    }
-    compared.sigmas[k] = ReportedSigma(before[change.before], after[k]);
-    compared.groups[ParentOf(after[k].id)].push_back(static_cast<std::int32_t>(k));
-    compared.all.push_back(static_cast<std::int32_t>(k));
   }
   FindGone(before, after, later, campaign);
   return compared;
@@ -285,6 +289,43 @@ void FindGroups(const Compared& compared, Campaign* campaign) {
   }
 }
 
+// Own changes of strings of groups that are large enough.
+void CompareInGroups(const Compared& compared, const std::vector<const Indices*>& groups,
+                     Changes* changes) {
+  Indices all;
+  for (const Indices* members : groups) {
+    SetOwn(compared.raw, *members, CampaignReference::kGroup, *members, changes);
+    all.insert(all.end(), members->begin(), members->end());
+  }
+  if (all.empty()) return;
+  SetScatter(compared, all, groups.size(), changes);
+  AdjustFill(all, changes);
+  SetScatter(compared, all, groups.size(), changes);
+  for (const Indices* members : groups) WidenByGroup(compared, *members, changes);
+}
+
+// Own changes of the others, which scatter as all strings do against the plant; of a plant of few
+// strings the changes themselves, with their reported uncertainty.
+void CompareInPlant(const Compared& compared, const Indices& members, Changes* changes) {
+  if (members.empty()) return;
+  if (static_cast<int>(compared.all.size()) > kLeastPeers) {
+    Changes against = *changes;
+    SetOwn(compared.raw, compared.all, CampaignReference::kPlant, compared.all, &against);
+    SetScatter(compared, compared.all, 1, &against);
+    AdjustFill(compared.all, &against);
+    SetScatter(compared, compared.all, 1, &against);
+    for (const std::int32_t i : members) (*changes)[i] = against[i];
+    return;
+  }
+  SetOwn(compared.raw, members, CampaignReference::kNothing, compared.all, changes);
+  for (const std::int32_t i : members) {
+    for (int q = 0; q < kCampaignRatios; ++q) {
+      (*changes)[i].sigma[q] = static_cast<float>(compared.sigmas[i][q]);
+    }
+    (*changes)[i].degrees = kMostDegrees;
+  }
+}
+
 }  // namespace
 
 Campaign CompareCampaigns(const std::vector<CampaignString>& before,
@@ -296,39 +337,17 @@ Campaign CompareCampaigns(const std::vector<CampaignString>& before,
   if (!compared.all.empty()) {
     SetWeights(&compared);
     campaign.plant = CommonOf(compared, "", compared.all);
-    Indices in_groups, others;
-    std::vector<const Indices*> whole;
+    Indices others;
+    std::vector<const Indices*> groups;
     for (const auto& [name, members] : compared.groups) {
-      const bool group = static_cast<int>(members.size()) > kLeastPeers;
-      if (group) whole.push_back(&members);
-      Indices& into = group ? in_groups : others;
-      into.insert(into.end(), members.begin(), members.end());
-    }
-    for (const Indices* members : whole) {
-      SetOwn(compared.raw, *members, CampaignReference::kGroup, *members, &campaign.changes);
-    }
-    if (!in_groups.empty()) {
-      SetScatter(compared, in_groups, whole.size(), &campaign.changes);
-      AdjustFill(in_groups, &campaign.changes);
-      SetScatter(compared, in_groups, whole.size(), &campaign.changes);
-    }
-    for (const Indices* members : whole) WidenByGroup(compared, *members, &campaign.changes);
-    const bool plant = static_cast<int>(compared.all.size()) > kLeastPeers;
-    const auto reference = plant ? CampaignReference::kPlant : CampaignReference::kNothing;
-    SetOwn(compared.raw, others, reference, compared.all, &campaign.changes);
-    if (plant && !others.empty()) {
-      // Few strings of small groups scatter as all strings do against the plant.
-      Changes against = campaign.changes;
-      SetOwn(compared.raw, compared.all, reference, compared.all, &against);
-      SetScatter(compared, compared.all, 1, &against);
-      for (const std::int32_t i : others) campaign.changes[i] = against[i];
-    }
-    for (const std::int32_t i : plant ? Indices() : others) {
-      for (int q = 0; q < kCampaignRatios; ++q) {
-        campaign.changes[i].sigma[q] = static_cast<float>(compared.sigmas[i][q]);
+      if (static_cast<int>(members.size()) > kLeastPeers) {
+        groups.push_back(&members);
+      } else {
+        others.insert(others.end(), members.begin(), members.end());
       }
-      campaign.changes[i].degrees = kMostDegrees;
     }
+    CompareInGroups(compared, groups, &campaign.changes);
+    CompareInPlant(compared, others, &campaign.changes);
     FindGroups(compared, &campaign);
   }
   DecideKinds(before, after, compared.all.size(), &campaign);

@@ -86,7 +86,8 @@ struct CampaignChange {
   std::array<float, kCampaignRatios> own{};     // own change
   std::array<float, kCampaignRatios> sigma{};   // scatter of the own change
   double degrees = 0;                           // of freedom of the scatter
-  bool adjusted = false;                        // the fill factor is judged by the adjusted one
+  double t95 = kUnknown;  // Student's t of the intervals: half-width over sigma
+  bool adjusted = false;  // the fill factor is judged by the adjusted one
   double lost_W = kUnknown, lost_low_W = kUnknown, lost_high_W = kUnknown;
   std::string why_not;  // reason if it is not compared
 };
@@ -113,7 +114,7 @@ struct Campaign {
 Campaign CompareCampaigns(const std::vector<CampaignString>& before,
                           const std::vector<CampaignString>& after, double level);
 
-// campaign_words.cc: the columns, the cells of one string, and the summary.
+// campaign_columns.cc: the columns, the cells of one string, and the summary.
 std::vector<ResultColumn> CampaignColumns();
 std::vector<ResultCell> CampaignCells(const Campaign& campaign,
                                       const std::vector<CampaignString>& before,

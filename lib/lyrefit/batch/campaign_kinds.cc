@@ -151,6 +151,7 @@ void DecideKinds(const std::vector<CampaignString>& before,
       t95 = StudentQuantile(0.975, degrees);
       t_level = StudentQuantile(1 - tail, degrees);
     }
+    change.t95 = t95;
     const Halves of(change, t95, t_level);
     change.kind = KindOf(before[change.before], after[i], of, &change);
     SetLost(before[change.before], of, &change);

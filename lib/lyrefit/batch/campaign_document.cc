@@ -176,7 +176,7 @@ std::vector<Section> CampaignSections(const CampaignSummary& summary, std::size_
 block::Figure CampaignFigureOf(const CampaignSummary& summary) {
   block::Figure shown;
   Panel panel;
-  panel.x.slanted = true;
+  panel.x.label = "Rank in the table of changed strings";
   panel.y.label = "Power lost (W)";
   panel.zero_line = true;
   panel.height = 320;
@@ -197,7 +197,7 @@ block::Figure CampaignFigureOf(const CampaignSummary& summary) {
     intervals.Add(x, change.lost_low_W);
     intervals.Add(x, change.lost_high_W);
     intervals.EndLine();
-    panel.x.ticks.push_back({ShortName(change.id), x});
+    panel.x.ticks.push_back({std::to_string(change.rank), x});
     shown.readings.rows.push_back(
         {change.id, Watts(change.lost_W), Watts(change.lost_low_W), Watts(change.lost_high_W)});
   }

@@ -129,6 +129,7 @@ TEST_F(CampaignResultsTest, HasTheSameBytesOnThreadsShardsAndResumedRuns) {
   const auto again = RunOn(later_, FiguresTask(), resumed);
   ASSERT_TRUE(again) << again.error().ToString();
   EXPECT_TRUE(again->was_complete);
+  EXPECT_FALSE(fs::exists(Path("resumed/before.part")));
   for (int k = 1; k <= 3; ++k) {
     BatchOptions shard = Since(Path("before"), k == 2 ? "shards2" : "shards");
     shard.shard = {k, 3};
@@ -154,7 +155,9 @@ TEST_F(CampaignResultsTest, AnotherPastIsAnotherRun) {
   ASSERT_TRUE(RunOn(Path("other.jsonl"), FiguresTask(), Into(Path("other"))));
   options.before = Path("other");
   options.start = BatchStart::kResume;
+  const std::string copy = FileText(Path("out/before.part"));
   EXPECT_THAT(MessageOf(RunOn(later_, FiguresTask(), options)), HasSubstr("with before "));
+  EXPECT_EQ(FileText(Path("out/before.part")), copy) << "the run can still be resumed";
   for (int k = 1; k <= 2; ++k) {
     BatchOptions shard = Since(k == 1 ? Path("before") : Path("other"), "shards");
     shard.shard = {k, 2};

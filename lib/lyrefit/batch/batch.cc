@@ -205,10 +205,11 @@ std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePla
   return std::make_pair(place->input, place->number);
 }
 
-// Reads the earlier results, names them in the head, and leaves a copy in the folder.
-Expected<void> TakeEarlier(const BatchTaskType& task, const BatchOptions& options,
-                           CheckpointHead* head) {
-  if (options.before.empty()) return {};
+// Reads the earlier results and names them in the head. Returns their copy for the folder; empty if
+// there are none.
+Expected<std::string> TakeEarlier(const BatchTaskType& task, const BatchOptions& options,
+                                  CheckpointHead* head) {
+  if (options.before.empty()) return std::string();
   if (ColumnNamed(kFigureColumns[0], task.columns) == task.columns.size()) {
     return Fail(
         "earlier results are compared at standard conditions: --before is for --task "
@@ -222,10 +223,10 @@ Expected<void> TakeEarlier(const BatchTaskType& task, const BatchOptions& option
   TRY(const EarlierResults earlier, ReadEarlierResults(options.before));
   CheckpointHead& echoed = head->at("options");
   TRY(CheckSameCoefficients(earlier, echoed));
-  const std::string text = EarlierText(earlier);
+  std::string text = EarlierText(earlier);
   echoed[kBeforeOption] = EarlierDigest(text);
   echoed["change-level"] = options.change_level;
-  return WriteTextFile(EarlierCopyPath(options.folder), text);
+  return text;
 }
 
 // True if the folder already has the results of this run, so that nothing is left to do.
@@ -277,7 +278,7 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
   const bool shard = options.shard.of > 1;
   TRY(PrepareFolder(options.folder, shard || options.start != BatchStart::kNew));
   TRY(CheckpointHead head, HeadOf(*source, task, options));
-  TRY(TakeEarlier(task, options, &head));
+  TRY(const std::string earlier, TakeEarlier(task, options, &head));
   TRY(summary.was_complete, AreThere(head, options));
   if (summary.was_complete) return summary;
   const PartStart start = options.start == BatchStart::kNew      ? PartStart::kNew
@@ -285,6 +286,7 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
                                                                  : PartStart::kReplace;
   const std::string path = CheckpointPath(options.folder, options.shard);
   TRY(const auto part, CheckpointFile::Open(path, head, start));
+  if (!earlier.empty()) TRY(WriteTextFile(EarlierCopyPath(options.folder), earlier));
   summary.rows_before = part->rows();
   summary.was_complete = shard && part->complete();
   if (!part->complete()) {

@@ -292,6 +292,21 @@ TEST(Campaign, OfNoStringsIsNoError) {
   EXPECT_EQ(SummaryOf(other).compared, 0);
 }
 
+TEST(Campaign, AgainstItselfHasNoChange) {
+  TwoCampaigns two = MakeCampaigns(4, 10, 14);
+  two.after = two.before;
+  EXPECT_EQ(SummaryOf(two).changed, 0);
+  EXPECT_EQ(SummaryOf(two).plant.percent[0].value, 0);
+  EXPECT_EQ(NumberOf(two, two.after[3].id, "change_lost_W"), 0);
+}
+
+TEST(Campaign, ANewNameWithoutFiguresIsNew) {
+  TwoCampaigns two = MakeCampaigns(4, 10, 15);
+  two.after[3].id = "elm/comb00/other";
+  two.after[3].values.fill(std::nanf(""));
+  EXPECT_EQ(TextOf(two, "elm/comb00/other", "change_kind"), "new");
+}
+
 TEST(Campaign, StringsWithoutAGroupAreComparedWithThePlant) {
   TwoCampaigns two = MakeCampaigns(10, 4, 13);  // groups of four are too small
   Apply({0.85, 1, 1, 1}, &two.after[5]);

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kTested = 4;  // Isc, Voc, FF, Pmax
 constexpr double kTwoSided = 2;
-constexpr double kMostDegrees = 1e6;  // where Student's t is normal
+constexpr double kLeastScatter = 1e-4;  // resolution of figures that are equal in most strings
+constexpr double kMostDegrees = 1e6;    // where Student's t is normal
 
 using Changes = std::vector<CampaignChange>;
 using Indices = std::vector<std::int32_t>;
@@ -96,7 +97,7 @@ double ScatterOf(const Compared& compared, const Changes& changes, const Indices
   for (const std::int32_t i : members) {
     sizes.push_back(std::fabs(changes[i].own[q]) / compared.weights[i][q]);
   }
-  return kNormalMad * Median(std::move(sizes));
+  return std::fmax(kNormalMad * Median(std::move(sizes)), kLeastScatter);
 }
 
 // Own changes of strings that have one reference, and their scatter. `groups`: number of medians.

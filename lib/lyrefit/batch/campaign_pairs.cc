@@ -110,6 +110,7 @@ void FindRenamed(const std::vector<CampaignString>& before,
     const CampaignChange& usual = campaign->changes[other->second];
     const double misfit =
         Misfit(before[left->second.front()], after[ids.front()], BetweenOf(usual, usual, 1));
+    if (!std::isfinite(misfit)) continue;  // a sweep without figures
     if (!(ChiSquaredTail(misfit, kProfileSize) > kLeastFit)) continue;
     change.kind = CampaignKind::kRenamed;
     change.partner = left->second.front();

@@ -156,6 +156,7 @@ set(LYREFIT_BATCH_PUBLIC_HEADERS
   batch/batch.h
   batch/batch_options.h
   batch/batch_task.h
+  batch/campaign_summary.h
   batch/pack.h
   batch/history.h
   batch/pixel_options.h

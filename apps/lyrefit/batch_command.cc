@@ -25,6 +25,9 @@ constexpr char kBatchFooter[] =
     "  lyrefit batch strings.jsonl --out shards --shard 3/40 && lyrefit merge shards --out "
     "results\n"
     "  lyrefit batch substrate1.txt substrate2.txt --task cell --out results\n"
+    "  lyrefit batch today_folder --task field-test --module module.json --before "
+    "last_year_results "
+    "--out results\n"
     "  lyrefit batch today_folder --task diagnose --reference last_year_folder --out results\n"
     "\n"
     "Writes results.csv, results.jsonl and results.schema.json into DIR: a row a curve, always, "
@@ -70,6 +73,12 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
   verb->AddOption("--reference", &request->reference_inputs,
                   "reference sweeps of the same strings, of the shapes of INPUT: each curve is "
                   "compared with those of its own id, or in its folder ID/")
+      .Reads()
+      .Group("Against its own history");
+  verb->AddOption("--before", &request->options.before,
+                  "earlier results of the same plant and task field-test, a folder or its "
+                  "results.jsonl: each string is compared with its own earlier figures")
+      .Type("RESULTS")
       .Reads()
       .Group("Against its own history");
   AddTableFlags(verb, kReferenceOptionTable, &request->reference);

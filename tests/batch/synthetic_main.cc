@@ -14,8 +14,8 @@ constexpr const char* kUsage =
     "lyrefit_synthetic curves --out FILE [--truth FILE] [--count N] [--points P] [--broken SHARE]\n"
     "             [--reversed SHARE] [--seed N] [--shape jsonl|csv]\n"
     "lyrefit_synthetic plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
-    "             [--module FILE] [--strings N] [--seed N] [--threads N]\n"
-    "lyrefit_synthetic score --results FILE --truth FILE\n";
+    "             [--module FILE] [--strings N] [--years N] [--seed N] [--threads N]\n"
+    "lyrefit_synthetic score --results FILE --truth FILE [--campaign FILE]\n";
 
 using Flags = std::map<std::string, std::function<void(const char*)>>;
 
@@ -71,6 +71,7 @@ int Plant(int argc, char** argv) {
       {"--truth", [&](const char* text) { request.truth = text; }},
       {"--module", [&](const char* text) { request.module = text; }},
       {"--strings", [&](const char* text) { request.strings = std::atoi(text); }},
+      {"--years", [&](const char* text) { request.years = std::atoi(text); }},
       {"--seed", [&](const char* text) { request.seed = std::strtoull(text, nullptr, 10); }},
       {"--threads", [&](const char* text) { request.threads = std::atoi(text); }},
   };
@@ -80,13 +81,17 @@ int Plant(int argc, char** argv) {
 
 int Score(int argc, char** argv) {
   made::ScoreRequest request;
+  std::string campaign;
   const Flags flags = {
       {"--results", [&](const char* text) { request.results = text; }},
       {"--truth", [&](const char* text) { request.truth = text; }},
+      {"--campaign", [&](const char* text) { campaign = text; }},
   };
   if (!Read(argc, argv, flags) || request.results.empty() || request.truth.empty()) return Usage();
   std::string text;
-  const int code = Told(made::Score(request, &text));
+  const int code = Told(
+      campaign.empty() ? made::Score(request, &text)
+                       : made::ScoreChanges({request.results, campaign, request.truth}, &text));
   std::fputs(text.c_str(), stdout);
   return code;
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
-#include "faults/field_case.h"
+#include "batch/synthetic_strings.h"
 #include "faults/random.h"
 
 namespace made {
@@ -17,136 +17,8 @@ namespace {
 
 using faults::Random;
 using faults::SeedOf;
-using faults::field::Cell;
-using faults::field::Group;
-using faults::field::Module;
-using faults::field::ModuleType;
-using faults::field::Sampled;
-
-constexpr ModuleType kType = {/*seed=*/3, /*cells=*/60, /*groups=*/3, /*current=*/9.6,
-                              /*open_circuit_V=*/0.655};
-constexpr double kCelsius = 273.15;
-
-__attribute__((format(printf, 1, 2))) std::string Text(const char* format, ...) {
-  char buffer[400];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(buffer, sizeof buffer, format, values);
-  va_end(values);
-  return buffer;
-}
-
-struct Weather {
-  double suns, kelvin;
-  std::string date;
-};
-
-// One inverter per day, one string every 70 seconds around noon of a clear day.
-Weather WeatherOf(int place) {
-  constexpr int kOfDay = kCombiners * kStringsOfCombiner;
-  const int day = place / kOfDay;
-  const int minute = (place % kOfDay) * 70 / 60;
-  const double hour = 10.5 + minute / 60.0;
-  Weather weather;
-  weather.suns = (day % 2 == 0 ? 0.96 : 0.91) * std::cos((hour - 13) * 0.26);
-  weather.kelvin = kCelsius + 19 + 1.1 * (hour - 10.5) + 27 * weather.suns;
-  weather.date = Text("2026-06-%02d %02d:%02d", 16 + day, (630 + minute) / 60, (630 + minute) % 60);
-  return weather;
-}
-
-std::string IdOf(int place) {
-  const int combiner = place / kStringsOfCombiner;
-  return Text("elm/inv%02d/comb%02d/str%02d", combiner / kCombiners + 1, combiner % kCombiners + 1,
-              place % kStringsOfCombiner + 1);
-}
-
-Module WholeString(const StringRig& rig) {
-  Module whole;
-  for (const Module& module : rig.modules) {
-    whole.groups.insert(whole.groups.end(), module.groups.begin(), module.groups.end());
-  }
-  const double ohm = rig.lead_ohm / whole.CellsInSeries();
-  for (Group& group : whole.groups) {
-    for (Cell& cell : group.chains[0]) cell.series_ohm += ohm;
-  }
-  return whole;
-}
-
-struct KeyPoints {
-  double isc, voc, imp, vmp;
-  double pmax() const { return imp * vmp; }
-};
-
-KeyPoints KeyPointsOf(const Sampled& curve) {
-  KeyPoints key{ShortCircuit(curve), OpenCircuit(curve), 0, 0};
-  for (int i = 0; i <= 4000; ++i) {
-    const double voltage = key.voc * (0.4 + 0.6 * i / 4000), current = curve.CurrentAt(voltage);
-    if (voltage * current > key.pmax()) key.imp = current, key.vmp = voltage;
-  }
-  return key;
-}
-
-KeyPoints ModuleAt(double suns, double celsius) {
-  Random typical(7);
-  return KeyPointsOf(CurveOf(faults::field::DrawOfType(kType, suns, celsius + kCelsius, &typical)));
-}
 
 double RatedPower() { return 5 * std::floor(ModuleAt(1, 25).pmax() / 5); }
-
-// A string without a fault, measured by a tracer that charges a capacitor.
-StringRig HealthyString(const Weather& weather, Random* random) {
-  StringRig rig;
-  const double clean = 1 - 0.004 * std::fabs(random->Normal());  // slight soiling
-  const double kelvin = weather.kelvin + 0.7 * random->Normal();
-  for (int m = 0; m < kModules; ++m) {
-    const double power_class = 1 + 0.003 * std::clamp(random->Normal(), -2.5, 2.5);
-    rig.modules.push_back(faults::field::DrawOfType(kType, weather.suns * clean * power_class,
-                                                    kelvin + 0.6 * random->Normal(), random));
-  }
-  rig.lead_ohm = random->Uniform(0.05, 0.35);
-  rig.sky.wander = faults::field::DrawWander(random->LogUniform(2e-4, 8e-4), random);
-  rig.tracer.drive = faults::field::Drive::kCapacitor;
-  rig.tracer.points = 40 + random->Index(41);
-  rig.tracer.last_current = random->Uniform(0.005, 0.03);
-  rig.tracer.first_voltage = random->Uniform(0.002, 0.02);
-  rig.tracer.current_noise = rig.tracer.voltage_noise = 2e-4;
-  rig.tracer.current_step = rig.tracer.voltage_step = 1.6 / 16384;
-  return rig;
-}
-
-struct Strung {
-  std::string id, date;
-  double irradiance_Wm2 = 0, temperature_C = 0;  // as shown by the sensors
-  faults::field::Readings readings;
-  double loss_percent = 0;  // loss of maximum power by the fault
-};
-
-Strung Measure(int place, const PlantFault* fault, std::uint64_t seed) {
-  Random random(SeedOf(seed, place));
-  const Weather weather = WeatherOf(place);
-  Strung strung;
-  strung.id = IdOf(place);
-  strung.date = weather.date;
-  StringRig rig = HealthyString(weather, &random);
-  faults::field::Rig whole;
-  whole.departure = faults::field::DrawDeparture(&random);
-  const double missed = random.LogUniform(3e-4, 1e-3);
-  const Sampled reference = CurveOf(WholeString(rig));
-  SettleDeparture(reference, missed, &whole.departure);
-  if (fault != nullptr) fault->apply(&random, &rig);
-  whole.module = WholeString(rig);
-  whole.sky = rig.sky;
-  whole.tracer = rig.tracer;
-  faults::field::Lit lit(whole.module);
-  strung.loss_percent = 100 * (1 - KeyPointsOf(lit.Whole()).pmax() / KeyPointsOf(reference).pmax());
-  strung.readings = Measured(whole, &lit, &random);
-  // The sensor is set up anew at each combiner.
-  Random sensor(SeedOf(seed, 1'000'000 + place / kStringsOfCombiner));
-  const double gain = 1 + 0.004 * sensor.Normal() + 0.006 * random.Normal();
-  strung.irradiance_Wm2 = std::round(1000 * weather.suns * gain);
-  strung.temperature_C = std::round(10 * (weather.kelvin - kCelsius + random.Normal())) / 10;
-  return strung;
-}
 
 // Indices of the strings with a fault, in the order of PlantFaults.
 std::vector<int> HiddenPlaces(const PlantRequest& request) {
@@ -160,22 +32,88 @@ std::vector<int> HiddenPlaces(const PlantRequest& request) {
   return places;
 }
 
-std::vector<Strung> MeasureAll(const PlantRequest& request, const std::vector<int>& hidden) {
-  std::vector<Strung> strings(request.strings);
+// The strings of the first campaign in their order.
+std::vector<Slot> FirstSlots(const PlantRequest& request) {
+  std::vector<Slot> slots;
+  for (int place = 0; place < request.strings; ++place)
+    slots.push_back({place, place, IdOf(place)});
+  const std::vector<int> hidden = HiddenPlaces(request);
+  for (std::size_t k = 0; k < hidden.size(); ++k) slots[hidden[k]].fault = &PlantFaults()[k];
+  return slots;
+}
+
+// The place of a string without fault and change.
+int FreePlace(const std::vector<Slot>& slots, Random* random) {
+  for (;;) {
+    const int place = random->Index(static_cast<int>(slots.size()));
+    if (slots[place].fault == nullptr && slots[place].change == nullptr) return place;
+  }
+}
+
+int PlaceOfFault(const std::vector<Slot>& slots, const std::string& name) {
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (slots[k].fault != nullptr && slots[k].fault->name == name) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+// The strings of a later campaign: those of the first with PlantChanges(). A plant of few strings
+// has no string with some of the faults, and so not all changes.
+std::vector<Slot> LaterSlots(const PlantRequest& request) {
+  std::vector<Slot> slots = FirstSlots(request);
+  Random random(SeedOf(request.seed, 5'000'000));
+  for (const PlantChange& change : PlantChanges()) {
+    const int ill = change.fault == nullptr ? -1 : PlaceOfFault(slots, change.fault);
+    if (change.fault != nullptr && ill < 0) continue;
+    const int place = change.of == ChangeOf::kRepair ? ill : FreePlace(slots, &random);
+    Slot& slot = slots[place];
+    slot.change = &change;
+    if (change.of == ChangeOf::kName) slot.id += "b", slot.partner = IdOf(place);
+    if (change.of != ChangeOf::kExchange) continue;
+    Slot& other = slots[ill];
+    other.change = &change;
+    std::swap(slot.who, other.who);
+    std::swap(slot.fault, other.fault);
+    slot.partner = other.id;
+    other.partner = slot.id;
+  }
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (slots[k].change == nullptr || slots[k].change->of != ChangeOf::kNew) continue;
+    // Modules of its own at the end of the combiner.
+    const int last =
+        static_cast<int>(k) / kStringsOfCombiner * kStringsOfCombiner + kStringsOfCombiner - 1;
+    const int after = std::min(last, static_cast<int>(slots.size()) - 1);
+    Slot added{request.strings + 1000, after, IdOf(after) + "-2"};
+    added.change = slots[k].change;
+    slots[k].change = nullptr;
+    slots.insert(slots.begin() + after + 1, added);
+    break;
+  }
+  return slots;
+}
+
+bool IsMeasured(const Slot& slot) {
+  return slot.change == nullptr || slot.change->of != ChangeOf::kGone;
+}
+
+// Calls work(i) for i < count on several threads.
+template <class Work>
+void ForAll(int count, int threads, const Work& work) {
   std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < request.strings; i = next++) {
-      const auto found = std::find(hidden.begin(), hidden.end(), i);
-      const PlantFault* fault =
-          found == hidden.end() ? nullptr : &PlantFaults()[found - hidden.begin()];
-      strings[i] = Measure(i, fault, request.seed);
-    }
-  };
-  int threads = request.threads;
   if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
   std::vector<std::thread> workers;
-  for (int t = 0; t < std::max(threads, 1); ++t) workers.emplace_back(work);
+  for (int t = 0; t < std::max(threads, 1); ++t) {
+    workers.emplace_back([&] {
+      for (int i = next++; i < count; i = next++) work(i);
+    });
+  }
   for (std::thread& worker : workers) worker.join();
+}
+
+std::vector<Strung> MeasureAll(const PlantRequest& request, const std::vector<Slot>& slots) {
+  std::vector<Strung> strings(slots.size());
+  ForAll(static_cast<int>(slots.size()), request.threads,
+         [&](int i) { strings[i] = Measure(slots[i], request); });
   return strings;
 }
 
@@ -190,8 +128,8 @@ std::string ListOf(const std::vector<double>& values, const char* format) {
   return text;
 }
 
-constexpr int kCells = kModules * kType.cells;
-constexpr int kDiodes = kModules * kType.groups;
+constexpr int kCells = kModules * kCellsOfModule;
+constexpr int kDiodes = kModules * kGroupsOfModule;
 
 std::string Packed(const std::vector<Strung>& strings, double rated_W) {
   std::string text =
@@ -217,14 +155,38 @@ std::string Trace(const Strung& one) {
   return text;
 }
 
-std::string TruthOf(const std::vector<Strung>& strings, const std::vector<int>& hidden) {
+std::string FaultTruth(const std::vector<Strung>& strings, const std::vector<Slot>& slots) {
   std::string text = "id,fault,accepted,shows_in,loss_percent,words\n";
-  for (std::size_t k = 0; k < hidden.size(); ++k) {
-    const PlantFault& fault = PlantFaults()[k];
-    const Strung& one = strings[hidden[k]];
-    text += Text("%s,%s,%s,%s,%.2f,%s\n", one.id.c_str(), fault.name, fault.accepted,
-                 fault.shows_in, one.loss_percent, fault.words);
+  for (const PlantFault& fault : PlantFaults()) {
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      if (slots[k].fault != &fault) continue;
+      text += Text("%s,%s,%s,%s,%.2f,%s\n", slots[k].id.c_str(), fault.name, fault.accepted,
+                   fault.shows_in, strings[k].loss_percent, fault.words);
+    }
   }
+  return text;
+}
+
+// Power in W at standard conditions that the string of this name lost by its change.
+double LostPower(const Slot& slot, const std::vector<Slot>& first, const PlantRequest& request) {
+  if (slot.change->of == ChangeOf::kGone || slot.change->of == ChangeOf::kNew) return 0;
+  Slot before = first[slot.where];
+  before.change = nullptr;
+  return StandardPower(before, request) - StandardPower(slot, request);
+}
+
+std::string ChangeTruth(const std::vector<Slot>& slots, const PlantRequest& request) {
+  const std::vector<Slot> first = FirstSlots(request);
+  std::vector<std::string> lines(slots.size());
+  ForAll(static_cast<int>(slots.size()), request.threads, [&](int k) {
+    const Slot& slot = slots[k];
+    if (slot.change == nullptr) return;
+    lines[k] =
+        Text("%s,%s,%s,%s,%.1f,%s\n", slot.id.c_str(), slot.change->name, slot.change->accepted,
+             slot.partner.c_str(), LostPower(slot, first, request), slot.change->words);
+  });
+  std::string text = "id,change,accepted,partner,lost_W,words\n";
+  for (const std::string& line : lines) text += line;
   return text;
 }
 
@@ -238,7 +200,8 @@ std::string ModuleJson(double rated_W) {
              "  \"rated_power_W\": %.0f,\n  \"short_circuit_current_A\": %.2f,\n"
              "  \"open_circuit_voltage_V\": %.1f,\n  \"max_power_current_A\": %.2f,\n"
              "  \"max_power_voltage_V\": %.1f,\n",
-             kType.cells, kType.groups, kModules, rated_W, cool.isc, cool.voc, cool.imp, cool.vmp) +
+             kCellsOfModule, kGroupsOfModule, kModules, rated_W, cool.isc, cool.voc, cool.imp,
+             cool.vmp) +
          Text(
              "  \"alpha_sc_percent_K\": %.3f,\n  \"beta_oc_percent_K\": %.3f,\n"
              "  \"gamma_pmp_percent_K\": %.3f\n}\n",
@@ -271,15 +234,21 @@ std::string WriteTree(const PlantRequest& request, const std::vector<Strung>& st
 }  // namespace
 
 std::string WritePlant(const PlantRequest& request) {
+  constexpr int kLeastLater = 50;  // there is a place for every change
+  if (request.years > 0 && request.strings < kLeastLater) return "--years needs 50 strings or more";
   const double rated_W = RatedPower();
-  const std::vector<int> hidden = HiddenPlaces(request);
-  const std::vector<Strung> strings = MeasureAll(request, hidden);
+  const std::vector<Slot> slots = request.years == 0 ? FirstSlots(request) : LaterSlots(request);
+  std::vector<Slot> measured;
+  std::copy_if(slots.begin(), slots.end(), std::back_inserter(measured), IsMeasured);
+  const std::vector<Strung> strings = MeasureAll(request, measured);
   std::string error;
   const auto write = [&](const std::string& path, const auto& text) {
     if (error.empty() && !path.empty()) error = Write(path, text());
   };
   write(request.packed, [&] { return Packed(strings, rated_W); });
-  write(request.truth, [&] { return TruthOf(strings, hidden); });
+  write(request.truth, [&] {
+    return request.years == 0 ? FaultTruth(strings, slots) : ChangeTruth(slots, request);
+  });
   write(request.module, [&] { return ModuleJson(rated_W); });
   if (error.empty() && !request.tree.empty()) error = WriteTree(request, strings);
   return error;

@@ -128,9 +128,9 @@ const std::vector<PlantFault>& PlantFaults() {
       {"cracked_cell", "weak_cell|substrings|shading", "curve",
        "one cell has lost a part of itself", CrackedCell},
       {"cloud_step", "irr_step|transient|drift", "curve", "the light changes during the sweep",
-       CloudStep},
+       CloudStep, /*of_sweep=*/true},
       {"cloud_dip", "transient|irr_step|drift", "curve", "a small cloud passes during the sweep",
-       CloudDip},
+       CloudDip, /*of_sweep=*/true},
       {"open_diode", "bypass_open|weak_cell|breakdown|substrings|shading", "curve",
        "a dim cell in a group whose bypass diode is open", OpenDiode},
   };

@@ -29,6 +29,14 @@ TEST(SyntheticPlant, IsTheSameOnAnyNumberOfThreads) {
               testing::HasSubstr("Number of cells,1200"));
 }
 
+TEST(SyntheticPlant, ALaterCampaignHasTwentyChangesAndRoomForThem) {
+  EXPECT_EQ(PlantChanges().size(), 20u);
+  PlantRequest request;
+  request.strings = 20;
+  request.years = 1;
+  EXPECT_THAT(WritePlant(request), testing::HasSubstr("needs 50 strings"));
+}
+
 TEST(SyntheticPlant, HasTwelveKindsOfFaults) { EXPECT_EQ(PlantFaults().size(), 12u); }
 
 }  // namespace

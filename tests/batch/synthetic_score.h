@@ -16,4 +16,12 @@ struct ScoreRequest {
 // Returns an error message, empty on success; `text` is the score.
 std::string Score(const ScoreRequest& request, std::string* text);
 
+// The same for the changes of a later campaign (PlantRequest::years). `campaign` is the campaign.json
+// of the results. Counts the changes that were found and those with an accepted name, the strings
+// without a change that were called changed, and the watts; shares with Wilson's 95 % limits.
+struct ChangeScoreRequest {
+  std::string results, campaign, truth;
+};
+std::string ScoreChanges(const ChangeScoreRequest& request, std::string* text);
+
 }  // namespace made

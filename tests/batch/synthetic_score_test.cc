@@ -68,5 +68,32 @@ TEST(SyntheticScore, RefusesATableWithoutIds) {
               testing::EndsWith("results.csv has no column id"));
 }
 
+TEST(SyntheticScore, CountsTheChangesOfALaterCampaign) {
+  const TempFolder folder;
+  folder.Write("results.csv",
+               "id,change_rank,change_kind,change_candidates,change_lost_W,change_lost_W_low_95,"
+               "change_lost_W_high_95\n"
+               "a/1,1,light,soiling shading,100,90,110\n"
+               "a/2,,none,,3,-50,50\n"
+               "a/3,2,voltage,bypass_short,40,30,50\n"
+               "a/5,,none,,1,-50,50\n");
+  folder.Write("truth.csv",
+               "id,change,accepted,partner,lost_W,words\n"
+               "a/1,dirt,soiling,,95.0,dirt\n"
+               "a/2,hot_connector,series_resistance,,30.0,ohm\n"
+               "a/4,gone,gone,,0.0,not there\n");
+  folder.Write("campaign.json", "{\"gone_ids\": [\n\"a/4\"\n]}");
+  std::string text;
+  ASSERT_EQ(ScoreChanges({folder.Path("results.csv"), folder.Path("campaign.json"),
+                          folder.Path("truth.csv")},
+                         &text),
+            "");
+  EXPECT_THAT(text, HasSubstr("found 2 of 3 (20.8 to 93.9 %), under a right name 2 of 2"));
+  EXPECT_THAT(text, HasSubstr("false 1 of 2"));
+  EXPECT_THAT(text, HasSubstr("100 stated of 95, median error 5 W, in the 95 % interval 1 of 1"));
+  EXPECT_THAT(text, HasSubstr("a/2  hot_connector (30.0 W): not found"));
+  EXPECT_THAT(text, HasSubstr("a/3  not changed: voltage"));
+}
+
 }  // namespace
 }  // namespace made

@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/batch/campaign_results.h"
 #include "lyrefit/batch/checkpoint.h"
 #include "lyrefit/batch/pipeline.h"
 #include "lyrefit/batch/result_columns.h"
@@ -40,6 +42,10 @@ CheckpointHead OptionsJson(const BatchTaskType& task, const BatchOptions& option
 std::vector<ResultColumn> RowColumns(const BatchTaskType& task, const BatchOptions& options) {
   std::vector<ResultColumn> columns = CommonColumns();
   columns.insert(columns.end(), task.columns.begin(), task.columns.end());
+  if (!options.before.empty()) {
+    columns.push_back({kBypassDiodesColumn, "", CellType::kWhole,
+                       "bypass diodes of the string, as stated beside the curve"});
+  }
   if (options.pages != PagesOf::kNone) {
     columns.push_back({"page", "", CellType::kText,
                        "the curve's own page: a path from the folder of the results"});
@@ -87,6 +93,11 @@ std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& colum
 }
 
 // Creates the row of a curve. Thread-safe.
+ResultCell BypassDiodes(const BatchCurve& curve) {
+  if (!curve.curve || !curve.curve->notes.bypass_diodes) return {};
+  return std::int64_t{*curve.curve->notes.bypass_diodes};
+}
+
 class RowMaker {
  public:
   RowMaker(const BatchSource& source, const BatchTaskType& task, const BatchOptions& options)
@@ -109,6 +120,7 @@ class RowMaker {
     ResultRow row = {CommonCells(curve, item, result)};
     result.cells.resize(task_.columns.size());
     for (ResultCell& cell : result.cells) row.cells.push_back(std::move(cell));
+    if (!options_.before.empty()) row.cells.push_back(BypassDiodes(curve));
     PipelineStep step;
     step.broken = result.status == RowStatus::kBroken;
     step.interrupted = result.interrupted;
@@ -193,6 +205,30 @@ std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePla
   return std::make_pair(place->input, place->number);
 }
 
+// Reads the earlier results and names them in the head. Returns their copy for the folder; empty if
+// there are none.
+Expected<std::string> TakeEarlier(const BatchTaskType& task, const BatchOptions& options,
+                                  CheckpointHead* head) {
+  if (options.before.empty()) return std::string();
+  if (ColumnNamed(kFigureColumns[0], task.columns) == task.columns.size()) {
+    return Fail(
+        "earlier results are compared at standard conditions: --before is for --task "
+        "field-test");
+  }
+  std::error_code error;
+  if (std::filesystem::equivalent(options.before, options.folder, error)) {
+    return Fail("these are the earlier results: name another folder for those of this run",
+                options.folder);
+  }
+  TRY(const EarlierResults earlier, ReadEarlierResults(options.before));
+  CheckpointHead& echoed = head->at("options");
+  TRY(CheckSameCoefficients(earlier, echoed));
+  std::string text = EarlierText(earlier);
+  echoed[kBeforeOption] = EarlierDigest(text);
+  echoed["change-level"] = options.change_level;
+  return text;
+}
+
 // True if the folder already has the results of this run, so that nothing is left to do.
 Expected<bool> AreThere(const CheckpointHead& head, const BatchOptions& options) {
   if (options.start != BatchStart::kResume || options.shard.of > 1) return false;
@@ -241,7 +277,8 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
   summary.seed = options.seed;
   const bool shard = options.shard.of > 1;
   TRY(PrepareFolder(options.folder, shard || options.start != BatchStart::kNew));
-  TRY(const CheckpointHead head, HeadOf(*source, task, options));
+  TRY(CheckpointHead head, HeadOf(*source, task, options));
+  TRY(const std::string earlier, TakeEarlier(task, options, &head));
   TRY(summary.was_complete, AreThere(head, options));
   if (summary.was_complete) return summary;
   const PartStart start = options.start == BatchStart::kNew      ? PartStart::kNew
@@ -249,6 +286,7 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
                                                                  : PartStart::kReplace;
   const std::string path = CheckpointPath(options.folder, options.shard);
   TRY(const auto part, CheckpointFile::Open(path, head, start));
+  if (!earlier.empty()) TRY(WriteTextFile(EarlierCopyPath(options.folder), earlier));
   summary.rows_before = part->rows();
   summary.was_complete = shard && part->complete();
   if (!part->complete()) {
@@ -274,6 +312,8 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
       return summary;
     }
     TRY(part->Remove());
+    std::error_code error;  // there is none without earlier results
+    std::filesystem::remove(EarlierCopyPath(options.folder), error);
   }
   summary.seconds = SecondsSince(begin);
   return summary;

@@ -11,6 +11,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/campaign_summary.h"
 #include "lyrefit/batch/sample_summary.h"
 #include "lyrefit/read/batch_source.h"
 #include "lyrefit/report/document.h"
@@ -28,16 +29,19 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                         be written is a remark on its row
 //   samples.csv           of task `cell`: a row for each sample and direction with its statistics
 //   samples.jsonl         the same as JSON objects
+//   campaign.json         with BatchOptions::before: what the plant's strings have in common since
+//                         then, the changed, exchanged, gone and new ones
 //   results.schema.json   a Table Schema of both (specs.frictionlessdata.io/table-schema): names,
 //                         types, units and a description of each column, and the run's settings;
 //                         of task `cell` also the fields of samples.csv, under "samples"
 // The files have the same bytes on any number of threads, machines, shards and resumed runs. Memory
 // does not grow with the number of curves, except by ten numbers a pixel for the statistics of
-// samples.
+// samples, and by 560 bytes a string with earlier results.
 //
 // During the run the rows are in results.part (checkpoint.h). A killed run loses only the curves in
 // progress. A shard of several writes shard-K-of-N.part, and MergeShards combines the shards into
-// results. All shards may use one folder.
+// results. All shards may use one folder. With earlier results a copy of their figures is in
+// before.part.
 
 // Number of rows that are broken or not usable for one reason.
 struct ReasonCount {
@@ -69,6 +73,7 @@ struct BatchSummary {
   std::int64_t flagged = 0;            // of `compared`: flagged as different
   std::vector<SampleSummary> samples;  // of task `cell`, of whole runs
   std::string working_pixel;           // when a pixel works, in one sentence
+  CampaignSummary campaign;            // with earlier results, of whole runs
 };
 
 // Number of different reasons that are counted separately.

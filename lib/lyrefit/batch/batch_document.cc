@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "lyrefit/batch/batch.h"
+#include "lyrefit/batch/campaign_document.h"
 #include "lyrefit/batch/sample_document.h"
 
 namespace lyrefit {
 namespace {
+
+constexpr std::size_t kMostChangesInText = 25;
 
 std::string ShareOfRows(std::int64_t rows, std::int64_t all) {
   return all == 0 ? "" : fmt::format("{:.1f} %", 100.0 * static_cast<double>(rows) / all);
@@ -83,6 +86,7 @@ Document BatchDocument(const BatchSummary& summary) {
              &document.head);
   }
   AddSections(SampleSections(summary.samples, summary.working_pixel), &document);
+  AddSections(CampaignSections(summary.campaign, kMostChangesInText), &document);
   AddSections({Counts("Status", "status", summary.statuses, summary.rows),
                Counts("Against the rating", "zone", summary.zones, summary.rows),
                Counts("Causes", "cause", summary.causes, summary.rows),

@@ -32,6 +32,11 @@ struct BatchOptions {
   // For the comparison of strings with their neighbours: see neighbours.h.
   double group_level = 0.001;
   double like_light = 0.05;
+  // Results of an earlier run of task field-test on the same plant, a folder or a file: each string
+  // is compared with its own earlier figures (campaign.h). Empty: none. The figures of both runs are
+  // kept in memory, 560 bytes a string.
+  std::string before;
+  double change_level = 0.05;
   // Pages of single curves in the folder of the results: see string_pages.h.
   PagesOf pages = PagesOf::kNone;
   bool interactive_pages = false;
@@ -53,6 +58,11 @@ inline constexpr OptionRow<BatchOptions> kBatchOptionTable[] = {
      &BatchOptions::group_level, 1e-6, 0.2},
     {"like-light", "", "how far apart irradiances may be that are compared, in parts",
      &BatchOptions::like_light, 0.001, 0.5},
+    {"before", "RESULTS", "earlier results of the same plant, a folder or results.jsonl",
+     &BatchOptions::before, OptionTrait::kNoFlag | OptionTrait::kNoEcho},
+    {"change-level", "",
+     "probability that any string without a change is called changed since --before",
+     &BatchOptions::change_level, 1e-6, 0.5},
     {"pages", "WHICH",
      "a page each, DIR/pages/ID.html, for those that failed or show a cause, or all",
      EnumOption<&BatchOptions::pages>()},

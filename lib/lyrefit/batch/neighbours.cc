@@ -12,9 +12,6 @@
 namespace lyrefit {
 namespace {
 
-// Ratio of the standard deviation to the median of |x|, for a normal x.
-constexpr double kNormalMad = 1.4826;
-constexpr double kMadEfficiency = 0.37;  // efficiency of that estimate
 // Bins of |deviation| begin at kSmallest and grow by the factor kStep.
 constexpr double kSmallest = 1e-7;
 constexpr double kStep = 1.01;

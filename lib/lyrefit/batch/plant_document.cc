@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/batch/campaign_document.h"
 #include "lyrefit/batch/plant_figures.h"
 #include "lyrefit/batch/plant_text.h"
 
@@ -23,6 +24,8 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "Pmax_stc_W",
                                          "group_deviation_percent",
                                          "recoverable_power_W",
+                                         "change_lost_W",
+                                         "change_kind",
                                          "group_outlier",
                                          "date",
                                          "cause",
@@ -177,6 +180,11 @@ Document PlantDocument(const PlantContent& content) {
   AddCauses("Causes of those that need work", summary.causes, &found);
   AddCauses("Causes of the measurement alone: to be taken again", summary.causes_to_repeat, &found);
   AddCauses("Causes of those that pass", summary.causes_of_passed, &found);
+  std::vector<Section> since = CampaignSections(content.campaign, kMostChanges);
+  if (!since.empty()) {
+    AddFigure(CampaignFigureOf(content.campaign), &since.front());
+    document.verdict += " " + CampaignVerdict(content.campaign);
+  }
   Section worst = {"Which strings to visit first"};
   if (!summary.worst.empty()) AddTable(WorstTable(summary, content.results), &worst);
   AddFigure(CurvesFigure(summary), &worst);
@@ -187,8 +195,9 @@ Document PlantDocument(const PlantContent& content) {
   Section neighbours = {"Against the neighbours"};
   if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
   AddFigure(NeighboursFigure(summary), &neighbours);
-  AddSections({found, worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)},
-              &document);
+  AddSections({found}, &document);
+  AddSections(std::move(since), &document);
+  AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)}, &document);
   return document;
 }
 

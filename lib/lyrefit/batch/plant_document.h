@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/batch/campaign_summary.h"
 #include "lyrefit/batch/plant_summary.h"
 #include "lyrefit/report/document.h"
 
@@ -12,12 +13,13 @@ namespace lyrefit {
 struct PlantContent {
   std::string plant;                  // its name
   PlantSummary summary;               // of the rows
+  CampaignSummary campaign;           // with earlier results
   std::vector<ResultColumn> columns;  // of the table of all rows
   std::vector<block::Field> facts;    // about the whole plant: an instrument, an option, the seed
   std::string results;                // prefix from the page to the folder of the results
 };
 
-// Verdict, pictures and tables: what is lost where, which strings to visit first, all strings,
+// Verdict, pictures and tables: what is lost where, what changed since the last campaign, which strings to visit first, all strings,
 // distributions, neighbours, strings without a result.
 Document PlantDocument(const PlantContent& content);
 

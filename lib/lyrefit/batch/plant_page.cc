@@ -11,6 +11,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/batch/campaign_results.h"
 #include "lyrefit/batch/plant_document.h"
 #include "lyrefit/batch/row_text.h"
 #include "lyrefit/batch/write_results.h"
@@ -70,6 +71,17 @@ std::string UrlOf(const std::string& path) {
   return url;
 }
 
+// What changed since earlier results, if the run had any.
+Expected<CampaignSummary> CampaignIn(const fs::path& folder, const CheckpointHead& run) {
+  const CheckpointHead options = run.value("options", CheckpointHead::object());
+  if (!options.contains(kBeforeOption)) return CampaignSummary();
+  const std::string path = (folder / "campaign.json").string();
+  TRY(const std::string text, ReadTextFile(path, kLargestResultsSchema));
+  const CheckpointHead json = CheckpointHead::parse(text, nullptr, false);
+  if (!json.is_object()) return Fail("expected the comparison of two campaigns", path);
+  return CampaignOf(json);
+}
+
 // Summary of results.jsonl, read line by line.
 Expected<PlantSummary> SummaryOf(const std::string& path,
                                  const std::vector<ResultColumn>& columns) {
@@ -120,7 +132,9 @@ Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::stri
   PlantContent content;
   TRY(content.columns, ReadColumns(schema.value("fields", CheckpointHead())));
   content.plant = plant;
-  content.facts = FactsOf(schema.value("lyrefit", CheckpointHead::object()));
+  const CheckpointHead run = schema.value("lyrefit", CheckpointHead::object());
+  content.facts = FactsOf(run);
+  TRY(content.campaign, CampaignIn(folder, run));
   content.results = UrlFrom(file, folder);
   TRY(content.summary, SummaryOf((fs::path(folder) / "results.jsonl").string(), content.columns));
   NewFile page(file);

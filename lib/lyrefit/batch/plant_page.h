@@ -29,6 +29,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   Pmax_stc_W, recoverable_power_W, below_rating_W
 //   group_flag, group_outlier, group_Isc_percent, ...
 //                            whether and how a string differs from those of the same combiner
+//   change_lost_W, change_kind
+//                            what changed since earlier results; campaign.json has the rest
 //   sparkline                the curve, by Sparkline()
 //   page                     the string's own page: a path from the folder of the results
 Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::string& file,

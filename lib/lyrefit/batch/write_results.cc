@@ -12,6 +12,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/batch/campaign_results.h"
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/row_text.h"
@@ -27,6 +28,7 @@ constexpr char kLines[] = "results.jsonl";
 constexpr char kSchema[] = "results.schema.json";
 constexpr char kSamplesCsv[] = "samples.csv";
 constexpr char kSamplesLines[] = "samples.jsonl";
+constexpr char kCampaign[] = "campaign.json";
 constexpr std::uintmax_t kLargestSchema = 16U << 20;
 
 // Adjacent rows with the same parent.
@@ -146,17 +148,25 @@ Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::strin
   plan.rows = plan.results = *columns;
   for (const ResultColumn& column : NeighbourColumns()) plan.results.push_back(column);
   const CheckpointHead& options = head.at("options");
+  if (options.contains(kBeforeOption)) {
+    for (const ResultColumn& column : CampaignColumns()) plan.results.push_back(column);
+  }
   plan.level = options.value("group-level", 0.0);
   plan.like_light = options.value("like-light", 0.0);
   if (options.value("raw-csv", false)) plan.texts = CsvTexts::kRaw;
   return plan;
 }
 
+// Also takes the strings of this campaign if there is an earlier one.
 Expected<NeighbourScatter> LearnScatter(const std::vector<std::string>& parts,
-                                        const ResultsPlan& plan, RowProgress* passed) {
+                                        const ResultsPlan& plan, CampaignResults* campaign,
+                                        RowProgress* passed) {
   NeighbourScatter scatter;
   TRY(ForGroups(parts, plan.rows, [&](const Group& group) -> Expected<void> {
     if (!group.members.empty()) scatter.Add(DeviationsAmong(group.members, plan.like_light));
+    for (const ResultRow& row : group.rows) {
+      if (campaign != nullptr) campaign->Take(row);
+    }
     return Pass(group.rows.size(), passed);
   }));
   return scatter;
@@ -178,7 +188,7 @@ Expected<void> PrepareFolder(const std::string& folder, bool replace) {
     return Fail("cannot make the folder of the results: " + why, folder);
   }
   if (replace) return {};
-  for (const char* name : {kCsv, kLines, kSchema, kSamplesCsv, kSamplesLines}) {
+  for (const char* name : {kCsv, kLines, kSchema, kSamplesCsv, kSamplesLines, kCampaign}) {
     const std::string path = (fs::path(folder) / name).string();
     if (fs::exists(path, error)) {
       return Fail("results are there already: name another folder, or say --force to replace them",
@@ -201,6 +211,14 @@ CheckpointHead ResultsHead(const std::string& folder) {
 
 namespace {
 
+std::string CampaignText(const CampaignSummary& summary) {
+  return CampaignJson(summary).dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
+}
+
+void Append(std::vector<ResultCell> cells, ResultRow* row) {
+  for (ResultCell& cell : cells) row->cells.push_back(std::move(cell));
+}
+
 Expected<void> WriteSamples(const std::vector<SampleSummary>& samples, CsvTexts texts, NewFile* csv,
                             NewFile* lines) {
   const std::vector<ResultColumn> columns = SampleColumns();
@@ -220,7 +238,9 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   // Its digest covers all of the input.
   TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
-  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, passed));
+  TRY(const auto campaign, CampaignResults::Open(last.head(), parts, plan.rows));
+  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, campaign.get(), passed));
+  if (campaign) campaign->Compare();
   const fs::path base(folder);
   NewFile csv((base / kCsv).string());
   NewFile lines((base / kLines).string());
@@ -237,9 +257,8 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       ResultRow& row = group.rows[i];
       const NeighbourDeviation none;
-      for (ResultCell& cell : NeighbourCells(deviations.empty() ? none : deviations[i], limits)) {
-        row.cells.push_back(std::move(cell));
-      }
+      Append(NeighbourCells(deviations.empty() ? none : deviations[i], limits), &row);
+      if (campaign) Append(campaign->NextCells(), &row);
       TRY(csv.Write(RowCsv(row, plan.texts)));
       TRY(lines.Write(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
@@ -250,6 +269,13 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   };
   TRY(ForGroups(parts, plan.rows, write));
   TRY(schema.Write(SchemaJson(last.head(), plan.results, samples.counts())));
+  if (campaign) {
+    summary->campaign = campaign->Summary();
+    NewFile file((base / kCampaign).string());
+    TRY(file.Begin());
+    TRY(file.Write(CampaignText(summary->campaign)));
+    return NewFile::Commit({&csv, &lines, &file, &schema});
+  }
   if (!samples.counts()) return NewFile::Commit({&csv, &lines, &schema});
   summary->samples = samples.Summaries();
   summary->working_pixel = last.head().at("options").value(kPixelCriterion, "");

@@ -23,7 +23,7 @@ constexpr double kLeastForRate_days = 30;         // a shorter series has no rat
 constexpr double kScaleError = 0.02;             // of sizes: gains, temperature of the cells, model
 constexpr double kLeastForShortRate_days = 120;  // of a part of the series
 constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
-constexpr double kPartError = 0.05;  // of every part, in % of energy: of the model
+constexpr double kPartError = 0.1;  // of every part, in % of energy: of the model
 // Of the shunt's part: what shunts of unlike cells move to series resistance and recombination.
 constexpr double kUnevenShunt = 0.15;
 constexpr double kUnmonitoredLevel = 0.002;

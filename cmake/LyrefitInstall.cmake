@@ -33,6 +33,9 @@ set(LYREFIT_PUBLIC_HEADERS
   estimate/fit/simulate.h
   model/kernel.h
   search/search.h
+  trend/read_trend.h
+  trend/trend.h
+  trend/trend_series.h
   translate/procedures.h
   translate/translate.h
   translate/uncertainty.h
@@ -54,6 +57,7 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/field_test_options.h
   translate/translate_options.h
   translate/uncertainty_options.h
+  trend/trend_options.h
   # records that these functions return
   read/curve_set.h
   read/iv_curve.h
@@ -70,6 +74,7 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/checklist.h
   translate/field_test.h
   translate/translation_report.h
+  trend/trend_report.h
   # readers, and the writer of curves
   read/assumption.h
   read/bare_curve.h
@@ -77,6 +82,7 @@ set(LYREFIT_PUBLIC_HEADERS
   read/check_readings.h
   read/condition_options.h
   read/curve_files.h
+  read/date_time.h
   read/nearest_curve.h
   read/number_text.h
   read/read_curve.h

@@ -15,6 +15,7 @@ void BindFit(py::module_* module);
 void BindFitMany(py::module_* module);
 void BindSimulate(py::module_* module);
 void BindCell(py::module_* module);
+void BindTrend(py::module_* module);
 void BindFamily(py::module_* module);
 void BindDataSheet(py::module_* module);
 void BindDiagnose(py::module_* module);

@@ -27,6 +27,7 @@ PYBIND11_MODULE(_lyrefit, module) {
   BindFitMany(&module);
   BindSimulate(&module);
   BindCell(&module);
+  BindTrend(&module);
   BindFamily(&module);
   BindDataSheet(&module);
   BindDiagnose(&module);

@@ -22,7 +22,8 @@
 // curve's RMSE. FitDataSheet finds a device from a data sheet alone, and the family of all devices
 // through the sheet's three points. Diagnose finds the deviations of a measurement from the model
 // and their causes. TranslateCurve translates a curve to standard or other conditions, with its
-// uncertainty. DescribeCell describes the measurements of a laboratory cell. FitDocument, FamilyDocument and similar functions return reports as data for
+// uncertainty. DescribeCell describes the measurements of a laboratory cell, FindTrend what
+// changed in a device over time. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
@@ -48,3 +49,5 @@
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/translate/translate.h"
+#include "lyrefit/trend/read_trend.h"
+#include "lyrefit/trend/trend.h"

@@ -38,8 +38,9 @@ Section TrendHead(const TrendReport& report) {
                        Significant(report.reference_power_W, 4)),
            &head);
   AddField("law",
-           fmt::format("De Soto, {}, n = {}, from {}", Plural(report.cells_in_series, "cell"),
-                       Significant(report.ideality, 4), report.law),
+           fmt::format("{}, two diodes of n = {} and {}, De Soto, from {}",
+                       Plural(report.cells_in_series, "cell"), Significant(report.ideality, 4),
+                       Significant(2 * report.ideality, 4), report.law),
            &head);
   AddField("seed", fmt::format("{}", report.seed), &head);
   for (const TrendReason& reason : report.reasons) {

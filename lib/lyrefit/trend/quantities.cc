@@ -23,7 +23,7 @@ constexpr double kLeastForRate_days = 30;         // a shorter series has no rat
 constexpr double kScaleError = 0.02;             // of sizes: gains, temperature of the cells, model
 constexpr double kLeastForShortRate_days = 120;  // of a part of the series
 constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
-constexpr double kPartError = 0.1;  // of every part, in % of energy: of the model
+constexpr double kPartError = 0.1;   // of every part, in % of energy: of the model
 // Of the shunt's part: what shunts of unlike cells move to series resistance and recombination.
 constexpr double kUnevenShunt = 0.15;
 constexpr double kUnmonitoredLevel = 0.002;
@@ -56,7 +56,7 @@ double LostVoltage(const TrendBlocks& blocks, double level) {
 }
 
 constexpr QuantityKind kQuantityKinds[] = {
-    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, false, true},
+    {"p_mp", "power, of what the reference lets expect", "%", -1, AsItIs, false, true, true},
     {"light", "light on the cells, per light of the sensor", "%", kTrendLight, LightPercent, false,
      true, true},
     {"resistance_series", "series resistance", "ohm", kTrendSeries, AsItIs, true, true, true},
@@ -304,6 +304,7 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   const ChangingSeries found = FitChanges(own.series, design, changes);
   const TimeFit& fit = found.fit;
   quantity->reference = ReferenceMean(blocks, own);
+  if (quantity->name == "recombination") quantity->reference = 0;  // by its definition
   const double drift = DriftOf(quantity->name, blocks, options);
   const Eigen::VectorXd mean = MeanRate(own.series, found);
   const double rate = mean.dot(fit.coefficients);
@@ -359,6 +360,33 @@ void Condition(int what, const std::array<double, kBetweenDays>& between, TrendB
   }
 }
 
+// Changes of the quantity that a part of the loss belongs to.
+std::vector<TrendChange> ChangesOf(const TrendReport& report, const std::string& part) {
+  for (const TrendQuantity& quantity : report.quantities) {
+    if (quantity.name == part || (part == "shunt" && quantity.name == "conductance_shunt")) {
+      return quantity.changes;
+    }
+  }
+  return {};
+}
+
+// The design and a column for each change.
+Eigen::MatrixXd WithChanges(const TrendBlocks& blocks, const TimeSeries& series,
+                            const std::vector<TrendChange>& changes,
+                            const Eigen::MatrixXd& design) {
+  Eigen::MatrixXd wider(design.rows(), design.cols() + static_cast<Eigen::Index>(changes.size()));
+  wider.leftCols(design.cols()) = design;
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    const double day = (changes[c].time_s - blocks.time_s.front()) / kDay_s;
+    for (Eigen::Index i = 0; i < design.rows(); ++i) {
+      const double after = series.days[static_cast<std::size_t>(i)] - day;
+      const double value = changes[c].onset ? (after + 0.5) / kYear_days : 1;
+      wider(i, design.cols() + static_cast<Eigen::Index>(c)) = after >= 0 ? value : 0;
+    }
+  }
+  return wider;
+}
+
 // Mean of a part over the reference blocks of which most rows are used; 0: there are none. It is the
 // rest of the conditions that the law does not know.
 double CleanReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
@@ -379,8 +407,8 @@ double CleanReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
 // count too. The errors of days count, and those that neighbouring days share where the part does not change from
 // day to day itself, as light and snow do.
 Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
-                const std::vector<double>& weights, bool changes_daily, double drift_per_year,
-                double model_error) {
+                const std::vector<double>& weights, const std::vector<TrendChange>& changes,
+                bool changes_daily, double drift_per_year, double model_error) {
   const std::size_t n = own.of.size();
   std::vector<double> share(n, 0);
   double sum = 0, mean_day = 0, first_day = 0, first_count = 0;
@@ -403,7 +431,8 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   out.value = value;
   if (n < kLeastForSizes) return out;
   bool seasonal = false;
-  const Eigen::MatrixXd design = DesignOf(own.series, &seasonal);
+  const Eigen::MatrixXd design =
+      WithChanges(blocks, own.series, changes, DesignOf(own.series, &seasonal));
   const TimeFit fit = FitTime(own.series, design);
   TimeSeries series = own.series;
   series.spread = changes_daily ? fit.usual_spread : fit.spread;
@@ -536,13 +565,14 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
       continue;
     }
     const bool daily = p == kPartLight || p == kPartMismatch || total;
+    const std::vector<TrendChange> changes = ChangesOf(*report, loss.name);
     const bool mixed = p == kPartSeries || p == kPartRecombination || p == kPartShunt;
     const auto error = [&](const std::vector<double>& weights) {
       return mixed ? std::hypot(kPartError, kUnevenShunt * MeanPart(sums, weights, kPartShunt))
                    : kPartError;
     };
-    loss.energy_percent = MeanLoss(blocks, own, all, daily, drift, error(all));
-    loss.now_percent = MeanLoss(blocks, own, recent, daily, drift, error(recent));
+    loss.energy_percent = MeanLoss(blocks, own, all, changes, daily, drift, error(all));
+    loss.now_percent = MeanLoss(blocks, own, recent, changes, daily, drift, error(recent));
     report->losses.push_back(std::move(loss));
     if (total) continue;
     std::vector<TrendDay> days;

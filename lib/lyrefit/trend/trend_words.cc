@@ -31,7 +31,7 @@ std::string PowerVerdict(const TrendReport& report) {
     }
   }
   if (largest != nullptr) {
-    text += fmt::format(", {:.1f} % of it by {}", largest->energy_percent.value,
+    text += fmt::format(", most of it, {:.1f} %, by {}", largest->energy_percent.value,
                         PartTitle(largest->name));
   } else if (!Decided(energy)) {
     text += ": no loss is shown";

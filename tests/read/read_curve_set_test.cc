@@ -27,6 +27,22 @@ std::vector<std::string> Ids(const CurveSet& set) {
   return ids;
 }
 
+TEST(ReadCurveSetTest, TheIndexGivesEachCurveItsDate) {
+  const TempFolder folder;
+  folder.Write("roof/curves.csv", kThree);
+  for (const std::string name : {"timestamp", "date", "datetime", "time"}) {
+    folder.Write("roof/index.csv", "curve," + name +
+                                       ",irradiance_W_m2\n3,2025-03-12 10:30,1000\n7,,600\n"
+                                       "12,2025-03-12T11:00:05,280\n");
+    const auto set = ReadCurveSet(folder.Path("roof"));
+    ASSERT_TRUE(set) << set.error().ToString();
+    ASSERT_THAT(Ids(*set), ElementsAre("7", "3", "12"));
+    EXPECT_EQ(set->curves[0].notes.date, "") << name;
+    EXPECT_EQ(set->curves[1].notes.date, "2025-03-12 10:30") << name;
+    EXPECT_EQ(set->curves[2].notes.date, "2025-03-12T11:00:05") << name;
+  }
+}
+
 TEST(ReadCurveSetTest, FolderOfOneTableWithIndexAndDataset) {
   const TempFolder folder;
   const std::string table = folder.Write("roof/curves.csv", kThree);

@@ -98,11 +98,13 @@ bool ReadDate(DateScanner* scan, Calendar* date) {
   } else {
     return false;
   }
-  if (date->year < 100) date->year += 2000;
-  if (date->year < 1900 || date->year > 2999) return false;
+  if (digits != 4 && date->year < 100) date->year += 2000;
+  if (date->year < 1900 || date->year > 2999 || date->month < 1 || date->month > 12 ||
+      date->day < 1 || date->day > 31) {
+    return false;
+  }
   const Calendar back = DateOf(DaysOf(date->year, date->month, date->day));
-  return date->month >= 1 && date->month <= 12 && date->day >= 1 && back.month == date->month &&
-         back.day == date->day;
+  return back.month == date->month && back.day == date->day;
 }
 
 // Seconds of the day; what is not stated is 0.
@@ -123,8 +125,9 @@ bool ReadTimeOfDay(DateScanner* scan, double* seconds) {
     if (hour < 1 || hour > 12) return false;
     hour = hour % 12 + (afternoon ? 12 : 0);
   }
+  if (hour >= 24 || minute >= 60 || second >= 61) return false;
   *seconds = 3600 * hour + 60 * minute + second + fraction;
-  return hour < 24 && minute < 60 && second < 61;
+  return true;
 }
 
 bool SkipOffset(DateScanner* scan) {

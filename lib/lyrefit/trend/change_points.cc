@@ -93,6 +93,9 @@ class ChangeScan {
     return gains;
   }
 
+  // Of freedom of what a change leaves.
+  double degrees() const { return degrees_; }
+
  private:
   Eigen::MatrixXd basis_;
   Eigen::MatrixXd columns_;
@@ -131,16 +134,18 @@ Eigen::VectorXd GainsUnder(const TimeFit& fit, const TimeSeries& series,
   return scan->Gains(Whiten(fit.noise, own, values));
 }
 
-// The days whose gain is so near the largest that the likelihood does not exclude them.
+// The days whose gain is so near the largest that the likelihood does not exclude them. The sum of
+// squares that a change leaves is proportional to 1 / (degrees + gain).
 void FindRange(const TimeSeries& series, const std::vector<ChangeCandidate>& candidates,
-               const Eigen::VectorXd& gains, std::size_t best, ChangePoint* change) {
+               const Eigen::VectorXd& gains, double degrees, std::size_t best,
+               ChangePoint* change) {
   constexpr double kWidth = 3.84;  // of chi-squared, one degree, 95 %
   change->day_low = change->day_high = change->day;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].kind != candidates[best].kind) continue;
-    if (gains[static_cast<Eigen::Index>(c)] < gains[static_cast<Eigen::Index>(best)] - kWidth) {
-      continue;
-    }
+    const double less = degrees * std::log((degrees + gains[static_cast<Eigen::Index>(best)]) /
+                                           (degrees + gains[static_cast<Eigen::Index>(c)]));
+    if (less > kWidth) continue;
     change->day_low = std::min(change->day_low, series.days[candidates[c].first]);
     change->day_high = std::max(change->day_high, series.days[candidates[c].first]);
   }
@@ -175,7 +180,7 @@ ChangingSeries FitChanges(const TimeSeries& series, const Eigen::MatrixXd& desig
     change.kind = candidates[at].kind;
     change.day = series.days[candidates[at].first];
     change.column = static_cast<int>(out.design.cols());
-    FindRange(series, candidates, gains, at, &change);
+    FindRange(series, candidates, gains, scan.degrees(), at, &change);
     out.design = WithColumn(out.design, ColumnOf(series, candidates[at]));
     out.fit = FitTime(series, out.design);
     out.changes.push_back(change);

@@ -68,7 +68,8 @@ Expected<double> TimeOf(const std::map<std::string, std::string>& beside, const 
       where);
 }
 
-// Reduces sweeps as they come: once the law is known, in groups.
+// Reduces sweeps as they come: once the law is known, in groups. The law of sweeps that are not in
+// order of time is known at the end.
 class SeriesReader {
  public:
   SeriesReader(const TrendReadOptions& reading, const TrendOptions& options)
@@ -80,11 +81,13 @@ class SeriesReader {
     if (reading_.prepare) TRY(reading_.prepare(&curve));
     curve.assumptions = {};
     curve.stated = {};
-    if (waiting_.empty() && !known_) first_s_ = time_s;
+    if (!known_ && !waiting_.empty()) ordered_ = ordered_ && time_s >= waiting_.back().time_s;
     waiting_.push_back({std::move(curve), time_s});
-    const bool covered = time_s > first_s_ + options_.reference_days * kDay_s;
+    if (waiting_.size() < kTogether) return {};
+    const double first_s = waiting_.front().time_s;
+    const bool covered = ordered_ && time_s > first_s + options_.reference_days * kDay_s;
     if (!known_ && covered) TRY(FindLaw());
-    if (known_ && waiting_.size() >= kTogether) Reduce();
+    if (known_) Reduce();
     return {};
   }
 
@@ -119,8 +122,8 @@ class SeriesReader {
   TrendSeries series_;
   std::vector<TimedSweep> waiting_;
   std::vector<TrendRow> broken_;
-  double first_s_ = 0;
-  bool known_ = false;  // whether the law is
+  bool known_ = false;   // whether the law is
+  bool ordered_ = true;  // the sweeps that wait for it are in order of time
 };
 
 bool IsSetFolder(const std::string& input) {

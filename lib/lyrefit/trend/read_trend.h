@@ -26,7 +26,7 @@ struct TrendReadOptions {
 };
 
 // Reads sweeps of one device in constant memory but for the sweeps of the reference days (if the
-// law is theirs) and a row of numbers each: in any shape of batch_source.h, each with the time of
+// law is theirs; all sweeps, if they are not in order of time) and a row of numbers each: in any shape of batch_source.h, each with the time of
 // its measurement under date, timestamp, time, datetime or tmst, as a text of read/date_time.h; or,
 // in a folder tree, with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv").
 // A sweep that cannot be read is an unusable row with the reason. Errors: those of the source; a

@@ -86,6 +86,8 @@ constexpr double kRatios[] = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 40, 100};
 constexpr double kHalfLives[] = {1, 2, 4, 8, 15, 30, 60, 120};
 
 constexpr double kPerMeasurement[] = {0, 1, 3, 10, 30};  // k of 1 + k / count
+// Of likelihoods. Where all days have as many measurements, any k has the same but for rounding.
+constexpr double kTie = 1e-6;
 
 struct BestNoise {
   double ratio = 0;
@@ -111,7 +113,7 @@ BestNoise BestNoiseOf(const std::vector<double>& outlying, const Eigen::MatrixXd
     for (const double ratio : {0.0, 1.0, 8.0}) {
       const Regression one =
           RegressionOf(GainsOf(ratio, ratio > 0 ? 8 : 0, series), series, design);
-      if (one.log_likelihood <= highest) continue;
+      if (one.log_likelihood <= highest + kTie) continue;
       highest = one.log_likelihood;
       usual = k;
     }

@@ -6,6 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "lyrefit/base/append_log.h"
 #include "lyrefit/base/try.h"
@@ -49,19 +51,39 @@ StateJson HeadOfSeries(const TrendSeries& series) {
           {"conductance_shunt", device.shunt_conductance_S}};
 }
 
+tl::unexpected<Error> RefuseHead(const char* expected, const char* key, const std::string& path) {
+  return Fail(fmt::format("expected {} in \"{}\"", expected, key), path, 1);
+}
+
 Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& path) {
   const nlohmann::json head = nlohmann::json::parse(line, nullptr, false);
-  if (!head.is_object() || head.value("lyrefit_trend", 0) != kStateFormat) {
+  if (!head.is_object() || !head.contains("lyrefit_trend") ||
+      head["lyrefit_trend"] != kStateFormat) {
     return Fail("expected the state of a trend of format 1, found another one", path, 1);
   }
   TrendSeries series;
   TrendDevice device;
-  series.name = head.value("name", "");
-  series.law = head.value("law", "");
-  const bool sweeps = head.value("source", "") == ToText(TrendSource::kSweeps);
+  std::string source;
+  for (const auto& [key, value] :
+       {std::pair{"name", &series.name}, {"law", &series.law}, {"source", &source}}) {
+    const auto found = head.find(key);
+    if (found == head.end() || !found->is_string()) return RefuseHead("a text", key, path);
+    *value = found->get<std::string>();
+  }
+  const bool sweeps = source == ToText(TrendSource::kSweeps);
+  if (!sweeps && source != ToText(TrendSource::kOperatingPoints)) {
+    return RefuseHead("sweeps or operating points", "source", path);
+  }
   series.source = sweeps ? TrendSource::kSweeps : TrendSource::kOperatingPoints;
-  device.cells_in_series = head.value("cells_in_series", 1);
-  device.substrings = head.value("substrings", 0);
+  for (const auto& [key, value, least] : {std::tuple{"cells_in_series", &device.cells_in_series, 1},
+                                          {"substrings", &device.substrings, 0}}) {
+    constexpr int kMost = 1000000;
+    const auto found = head.find(key);
+    if (found == head.end() || !found->is_number_integer() || *found < least || *found > kMost) {
+      return RefuseHead("a number of them", key, path);
+    }
+    *value = found->get<int>();
+  }
   for (const auto& [key, value] : {std::pair{"n", &device.n},
                                    {"EgRef", &device.bandgap_eV},
                                    {"dEgdT", &device.bandgap_slope_per_K},
@@ -72,9 +94,7 @@ Expected<TrendSeries> SeriesOfHead(const std::string& line, const std::string& p
                                    {"saturation_current_2", &device.saturation_current_2_A},
                                    {"conductance_shunt", &device.shunt_conductance_S}}) {
     const auto found = head.find(key);
-    if (found == head.end() || !found->is_number()) {
-      return Fail(fmt::format("expected a number in \"{}\"", key), path, 1);
-    }
+    if (found == head.end() || !found->is_number()) return RefuseHead("a number", key, path);
     *value = found->get<double>();
   }
   series.device = std::make_shared<const TrendDevice>(device);

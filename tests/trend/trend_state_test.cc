@@ -1,0 +1,189 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "error_of.h"
+#include "lyrefit/report/json.h"
+#include "lyrefit/trend/read_trend.h"
+#include "lyrefit/trend/trend.h"
+#include "temp_folder.h"
+#include "trend/sweeps_text.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+TrendSeries ThirtyDays() {
+  MadeYear year;
+  year.days = 30;
+  year.points = 20;
+  TrendSeries series = ReducedBy(MadeDevice(), MakeSweeps(MadeDevice(), year));
+  AppendOperatingPoint(kMadeStart_s + 31 * kDay_s, kUnknown, 40, 30, 8, &series);
+  return series;
+}
+
+int LinesIn(const std::string& path) {
+  const std::string text = FileText(path);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(TrendState, KeepsTheLawAndTheRows) {
+  const TempFolder folder;
+  const std::string path = folder.Path("a.state");
+  const TrendSeries series = ThirtyDays();
+  const auto written = AppendTrendState(path, series);
+  ASSERT_TRUE(written) << written.error().ToString();
+  EXPECT_EQ(*written, static_cast<std::int64_t>(series.rows.size()));
+  EXPECT_TRUE(IsTrendState(path));
+  const auto read = ReadTrendState(path);
+  ASSERT_TRUE(read) << read.error().ToString();
+  EXPECT_EQ(read->name, series.name);
+  EXPECT_EQ(read->law, series.law);
+  EXPECT_EQ(read->source, series.source);
+  EXPECT_EQ(read->device->cells_in_series, 60);
+  EXPECT_EQ(read->device->substrings, 3);
+  EXPECT_EQ(read->device->saturation_current_2_A, series.device->saturation_current_2_A);
+  EXPECT_EQ(read->device->isc_tempco_per_K, series.device->isc_tempco_per_K);
+  ASSERT_EQ(read->rows.size(), series.rows.size());
+  for (std::size_t i = 0; i + 1 < series.rows.size(); ++i) {
+    EXPECT_EQ(read->rows[i].time_s, series.rows[i].time_s);
+    EXPECT_EQ(read->rows[i].parameters, series.rows[i].parameters);
+    EXPECT_EQ(read->rows[i].misfit, series.rows[i].misfit);
+    EXPECT_EQ(read->rows[i].power_W(), series.rows[i].power_W());
+  }
+  EXPECT_TRUE(std::isnan(read->rows.back().irradiance_W_m2));
+  EXPECT_EQ(read->rows.back().reason, "a value is missing");
+  const auto head = ReadTrendStateHead(path);
+  ASSERT_TRUE(head);
+  EXPECT_TRUE(head->rows.empty());
+  EXPECT_EQ(head->device->photocurrent_A, series.device->photocurrent_A);
+}
+
+TEST(TrendState, GivesTheReportOfTheSweepsToTheLastBit) {
+  const TempFolder folder;
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(folder.Path("a.state"), series));
+  const auto read = ReadTrendState(folder.Path("a.state"));
+  ASSERT_TRUE(read);
+  const auto of_sweeps = FindTrend(series), of_state = FindTrend(*read);
+  ASSERT_TRUE(of_sweeps) << of_sweeps.error().ToString();
+  ASSERT_TRUE(of_state);
+  EXPECT_EQ(TrendJson(*of_sweeps), TrendJson(*of_state));
+}
+
+TEST(TrendState, TakesAMeasurementOnce) {
+  const TempFolder folder;
+  const std::string path = folder.Path("a.state");
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(path, series));
+  const std::string before = FileText(path);
+  EXPECT_EQ(*AppendTrendState(path, series), 0);
+  EXPECT_EQ(FileText(path), before);
+  TrendSeries twice = ReducedBy(*series.device, {});
+  twice.rows = {series.rows[0], series.rows[1], series.rows[1]};
+  twice.rows[1].time_s += 1;
+  twice.rows[2].time_s += 1;
+  EXPECT_EQ(*AppendTrendState(path, twice), 1);
+  EXPECT_EQ(LinesIn(path), static_cast<int>(series.rows.size()) + 2);
+}
+
+TEST(TrendState, SweepBySweepIsTheSameFile) {
+  const TempFolder folder;
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(folder.Path("whole.state"), series));
+  for (std::size_t i = 0; i < series.rows.size(); i += 20) {
+    TrendSeries part = series;
+    part.rows.assign(
+        series.rows.begin() + static_cast<std::ptrdiff_t>(i),
+        series.rows.begin() + static_cast<std::ptrdiff_t>(std::min(i + 20, series.rows.size())));
+    ASSERT_TRUE(AppendTrendState(folder.Path("parts.state"), part));
+  }
+  EXPECT_EQ(FileText(folder.Path("parts.state")), FileText(folder.Path("whole.state")));
+}
+
+TEST(TrendState, OfASweepThatWasBeingWrittenIsWrittenAgain) {
+  const TempFolder folder;
+  const std::string path = folder.Path("a.state");
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(path, series));
+  const std::string whole = FileText(path);
+  folder.Write("a.state", whole.substr(0, whole.size() - 20));
+  const auto torn = ReadTrendState(path);
+  ASSERT_TRUE(torn) << torn.error().ToString();
+  EXPECT_EQ(torn->rows.size(), series.rows.size() - 1);
+  EXPECT_EQ(*AppendTrendState(path, series), 1);
+  EXPECT_EQ(FileText(path), whole);
+}
+
+TEST(TrendState, PointsAtADamagedLine) {
+  const TempFolder folder;
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(folder.Path("a.state"), series));
+  const std::string whole = FileText(folder.Path("a.state"));
+  const std::size_t third = whole.find('\n', whole.find('\n') + 1) + 1;
+  const std::size_t fourth = whole.find('\n', third) + 1;
+  for (const char* line :
+       {"[]\n", "\n", "{}\n", "noise\n", "[1,2,3]\n", "[1,2,3,4,5,6,7,8,9,10,11,12,13,0,9,\"\"]\n",
+        "[1,2,3,4,5,6,7,8,9,10,11,12,13,0,-1,\"\"]\n", "[1,2,3,4,5,6,7,8,9,10,11,12,13,0,0,0]\n"}) {
+    const std::string path =
+        folder.Write("b.state", whole.substr(0, third) + line + whole.substr(fourth));
+    ExpectErrorAt(ReadTrendState(path), path, 3, 0, "this line is no row of a trend");
+  }
+  const std::string path =
+      folder.Write("b.state", whole.substr(0, third) + "noise\n" + whole.substr(fourth));
+  ExpectErrorAt(AppendTrendState(path, series), path, 3, 0, "this line is no row of a trend");
+}
+
+TEST(TrendState, RefusesADamagedHead) {
+  const TempFolder folder;
+  ASSERT_TRUE(AppendTrendState(folder.Path("a.state"), ThirtyDays()));
+  const std::string whole = FileText(folder.Path("a.state"));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    text.replace(text.find(from), from.size(), to);
+    return folder.Write("b.state", text);
+  };
+  for (const auto& [from, to] :
+       {std::pair<const char*, const char*>{"{\"lyrefit_trend\":1", "{\"lyrefit_trend\":2"},
+        {"{\"lyrefit_trend\":1", "{\"lyrefit_trend\":\"1\""},
+        {"{\"lyrefit_trend\":1", "{\"lyrefit_trend\""},
+        {"\"n\":1.0", "\"n\":\"one\""},
+        {"\"n\":1.0", "\"n\":null"},
+        {"\"cells_in_series\":60", "\"cells_in_series\":\"60\""},
+        {"\"cells_in_series\":60", "\"cells_in_series\":0"},
+        {"\"name\":\"made\"", "\"name\":7"},
+        {"\"source\":\"sweeps\"", "\"source\":\"dreams\""}}) {
+    const std::string path = with(from, to);
+    const auto read = ReadTrendState(path);
+    ASSERT_FALSE(read) << to;
+    EXPECT_EQ(read.error().file, path) << to;
+    EXPECT_EQ(read.error().line, 1) << to;
+  }
+}
+
+TEST(TrendState, RefusesAnotherLawAndAnotherFile) {
+  const TempFolder folder;
+  const std::string path = folder.Path("a.state");
+  TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(path, series));
+  const std::string before = FileText(path);
+  TrendDevice other = *series.device;
+  other.resistance_series_ohm += 1e-6;
+  series.device = std::make_shared<const TrendDevice>(other);
+  ExpectErrorAt(AppendTrendState(path, series), path, 1, 0, "another law");
+  EXPECT_EQ(FileText(path), before);
+  const std::string table = folder.Write("b.csv", "voltage_V,current_A\n0,1\n");
+  EXPECT_FALSE(IsTrendState(table));
+  ExpectErrorAt(ReadTrendState(table), table, 1, 0, "expected the state of a trend");
+  ExpectErrorAt(AppendTrendState(table, series), table, 1, 0, "expected the state of a trend");
+  EXPECT_EQ(FileText(table), "voltage_V,current_A\n0,1\n");
+  EXPECT_FALSE(IsTrendState(folder.Path("missing.state")));
+  EXPECT_FALSE(ReadTrendState(folder.Path("missing.state")));
+  EXPECT_THAT(MessageOf(ReadTrendState(folder.Write("empty.state", ""))),
+              HasSubstr("found an empty file"));
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -138,7 +138,7 @@ std::string GivenCellFlag(const VerbLine& verb) {
 }
 
 Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& request) {
-  for (const char* const flag : {"--noise", "--reference"}) {
+  for (const char* const flag : {"--noise", "--reference", "--plan"}) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task cell");
   }
   return CellTask(request.cell, request.pixels);

@@ -1,0 +1,343 @@
+#include "lyrefit/batch/scale_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lyrefit/base/distributions.h"
+
+namespace lyrefit {
+namespace {
+
+// Priors of the causes of one string, in odds to each other; of a combiner whose strings are all
+// alike, a sensor or the plan is more likely than the same fault in all strings.
+struct CausePrior {
+  ScaleCause cause;
+  double string, combiner;
+};
+constexpr CausePrior kPriors[] = {
+    {ScaleCause::kMissingModule, 1, 0.5},     {ScaleCause::kBypassedSubstring, 2, 0.05},
+    {ScaleCause::kReversedModule, 0.5, 0.05}, {ScaleCause::kDisconnectedString, 1, 0.2},
+    {ScaleCause::kWrongModuleType, 0.3, 0.5}, {ScaleCause::kExtraModule, 0.2, 0.3},
+    {ScaleCause::kCableResistance, 1, 0.5},   {ScaleCause::kUniformSoiling, 2, 2},
+    {ScaleCause::kLightSensor, 0.7, 3},       {ScaleCause::kTemperatureSensor, 1, 2},
+    {ScaleCause::kSomethingElse, 1, 1},
+};
+constexpr double kHealthyPrior = 0.95;
+constexpr double kMostHealthy = 0.05;  // probability of a healthy string in spite of which it is claimed
+constexpr double kRivalPart = 0.05;    // of the probability of the first cause
+// Errors of the computed effects, in parts of them.
+constexpr double kShiftError = 0.05;
+
+constexpr int kSteps = 40;             // sizes of a cause
+constexpr double kLeastLight = 0.35, kMostLight = 1.8;
+constexpr double kLeastKelvin = 3, kMostKelvin = 45;
+constexpr double kLeastSlopePart = 0.05, kMostSlopePart = 3;  // resistance, of the slope
+constexpr int kMostModules = 4;
+
+// Numbers of cells in series of modules and of their substrings, for strings without a plan.
+constexpr int kModuleCells[] = {36, 48, 54, 60, 66, 72, 78, 96, 108, 120, 132, 144};
+constexpr int kSubstringCells[] = {10, 11, 12, 13, 16, 18, 20, 22, 24, 26, 32};
+
+double PriorOf(ScaleCause cause, bool shared) {
+  for (const CausePrior& prior : kPriors) {
+    if (prior.cause == cause) return shared ? prior.combiner : prior.string;
+  }
+  return 0;
+}
+
+class HypothesisList {
+ public:
+  explicit HypothesisList(const ScaleContext& context)
+      : context_(context),
+        device_(context.expected,
+                std::isfinite(context.cells) ? static_cast<int>(context.cells) : 0,
+                context.temperature_K) {}
+
+  std::vector<ScaleHypothesis> Take() {
+    AddLostVoltage();
+    AddReversed();
+    AddDisconnected();
+    AddLight();
+    AddWarmth();
+    AddResistance();
+    AddBroad(ScaleCause::kWrongModuleType, {0.12, 0.12, 0.02, 0.015, 0.15});
+    AddBroad(ScaleCause::kSomethingElse, {0.15, 0.10, 0.10, 0.10, 0.6});
+    double sum = 0;
+    for (const ScaleHypothesis& one : all_) sum += one.prior;
+    for (ScaleHypothesis& one : all_) one.prior *= (1 - kHealthyPrior) / sum;
+    ScaleHypothesis healthy;
+    healthy.prior = kHealthyPrior;
+    all_.push_back(healthy);
+    return std::move(all_);
+  }
+
+ private:
+  // Adds sizes of one cause whose priors are relative to each other.
+  void Add(std::vector<ScaleHypothesis> sizes) {
+    double sum = 0;
+    for (const ScaleHypothesis& one : sizes) sum += one.prior;
+    for (ScaleHypothesis& one : sizes) {
+      one.prior *= PriorOf(one.cause, context_.shared) / sum;
+      all_.push_back(one);
+    }
+  }
+
+  static ScaleHypothesis Voltage(ScaleCause cause, double part, double prior) {
+    ScaleHypothesis one;
+    one.cause = cause;
+    one.shift[kScaleVoc] = std::log1p(-part);
+    one.prior = prior;
+    one.size = part;
+    return one;
+  }
+
+  // Lost modules take Voc, Vmp and the slope alike, so that of the logarithms Voc alone changes.
+  void AddLostVoltage() {
+    if (context_.modules == 0) return AddLostCells();
+    std::vector<ScaleHypothesis> modules, substrings, extra;
+    const int m = context_.modules, k = context_.bypass_diodes;
+    for (int count = 1; count <= std::min(kMostModules, m - 1); ++count) {
+      modules.push_back(Voltage(ScaleCause::kMissingModule, double(count) / m, 1.0 / count));
+      modules.back().count = count;
+      modules.back().of = m;
+    }
+    for (int count = 1; count <= 2; ++count) {
+      extra.push_back(Voltage(ScaleCause::kExtraModule, -double(count) / m, 1.0 / count));
+      extra.back().count = count;
+      extra.back().of = m;
+    }
+    for (int count = 1; count < 2 * k && k > 1 && count < m * k; ++count) {
+      const double prior = count < k ? 1.0 / count : 0.1 / count;
+      substrings.push_back(
+          Voltage(ScaleCause::kBypassedSubstring, double(count) / (m * k), prior));
+      substrings.back().count = count;
+      substrings.back().of = m * k;
+    }
+    Add(std::move(modules));
+    Add(std::move(substrings));
+    Add(std::move(extra));
+  }
+
+  // Without a plan: as many cells as modules, or substrings of modules, have.
+  void AddLostCells() {
+    std::vector<ScaleHypothesis> modules, substrings;
+    const double all = device_.cells();
+    for (const int cells : kModuleCells) {
+      for (int count = 1; count <= 3; ++count) {
+        const double part = count * cells / all;
+        if (part > 0.5) continue;
+        modules.push_back(Voltage(ScaleCause::kMissingModule, part, 1.0 / count));
+      }
+    }
+    for (const int cells : kSubstringCells) {
+      for (int count = 1; count <= 2; ++count) {
+        const double part = count * cells / all;
+        if (part > 0.5) continue;
+        substrings.push_back(Voltage(ScaleCause::kBypassedSubstring, part, count == 1 ? 1 : 0.2));
+      }
+    }
+    Add(std::move(modules));
+    Add(std::move(substrings));
+  }
+
+  void AddReversed() {
+    std::vector<ScaleHypothesis> sizes;
+    const auto add = [&](double part, double prior) {
+      ScaleHypothesis one;
+      one.cause = ScaleCause::kReversedModule;
+      one.shift = device_.ByReversed(part);
+      one.size = part;
+      one.prior = prior;
+      sizes.push_back(one);
+    };
+    if (context_.modules > 2) {
+      for (int count = 1; count <= 2 && 2 * count < context_.modules; ++count) {
+        add(double(count) / context_.modules, 1.0 / (count * count));
+        sizes.back().count = count;
+        sizes.back().of = context_.modules;
+      }
+    } else if (context_.modules == 0) {
+      for (const int cells : kModuleCells) {
+        if (cells < 0.25 * device_.cells()) add(double(cells) / device_.cells(), 1);
+      }
+    }
+    Add(std::move(sizes));
+  }
+
+  // Strings in parallel change current and slope alike, so that of the logarithms Isc alone
+  // changes. (Less light takes voltage too.)
+  void AddDisconnected() {
+    std::vector<ScaleHypothesis> sizes;
+    const int least = context_.strings > 0 ? context_.strings : 2;
+    const int most = context_.strings > 0 ? context_.strings : 8;
+    for (int of = least; of <= most; ++of) {
+      for (int count = 1; count < std::min(of, 4); ++count) {
+        ScaleHypothesis one;
+        one.cause = ScaleCause::kDisconnectedString;
+        one.shift[kScaleIsc] = std::log1p(-double(count) / of);
+        one.size = double(count) / of;
+        if (context_.strings > 0) one.count = count, one.of = of;
+        one.prior = 1.0 / (count * of);
+        sizes.push_back(one);
+      }
+    }
+    Add(std::move(sizes));
+  }
+
+  void AddLight() {
+    std::vector<ScaleHypothesis> dirt, sensor;
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = (k + 0.5) / kSteps;
+      ScaleHypothesis one;
+      const double factor = kLeastLight * std::pow(kMostLight / kLeastLight, t);
+      one.shift = device_.ByLight(factor);
+      one.size = factor - 1;
+      // Half of the errors are below 10 %.
+      one.prior = 1 / (1 + std::pow(std::log(factor) / 0.1, 2));
+      one.width[kScaleIsc] = std::log(kMostLight / kLeastLight) / kSteps / 2;
+      one.cause = ScaleCause::kLightSensor;
+      sensor.push_back(one);
+      one.cause = ScaleCause::kUniformSoiling;
+      if (factor < 1) dirt.push_back(one);
+    }
+    Add(std::move(dirt));
+    Add(std::move(sensor));
+  }
+
+  void AddWarmth() {
+    std::vector<ScaleHypothesis> sizes;
+    for (int k = 0; k < kSteps; ++k) {
+      for (const int sign : {-1, 1}) {
+        ScaleHypothesis one;
+        one.cause = ScaleCause::kTemperatureSensor;
+        one.size = sign * kLeastKelvin * std::pow(kMostKelvin / kLeastKelvin, (k + 0.5) / kSteps);
+        one.shift = device_.ByWarmth(one.size);
+        one.prior = 1;
+        sizes.push_back(one);
+      }
+    }
+    Add(std::move(sizes));
+  }
+
+  void AddResistance() {
+    std::vector<ScaleHypothesis> sizes;
+    const double slope = std::isfinite(context_.expected.slope_ohm)
+                             ? context_.expected.slope_ohm
+                             : 0.08 * context_.expected.voc_V / context_.expected.isc_A;
+    for (int k = 0; k < kSteps; ++k) {
+      ScaleHypothesis one;
+      one.cause = ScaleCause::kCableResistance;
+      one.size = slope * kLeastSlopePart *
+                 std::pow(kMostSlopePart / kLeastSlopePart, (k + 0.5) / kSteps);
+      one.shift = device_.ByResistance(one.size);
+      one.prior = 1;
+      sizes.push_back(one);
+    }
+    Add(std::move(sizes));
+  }
+
+  void AddBroad(ScaleCause cause, const ScaleVector& width) {
+    ScaleHypothesis one;
+    one.cause = cause;
+    one.width = width;
+    one.prior = 1;
+    Add({one});
+  }
+
+  const ScaleContext context_;
+  const ScaleDevice device_;
+  std::vector<ScaleHypothesis> all_;
+};
+
+// Logarithm of the density of the deviation under a hypothesis, without constants.
+double LogDensity(const ScaleVector& deviation, const ScaleErrors& errors,
+                  const ScaleHypothesis& one) {
+  double squares = 0, logs = 0;
+  int known = 0;
+  for (int q = 0; q < kScaleQuantities; ++q) {
+    if (!std::isfinite(deviation[q]) || !std::isfinite(one.shift[q])) continue;
+    const double error = std::hypot(errors.sizes[q], kShiftError * one.shift[q]);
+    const double size = std::hypot(error, one.width[q]);
+    squares += std::pow((deviation[q] - one.shift[q]) / size, 2);
+    logs += std::log(size);
+    ++known;
+  }
+  return -(errors.degrees + known) / 2 * std::log1p(squares / errors.degrees) - logs;
+}
+
+}  // namespace
+
+std::vector<ScaleHypothesis> HypothesesFor(const ScaleContext& context) {
+  return HypothesisList(context).Take();
+}
+
+double HealthyPValue(const ScaleVector& deviation, const ScaleErrors& errors) {
+  double squares = 0, largest = 0;
+  int known = 0;
+  for (int q = 0; q < kScaleQuantities; ++q) {
+    const double ratio = deviation[q] / errors.sizes[q];
+    if (!std::isfinite(ratio)) continue;
+    squares += ratio * ratio;
+    largest = std::max(largest, ratio * ratio);
+    ++known;
+  }
+  if (known == 0) return 1;
+  const double together = FisherTail(squares / known, known, errors.degrees);
+  const double alone = known * FisherTail(largest, 1, errors.degrees);
+  return std::min(1.0, 2 * std::min(together, alone));
+}
+
+ScaleVerdict JudgeScale(const ScaleVector& deviation, const ScaleErrors& errors,
+                        const std::vector<ScaleHypothesis>& hypotheses, double level) {
+  ScaleVerdict verdict;
+  verdict.p_value = HealthyPValue(deviation, errors);
+  if (!(verdict.p_value < level)) return verdict;
+  std::vector<double> logs;
+  for (const ScaleHypothesis& one : hypotheses) {
+    logs.push_back(std::log(one.prior) + LogDensity(deviation, errors, one));
+  }
+  const double most = *std::max_element(logs.begin(), logs.end());
+  std::map<ScaleCause, double> weights;
+  double sum = 0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const double weight = std::exp(logs[i] - most);
+    weights[hypotheses[i].cause] += weight;
+    sum += weight;
+  }
+  if (weights[ScaleCause::kNone] > kMostHealthy * sum) return verdict;
+  std::vector<std::pair<double, ScaleCause>> order;
+  for (const auto& [cause, weight] : weights) {
+    if (cause != ScaleCause::kNone) order.emplace_back(-weight, cause);
+  }
+  std::sort(order.begin(), order.end());
+  verdict.cause = order.front().second;
+  verdict.probability = -order.front().first / sum;
+  if (verdict.cause == ScaleCause::kSomethingElse) return verdict;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const bool named = order[i].second != ScaleCause::kSomethingElse;
+    if (named && order[i].first < kRivalPart * order.front().first) {
+      verdict.rivals.push_back(order[i].second);
+    }
+  }
+  double own = 0;
+  std::size_t best = 0;
+  double highest = -kInfinity;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const ScaleHypothesis& one = hypotheses[i];
+    if (one.cause != verdict.cause) continue;
+    const double weight = std::exp(logs[i] - most);
+    own += weight;
+    verdict.mean.size += weight * one.size;
+    for (int q = 0; q < kScaleQuantities; ++q) verdict.mean.shift[q] += weight * one.shift[q];
+    if (logs[i] > highest) highest = logs[i], best = i;
+  }
+  verdict.mean.cause = verdict.cause;
+  verdict.mean.size /= own;
+  for (double& shift : verdict.mean.shift) shift /= own;
+  verdict.mean.count = hypotheses[best].count;
+  verdict.mean.of = hypotheses[best].of;
+  return verdict;
+}
+
+}  // namespace lyrefit

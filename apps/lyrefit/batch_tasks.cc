@@ -13,9 +13,9 @@ namespace {
 const std::vector<std::string> kDiagnoseRows = {
     "base", "effects", "probability", "priors", "floor-current", "floor-power", "largest-causes"};
 
-// Flags declared by AddSharedTaskFlags and by the options of a batch.
+// Flags declared by AddSharedTaskFlags and by the batch itself; its --plan is that of a plant.
 bool IsShared(const std::string& flag) {
-  return flag == "--seed" || flag == "--threads" || flag == "--noise";
+  return flag == "--seed" || flag == "--threads" || flag == "--noise" || flag == "--plan";
 }
 
 // The first given flag of a table.

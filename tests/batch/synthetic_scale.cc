@@ -53,7 +53,7 @@ struct ScaleString {
   int reversed = 0;
   int shorted_modules = 0, shorted_substrings = 0, open_substrings = 0;
   double clean = 1;          // light that the glass passes
-  double lead_ohm = 0;
+  double lead_ohm = 0;       // of each string
   double light_reading = 1;  // shown by the sensor over true
   double kelvin_reading = 0;
   std::string fault;         // empty: none
@@ -99,8 +99,7 @@ std::string SheetOf(int t) {
 }
 
 // The curve of one row of modules.
-Sampled CurveOfRow(const ScaleString& one, double leads_ohm, const ScalePlant& plant,
-                   Random* random) {
+Sampled CurveOfRow(const ScaleString& one, const ScalePlant& plant, Random* random) {
   ModuleType type = kTypes[one.built_type];
   type.open_circuit_V *= plant.voltage_class;
   std::vector<Module> modules;
@@ -126,7 +125,7 @@ Sampled CurveOfRow(const ScaleString& one, double leads_ohm, const ScalePlant& p
     const auto& groups = modules[static_cast<std::size_t>(m)].groups;
     whole.groups.insert(whole.groups.end(), groups.begin(), groups.end());
   }
-  const double ohm = leads_ohm / whole.CellsInSeries();
+  const double ohm = one.lead_ohm / whole.CellsInSeries();
   for (Group& group : whole.groups) {
     for (Cell& cell : group.chains[0]) cell.series_ohm += ohm;
   }
@@ -151,7 +150,7 @@ Sampled CurveOfRow(const ScaleString& one, double leads_ohm, const ScalePlant& p
 Sampled CurveOfString(const ScaleString& one, const ScalePlant& plant, Random* random) {
   std::vector<Sampled> rows;
   for (int s = 0; s < one.built_strings; ++s) {
-    rows.push_back(CurveOfRow(one, one.lead_ohm * one.strings, plant, random));
+    rows.push_back(CurveOfRow(one, plant, random));
   }
   std::vector<const Sampled*> all;
   for (const Sampled& row : rows) all.push_back(&row);
@@ -216,7 +215,7 @@ constexpr ScaleFault kScaleFaults[] = {
      }},
     {"cable_resistance",
      [](Random* random, ScaleString* one) {
-       one->lead_ohm += random->Uniform(1.5, 4) * one->modules / 12 / one->strings;
+       one->lead_ohm += random->Uniform(1.5, 4) * one->modules / 12;
        return true;
      }},
     {"uniform_soiling",
@@ -260,7 +259,7 @@ bool Exchange(Random* random, std::vector<ScaleString>* strings, int combiner) {
 // What all strings of a combiner share.
 void ShareError(Random* random, std::vector<ScaleString>* strings) {
   const int kind = random->Index(3), combiner = random->Index(kCombinersHere);
-  const double part = random->Uniform(0.14, 0.25), kelvin = random->Uniform(9, 20);
+  const double part = random->Uniform(0.14, 0.25), kelvin = random->Uniform(14, 25);
   const bool up = random->Chance(0.5);
   for (int i = combiner * kStringsOfCombinerHere; i < (combiner + 1) * kStringsOfCombinerHere;
        ++i) {
@@ -281,7 +280,8 @@ ScalePlant DrawPlant(std::uint64_t seed, int number) {
   plant.voltage_class = 1 + 0.003 * random.Normal();
   const int type = random.Index(kPlannedTypes), modules = 10 + random.Index(5);
   const bool mixed = random.Chance(0.3);     // strings of two lengths in each combiner
-  const bool parallel = random.Chance(0.25);  // some inputs measure strings in parallel
+  // All inputs measure strings in parallel.
+  const int parallel = number % 5 == 4 ? 2 + random.Index(2) : 1;
   const double suns = random.Uniform(0.55, 1.0), air = random.Uniform(5, 32);
   for (int i = 0; i < kCombinersHere * kStringsOfCombinerHere; ++i) {
     ScaleString one;
@@ -289,8 +289,8 @@ ScalePlant DrawPlant(std::uint64_t seed, int number) {
     one.id = Said("p%03d/comb%d/str%02d", number, combiner + 1, i % kStringsOfCombinerHere + 1);
     one.type = one.built_type = type;
     one.modules = mixed && i % 3 == 2 ? modules - 2 : modules;
-    one.strings = parallel && i % kStringsOfCombinerHere < 3 ? 2 + (i % 2) : 1;
-    if (one.strings > 1) one.modules = 8;
+    one.strings = parallel;
+    if (parallel > 1) one.modules = 8;
     one.built_modules = one.modules;
     one.built_strings = one.strings;
     one.suns = suns * (1 + 0.004 * (i % kStringsOfCombinerHere)) * (1 + 0.004 * random.Normal());
@@ -302,7 +302,7 @@ ScalePlant DrawPlant(std::uint64_t seed, int number) {
     one.kelvin_reading = 0.8 * sensor.Normal() + 0.8 * random.Normal();
     plant.strings.push_back(one);
   }
-  if (mixed && !parallel) Exchange(&random, &plant.strings, random.Index(kCombinersHere));
+  if (mixed && parallel == 1) Exchange(&random, &plant.strings, random.Index(kCombinersHere));
   const int faults = 3 + random.Index(2);
   for (int hidden = 0; hidden < faults;) {
     const int at = random.Index(static_cast<int>(plant.strings.size()));
@@ -310,13 +310,12 @@ ScalePlant DrawPlant(std::uint64_t seed, int number) {
     const ScaleFault& fault =
         kScaleFaults[static_cast<std::size_t>((number * 4 + hidden) % std::size(kScaleFaults))];
     ScaleString& one = plant.strings[static_cast<std::size_t>(at)];
-    const bool any_parallel = parallel || std::string(fault.name) != "disconnected_string";
-    if (!any_parallel) {
+    if (!one.fault.empty()) continue;
+    ScaleString changed = one;
+    if (!fault.apply(&random, &changed)) {
       ++hidden;
       continue;
     }
-    ScaleString changed = one;
-    if (!one.fault.empty() || !fault.apply(&random, &changed)) continue;
     changed.fault = fault.name;
     one = changed;
     ++hidden;

@@ -46,13 +46,11 @@ StringFigures FiguresByPlan(const PlannedString& line, double irradiance_W_m2,
   const TranslatedDevice at =
       TranslateTo(law, line.module->shared, irradiance_W_m2, temperature_K);
   const KeyPoints key = ModelKeyPoints(at.device, at.parameters.data());
-  // The thermal voltage of the law's device is that of the reference, see Translation::device.
-  const double scale_V = ParameterOf(at, "n1") * law.spec.cells_in_series *
-                         ThermalVoltage(kReferenceTemperature_K, law.spec.constants);
-  const double voc = key.open_circuit_voltage_V;
-  const double slope =
-      ParameterOf(at, "Rs") + 1 / (ParameterOf(at, "Is1") / scale_V * std::exp(voc / scale_V) +
-                                   1 / ParameterOf(at, "Rsh"));
+  const double scale_V = ParameterOf(at, "n1") * at.device.module_thermal_voltage_V;
+  const double voc = key.open_circuit_voltage_V, rsh = ParameterOf(at, "Rsh");
+  // At open circuit the diode carries what the shunt does not.
+  const double diode_A = ParameterOf(at, "Iph") - voc / rsh;
+  const double slope = ParameterOf(at, "Rs") + 1 / (diode_A / scale_V + 1 / rsh);
   const double m = line.modules_in_series, s = line.strings_in_parallel;
   return {key.short_circuit_current_A * s, voc * m, key.max_power_current_A * s,
           key.max_power_voltage_V * m, slope * m / s};

@@ -61,8 +61,8 @@ class HypothesisList {
     AddLight();
     AddWarmth();
     AddResistance();
-    AddBroad(ScaleCause::kWrongModuleType, {0.12, 0.12, 0.02, 0.015, 0.15});
-    AddBroad(ScaleCause::kSomethingElse, {0.15, 0.10, 0.10, 0.10, 0.6});
+    AddBroad(ScaleCause::kWrongModuleType, {{0.12, 0.12, 0.03, 0.02, 0.2}});
+    AddBroad(ScaleCause::kSomethingElse, {{0.15, 0.10, 0.10, 0.10, 0.6}, {1, 1, 0.5, 0.5, 2}});
     double sum = 0;
     for (const ScaleHypothesis& one : all_) sum += one.prior;
     for (ScaleHypothesis& one : all_) one.prior *= (1 - kHealthyPrior) / sum;
@@ -237,12 +237,17 @@ class HypothesisList {
     Add(std::move(sizes));
   }
 
-  void AddBroad(ScaleCause cause, const ScaleVector& width) {
-    ScaleHypothesis one;
-    one.cause = cause;
-    one.width = width;
-    one.prior = 1;
-    Add({one});
+  // A cause that may change everything, by about these widths.
+  void AddBroad(ScaleCause cause, const std::vector<ScaleVector>& widths) {
+    std::vector<ScaleHypothesis> sizes;
+    for (const ScaleVector& width : widths) {
+      ScaleHypothesis one;
+      one.cause = cause;
+      one.width = width;
+      one.prior = 1;
+      sizes.push_back(one);
+    }
+    Add(std::move(sizes));
   }
 
   const ScaleContext context_;

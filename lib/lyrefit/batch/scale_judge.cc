@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,13 +16,15 @@ namespace lyrefit {
 namespace {
 
 // Errors of a whole combiner against its plan: a light sensor within 2.5 % with dirt and current
-// classes; temperature within 2 K and a Voc of the data sheet within 1 %; what one diode through
+// classes; temperature within 2 K and a Voc of the data sheet within 0.7 %; what one diode through
 // the data sheet misses at another light; cables.
-constexpr ScaleVector kPlanErrors = {0.030, 0.012, 0.020, 0.015, 0.15};
+constexpr ScaleVector kPlanErrors = {0.030, 0.009, 0.020, 0.015, 0.12};
 constexpr double kPlanDegrees = 30;
 
-// Odds of exchanged strings to a fault of one, where both fit the plan of the other.
+// Odds of exchanged strings to a fault of one, where both fit the plan of the other; and where more
+// than one string fits it, of which one was exchanged.
 constexpr double kExchangedOdds = 20;
+constexpr double kUnclearOdds = 0.1;
 constexpr double kExchangedFit = 0.01;  // least p-value of both
 
 // A string with what is said of it.
@@ -107,9 +110,10 @@ class GroupJudge {
            (residuals_[i].peers > 0 || group_[i].IsPlanned());
   }
 
-  // Another string of the combiner whose plan this one fits, and which fits the plan of this one.
-  std::optional<std::size_t> PartnerOf(std::size_t i) const {
-    if (!group_[i].IsPlanned()) return std::nullopt;
+  // Other strings of the combiner whose plan this one fits, and which fit the plan of this one.
+  std::vector<std::size_t> PartnersOf(std::size_t i) const {
+    std::vector<std::size_t> partners;
+    if (!group_[i].IsPlanned()) return partners;
     for (std::size_t j = 0; j < group_.size(); ++j) {
       const bool other = j != i && CanJudge(j) && group_[j].IsPlanned() &&
                          !SamePlan(group_[i], group_[j]) &&
@@ -119,9 +123,9 @@ class GroupJudge {
         const ScaleVector off = AgainstOther(group_[one], residuals_[one], group_[of]);
         return HealthyPValue(off, ErrorsFor(one)) > kExchangedFit;
       };
-      if (fits(i, j) && fits(j, i)) return j;
+      if (fits(i, j) && fits(j, i)) partners.push_back(j);
     }
-    return std::nullopt;
+    return partners;
   }
 
   Judged JudgeOwn(std::size_t i) const {
@@ -133,18 +137,21 @@ class GroupJudge {
     if (!(judged.verdict.p_value < level_)) return judged;
     std::vector<ScaleHypothesis> hypotheses =
         HypothesesFor(ContextOf(group_[i], residuals_[i]));
-    if (const auto partner = PartnerOf(i)) {
+    const std::vector<std::size_t> partners = PartnersOf(i);
+    if (!partners.empty()) {
+      const std::size_t partner = partners.front();
+      const bool clear = partners.size() == 1 && PartnersOf(partner).size() == 1;
       ScaleHypothesis exchanged;
       exchanged.cause = ScaleCause::kExchangedStrings;
       exchanged.shift =
-          Difference(LogsOfOther(group_[i], group_[*partner]), LogsOf(group_[i].planned));
+          Difference(LogsOfOther(group_[i], group_[partner]), LogsOf(group_[i].planned));
       double sum = 0;
       for (const ScaleHypothesis& one : hypotheses) {
         if (one.cause != ScaleCause::kNone) sum += one.prior;
       }
-      exchanged.prior = kExchangedOdds * sum;
+      exchanged.prior = (clear ? kExchangedOdds : kUnclearOdds) * sum;
       hypotheses.push_back(exchanged);
-      judged.partner = group_[*partner].id;
+      judged.partner = group_[partner].id;
     }
     judged.verdict = JudgeScale(judged.deviation, errors, hypotheses, level_);
     return judged;
@@ -270,7 +277,11 @@ ScaleReader::ScaleReader(const std::vector<ResultColumn>& columns) {
       "plan_Imp_A",  "plan_Vmp_V",     "plan_slope_ohm",         "cause",
       "cause_about"};
   static_assert(std::size(kNames) == kKnown);
-  for (int known = 0; known < kKnown; ++known) places_[known] = ColumnPlace(columns, kNames[known]);
+  for (int known = 0; known < kKnown; ++known) {
+    const std::size_t place = ColumnPlace(columns, kNames[known]);
+    // Rows may have further cells, of the comparison with the neighbours.
+    places_[known] = place < columns.size() ? place : std::numeric_limits<std::size_t>::max();
+  }
   reads_ = places_[kSlope] < columns.size();
 }
 

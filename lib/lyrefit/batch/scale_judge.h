@@ -16,7 +16,7 @@ namespace lyrefit {
 // expects at its light and temperature. Without a plan a typical diode through the medians of the
 // combiner takes the place of the plan, so that strings of unlike light and temperature compare.
 // The deviation of a string is its residual less the median residual of its peers: the strings of
-// the combiner under like light, of which at least kLeastPeers are needed. What all strings of a
+// the combiner with a light within 30 %, of which at least kLeastPeers are needed. What all strings of a
 // combiner share, such as rounding of the data sheet, the gain of a sensor or dirt on all, is not in
 // the deviations. The median residual itself is judged against the plan, with errors of sensors and
 // data sheet (kPlanErrors), and its cause holds for all strings of the combiner that have no own.
@@ -52,7 +52,7 @@ struct ScaleResidual {
   int peers = 0;            // too few: `deviation` and `common` are unknown
 };
 
-std::vector<ScaleResidual> ScaleResiduals(const std::vector<ScaleMember>& group, double like_light);
+std::vector<ScaleResidual> ScaleResiduals(const std::vector<ScaleMember>& group);
 
 // Scatter of deviations over the plant, in constant memory.
 class ScaleScatter {

@@ -17,30 +17,40 @@ constexpr double kUsualDegrees = 25;
 
 double Kelvin(double celsius) { return celsius + kZeroCelsius_K; }
 
-bool AlikeLight(double a, double b, double like_light) {
-  return std::fabs(a - b) <= like_light * std::max(a, b);
+// Residuals are computed at the stated light of each string, so that light that is not alike, or
+// stated wrongly, compares too.
+constexpr double kMostUnlikeLight = 0.3;
+
+bool AlikeLight(double a, double b) {
+  return std::fabs(a - b) <= kMostUnlikeLight * std::max(a, b);
 }
 
-// Figures of one module and one string, where the plan says how many there are.
+StringFigures Scaled(const StringFigures& f, double series, double parallel) {
+  return {f.isc_A * parallel, f.voc_V * series, f.imp_A * parallel, f.vmp_V * series,
+          f.slope_ohm * series / parallel};
+}
+
+// Units in series: modules, or cells where only these are known.
+double SeriesOf(const ScaleMember& member) {
+  if (member.modules > 0) return member.modules;
+  return member.cells > 0 ? member.cells : 1;
+}
+
+StringFigures OfAll(const StringFigures& figures, const ScaleMember& member) {
+  return Scaled(figures, SeriesOf(member), std::max(member.strings, 1));
+}
+
+// Figures of one unit and one string.
 StringFigures OfOne(const ScaleMember& member) {
-  StringFigures f = member.measured;
-  const double m = std::max(member.modules, 1), s = std::max(member.strings, 1);
-  return {f.isc_A / s, f.voc_V / m, f.imp_A / s, f.vmp_V / m, f.slope_ohm * s / m};
-}
-
-StringFigures OfAll(const StringFigures& f, const ScaleMember& member) {
-  const double m = std::max(member.modules, 1), s = std::max(member.strings, 1);
-  return {f.isc_A * s, f.voc_V * m, f.imp_A * s, f.vmp_V * m, f.slope_ohm * m / s};
+  return Scaled(member.measured, 1 / SeriesOf(member), 1.0 / std::max(member.strings, 1));
 }
 
 // A typical diode through the medians of strings without a plan.
 class CommonString {
  public:
   explicit CommonString(const std::vector<const ScaleMember*>& members)
-      : device_(Medians(members, &light_, &temperature_C_, &cells_), cells_,
-                Kelvin(temperature_C_)) {
-    figures_ = Medians(members, &light_, &temperature_C_, &cells_);
-  }
+      : figures_(Medians(members, &light_, &temperature_C_, &cells_)),
+        device_(figures_, cells_, Kelvin(temperature_C_)) {}
 
   const StringFigures& figures() const { return figures_; }
 
@@ -63,7 +73,7 @@ class CommonString {
       const double per_light = 1 / member->irradiance_W_m2;
       const double one[] = {f.isc_A * per_light, f.voc_V, f.imp_A / f.isc_A, f.vmp_V,
                             f.slope_ohm, member->irradiance_W_m2, member->temperature_C,
-                            member->cells / std::max(member->modules, 1)};
+                            member->cells / SeriesOf(*member)};
       for (std::size_t k = 0; k < values.size(); ++k) {
         if (std::isfinite(one[k])) values[k].push_back(one[k]);
       }
@@ -128,8 +138,7 @@ bool ScaleMember::IsMeasured() const {
          measured.vmp_V > 0;
 }
 
-std::vector<ScaleResidual> ScaleResiduals(const std::vector<ScaleMember>& group,
-                                          double like_light) {
+std::vector<ScaleResidual> ScaleResiduals(const std::vector<ScaleMember>& group) {
   std::vector<ScaleResidual> all(group.size());
   FindResiduals(group, &all);
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -139,7 +148,7 @@ std::vector<ScaleResidual> ScaleResiduals(const std::vector<ScaleMember>& group,
       const bool like = j != i && std::isfinite(all[j].residual[kScaleVoc]) &&
                         group[j].own_cause.empty() &&
                         group[j].IsPlanned() == group[i].IsPlanned() &&
-                        AlikeLight(group[i].irradiance_W_m2, group[j].irradiance_W_m2, like_light);
+                        AlikeLight(group[i].irradiance_W_m2, group[j].irradiance_W_m2);
       if (like) peers.push_back(j);
     }
     if (static_cast<int>(peers.size()) < kLeastPeers) continue;

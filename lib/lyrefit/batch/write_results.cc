@@ -184,7 +184,7 @@ Expected<PlantScatter> LearnScatter(const std::vector<std::string>& parts, const
       scatter.neighbours.Add(DeviationsAmong(group.members, plan.like_light));
       if (plan.scale) {
         for (const auto& members : ScaleGroups(group, *plan.scale)) {
-          scatter.scale.Add(ScaleResiduals(members, plan.like_light));
+          scatter.scale.Add(ScaleResiduals(members));
         }
       }
     }
@@ -249,7 +249,7 @@ Expected<void> WriteSamples(const std::vector<SampleSummary>& samples, CsvTexts 
 void AddScale(const ResultsPlan& plan, const ScaleScatter& scatter, Group* group) {
   std::size_t i = 0;
   for (const auto& members : ScaleGroups(*group, *plan.scale)) {
-    const auto residuals = ScaleResiduals(members, plan.like_light);
+    const auto residuals = ScaleResiduals(members);
     const ScaleErrors errors = scatter.ErrorsOf(residuals);
     for (auto& cells : ScaleCells(members, residuals, errors, plan.level)) {
       ResultRow& row = group->rows[i++];

@@ -97,9 +97,8 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
     ++plants;
     for (const Row& truth : truths) {
       std::string fault = At(truth, "fault");
-      // Neighbours that share an error, or have another plan, do not show it.
-      const bool hidden = fault.rfind(kShared, 0) == 0;
-      if (!request.planned && (hidden || fault == "exchanged_strings")) fault.clear();
+      // Neighbours that share an error do not show it.
+      if (!request.planned && fault.rfind(kShared, 0) == 0) fault.clear();
       Row known = truth;
       known["fault"] = fault;
       Count(known, by_id[At(truth, "id")], fault.empty() ? &healthy : &tallies[fault]);

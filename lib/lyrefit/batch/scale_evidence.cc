@@ -18,10 +18,10 @@ struct CausePrior {
 constexpr CausePrior kPriors[] = {
     {ScaleCause::kMissingModule, 1, 0.5},     {ScaleCause::kBypassedSubstring, 2, 0.05},
     {ScaleCause::kReversedModule, 0.5, 0.05}, {ScaleCause::kDisconnectedString, 1, 0.2},
-    {ScaleCause::kWrongModuleType, 0.3, 0.5}, {ScaleCause::kExtraModule, 0.2, 0.3},
+    {ScaleCause::kWrongModuleType, 0.5, 0.5}, {ScaleCause::kExtraModule, 0.2, 0.3},
     {ScaleCause::kCableResistance, 1, 0.5},   {ScaleCause::kUniformSoiling, 2, 2},
     {ScaleCause::kLightSensor, 0.7, 3},       {ScaleCause::kTemperatureSensor, 1, 2},
-    {ScaleCause::kSomethingElse, 1, 1},
+    {ScaleCause::kSomethingElse, 1, 0.3},
 };
 constexpr double kHealthyPrior = 0.95;
 constexpr double kMostHealthy = 0.05;  // probability of a healthy string in spite of which it is claimed
@@ -34,6 +34,7 @@ constexpr double kLeastLight = 0.35, kMostLight = 1.8;
 constexpr double kLeastKelvin = 3, kMostKelvin = 45;
 constexpr double kLeastSlopePart = 0.05, kMostSlopePart = 3;  // resistance, of the slope
 constexpr int kMostModules = 4;
+constexpr double kLeastUnlikeType = 0.05;  // of Isc and Voc of another type, in parts of them
 
 // Numbers of cells in series of modules and of their substrings, for strings without a plan.
 constexpr int kModuleCells[] = {36, 48, 54, 60, 66, 72, 78, 96, 108, 120, 132, 144};
@@ -61,7 +62,7 @@ class HypothesisList {
     AddLight();
     AddWarmth();
     AddResistance();
-    AddBroad(ScaleCause::kWrongModuleType, {{0.12, 0.12, 0.03, 0.02, 0.2}});
+    AddBroad(ScaleCause::kWrongModuleType, {{0.12, 0.12, 0.05, 0.03, 0.3}});
     AddBroad(ScaleCause::kSomethingElse, {{0.15, 0.10, 0.10, 0.10, 0.6}, {1, 1, 0.5, 0.5, 2}});
     double sum = 0;
     for (const ScaleHypothesis& one : all_) sum += one.prior;
@@ -268,7 +269,11 @@ double LogDensity(const ScaleVector& deviation, const ScaleErrors& errors,
     logs += std::log(size);
     ++known;
   }
-  return -(errors.degrees + known) / 2 * std::log1p(squares / errors.degrees) - logs;
+  const double density = -(errors.degrees + known) / 2 * std::log1p(squares / errors.degrees) - logs;
+  if (one.cause != ScaleCause::kWrongModuleType) return density;
+  // No other type has the same Isc and Voc.
+  const double apart = std::hypot(deviation[kScaleIsc], deviation[kScaleVoc]) / kLeastUnlikeType;
+  return density + std::log(-std::expm1(-apart * apart / 2));
 }
 
 }  // namespace

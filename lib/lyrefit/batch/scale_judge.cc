@@ -16,9 +16,9 @@ namespace lyrefit {
 namespace {
 
 // Errors of a whole combiner against its plan: a light sensor within 2.5 % with dirt and current
-// classes; temperature within 2 K and a Voc of the data sheet within 0.7 %; what one diode through
+// classes; temperature within 1.5 K and a Voc of the data sheet within 0.6 %; what one diode through
 // the data sheet misses at another light; cables.
-constexpr ScaleVector kPlanErrors = {0.030, 0.009, 0.020, 0.015, 0.12};
+constexpr ScaleVector kPlanErrors = {0.030, 0.0075, 0.025, 0.020, 0.15};
 constexpr double kPlanDegrees = 30;
 
 // Odds of exchanged strings to a fault of one, where both fit the plan of the other; and where more
@@ -48,25 +48,26 @@ ScaleContext ContextOf(const ScaleMember& member, const ScaleResidual& residual)
 
 bool SamePlan(const ScaleMember& one, const ScaleMember& other) {
   return one.modules == other.modules && one.strings == other.strings &&
-         one.module == other.module;
+         one.module == other.module && one.cells == other.cells;
 }
 
-// Logarithms that the plan of `other` expects under the conditions of `one`.
-ScaleVector LogsOfOther(const ScaleMember& one, const ScaleMember& other) {
+// What the logarithms of a string change by if it is built as `other`. Without data sheets the
+// modules are of one type.
+ScaleVector BuiltAs(const ScaleMember& other, const ScaleMember& one) {
+  if (!one.IsPlanned() || !other.IsPlanned()) {
+    ScaleVector shift{};
+    const auto series = [](const ScaleMember& m) { return m.modules > 0 ? m.modules : m.cells; };
+    shift[kScaleIsc] = std::log(std::max(other.strings, 1)) - std::log(std::max(one.strings, 1));
+    shift[kScaleVoc] = std::log(series(other) / series(one));
+    return shift;
+  }
   const ScaleDevice device(other.planned, static_cast<int>(other.cells),
                            other.temperature_C + kZeroCelsius_K);
   ScaleVector logs = LogsOf(other.planned);
   const ScaleVector light = device.ByLight(one.irradiance_W_m2 / other.irradiance_W_m2);
   const ScaleVector warmth = device.ByWarmth(one.temperature_C - other.temperature_C);
   for (int q = 0; q < kScaleQuantities; ++q) logs[q] += light[q] + warmth[q];
-  return logs;
-}
-
-// The deviation of a string from the plan of another.
-ScaleVector AgainstOther(const ScaleMember& one, const ScaleResidual& residual,
-                         const ScaleMember& other) {
-  const ScaleVector by_other = Difference(LogsOf(one.measured), LogsOfOther(one, other));
-  return residual.peers > 0 ? Difference(by_other, residual.common) : by_other;
+  return Difference(logs, LogsOf(one.planned));
 }
 
 // Judges the strings of one combiner.
@@ -113,15 +114,15 @@ class GroupJudge {
   // Other strings of the combiner whose plan this one fits, and which fit the plan of this one.
   std::vector<std::size_t> PartnersOf(std::size_t i) const {
     std::vector<std::size_t> partners;
-    if (!group_[i].IsPlanned()) return partners;
     for (std::size_t j = 0; j < group_.size(); ++j) {
-      const bool other = j != i && CanJudge(j) && group_[j].IsPlanned() &&
+      const bool other = j != i && CanJudge(j) &&
+                         group_[j].IsPlanned() == group_[i].IsPlanned() &&
                          !SamePlan(group_[i], group_[j]) &&
                          HealthyPValue(DeviationOf(j), ErrorsFor(j)) < level_;
       if (!other) continue;
       const auto fits = [&](std::size_t one, std::size_t of) {
-        const ScaleVector off = AgainstOther(group_[one], residuals_[one], group_[of]);
-        return HealthyPValue(off, ErrorsFor(one)) > kExchangedFit;
+        const ScaleVector shift = BuiltAs(group_[of], group_[one]);
+        return HealthyPValue(Difference(DeviationOf(one), shift), ErrorsFor(one)) > kExchangedFit;
       };
       if (fits(i, j) && fits(j, i)) partners.push_back(j);
     }
@@ -143,8 +144,7 @@ class GroupJudge {
       const bool clear = partners.size() == 1 && PartnersOf(partner).size() == 1;
       ScaleHypothesis exchanged;
       exchanged.cause = ScaleCause::kExchangedStrings;
-      exchanged.shift =
-          Difference(LogsOfOther(group_[i], group_[partner]), LogsOf(group_[i].planned));
+      exchanged.shift = BuiltAs(group_[partner], group_[i]);
       double sum = 0;
       for (const ScaleHypothesis& one : hypotheses) {
         if (one.cause != ScaleCause::kNone) sum += one.prior;

@@ -52,6 +52,8 @@ struct ScaleString {
   int built_type = 0, built_modules = 0, built_strings = 1;
   int reversed = 0;
   int shorted_modules = 0, shorted_substrings = 0, open_substrings = 0;
+  int shaded = 0;            // substrings in the shade of a pole
+  bool degraded = false;     // shunts by potential
   double clean = 1;          // light that the glass passes
   double lead_ohm = 0;       // of each string
   double light_reading = 1;  // shown by the sensor over true
@@ -98,6 +100,23 @@ std::string SheetOf(int t) {
       percent(cool.isc, warm.isc), percent(cool.voc, warm.voc));
 }
 
+// Faults of the shape, which are not to be taken for one of the scale.
+void SpoilShape(const ScaleString& one, Random* random, std::vector<Module>* modules) {
+  for (int s = 0; s < one.shaded; ++s) {
+    Group& group = (*modules)[static_cast<std::size_t>(s / 2)].groups[static_cast<std::size_t>(s % 2)];
+    const double light = random->Uniform(0.3, 0.75);
+    for (Cell& cell : group.chains[0]) cell.photocurrent *= light;
+  }
+  for (std::size_t m = 0; one.degraded && m < modules->size() / 2; ++m) {
+    const double strength = 0.15 * (1 - 2.0 * static_cast<double>(m) / static_cast<double>(modules->size()));
+    for (Group& group : (*modules)[m].groups) {
+      for (Cell& cell : group.chains[0]) {
+        cell.shunt_S += cell.photocurrent / 0.6 * strength * random->LogUniform(0.5, 2);
+      }
+    }
+  }
+}
+
 // The curve of one row of modules.
 Sampled CurveOfRow(const ScaleString& one, const ScalePlant& plant, Random* random) {
   ModuleType type = kTypes[one.built_type];
@@ -120,6 +139,7 @@ Sampled CurveOfRow(const ScaleString& one, const ScalePlant& plant, Random* rand
   for (int m = 0; m < one.open_substrings; ++m) {
     modules[static_cast<std::size_t>(2 * m)].groups[1].broken = true;
   }
+  SpoilShape(one, random, &modules);
   Module whole;
   for (int m = one.reversed; m < one.built_modules; ++m) {
     const auto& groups = modules[static_cast<std::size_t>(m)].groups;
@@ -319,6 +339,13 @@ ScalePlant DrawPlant(std::uint64_t seed, int number) {
     changed.fault = fault.name;
     one = changed;
     ++hidden;
+  }
+  const int spoilt = random.Index(static_cast<int>(plant.strings.size()));
+  ScaleString& shaped = plant.strings[static_cast<std::size_t>(spoilt)];
+  if (number % 2 == 1 && shaped.fault.empty()) {
+    shaped.fault = "shape";
+    shaped.degraded = random.Chance(0.4);
+    if (!shaped.degraded) shaped.shaded = 1 + random.Index(4);
   }
   if (number % 3 == 0) ShareError(&random, &plant.strings);
   return plant;

@@ -79,7 +79,7 @@ void Count(const Row& truth, const Row& row, Tally* tally) {
 
 std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text) {
   std::map<std::string, Tally> tallies;
-  Tally healthy, faulty;
+  Tally healthy, faulty, shape;
   int plants = 0;
   for (int number = 0;; ++number) {
     char name[40];
@@ -101,7 +101,10 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
       if (!request.planned && fault.rfind(kShared, 0) == 0) fault.clear();
       Row known = truth;
       known["fault"] = fault;
-      Count(known, by_id[At(truth, "id")], fault.empty() ? &healthy : &tallies[fault]);
+      Tally* const tally = fault.empty()      ? &healthy
+                           : fault == "shape" ? &shape
+                                              : &tallies[fault];
+      Count(known, by_id[At(truth, "id")], tally);
     }
   }
   if (plants == 0) return "no plants in " + request.folder;
@@ -122,16 +125,21 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
     *text += '\n';
   }
   const int claims_on_healthy = healthy.strings - healthy.silent;
-  const int claims = faulty.strings - faulty.silent + claims_on_healthy;
-  const int wrong = faulty.wrong + claims_on_healthy;
+  const int claims_on_shape = shape.strings - shape.silent;
+  const int claims = faulty.strings - faulty.silent + claims_on_healthy + claims_on_shape;
+  const int wrong = faulty.wrong + claims_on_healthy + claims_on_shape;
   *text += std::to_string(plants) + " plants\n";
   *text += "first name right             " + Rate(faulty.first, faulty.strings) + "\n";
   *text += "  of those that are claimed  " +
            Rate(faulty.first, faulty.strings - faulty.silent) + "\n";
   *text += "wrong claims of all claims   " + Rate(wrong, claims) + "\n";
   *text += "claims of healthy strings    " + Rate(claims_on_healthy, healthy.strings) + "\n";
-  for (const auto& [cause, count] : healthy.instead) {
-    *text += "  healthy: " + cause + " " + std::to_string(count) + "\n";
+  *text += "claims of strings with a     " + Rate(claims_on_shape, shape.strings) +
+           "\n  fault of the shape alone\n";
+  for (const auto& [what, tally] : {std::make_pair("healthy", &healthy), std::make_pair("shape", &shape)}) {
+    for (const auto& [cause, count] : tally->instead) {
+      *text += std::string("  ") + what + ": " + cause + " " + std::to_string(count) + "\n";
+    }
   }
   return "";
 }

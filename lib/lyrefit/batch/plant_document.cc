@@ -23,6 +23,8 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "Pmax_stc_W",
                                          "group_deviation_percent",
                                          "recoverable_power_W",
+                                         "plan_cause_title",
+                                         "plan_lost_W",
                                          "group_outlier",
                                          "date",
                                          "cause",
@@ -101,6 +103,38 @@ block::Table OutliersTable(const PlantSummary& summary, const std::string& resul
     table.links.push_back(LinkOf(row, results));
   }
   return table;
+}
+
+// Names of causes as words: "light_sensor" as "light sensor".
+std::string InWords(std::string names) {
+  std::replace(names.begin(), names.end(), ' ', ',');
+  std::replace(names.begin(), names.end(), '_', ' ');
+  std::string text;
+  for (const char c : names) text += c == ',' ? ", or " : std::string(1, c);
+  return text;
+}
+
+// Strings that differ from their plan in scale, with what to do.
+Section AgainstThePlan(const PlantSummary& summary, const std::string& results) {
+  Section section = {"Against the plan"};
+  if (summary.scaled.empty()) return section;
+  block::Table table = {"lrww", {{"string", "lost (W)", "what is seen", "what to do"}}};
+  std::int64_t all = 0;
+  for (const auto& [cause, share] : summary.plan_causes) all += share.rows;
+  const auto listed = static_cast<std::int64_t>(summary.scaled.size());
+  table.caption = fmt::format(
+      "{} whose curves have the scale of a fault; what they lose is in the light of the sweep",
+      listed < all ? fmt::format("The {} of {} strings that lose most", listed, Counted(all))
+                   : "All strings");
+  for (const PlantRow& row : summary.scaled) {
+    const std::string others =
+        row.plan_equivalents.empty() ? "" : "; or " + InWords(row.plan_equivalents);
+    table.rows.push_back({row.id, Number(row.plan_lost_W, 0),
+                          row.cause_title + others + ". " + row.plan_sentence, row.plan_action});
+    table.links.push_back(LinkOf(row, results));
+  }
+  AddTable(std::move(table), &section);
+  return section;
 }
 
 Section NotJudged(const PlantSummary& summary) {
@@ -187,7 +221,8 @@ Document PlantDocument(const PlantContent& content) {
   Section neighbours = {"Against the neighbours"};
   if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
   AddFigure(NeighboursFigure(summary), &neighbours);
-  AddSections({found, worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)},
+  AddSections({found, AgainstThePlan(summary, content.results), worst, all, spreads, neighbours,
+               NotJudged(summary), AboutPage(content)},
               &document);
   return document;
 }

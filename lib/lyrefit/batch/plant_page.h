@@ -29,6 +29,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   Pmax_stc_W, recoverable_power_W, below_rating_W
 //   group_flag, group_outlier, group_Isc_percent, ...
 //                            whether and how a string differs from those of the same combiner
+//   plan_cause, plan_cause_title, plan_cause_about, plan_sentence, plan_equivalents, plan_action,
+//   plan_lost_W              a fault of the scale, which takes the place of `cause`
 //   sparkline                the curve, by Sparkline()
 //   page                     the string's own page: a path from the folder of the results
 Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::string& file,

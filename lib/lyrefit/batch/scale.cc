@@ -5,7 +5,6 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/single_diodes.h"
 
 namespace lyrefit {
 namespace {
@@ -65,23 +64,15 @@ ScaleDevice::ScaleDevice(const StringFigures& figures, int cells, double tempera
   diode_.photocurrent = figures.isc_A;
   diode_.scale_V = kIdeality * cells_ * ThermalVoltage(temperature_K_);
   diode_.saturation = figures.isc_A / std::expm1(figures.voc_V / diode_.scale_V);
-  diode_.shunt = 200 * figures.voc_V / figures.isc_A;
   const double slope =
       std::isfinite(figures.slope_ohm) ? figures.slope_ohm : 0.08 * figures.voc_V / figures.isc_A;
   diode_.series = std::max(slope - diode_.scale_V / figures.isc_A, 0.1 * slope);
   healthy_ = LogsOfDiode(diode_);
 }
 
-double ScaleDevice::VoltageAt(const Diode& diode, double current) const {
-  const SingleDiodes device = {1,
-                               {&diode.photocurrent},
-                               {&diode.saturation},
-                               {&diode.series},
-                               {&diode.shunt},
-                               {&diode.scale_V}};
-  double voltage = 0;
-  VoltagesAt(device, {&current}, &voltage);
-  return voltage;
+double ScaleDevice::VoltageAt(const Diode& diode, double current) {
+  return diode.scale_V * std::log1p((diode.photocurrent - current) / diode.saturation) -
+         current * diode.series;
 }
 
 // A module in reverse carries the current of its string against its own: it stands on its curve
@@ -90,7 +81,7 @@ double ScaleDevice::VoltageAt(const Diode& diode, double current) const {
 // circuit the string thus loses twice the module's Voc, and its slope is that of all modules still,
 // since each is at I = 0. (Of missing modules the slope falls as Voc does.) Under current it loses
 // still more, which lowers the fill factor.
-ScaleVector ScaleDevice::LogsOfDiode(const Diode& diode, double reversed) const {
+ScaleVector ScaleDevice::LogsOfDiode(const Diode& diode, double reversed) {
   const auto voltage = [&](double current) {
     const double forward = (1 - reversed) * VoltageAt(diode, current);
     return reversed > 0 ? forward - reversed * VoltageAt(diode, -current) : forward;
@@ -123,7 +114,6 @@ ScaleVector ScaleDevice::LogsOfDiode(const Diode& diode, double reversed) const 
 ScaleVector ScaleDevice::ByLight(double factor) const {
   Diode dim = diode_;
   dim.photocurrent *= factor;
-  dim.shunt /= factor;
   return Difference(LogsOfDiode(dim), healthy_);
 }
 

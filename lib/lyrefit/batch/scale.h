@@ -35,7 +35,7 @@ ScaleVector Difference(const ScaleVector& one, const ScaleVector& other);
 StringFigures FiguresByPlan(const PlannedString& line, double irradiance_W_m2,
                             double temperature_K);
 
-// A whole string as one diode, for the effect of faults on its figures. Only differences between
+// A whole string as one diode without a shunt, for the effect of faults on its figures. Only differences between
 // its figures are used, so that a typical ideality suffices.
 class ScaleDevice {
  public:
@@ -52,11 +52,11 @@ class ScaleDevice {
 
  private:
   struct Diode {
-    double photocurrent, saturation, series, shunt, scale_V;
+    double photocurrent, saturation, series, scale_V;
   };
-  double VoltageAt(const Diode& diode, double current) const;
+  static double VoltageAt(const Diode& diode, double current);
   // Logarithms of a string of which the part `reversed` stands in reverse.
-  ScaleVector LogsOfDiode(const Diode& diode, double reversed = 0) const;
+  static ScaleVector LogsOfDiode(const Diode& diode, double reversed = 0);
 
   int cells_ = 1;
   double temperature_K_ = 298.15;

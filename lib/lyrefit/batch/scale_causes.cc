@@ -75,7 +75,7 @@ const ScaleCauseText& TextOf(ScaleCause cause) {
 }
 
 std::string SentenceOf(ScaleCause cause, const ScaleSize& size, bool shared) {
-  const std::string who = shared ? "all strings of the combiner" : "the string";
+  const std::string who = shared ? "All strings of the combiner" : "The string";
   const char* const verb = shared ? "have" : "has";
   const char* const of = shared ? "their" : "its";
   switch (cause) {
@@ -88,8 +88,8 @@ std::string SentenceOf(ScaleCause cause, const ScaleSize& size, bool shared) {
       return fmt::format("{} {} the voltage of {} too few, and {} curve is unchanged otherwise", who,
                          verb, OfText(size, "substring"), of);
     case ScaleCause::kReversedModule:
-      return fmt::format("{} in {} {} the others", OfText(size, "module"), who,
-                         size.count > 1.5 ? "work against" : "works against");
+      return fmt::format("{} {} the voltage of {} against the others", who, verb,
+                         OfText(size, "module"));
     case ScaleCause::kDisconnectedString:
       return fmt::format("{} {} no current of {}", who, verb, OfText(size, "parallel string"));
     case ScaleCause::kWrongModuleType:

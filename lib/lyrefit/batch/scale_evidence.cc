@@ -20,7 +20,7 @@ constexpr CausePrior kPriors[] = {
     {ScaleCause::kReversedModule, 0.5, 0.05}, {ScaleCause::kDisconnectedString, 1, 0.2},
     {ScaleCause::kWrongModuleType, 0.5, 0.5}, {ScaleCause::kExtraModule, 0.2, 0.3},
     {ScaleCause::kCableResistance, 1, 0.5},   {ScaleCause::kUniformSoiling, 2, 2},
-    {ScaleCause::kLightSensor, 0.7, 3},       {ScaleCause::kTemperatureSensor, 1, 2},
+    {ScaleCause::kLightSensor, 0.7, 6},       {ScaleCause::kTemperatureSensor, 1, 2},
     {ScaleCause::kSomethingElse, 1, 0.3},
 };
 constexpr double kHealthyPrior = 0.95;

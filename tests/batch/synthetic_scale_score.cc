@@ -31,7 +31,7 @@ Wilson WilsonOf(int hits, int of) {
   const double n = std::max(of, 1), p = hits / n;
   const double centre = p + kZ * kZ / (2 * n), norm = 1 + kZ * kZ / n;
   const double half = kZ * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  return {100 * (centre - half) / norm, 100 * (centre + half) / norm};
+  return {std::max(100 * (centre - half) / norm, 0.0), 100 * (centre + half) / norm};
 }
 
 std::string Rate(int hits, int of) {
@@ -95,16 +95,20 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
     std::map<std::string, Row> by_id;
     for (const Row& row : results) by_id[At(row, "id")] = row;
     ++plants;
+    std::set<std::string> shared;  // combiners; an error that strings share counts once
     for (const Row& truth : truths) {
       std::string fault = At(truth, "fault");
+      const std::string id = At(truth, "id");
+      const bool of_all = fault.rfind(kShared, 0) == 0;
+      if (request.planned && of_all && !shared.insert(id.substr(0, id.rfind('/'))).second) continue;
       // Neighbours that share an error do not show it.
-      if (!request.planned && fault.rfind(kShared, 0) == 0) fault.clear();
+      if (!request.planned && of_all) fault.clear();
       Row known = truth;
       known["fault"] = fault;
       Tally* const tally = fault.empty()      ? &healthy
                            : fault == "shape" ? &shape
                                               : &tallies[fault];
-      Count(known, by_id[At(truth, "id")], tally);
+      Count(known, by_id[id], tally);
     }
   }
   if (plants == 0) return "no plants in " + request.folder;

@@ -71,6 +71,7 @@ double SlopeAtOpenCircuit(const std::vector<double>& voltage_V,
                           const std::vector<double>& current_A, double short_circuit_current_A) {
   constexpr double kMostCurrent = 0.7;
   constexpr std::size_t kFewestReadings = 5;
+  constexpr double kMostMisfit = 0.002;  // root mean square, in parts of the voltage
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < voltage_V.size(); ++i) {
     const double part = current_A[i] / short_circuit_current_A;
@@ -87,6 +88,9 @@ double SlopeAtOpenCircuit(const std::vector<double>& voltage_V,
     voltage[k] = voltage_V[i];
   }
   const Eigen::VectorXd fitted = LeastSquares(basis, voltage);
+  const Eigen::VectorXd off = voltage - Times(basis, fitted);
+  const double misses = std::sqrt(off.squaredNorm() / static_cast<double>(rows));
+  if (misses > kMostMisfit * voltage.maxCoeff()) return kUnknown;
   const double slope_ohm = (fitted[2] - fitted[1]) / short_circuit_current_A;
   return slope_ohm > 0 ? slope_ohm : kUnknown;
 }

@@ -20,8 +20,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 BatchTaskType WithPlan(BatchTaskType task, std::shared_ptr<const PlantPlan> plan);
 
 // Slope -dV/dI at open circuit in ohm: Rs + a / Iph of one diode, from the least squares V = c - Rs
-// I + a ln(1 - I / Isc) over the readings below 0.7 Isc. Unknown for fewer than five of them or
-// without an Isc.
+// I + a ln(1 - I / Isc) over the readings below 0.7 Isc. Unknown for fewer than five of them,
+// without an Isc, or where the diode misses them by 0.2 % of the voltage, as at a step of the curve.
 double SlopeAtOpenCircuit(const std::vector<double>& voltage_V,
                           const std::vector<double>& current_A, double short_circuit_current_A);
 

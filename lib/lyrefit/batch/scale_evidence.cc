@@ -259,6 +259,9 @@ class HypothesisList {
 // Logarithm of the density of the deviation under a hypothesis, without constants.
 double LogDensity(const ScaleVector& deviation, const ScaleErrors& errors,
                   const ScaleHypothesis& one) {
+  // Without a slope a step of the curve has the fill factor of a resistance.
+  const bool no_slope = !std::isfinite(deviation[kScaleSlope]);
+  if (one.cause == ScaleCause::kCableResistance && no_slope) return -kInfinity;
   double squares = 0, logs = 0;
   int known = 0;
   for (int q = 0; q < kScaleQuantities; ++q) {

@@ -29,8 +29,8 @@ std::string RowsWithFault(int count) {
 
 std::shared_ptr<const PlantPlan> PlanOfEight(const TempFolder& folder) {
   folder.Write("oak.json", kPlanSheet);
-  const auto plan = ReadPlantPlan(folder.Write(
-      "plan.csv", "id,modules_in_series,module\nsite,8,oak.json\nsite/comb2,8,\n"));
+  const auto plan = ReadPlantPlan(
+      folder.Write("plan.csv", "id,modules_in_series,module\nsite,8,oak.json\nsite/comb2,8,\n"));
   return plan ? *plan : nullptr;
 }
 

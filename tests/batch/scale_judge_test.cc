@@ -71,17 +71,19 @@ std::vector<ExactFault> ExactFaults() {
       {"missing_module", "1 module of 20", built(19), healthy_W / 20},
       {"missing_module", "2 modules of 20", built(18), healthy_W / 10},
       {"bypassed_substring", "2 substrings of 60", built(20 - 2.0 / 3), healthy_W / 30},
-      {"reversed_module", "1 module of 20",
-       [=](ScaleMember* m) { m->measured = reversed; }, healthy_W - power(reversed)},
+      {"reversed_module", "1 module of 20", [=](ScaleMember* m) { m->measured = reversed; },
+       healthy_W - power(reversed)},
       {"extra_module", "1 module of 20 too many", built(21), 0},
-      {"cable_resistance", "2.5 ohm more",
-       [=](ScaleMember* m) { m->measured = resistive; }, healthy_W - power(resistive)},
+      {"cable_resistance", "2.5 ohm more", [=](ScaleMember* m) { m->measured = resistive; },
+       healthy_W - power(resistive)},
       {"uniform_soiling", "% less current than at the stated light",
        [=](ScaleMember* m) { m->measured = dirty; }, healthy_W - power(dirty)},
-      {"light_sensor", "reads low", [](ScaleMember* m) {
+      {"light_sensor", "reads low",
+       [](ScaleMember* m) {
          m->irradiance_W_m2 *= 0.88;
          m->planned = {};
-       }, 0},
+       },
+       0},
       {"temperature_sensor", "14 K warmer",
        [=](ScaleMember* m) { m->measured = FiguresOfModules(warm, 20, 0.2); }, 0},
       {"wrong_module_type", "Isc and",

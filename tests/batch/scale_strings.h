@@ -14,7 +14,7 @@ namespace lyrefit {
 // A module of 60 cells and three bypass diodes.
 struct ExplicitModule {
   double photocurrent = 8;
-  double voc_V = 37;      // at 8 A and 45 C
+  double voc_V = 37;  // at 8 A and 45 C
   double series_ohm = 0.3;
   double celsius = 45;
 
@@ -28,7 +28,8 @@ struct ExplicitModule {
 };
 
 // Key figures of a string whose voltage falls with the current.
-inline StringFigures FiguresOfLaw(const std::function<double(double)>& voltage, double photocurrent) {
+inline StringFigures FiguresOfLaw(const std::function<double(double)>& voltage,
+                                  double photocurrent) {
   StringFigures figures;
   figures.isc_A = photocurrent * (1 - 1e-9);
   figures.voc_V = voltage(0);

@@ -106,7 +106,8 @@ TEST(StringPlan, SaysWhereJsonIsWrong) {
     int line, column;
     const char* phrase;
   } cases[] = {
-      {"[{\"id\": \"a\", \"modules_in_series\": 3},\n {\"id\": \"b\",\n  \"modules_in_series\": 2.5}]",
+      {"[{\"id\": \"a\", \"modules_in_series\": 3},\n {\"id\": \"b\",\n  \"modules_in_series\": "
+       "2.5}]",
        3, 3, "a whole number"},
       {"[{\"id\": \"a\",\n\"modules\": 3}]", 2, 1, "no value but those of a plan"},
       {"[{\"id\": \"a\"}]", 1, 1, "modules_in_series"},
@@ -120,8 +121,9 @@ TEST(StringPlan, SaysWhereJsonIsWrong) {
 
 TEST(StringPlan, RefusesAModuleThatNoDiodeDescribes) {
   const TempFolder folder;
-  folder.Write("flat.json",
-               R"({"cells_in_series": 60, "short_circuit_current_A": 9, "open_circuit_voltage_V": 39,
+  folder.Write(
+      "flat.json",
+      R"({"cells_in_series": 60, "short_circuit_current_A": 9, "open_circuit_voltage_V": 39,
                    "max_power_current_A": 9.5, "max_power_voltage_V": 32})");
   folder.Write("short.json", R"({"cells_in_series": 60, "short_circuit_current_A": 9})");
   const std::string head = "id,modules_in_series,module\na,3,";

@@ -15,10 +15,10 @@ namespace {
 // Of one fault, or of the healthy strings.
 struct Tally {
   int strings = 0;
-  int first = 0;      // the first name is right
-  int in_set = 0;     // the first name is not, one beside it is
-  int silent = 0;     // no claim
-  int wrong = 0;      // neither
+  int first = 0;   // the first name is right
+  int in_set = 0;  // the first name is not, one beside it is
+  int silent = 0;  // no claim
+  int wrong = 0;   // neither
   std::map<std::string, int> instead;
 };
 
@@ -62,8 +62,7 @@ void Count(const Row& truth, const Row& row, Tally* tally) {
     ++tally->silent;
     return;
   }
-  const auto right =
-      RightNames(At(truth, "fault"), std::atof(At(row, "plan_Isc_percent").c_str()));
+  const auto right = RightNames(At(truth, "fault"), std::atof(At(row, "plan_Isc_percent").c_str()));
   if (right.count(cause) > 0) {
     ++tally->first;
     return;
@@ -105,9 +104,7 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
       if (!request.planned && of_all) fault.clear();
       Row known = truth;
       known["fault"] = fault;
-      Tally* const tally = fault.empty()      ? &healthy
-                           : fault == "shape" ? &shape
-                                              : &tallies[fault];
+      Tally* const tally = fault.empty() ? &healthy : fault == "shape" ? &shape : &tallies[fault];
       Count(known, by_id[id], tally);
     }
   }
@@ -134,13 +131,14 @@ std::string ScoreScalePlants(const ScaleScoreRequest& request, std::string* text
   const int wrong = faulty.wrong + claims_on_healthy + claims_on_shape;
   *text += std::to_string(plants) + " plants\n";
   *text += "first name right             " + Rate(faulty.first, faulty.strings) + "\n";
-  *text += "  of those that are claimed  " +
-           Rate(faulty.first, faulty.strings - faulty.silent) + "\n";
+  *text +=
+      "  of those that are claimed  " + Rate(faulty.first, faulty.strings - faulty.silent) + "\n";
   *text += "wrong claims of all claims   " + Rate(wrong, claims) + "\n";
   *text += "claims of healthy strings    " + Rate(claims_on_healthy, healthy.strings) + "\n";
   *text += "claims of strings with a     " + Rate(claims_on_shape, shape.strings) +
            "\n  fault of the shape alone\n";
-  for (const auto& [what, tally] : {std::make_pair("healthy", &healthy), std::make_pair("shape", &shape)}) {
+  for (const auto& [what, tally] :
+       {std::make_pair("healthy", &healthy), std::make_pair("shape", &shape)}) {
     for (const auto& [cause, count] : tally->instead) {
       *text += std::string("  ") + what + ": " + cause + " " + std::to_string(count) + "\n";
     }

@@ -57,9 +57,8 @@ std::vector<ResultCell> PlanCells(const PlannedString* line, const IvCurve& curv
                                             line->module->cells_in_series)
                                : ResultCell());
   const StringFigures expected = ExpectedOf(*line, curve);
-  for (const double value :
-       {expected.isc_A, expected.voc_V, expected.imp_A, expected.vmp_V,
-        expected.imp_A * expected.vmp_V, expected.slope_ohm}) {
+  for (const double value : {expected.isc_A, expected.voc_V, expected.imp_A, expected.vmp_V,
+                             expected.imp_A * expected.vmp_V, expected.slope_ohm}) {
     cells.push_back(NumberCell(value));
   }
   return cells;
@@ -97,7 +96,8 @@ double SlopeAtOpenCircuit(const std::vector<double>& voltage_V,
 
 BatchTaskType WithPlan(BatchTaskType task, std::shared_ptr<const PlantPlan> plan) {
   const std::size_t own = task.columns.size();
-  for (ResultColumn& column : PlanColumns(plan != nullptr)) task.columns.push_back(std::move(column));
+  for (ResultColumn& column : PlanColumns(plan != nullptr))
+    task.columns.push_back(std::move(column));
   task.options.push_back({"plan", plan ? plan->Digest() : "neighbours", ""});
   task.run = [run = task.run, plan = std::move(plan), own](
                  const BatchCurve& curve, std::uint64_t seed, const Observer& observer) {
@@ -106,8 +106,8 @@ BatchTaskType WithPlan(BatchTaskType task, std::shared_ptr<const PlantPlan> plan
     result.cells.resize(own);
     const IvCurve& readings = *curve.curve;
     const KeyPoints key = FindKeyPoints(readings.voltage_V, readings.current_A);
-    result.cells.push_back(NumberCell(SlopeAtOpenCircuit(readings.voltage_V, readings.current_A,
-                                                         key.short_circuit_current_A)));
+    result.cells.push_back(NumberCell(
+        SlopeAtOpenCircuit(readings.voltage_V, readings.current_A, key.short_circuit_current_A)));
     if (plan == nullptr) return result;
     for (ResultCell& cell : PlanCells(plan->Find(curve.id), readings)) {
       result.cells.push_back(std::move(cell));

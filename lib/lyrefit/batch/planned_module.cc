@@ -49,10 +49,10 @@ Expected<SheetOfPlan> ReadJsonSheetOf(const std::string& file) {
     if (!number) return Fail(std::string("expected the key \"") + key + "\" of a module", file);
     *value = *number;
   }
-  TRY(values.alpha_sc_A_K, CoefficientIn(fields, "alpha_sc_A_K", "alpha_sc_percent_K",
-                                         values.short_circuit_current_A));
-  TRY(values.beta_oc_V_K, CoefficientIn(fields, "beta_oc_V_K", "beta_oc_percent_K",
-                                        values.open_circuit_voltage_V));
+  TRY(values.alpha_sc_A_K,
+      CoefficientIn(fields, "alpha_sc_A_K", "alpha_sc_percent_K", values.short_circuit_current_A));
+  TRY(values.beta_oc_V_K,
+      CoefficientIn(fields, "beta_oc_V_K", "beta_oc_percent_K", values.open_circuit_voltage_V));
   TRY(const auto cells, fields.WholeNumber({"cells_in_series", "N_s"}));
   if (!cells) return Fail("expected the key \"cells_in_series\" of a module", file);
   found.module.sheet.cells_in_series = *cells;
@@ -88,8 +88,8 @@ Expected<std::shared_ptr<const PlannedModule>> ReadPlannedModule(const std::stri
   const auto fit = FitDataSheet(sheet);
   if (!fit) return Fail(fit.error().message, file);
   auto module = std::make_shared<PlannedModule>();
-  module->name = found.module.name.empty() ? std::filesystem::path(file).stem().string()
-                                           : found.module.name;
+  module->name =
+      found.module.name.empty() ? std::filesystem::path(file).stem().string() : found.module.name;
   module->cells_in_series = sheet.cells_in_series;
   module->bypass_diodes = found.bypass_diodes.value_or(3);
   module->translation = fit->translation;

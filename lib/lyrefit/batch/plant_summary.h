@@ -63,9 +63,9 @@ struct PlantSummary {
   // Number of rows that need no work but differ from their neighbours.
   std::int64_t passed_outlier = 0;
   std::string first_date, last_date;
-  std::vector<PlantRow> worst;     // at most kPlantWorst, the worst first
-  std::string worst_by;            // the column that ranks them
-  std::vector<PlantRow> broken;    // the first kPlantListed rows that are not fine
+  std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
+  std::string worst_by;          // the column that ranks them
+  std::vector<PlantRow> broken;  // the first kPlantListed rows that are not fine
   // At most kPlantScaled that differ from their plan in scale, those that lose most first.
   std::vector<PlantRow> scaled;
   std::map<std::string, PlantShare> plan_causes;  // of all of these

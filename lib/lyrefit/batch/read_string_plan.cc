@@ -26,8 +26,8 @@ constexpr std::uintmax_t kLargestPlan = 64U << 20;
 constexpr int kMostInSeries = 100000;
 
 enum PlanColumn { kPlanId, kPlanModules, kPlanStrings, kPlanDiodes, kPlanModule, kPlanRemark };
-constexpr const char* kPlanColumns[] = {"id",     "modules_in_series", "strings_in_parallel",
-                                        "bypass_diodes", "module",     "remark"};
+constexpr const char* kPlanColumns[] = {
+    "id", "modules_in_series", "strings_in_parallel", "bypass_diodes", "module", "remark"};
 
 // Where a value stands.
 struct PlanPlace {
@@ -102,7 +102,8 @@ struct PlanHeader {
 
 std::string KnownColumns() {
   std::string text;
-  for (const char* const name : kPlanColumns) text += (text.empty() ? "" : ", ") + std::string(name);
+  for (const char* const name : kPlanColumns)
+    text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
 }
 

@@ -9,9 +9,9 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kIdeality = 1.1;      // of a typical cell
+constexpr double kIdeality = 1.1;        // of a typical cell
 constexpr double kTypicalCell_V = 0.62;  // Voc of a cell, where the number of cells is not known
-constexpr double kAlpha_1_K = 5e-4;    // of Isc
+constexpr double kAlpha_1_K = 5e-4;      // of Isc
 // Voc of a cell tends to 1.21 V of silicon at 0 K (Green 2003, doi:10.1002/pip.496); of materials
 // with more Voc, to 0.55 V above it.
 constexpr double kSiliconVoc0_V = 1.21;
@@ -42,8 +42,7 @@ ScaleVector Difference(const ScaleVector& one, const ScaleVector& other) {
 StringFigures FiguresByPlan(const PlannedString& line, double irradiance_W_m2,
                             double temperature_K) {
   const Translation& law = line.module->translation;
-  const TranslatedDevice at =
-      TranslateTo(law, line.module->shared, irradiance_W_m2, temperature_K);
+  const TranslatedDevice at = TranslateTo(law, line.module->shared, irradiance_W_m2, temperature_K);
   const KeyPoints key = ModelKeyPoints(at.device, at.parameters.data());
   const double scale_V = ParameterOf(at, "n1") * at.device.module_thermal_voltage_V;
   const double voc = key.open_circuit_voltage_V, rsh = ParameterOf(at, "Rsh");

@@ -45,10 +45,10 @@ class ScaleDevice {
   int cells() const { return cells_; }
 
   // What the logarithms change by:
-  ScaleVector ByLight(double factor) const;        // light times `factor`
-  ScaleVector ByWarmth(double kelvin) const;       // cells warmer by `kelvin`
-  ScaleVector ByResistance(double ohm) const;      // `ohm` more in series
-  ScaleVector ByReversed(double of_modules) const; // modules in reverse, as a part of all
+  ScaleVector ByLight(double factor) const;         // light times `factor`
+  ScaleVector ByWarmth(double kelvin) const;        // cells warmer by `kelvin`
+  ScaleVector ByResistance(double ohm) const;       // `ohm` more in series
+  ScaleVector ByReversed(double of_modules) const;  // modules in reverse, as a part of all
 
  private:
   struct Diode {

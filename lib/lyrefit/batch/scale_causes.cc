@@ -40,7 +40,8 @@ constexpr ScaleCauseText kTexts[] = {
      "check the light sensor: its plane, its glass, its calibration; take the curve again",
      "a second light sensor in the plane of the modules"},
     {ScaleCause::kTemperatureSensor, "Error of the temperature sensor", "conditions",
-     "check that the temperature sensor sits on the back of a module of this string; take the curve "
+     "check that the temperature sensor sits on the back of a module of this string; take the "
+     "curve "
      "again",
      "a second thermometer on the back of a module in the middle of the string"},
     {ScaleCause::kExchangedStrings, "Strings exchanged", "plan",
@@ -85,8 +86,8 @@ std::string SentenceOf(ScaleCause cause, const ScaleSize& size, bool shared) {
       return fmt::format("{} {} the voltage of {} too few: missing, or shorted as a whole", who,
                          verb, OfText(size, "module"));
     case ScaleCause::kBypassedSubstring:
-      return fmt::format("{} {} the voltage of {} too few, and {} curve is unchanged otherwise", who,
-                         verb, OfText(size, "substring"), of);
+      return fmt::format("{} {} the voltage of {} too few, and {} curve is unchanged otherwise",
+                         who, verb, OfText(size, "substring"), of);
     case ScaleCause::kReversedModule:
       return fmt::format("{} {} the voltage of {} against the others", who, verb,
                          OfText(size, "module"));
@@ -104,9 +105,8 @@ std::string SentenceOf(ScaleCause cause, const ScaleSize& size, bool shared) {
       return fmt::format("{} {} {}, as under dirt on every module alike", who,
                          shared ? "give" : "gives", LightText(size));
     case ScaleCause::kLightSensor:
-      return fmt::format("{} {} {}, as with a sensor that reads {}", who,
-                         shared ? "give" : "gives", LightText(size),
-                         size.size < 0 ? "high" : "low");
+      return fmt::format("{} {} {}, as with a sensor that reads {}", who, shared ? "give" : "gives",
+                         LightText(size), size.size < 0 ? "high" : "low");
     case ScaleCause::kTemperatureSensor:
       return fmt::format("{} {} {:.0f} K {} than the stated temperature", who,
                          shared ? "are" : "is", std::fabs(size.size),

@@ -115,8 +115,7 @@ class GroupJudge {
   std::vector<std::size_t> PartnersOf(std::size_t i) const {
     std::vector<std::size_t> partners;
     for (std::size_t j = 0; j < group_.size(); ++j) {
-      const bool other = j != i && CanJudge(j) &&
-                         group_[j].IsPlanned() == group_[i].IsPlanned() &&
+      const bool other = j != i && CanJudge(j) && group_[j].IsPlanned() == group_[i].IsPlanned() &&
                          !SamePlan(group_[i], group_[j]) &&
                          HealthyPValue(DeviationOf(j), ErrorsFor(j)) < level_;
       if (!other) continue;
@@ -136,8 +135,7 @@ class GroupJudge {
     const ScaleErrors errors = ErrorsFor(i);
     judged.verdict.p_value = HealthyPValue(judged.deviation, errors);
     if (!(judged.verdict.p_value < level_)) return judged;
-    std::vector<ScaleHypothesis> hypotheses =
-        HypothesesFor(ContextOf(group_[i], residuals_[i]));
+    std::vector<ScaleHypothesis> hypotheses = HypothesesFor(ContextOf(group_[i], residuals_[i]));
     const std::vector<std::size_t> partners = PartnersOf(i);
     if (!partners.empty()) {
       const std::size_t partner = partners.front();
@@ -192,12 +190,15 @@ std::vector<ResultCell> CellsOf(const Judged& judged, const ScaleMember& member)
   if (verdict.cause == ScaleCause::kNone) {
     cells.resize(6);
     if (!member.own_cause.empty()) {
-      cells[3] = TextCell("not judged by its scale, since the curve itself shows " +
-                          member.own_cause);
+      cells[3] =
+          TextCell("not judged by its scale, since the curve itself shows " + member.own_cause);
     }
   } else {
-    ScaleSize size{verdict.mean.size, verdict.mean.count, verdict.mean.of,
-                   Percent(judged.deviation[kScaleIsc]), Percent(judged.deviation[kScaleVoc]),
+    ScaleSize size{verdict.mean.size,
+                   verdict.mean.count,
+                   verdict.mean.of,
+                   Percent(judged.deviation[kScaleIsc]),
+                   Percent(judged.deviation[kScaleVoc]),
                    judged.partner};
     const bool named = verdict.cause != ScaleCause::kSomethingElse;
     cells.push_back(named ? TextCell(ToText(verdict.cause)) : ResultCell());
@@ -213,8 +214,8 @@ std::vector<ResultCell> CellsOf(const Judged& judged, const ScaleMember& member)
     }
     cells.push_back(ListCell(tests, "; "));
   }
-  const bool named = verdict.cause != ScaleCause::kNone &&
-                     verdict.cause != ScaleCause::kSomethingElse;
+  const bool named =
+      verdict.cause != ScaleCause::kNone && verdict.cause != ScaleCause::kSomethingElse;
   cells.push_back(named ? TextCell(TextOf(verdict.cause).action) : ResultCell());
   cells.push_back(named ? NumberCell(verdict.probability) : ResultCell());
   cells.push_back(named ? NumberCell(LostWatts(judged, member)) : ResultCell());
@@ -234,7 +235,8 @@ std::vector<ResultColumn> ScaleColumns() {
        "the fault by which the string differs from its plan and its neighbours in scale, the most "
        "probable: missing_module, bypassed_substring, reversed_module, disconnected_string, "
        "wrong_module_type, extra_module, cable_resistance, uniform_soiling, light_sensor, "
-       "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that one "
+       "temperature_sensor, exchanged_strings; none: nothing beyond the errors, or nothing that "
+       "one "
        "of these explains"},
       {"plan_cause_title", "", kText, "the same in a few words"},
       {"plan_cause_about", "", kText,
@@ -249,7 +251,8 @@ std::vector<ResultColumn> ScaleColumns() {
       {"plan_shared", "", CellType::kTruth, "all strings of the combiner have it"},
       {"plan_p", "", kNumber, "p-value of the difference of a healthy string"},
       {"plan_Isc_percent", "%", kNumber,
-       "short-circuit current per light against the plan or the median of the combiner, what all its "
+       "short-circuit current per light against the plan or the median of the combiner, what all "
+       "its "
        "strings share taken off unless plan_shared"},
       {"plan_Voc_percent", "%", kNumber, "open-circuit voltage in the same way"},
       {"plan_FF_percent", "%", kNumber, "fill factor in the same way"},
@@ -269,13 +272,27 @@ std::vector<std::vector<ResultCell>> ScaleCells(const std::vector<ScaleMember>& 
 }
 
 ScaleReader::ScaleReader(const std::vector<ResultColumn>& columns) {
-  constexpr const char* kNames[] = {
-      "id",          "irradiance_Wm2", "temperature_C",          "cells_in_series",
-      "Isc_A",       "Voc_V",          "Imp_A",                  "Vmp_V",
-      kSlopeColumn,  "plan_module",    "plan_modules_in_series", "plan_strings_in_parallel",
-      "plan_bypass_diodes", "plan_cells_in_series", "plan_Isc_A", "plan_Voc_V",
-      "plan_Imp_A",  "plan_Vmp_V",     "plan_slope_ohm",         "cause",
-      "cause_about"};
+  constexpr const char* kNames[] = {"id",
+                                    "irradiance_Wm2",
+                                    "temperature_C",
+                                    "cells_in_series",
+                                    "Isc_A",
+                                    "Voc_V",
+                                    "Imp_A",
+                                    "Vmp_V",
+                                    kSlopeColumn,
+                                    "plan_module",
+                                    "plan_modules_in_series",
+                                    "plan_strings_in_parallel",
+                                    "plan_bypass_diodes",
+                                    "plan_cells_in_series",
+                                    "plan_Isc_A",
+                                    "plan_Voc_V",
+                                    "plan_Imp_A",
+                                    "plan_Vmp_V",
+                                    "plan_slope_ohm",
+                                    "cause",
+                                    "cause_about"};
   static_assert(std::size(kNames) == kKnown);
   for (int known = 0; known < kKnown; ++known) {
     const std::size_t place = ColumnPlace(columns, kNames[known]);

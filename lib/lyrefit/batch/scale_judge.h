@@ -29,15 +29,15 @@ namespace lyrefit {
 struct ScaleMember {
   std::string id;
   StringFigures measured;
-  StringFigures planned;            // unknown without a plan
+  StringFigures planned;  // unknown without a plan
   double irradiance_W_m2 = kUnknown;
   double temperature_C = kUnknown;
-  double cells = kUnknown;          // in series
-  int modules = 0;                  // in series; 0: not known
-  int strings = 0;                  // in parallel; 0: not known
+  double cells = kUnknown;  // in series
+  int modules = 0;          // in series; 0: not known
+  int strings = 0;          // in parallel; 0: not known
   int bypass_diodes = 3;
-  std::string module;               // its name by the plan
-  std::string own_cause;            // cause that the curve itself shows; it is then not judged
+  std::string module;     // its name by the plan
+  std::string own_cause;  // cause that the curve itself shows; it is then not judged
 
   bool IsPlanned() const { return std::isfinite(planned.voc_V); }
   bool IsMeasured() const;
@@ -80,9 +80,30 @@ class ScaleReader {
   ScaleMember Read(const ResultRow& row) const;
 
  private:
-  enum Known { kId, kLight, kTemperature, kCells, kIsc, kVoc, kImp, kVmp, kSlope, kModule,
-               kModules, kStrings, kDiodes, kPlanCells, kPlanIsc, kPlanVoc, kPlanImp, kPlanVmp,
-               kPlanSlope, kCause, kAbout, kKnown };
+  enum Known {
+    kId,
+    kLight,
+    kTemperature,
+    kCells,
+    kIsc,
+    kVoc,
+    kImp,
+    kVmp,
+    kSlope,
+    kModule,
+    kModules,
+    kStrings,
+    kDiodes,
+    kPlanCells,
+    kPlanIsc,
+    kPlanVoc,
+    kPlanImp,
+    kPlanVmp,
+    kPlanSlope,
+    kCause,
+    kAbout,
+    kKnown
+  };
   std::array<std::size_t, kKnown> places_{};
   bool reads_ = false;
 };

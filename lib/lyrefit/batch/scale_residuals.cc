@@ -58,8 +58,7 @@ class CommonString {
     ScaleVector logs = LogsOf(figures_);
     const ScaleVector by_light = device_.ByLight(member.irradiance_W_m2 / light_);
     const double kelvin = member.temperature_C - temperature_C_;
-    const ScaleVector by_warmth =
-        std::isfinite(kelvin) ? device_.ByWarmth(kelvin) : ScaleVector{};
+    const ScaleVector by_warmth = std::isfinite(kelvin) ? device_.ByWarmth(kelvin) : ScaleVector{};
     for (int q = 0; q < kScaleQuantities; ++q) logs[q] += by_light[q] + by_warmth[q];
     return logs;
   }
@@ -71,9 +70,10 @@ class CommonString {
     for (const ScaleMember* const member : members) {
       const StringFigures f = OfOne(*member);
       const double per_light = 1 / member->irradiance_W_m2;
-      const double one[] = {f.isc_A * per_light, f.voc_V, f.imp_A / f.isc_A, f.vmp_V,
-                            f.slope_ohm, member->irradiance_W_m2, member->temperature_C,
-                            member->cells / SeriesOf(*member)};
+      const double one[] = {f.isc_A * per_light,   f.voc_V,
+                            f.imp_A / f.isc_A,     f.vmp_V,
+                            f.slope_ohm,           member->irradiance_W_m2,
+                            member->temperature_C, member->cells / SeriesOf(*member)};
       for (std::size_t k = 0; k < values.size(); ++k) {
         if (std::isfinite(one[k])) values[k].push_back(one[k]);
       }

@@ -28,9 +28,9 @@ struct PlannedString {
   // An id; or the beginning of ids up to a '/', "site/inv01", for all strings below; or a pattern
   // with * (any text) and ? (any character).
   std::string id;
-  int modules_in_series = 0;    // modules in series
-  int strings_in_parallel = 1;  // equal strings that the curve measures together
-  int bypass_diodes = 3;        // of one module
+  int modules_in_series = 0;                    // modules in series
+  int strings_in_parallel = 1;                  // equal strings that the curve measures together
+  int bypass_diodes = 3;                        // of one module
   std::shared_ptr<const PlannedModule> module;  // null: not stated
 };
 

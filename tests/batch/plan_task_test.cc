@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "batch/strings.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/plant_page.h"
 
 namespace lyrefit {
@@ -95,6 +96,31 @@ TEST(PlanTask, AnotherPlanIsAnotherRun) {
   const auto other = RunOn(input, WithPlan(CountTask(), nullptr), again);
   ASSERT_FALSE(other);
   EXPECT_THAT(other.error().message, HasSubstr("plan"));
+}
+
+TEST(PlanTask, NamesTheFaultsOfTheScaleInTheMadePlantAndNoOthers) {
+  const std::string data = std::string(LYREFIT_DATA_DIR) + "/plant/";
+  const auto plan = ReadPlantPlan(data + "plan.csv");
+  ASSERT_TRUE(plan) << plan.error().ToString();
+  const TempFolder folder;
+  std::map<std::string, std::string> named;
+  const auto source = OpenBatch({data + "strings.csv"});
+  ASSERT_TRUE(source);
+  const auto summary =
+      RunBatch(source->get(), WithPlan(CountTask(), *plan), Into(folder.Path("out")), {},
+               [&](const std::vector<ResultColumn>& columns, const ResultRow& row) {
+                 const auto& cause = row.cells[ColumnPlace(columns, "plan_cause")];
+                 if (!std::holds_alternative<std::string>(cause)) return;
+                 named[std::get<std::string>(row.cells[0])] = std::get<std::string>(cause);
+               });
+  ASSERT_TRUE(summary);
+  // truth.csv: soiled_string, shorted_diodes, missing_module, bad_connector.
+  const std::map<std::string, std::string> hidden = {
+      {"elm/inv01/comb05/str19", "uniform_soiling"},
+      {"elm/inv01/comb07/str10", "bypassed_substring"},
+      {"elm/inv01/comb09/str05", "missing_module"},
+      {"elm/inv02/comb05/str09", "cable_resistance"}};
+  EXPECT_EQ(named, hidden);
 }
 
 TEST(PlanTask, PageListsTheFaultWithWattsAndWhatToDo) {

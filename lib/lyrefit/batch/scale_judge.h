@@ -47,7 +47,7 @@ struct ScaleMember {
 struct ScaleResidual {
   ScaleVector residual{};   // from the plan, or from the medians of the combiner
   ScaleVector deviation{};  // from the peers
-  ScaleVector common{};     // median residual of the peers and the string
+  ScaleVector common{};     // median residual of the peers
   StringFigures expected;   // figures that causes start from
   int peers = 0;            // too few: `deviation` and `common` are unknown
 };

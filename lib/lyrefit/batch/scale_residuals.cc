@@ -98,7 +98,7 @@ ScaleVector UnknownVector() {
   return vector;
 }
 
-// Medians of the residuals of peers; `with`: of the string itself too.
+// Medians of the residuals of peers; unknown for too few of them.
 ScaleVector MedianOf(const std::vector<ScaleResidual>& all, const std::vector<std::size_t>& peers) {
   ScaleVector medians;
   for (int q = 0; q < kScaleQuantities; ++q) {

@@ -165,11 +165,13 @@ set(LYREFIT_BATCH_PUBLIC_HEADERS
   batch/campaign_summary.h
   batch/pack.h
   batch/history.h
+  batch/plan_task.h
   batch/pixel_options.h
   batch/plant_page.h
   batch/result_row.h
   batch/sample_summary.h
   batch/sparkline.h
+  batch/string_plan.h
   batch/string_pages.h)
 foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYREFIT_BATCH_PUBLIC_HEADERS)
   get_filename_component(folder "lyrefit/${header}" DIRECTORY)

@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kCellTask[] = "cell";
+constexpr char kNeighboursAlone[] = "neighbours";  // of --plan
 
 constexpr char kBatchFooter[] =
     "Examples:\n"
@@ -29,6 +30,7 @@ constexpr char kBatchFooter[] =
     "last_year_results "
     "--out results\n"
     "  lyrefit batch today_folder --task diagnose --reference last_year_folder --out results\n"
+    "  lyrefit batch strings.csv --plan plan.csv --out results --html plant.html\n"
     "\n"
     "Writes results.csv, results.jsonl and results.schema.json into DIR: a row a curve, always, "
     "in\n"
@@ -82,6 +84,13 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
       .Reads()
       .Group("Against its own history");
   AddTableFlags(verb, kReferenceOptionTable, &request->reference);
+  verb->AddOption("--plan", &request->plan,
+                  "names faults that change a string and not the shape of its curve: missing, "
+                  "shorted or reversed modules, other types, cables, dirt, sensors, exchanged "
+                  "strings. By a plan, CSV or JSON: id, modules_in_series, strings_in_parallel, "
+                  "module (a data sheet); or by the combiner alone: neighbours")
+      .Type("FILE|neighbours")
+      .Group("Against the plan");
   AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
   for (const BatchTask& task : BatchTasks()) task.declare(verb, request);
@@ -154,8 +163,19 @@ BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
   return options;
 }
 
+// The task with the comparison with the plan, if one is given.
+Expected<BatchTaskType> WithPlanOf(const BatchRequest& request, BatchTaskType task) {
+  if (request.plan.empty()) return task;
+  std::shared_ptr<const PlantPlan> plan;
+  if (request.plan != kNeighboursAlone) {
+    TRY(plan, ReadPlantPlan(request.plan));
+  }
+  return WithPlan(std::move(task), std::move(plan));
+}
+
 Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& request) {
-  TRY(BatchTaskType task, FindTask(request.task)->make(verb, request));
+  TRY(BatchTaskType alone, FindTask(request.task)->make(verb, request));
+  TRY(BatchTaskType task, WithPlanOf(request, std::move(alone)));
   if (request.reference_inputs.empty()) return task;
   BatchReadOptions reading = request.reading;
   reading.shard = {};

@@ -19,6 +19,7 @@ struct BatchRequest {
   ConditionOptions conditions;
   std::vector<std::string> reference_inputs;
   ReferenceOptions reference;
+  std::string plan;  // file, or "neighbours"; empty: no comparison
   FitOptions fit = BatchFitOptions();
   bool auto_model = false;
   std::string bounds = "physical";

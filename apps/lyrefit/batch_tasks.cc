@@ -13,9 +13,9 @@ namespace {
 const std::vector<std::string> kDiagnoseRows = {
     "base", "effects", "probability", "priors", "floor-current", "floor-power", "largest-causes"};
 
-// Flags declared by AddSharedTaskFlags and by the options of a batch.
+// Flags declared by AddSharedTaskFlags and by the batch itself; its --plan is that of a plant.
 bool IsShared(const std::string& flag) {
-  return flag == "--seed" || flag == "--threads" || flag == "--noise";
+  return flag == "--seed" || flag == "--threads" || flag == "--noise" || flag == "--plan";
 }
 
 // The first given flag of a table.
@@ -138,7 +138,7 @@ std::string GivenCellFlag(const VerbLine& verb) {
 }
 
 Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& request) {
-  for (const char* const flag : {"--noise", "--reference"}) {
+  for (const char* const flag : {"--noise", "--reference", "--plan"}) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task cell");
   }
   return CellTask(request.cell, request.pixels);

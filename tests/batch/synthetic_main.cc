@@ -6,6 +6,7 @@
 
 #include "batch/synthetic_curves.h"
 #include "batch/synthetic_plant.h"
+#include "batch/synthetic_scale.h"
 #include "batch/synthetic_score.h"
 
 namespace {
@@ -15,7 +16,9 @@ constexpr const char* kUsage =
     "             [--reversed SHARE] [--seed N] [--shape jsonl|csv]\n"
     "lyrefit_synthetic plant [--packed FILE] [--tree FOLDER [--sidecars 1]] [--truth FILE]\n"
     "             [--module FILE] [--strings N] [--years N] [--seed N] [--threads N]\n"
-    "lyrefit_synthetic score --results FILE --truth FILE [--campaign FILE]\n";
+    "lyrefit_synthetic score --results FILE --truth FILE [--campaign FILE]\n"
+    "lyrefit_synthetic scale --out FOLDER [--plants N] [--seed N] [--threads N]\n"
+    "lyrefit_synthetic scale-score --folder FOLDER --results NAME [--planned 0|1]\n";
 
 using Flags = std::map<std::string, std::function<void(const char*)>>;
 
@@ -96,11 +99,39 @@ int Score(int argc, char** argv) {
   return code;
 }
 
+int Scale(int argc, char** argv) {
+  made::ScalePlantsRequest request;
+  const Flags flags = {
+      {"--out", [&](const char* text) { request.folder = text; }},
+      {"--plants", [&](const char* text) { request.plants = std::atoi(text); }},
+      {"--seed", [&](const char* text) { request.seed = std::strtoull(text, nullptr, 10); }},
+      {"--threads", [&](const char* text) { request.threads = std::atoi(text); }},
+  };
+  if (!Read(argc, argv, flags) || request.folder.empty()) return Usage();
+  return Told(made::WriteScalePlants(request));
+}
+
+int ScaleScore(int argc, char** argv) {
+  made::ScaleScoreRequest request;
+  const Flags flags = {
+      {"--folder", [&](const char* text) { request.folder = text; }},
+      {"--results", [&](const char* text) { request.results = text; }},
+      {"--planned", [&](const char* text) { request.planned = std::atoi(text) != 0; }},
+  };
+  if (!Read(argc, argv, flags) || request.folder.empty() || request.results.empty()) return Usage();
+  std::string text;
+  const int code = Told(made::ScoreScalePlants(request, &text));
+  std::fputs(text.c_str(), stdout);
+  return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string mode = argc > 1 ? argv[1] : "";
   if (mode == "curves") return Curves(argc, argv);
   if (mode == "score") return Score(argc, argv);
+  if (mode == "scale") return Scale(argc, argv);
+  if (mode == "scale-score") return ScaleScore(argc, argv);
   return mode == "plant" ? Plant(argc, argv) : Usage();
 }

@@ -179,6 +179,7 @@ TEST_F(BatchCommand, CountsThePixelsOfASubstrate) {
 }
 
 TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
+  const std::string plan = folder_.Write("plan.csv", "id,modules_in_series\nsite,many\n");
   const std::string command = " '" + file_ + "' --out '" + folder_.Path("never") + "'";
   ExpectRefusals("batch",
                  {
@@ -188,6 +189,9 @@ TEST_F(BatchCommand, RefusesWhatCannotBeMeant) {
                      {command + " --probability 0.9", "--probability is for --task diagnose"},
                      {command + " --task diagnose --model dd", "--model is for --task fit"},
                      {command + " --least-jsc 1", "--least-jsc is for --task cell"},
+                     {command + " --task cell --plan neighbours", "--plan is not for --task cell"},
+                     {command + " --plan '" + folder_.Path("no.csv") + "'", "does not exist"},
+                     {command + " --plan '" + plan + "'", "plan.csv:2:6: expected a whole number"},
                      {command + " --resume --force", "only one of --resume and --force"},
                      {" '" + file_ + "'", "--out is required"},
                      {" '" + folder_.Path("") + "' --out '" + folder_.Path("in") + "'",

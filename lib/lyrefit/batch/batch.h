@@ -64,6 +64,8 @@ struct BatchSummary {
   std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
   // Number of rows for each cause, if the task reports causes.
   std::map<std::string, std::int64_t> causes;
+  // Number of rows for each cause of the scale; see WithPlan.
+  std::map<std::string, std::int64_t> plan_causes;
   // Number of rows for each subject of a cause; see AboutOf.
   std::map<std::string, std::int64_t> abouts;
   // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.

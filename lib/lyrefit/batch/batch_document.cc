@@ -90,6 +90,7 @@ Document BatchDocument(const BatchSummary& summary) {
   AddSections({Counts("Status", "status", summary.statuses, summary.rows),
                Counts("Against the rating", "zone", summary.zones, summary.rows),
                Counts("Causes", "cause", summary.causes, summary.rows),
+               Counts("Against the plan", "cause", summary.plan_causes, summary.rows),
                Counts("What the causes belong to", "about", summary.abouts, summary.rows),
                Reasons(summary)},
               &document);

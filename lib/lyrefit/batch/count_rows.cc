@@ -31,6 +31,7 @@ RowCounter::RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* s
       cause_(ColumnPlace(columns, "cause")),
       about_(ColumnPlace(columns, "cause_about")),
       flag_(ColumnPlace(columns, "group_flag")),
+      plan_(ColumnPlace(columns, "plan_cause")),
       summary_(summary) {
   summary_->rows = 0;
 }
@@ -40,6 +41,7 @@ void RowCounter::Count(const ResultRow& row) {
   if (const auto* status = In<std::string>(row, status_)) ++summary_->statuses[*status];
   if (const auto* zone = In<std::string>(row, zone_)) ++summary_->zones[*zone];
   if (const auto* cause = In<std::string>(row, cause_)) ++summary_->causes[*cause];
+  if (const auto* plan = In<std::string>(row, plan_)) ++summary_->plan_causes[*plan];
   if (const auto* about = In<std::string>(row, about_)) ++summary_->abouts[*about];
   if (const bool* flag = In<bool>(row, flag_)) {
     ++summary_->compared;

@@ -18,7 +18,7 @@ class RowCounter {
 
  private:
   // Positions of columns; the number of columns for a missing one.
-  std::size_t status_, reason_, where_, zone_, cause_, about_, flag_;
+  std::size_t status_, reason_, where_, zone_, cause_, about_, flag_, plan_;
   BatchSummary* const summary_;
 };
 

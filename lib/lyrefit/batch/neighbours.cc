@@ -12,17 +12,6 @@
 namespace lyrefit {
 namespace {
 
-// Bins of |deviation| begin at kSmallest and grow by the factor kStep.
-constexpr double kSmallest = 1e-7;
-constexpr double kStep = 1.01;
-constexpr int kBins = 2000;  // up to |deviation| = 40
-
-int BinOf(double deviation) {
-  const double size = std::max(std::fabs(deviation), kSmallest);
-  const double bin = std::floor(std::log(size / kSmallest) / std::log(kStep));
-  return static_cast<int>(std::min(bin, kBins - 1.0));
-}
-
 bool Alike(double a, double b, double like_light) {
   return std::fabs(a - b) <= like_light * std::max(a, b);
 }
@@ -76,15 +65,10 @@ std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& gr
   return deviations;
 }
 
-NeighbourScatter::NeighbourScatter() {
-  for (Count& count : counts_) count.bins.resize(kBins);
-}
-
 void NeighbourScatter::Add(const std::vector<NeighbourDeviation>& group) {
   for (int q = 0; q < kNeighbourQuantities; ++q) {
     const std::vector<double> sizes = Sizes(group, q);
-    for (const double size : sizes) ++counts_[q].bins[BinOf(size)];
-    counts_[q].deviations += static_cast<std::int64_t>(sizes.size());
+    for (const double size : sizes) counts_[q].bins.Add(size);
     counts_[q].groups += sizes.empty() ? 0 : 1;
   }
 }
@@ -95,12 +79,9 @@ std::array<double, kNeighbourQuantities> NeighbourScatter::Limits(
   for (int q = 0; q < kNeighbourQuantities; ++q) {
     const Count& count = counts_[q];
     limits[q] = kInfinity;
-    const double degrees = kMadEfficiency * static_cast<double>(count.deviations - count.groups);
+    const double degrees = kMadEfficiency * static_cast<double>(count.bins.count() - count.groups);
     if (degrees < 1) continue;
-    std::int64_t below = 0;
-    int bin = 0;
-    while (2 * (below += count.bins[bin]) < count.deviations) ++bin;
-    const double plant = kSmallest * std::pow(kStep, bin + 0.5);
+    const double plant = count.bins.Median();
     const double own = Median(Sizes(group, q));
     const double t = StudentQuantile(1 - level / (2 * kNeighbourQuantities), degrees);
     limits[q] = t * kNormalMad * std::fmax(plant, own);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/deviation_bins.h"
 #include "lyrefit/batch/result_row.h"
 
 namespace lyrefit {
@@ -54,7 +55,6 @@ std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& gr
 // Scatter of deviations over the plant, counted in bins of 1 % in constant memory.
 class NeighbourScatter {
  public:
-  NeighbourScatter();
   void Add(const std::vector<NeighbourDeviation>& group);
 
   // Values of |deviation| above which a string of this group is flagged; infinite if there are too
@@ -64,8 +64,7 @@ class NeighbourScatter {
 
  private:
   struct Count {
-    std::vector<std::int64_t> bins;
-    std::int64_t deviations = 0;
+    DeviationBins bins;
     std::int64_t groups = 0;
   };
   std::array<Count, kNeighbourQuantities> counts_;

@@ -26,6 +26,8 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "recoverable_power_W",
                                          "change_lost_W",
                                          "change_kind",
+                                         "plan_cause_title",
+                                         "plan_lost_W",
                                          "group_outlier",
                                          "date",
                                          "cause",
@@ -104,6 +106,38 @@ block::Table OutliersTable(const PlantSummary& summary, const std::string& resul
     table.links.push_back(LinkOf(row, results));
   }
   return table;
+}
+
+// Names of causes as words: "light_sensor" as "light sensor".
+std::string InWords(std::string names) {
+  std::replace(names.begin(), names.end(), ' ', ',');
+  std::replace(names.begin(), names.end(), '_', ' ');
+  std::string text;
+  for (const char c : names) text += c == ',' ? ", or " : std::string(1, c);
+  return text;
+}
+
+// Strings that differ from their plan in scale, with what to do.
+Section AgainstThePlan(const PlantSummary& summary, const std::string& results) {
+  Section section = {"Against the plan"};
+  if (summary.scaled.empty()) return section;
+  block::Table table = {"lrww", {{"string", "lost (W)", "what is seen", "what to do"}}};
+  std::int64_t all = 0;
+  for (const auto& [cause, share] : summary.plan_causes) all += share.rows;
+  const auto listed = static_cast<std::int64_t>(summary.scaled.size());
+  table.caption = fmt::format(
+      "{} whose curves have the scale of a fault; what they lose is in the light of the sweep",
+      listed < all ? fmt::format("The {} of {} strings that lose most", listed, Counted(all))
+                   : "All strings");
+  for (const PlantRow& row : summary.scaled) {
+    const std::string others =
+        row.plan_equivalents.empty() ? "" : "; or " + InWords(row.plan_equivalents);
+    table.rows.push_back({row.id, Number(row.plan_lost_W, 0),
+                          row.cause_title + others + ". " + row.plan_sentence, row.plan_action});
+    table.links.push_back(LinkOf(row, results));
+  }
+  AddTable(std::move(table), &section);
+  return section;
 }
 
 Section NotJudged(const PlantSummary& summary) {
@@ -195,7 +229,7 @@ Document PlantDocument(const PlantContent& content) {
   Section neighbours = {"Against the neighbours"};
   if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
   AddFigure(NeighboursFigure(summary), &neighbours);
-  AddSections({found}, &document);
+  AddSections({found, AgainstThePlan(summary, content.results)}, &document);
   AddSections(std::move(since), &document);
   AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)}, &document);
   return document;

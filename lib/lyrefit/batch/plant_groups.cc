@@ -87,18 +87,26 @@ std::vector<double> LossesOf(const PlantNode& node, const std::vector<std::strin
   return losses;
 }
 
-// One bar on the other: bars from zero to each sum, the largest behind the others. `titled_by`: the
-// column of causes.
+// Whether a title is of a cause by the plan.
+bool IsOfPlan(const std::string& title, const PlantSummary& summary) {
+  return std::any_of(summary.plan_causes.begin(), summary.plan_causes.end(),
+                     [&](const auto& cause) { return cause.second.title == title; });
+}
+
+// One bar on the other: bars from zero to each sum, the largest behind the others. Their filters name
+// the column of the cause.
 Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::string>& causes,
-                  const PlantLoss& loss, const std::string& titled_by) {
+                  const PlantLoss& loss, const PlantSummary& summary) {
   Panel panel;
+  const std::string& by = summary.titled_by;
   for (std::size_t c = causes.size(); c-- > 0;) {
     Series bars;
     bars.kind = SeriesKind::kBars;
     bars.look = LookOf(static_cast<int>(c));
     bars.width = 0.8;
-    bars.filter_columns = {"id", "status", "zone", titled_by};
-    const bool others = causes[c] == "others" || (causes[c] == kNoCause && titled_by == "cause");
+    const bool of_plan = IsOfPlan(causes[c], summary);
+    bars.filter_columns = {"id", "status", "zone", of_plan ? "plan_cause_title" : by};
+    const bool others = causes[c] == "others" || (causes[c] == kNoCause && by == "cause");
     const std::string title = others ? "" : causes[c] == kNoCause ? "=" : "=" + causes[c];
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::vector<double> losses = LossesOf(groups[g].second, causes, loss);
@@ -135,7 +143,7 @@ block::Figure GroupsFigure(const PlantSummary& summary) {
   shown.caption =
       fmt::format("The {} groups in which the strings that need work lose most.", groups.size());
   shown.figure.legend = LegendOf(causes, LegendMark::kBar);
-  shown.figure.panels = {StackedBars(groups, causes, loss, summary.titled_by)};
+  shown.figure.panels = {StackedBars(groups, causes, loss, summary)};
   shown.figure.panel_width = 760;
   shown.figure.margin_below = 70;
   shown.readings.alignment = "l" + std::string(causes.size() + 1, 'r');

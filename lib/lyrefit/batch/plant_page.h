@@ -31,6 +31,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                            whether and how a string differs from those of the same combiner
 //   change_lost_W, change_kind
 //                            what changed since earlier results; campaign.json has the rest
+//   plan_cause, plan_cause_title, plan_cause_about, plan_sentence, plan_equivalents, plan_action,
+//   plan_lost_W              a fault of the scale, which takes the place of `cause`
 //   sparkline                the curve, by Sparkline()
 //   page                     the string's own page: a path from the folder of the results
 Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::string& file,

@@ -23,7 +23,14 @@ constexpr const char* kNames[] = {"id",
                                   "below_rating_W",
                                   "group_flag",
                                   "group_outlier",
-                                  "sparkline"};
+                                  "sparkline",
+                                  "plan_cause",
+                                  "plan_cause_title",
+                                  "plan_cause_about",
+                                  "plan_sentence",
+                                  "plan_equivalents",
+                                  "plan_action",
+                                  "plan_lost_W"};
 
 PlantShare& ShareOf(const std::string& word, std::map<std::string, PlantShare>* shares) {
   if (shares->size() < kPlantMostWords || shares->count(word)) return (*shares)[word];
@@ -90,8 +97,9 @@ PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) : sampler_(
     });
     places_[known] = at == columns.end() ? -1 : static_cast<int>(at - columns.begin());
   }
-  sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) ? "cause" : "";
+  sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) || Has(kPlanCause) ? "cause" : "";
   sum_.titled_by = Has(kCauseTitle) ? "cause_title" : Has(kCause) ? "cause" : "";
+  if (sum_.titled_by.empty() && Has(kPlanTitle)) sum_.titled_by = "plan_cause_title";
   for (const Known by : {kPerformance, kDeviation, kRecoverable, kDeparture}) {
     if (Has(by) && sum_.worst_by.empty()) sum_.worst_by = kNames[by];
   }
@@ -115,10 +123,24 @@ bool PlantCounter::NeedsWork(const std::string& zone, const std::string& cause) 
 }
 
 // True for a cause of the measurement rather than of the plant, unless the zone requires work.
-bool PlantCounter::ToRepeat(const ResultRow& row) const {
-  const std::string about = Text(row, kCauseAbout);
+bool PlantCounter::ToRepeat(const std::string& about, const std::string& zone) const {
   return (about == "sweep" || about == "instrument" || about == "conditions") &&
-         !(Has(kZone) && NeedsWork(Text(row, kZone), ""));
+         !(Has(kZone) && NeedsWork(zone, ""));
+}
+
+// A cause of the scale takes the place of the cause of the curve, which is none or of the
+// measurement alone.
+void PlantCounter::TakePlan(const ResultRow& row, PlantRow* named, std::string* about) const {
+  const std::string cause = Text(row, kPlanCause);
+  if (cause.empty()) return;
+  named->plan_sentence = Text(row, kPlanSentence);
+  named->plan_action = Text(row, kPlanAction);
+  named->plan_equivalents = Text(row, kPlanEquivalents);
+  named->plan_lost_W = Number(row, kPlanLost);
+  named->cause = cause;
+  named->cause_title = Text(row, kPlanTitle);
+  named->recoverable_power_W = named->plan_lost_W;
+  *about = Text(row, kPlanAbout);
 }
 
 bool PlantCounter::Differs(const ResultRow& row) const {
@@ -193,9 +215,11 @@ void PlantCounter::Add(const ResultRow& row) {
   named.performance_factor = Number(row, kPerformance);
   named.Pmax_stc_W = Number(row, kPower);
   named.recoverable_power_W = Number(row, kRecoverable);
+  std::string about = Text(row, kCauseAbout);
+  TakePlan(row, &named, &about);
   const std::string status = Text(row, kStatus);
   const bool fine = IsFine(status);
-  const bool to_repeat = fine && ToRepeat(row);
+  const bool to_repeat = fine && ToRepeat(about, named.zone);
   const bool needs_work = fine && !to_repeat && NeedsWork(named.zone, named.cause);
 
   ++sum_.rows;
@@ -214,6 +238,11 @@ void PlantCounter::Add(const ResultRow& row) {
   CountTree(named, needs_work);
   if (!fine) return;
   Rank(Badness(row), named, kPlantWorst, &worst_);
+  if (!named.plan_sentence.empty()) {
+    Count(named.cause, named, &sum_.plan_causes);
+    if (named.plan_lost_W > 0) sum_.plan_lost_W += named.plan_lost_W;
+    Rank(std::isfinite(named.plan_lost_W) ? named.plan_lost_W : 0, named, kPlantScaled, &scaled_);
+  }
   sampler_.Add(row, Differs(row));
   if (!Differs(row)) return;
   const double by = std::fabs(named.deviation_percent);
@@ -225,6 +254,7 @@ PlantSummary PlantCounter::Summary() const {
   summary.sample = sampler_.sample();
   summary.worst = InOrder(worst_);
   summary.outliers = InOrder(outliers_);
+  summary.scaled = InOrder(scaled_);
   return summary;
 }
 

@@ -24,6 +24,9 @@ struct PlantRow {
   double recoverable_power_W = kUnknown;
   double below_rating_W = kUnknown;
   double deviation_percent = kUnknown;
+  // Of the comparison with the plan: what the string loses, in a sentence, and what to do.
+  double plan_lost_W = kUnknown;
+  std::string plan_sentence, plan_action, plan_equivalents;
 };
 
 struct PlantShare {
@@ -60,9 +63,13 @@ struct PlantSummary {
   // Number of rows that need no work but differ from their neighbours.
   std::int64_t passed_outlier = 0;
   std::string first_date, last_date;
-  std::vector<PlantRow> worst;     // at most kPlantWorst, the worst first
-  std::string worst_by;            // the column that ranks them
-  std::vector<PlantRow> broken;    // the first kPlantListed rows that are not fine
+  std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
+  std::string worst_by;          // the column that ranks them
+  std::vector<PlantRow> broken;  // the first kPlantListed rows that are not fine
+  // At most kPlantScaled that differ from their plan in scale, those that lose most first.
+  std::vector<PlantRow> scaled;
+  std::map<std::string, PlantShare> plan_causes;  // of all of these
+  double plan_lost_W = 0;                         // of all of these
   std::vector<PlantRow> outliers;  // at most kPlantListed that differ from their neighbours, those
                                    // that differ most first
   // Nodes by depth: [0] the first levels of the ids, [1] the first two, ... A depth with more than
@@ -73,6 +80,7 @@ struct PlantSummary {
 
 constexpr std::size_t kPlantWorst = 100;
 constexpr std::size_t kPlantListed = 25;
+constexpr std::size_t kPlantScaled = 100;
 constexpr std::size_t kPlantMostNodes = 2000;
 // Different statuses, causes, ...; further ones are counted as "others".
 constexpr std::size_t kPlantMostWords = 200;
@@ -107,6 +115,13 @@ class PlantCounter {
     kDiffers,
     kOutlier,
     kSparkline,
+    kPlanCause,
+    kPlanTitle,
+    kPlanAbout,
+    kPlanSentence,
+    kPlanEquivalents,
+    kPlanAction,
+    kPlanLost,
     kColumns
   };
   // Rows with a key, a heap with the smallest on top.
@@ -115,7 +130,8 @@ class PlantCounter {
   double Number(const ResultRow& row, Known column) const;
   bool Has(Known column) const { return places_[column] >= 0; }
   bool NeedsWork(const std::string& zone, const std::string& cause) const;
-  bool ToRepeat(const ResultRow& row) const;
+  bool ToRepeat(const std::string& about, const std::string& zone) const;
+  void TakePlan(const ResultRow& row, PlantRow* named, std::string* about) const;
   bool Differs(const ResultRow& row) const;
   double Badness(const ResultRow& row) const;
   void CountWords(const PlantRow& row, const std::string& status, bool needs_work, bool to_repeat);
@@ -125,7 +141,7 @@ class PlantCounter {
   std::array<int, kColumns> places_{};
   PlantSummary sum_;
   std::size_t deepest_ = 8;  // number of tree levels that are counted
-  Ranked worst_, outliers_;
+  Ranked worst_, outliers_, scaled_;
   PlantSampler sampler_;
 };
 

@@ -17,6 +17,7 @@
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/row_text.h"
 #include "lyrefit/batch/samples.h"
+#include "lyrefit/batch/scale_judge.h"
 
 namespace lyrefit {
 namespace {
@@ -135,7 +136,8 @@ Expected<void> Pass(std::size_t rows, RowProgress* passed) {
 // How rows are converted to results, from the head of the checkpoint file.
 struct ResultsPlan {
   std::vector<ResultColumn> rows;     // columns of the checkpoint files
-  std::vector<ResultColumn> results;  // the columns above and those of the comparison of neighbours
+  std::vector<ResultColumn> results;  // the columns above and those of the comparisons
+  std::optional<ScaleReader> scale;   // of rows that are compared by their scale
   double level = 0;
   double like_light = 0;
   CsvTexts texts = CsvTexts::kSafe;
@@ -147,6 +149,11 @@ Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::strin
   if (!columns) return Fail(columns.error().message, path, 1);
   plan.rows = plan.results = *columns;
   for (const ResultColumn& column : NeighbourColumns()) plan.results.push_back(column);
+  plan.scale = ScaleReader(plan.rows);
+  if (!plan.scale->reads()) plan.scale.reset();
+  if (plan.scale) {
+    for (const ResultColumn& column : ScaleColumns()) plan.results.push_back(column);
+  }
   const CheckpointHead& options = head.at("options");
   if (options.contains(kBeforeOption)) {
     for (const ResultColumn& column : CampaignColumns()) plan.results.push_back(column);
@@ -157,13 +164,36 @@ Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::strin
   return plan;
 }
 
+// Scatter of healthy strings, which is known after all rows.
+struct PlantScatter {
+  NeighbourScatter neighbours;
+  ScaleScatter scale;
+};
+
+// The members of a group for the comparison by scale: all of a combiner together, other rows one by
+// one.
+std::vector<std::vector<ScaleMember>> ScaleGroups(const Group& group, const ScaleReader& reader) {
+  std::vector<std::vector<ScaleMember>> groups;
+  for (const ResultRow& row : group.rows) {
+    if (groups.empty() || group.members.empty()) groups.emplace_back();
+    groups.back().push_back(reader.Read(row));
+  }
+  return groups;
+}
+
 // Also takes the strings of this campaign if there is an earlier one.
-Expected<NeighbourScatter> LearnScatter(const std::vector<std::string>& parts,
-                                        const ResultsPlan& plan, CampaignResults* campaign,
-                                        RowProgress* passed) {
-  NeighbourScatter scatter;
+Expected<PlantScatter> LearnScatter(const std::vector<std::string>& parts, const ResultsPlan& plan,
+                                    CampaignResults* campaign, RowProgress* passed) {
+  PlantScatter scatter;
   TRY(ForGroups(parts, plan.rows, [&](const Group& group) -> Expected<void> {
-    if (!group.members.empty()) scatter.Add(DeviationsAmong(group.members, plan.like_light));
+    if (!group.members.empty()) {
+      scatter.neighbours.Add(DeviationsAmong(group.members, plan.like_light));
+      if (plan.scale) {
+        for (const auto& members : ScaleGroups(group, *plan.scale)) {
+          scatter.scale.Add(ScaleResiduals(members));
+        }
+      }
+    }
     for (const ResultRow& row : group.rows) {
       if (campaign != nullptr) campaign->Take(row);
     }
@@ -232,6 +262,19 @@ Expected<void> WriteSamples(const std::vector<SampleSummary>& samples, CsvTexts 
   return {};
 }
 
+// Adds the cells of the comparison by scale.
+void AddScale(const ResultsPlan& plan, const ScaleScatter& scatter, Group* group) {
+  std::size_t i = 0;
+  for (const auto& members : ScaleGroups(*group, *plan.scale)) {
+    const auto residuals = ScaleResiduals(members);
+    const ScaleErrors errors = scatter.ErrorsOf(residuals);
+    for (auto& cells : ScaleCells(members, residuals, errors, plan.level)) {
+      ResultRow& row = group->rows[i++];
+      for (ResultCell& cell : cells) row.cells.push_back(std::move(cell));
+    }
+  }
+}
+
 Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
                                const RowObserver& row_observer, RowProgress* passed,
                                BatchSummary* summary) {
@@ -239,7 +282,7 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
   TRY(const auto campaign, CampaignResults::Open(last.head(), parts, plan.rows));
-  TRY(const NeighbourScatter scatter, LearnScatter(parts, plan, campaign.get(), passed));
+  TRY(const PlantScatter scatter, LearnScatter(parts, plan, campaign.get(), passed));
   if (campaign) campaign->Compare();
   const fs::path base(folder);
   NewFile csv((base / kCsv).string());
@@ -253,11 +296,14 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   const auto write = [&](Group& group) -> Expected<void> {
     const auto deviations = DeviationsAmong(group.members, plan.like_light);
     std::array<double, kNeighbourQuantities> limits{};
-    if (!deviations.empty()) limits = scatter.Limits(deviations, plan.level);
+    if (!deviations.empty()) limits = scatter.neighbours.Limits(deviations, plan.level);
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       ResultRow& row = group.rows[i];
       const NeighbourDeviation none;
       Append(NeighbourCells(deviations.empty() ? none : deviations[i], limits), &row);
+    }
+    if (plan.scale) AddScale(plan, scatter.scale, &group);
+    for (ResultRow& row : group.rows) {
       if (campaign) Append(campaign->NextCells(), &row);
       TRY(csv.Write(RowCsv(row, plan.texts)));
       TRY(lines.Write(RowJson(plan.results, row) + "\n"));

@@ -16,6 +16,9 @@ std::string PowerVerdict(const TrendReport& report) {
   const TrendLoss& total = report.losses.back();
   const Ranged& energy = total.energy_percent;
   if (!std::isfinite(energy.value)) return "The series is too short for a loss.";
+  if (!std::isfinite(energy.low_95)) {
+    return "The series is too short for the errors of a loss.";
+  }
   std::string text = fmt::format(
       "Since the reference the device gave {:.1f} % ({:.1f} to {:.1f}) {} energy than it would "
       "have "

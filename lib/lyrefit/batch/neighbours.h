@@ -44,11 +44,6 @@ struct NeighbourDeviation {
 constexpr int kMostNeighbours = 1000;
 constexpr int kLeastPeers = 4;
 
-// Ratio of the standard deviation to the median of |x| of a normal x, and the efficiency of this
-// estimate.
-constexpr double kNormalMad = 1.4826;
-constexpr double kMadEfficiency = 0.37;
-
 std::vector<NeighbourDeviation> DeviationsAmong(const std::vector<Neighbour>& group,
                                                 double like_light);
 

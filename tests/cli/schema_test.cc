@@ -93,6 +93,11 @@ std::vector<SchemaCase> SchemaCases() {
        "cell " + kData + "cell/pair.csv " + kData + "cell/suns.csv " + kData +
            "cell/lit_dark.csv --json FILE --quiet",
        "cell"},
+      {"Trend", "trend " + kData + "trend/year.csv --json FILE --quiet", "trend"},
+      {"TrendOfOperatingPoints",
+       "trend --operating " + kData + "trend/operating.csv --module " + kData +
+           "trend/module.json --json FILE --quiet",
+       "trend"},
       {"Certificate", "certify " + rtc + "--json FILE --quiet", "certificate"},
       {"Comparison",
        "compare " + rtc +

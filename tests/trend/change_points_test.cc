@@ -85,6 +85,18 @@ TEST(FitChanges, FindsAnOnsetWithItsDayAndRate) {
   EXPECT_GE(held, onsets * 8 / 10);
 }
 
+TEST(FitChanges, RangeOfAChangeInAGapIsTheGap) {
+  TimeSeries series = DrawErrors({1, 0, 0}, DaysWithGaps(240), 2);
+  std::size_t first = 1;  // after the week without data in the middle
+  while (series.days[first] - series.days[first - 1] < 8 || series.days[first] < 100) ++first;
+  for (std::size_t i = first; i < series.values.size(); ++i) series.values[i] += 8;
+  const ChangingSeries found = FitChanges(series, LineDesign(series), QuickChanges(0.005));
+  ASSERT_EQ(found.changes.size(), 1U);
+  EXPECT_EQ(found.changes[0].day, series.days[first]);
+  EXPECT_EQ(found.changes[0].day_low, series.days[first - 1] + 1);
+  EXPECT_EQ(found.changes[0].day_high, series.days[first]);
+}
+
 TEST(FitChanges, FindsAStepAmongErrorsThatDaysShare) {
   const TimeSeries series = Changed({0.5, 0.7, 5}, 6, 0, 3);
   const ChangingSeries found = FitChanges(series, LineDesign(series), QuickChanges(0.01));

@@ -280,6 +280,18 @@ TEST(FindTrend, RefusesASeriesThatIsTooShort) {
   EXPECT_THAT(MessageOf(FindTrend(unusable)), HasSubstr("0 of 50 measurements count"));
 }
 
+TEST(FindTrend, StopsWhenItsObserverAsksForIt) {
+  const TrendDevice device = MadeDevice();
+  const TrendSeries series = ReducedBy(device, MakeSweeps(device, Days(30)));
+  int calls = 0;
+  const auto stop = [&](const Progress&) {
+    ++calls;
+    return ObserverAction::kStop;
+  };
+  EXPECT_EQ(MessageOf(FindTrend(series, TrendOptions(), stop)), "interrupted");
+  EXPECT_EQ(calls, 1);
+}
+
 TEST(FindTrend, RefusesOptionsOutsideTheirRanges) {
   TrendOptions options;
   options.false_alarms_per_year = 0;

@@ -56,15 +56,19 @@ Section LossSection(const TrendReport& report) {
       "lrlrl",
       {{"", "energy", "95 % interval", "last 30 days", "95 % interval"}, {"", "%", "%", "%", "%"}}};
   for (const TrendLoss& loss : report.losses) {
-    table.rows.push_back({PartTitle(loss.name), Significant(loss.energy_percent.value, 3),
+    const std::string title = PartTitle(loss.name);
+    table.rows.push_back({title.substr(0, title.find(" (")),
+                          Significant(loss.energy_percent.value, 3),
                           TrendRange(loss.energy_percent), Significant(loss.now_percent.value, 3),
                           TrendRange(loss.now_percent)});
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(
       block::Legend{"of the energy over all days, and over the last 30 days, that the device of "
-                    "the reference would "
-                    "have given; shares by Shapley, they add up to the total"});
+                    "the reference would have given; shares by Shapley, they add up to the total"});
+  section.blocks.emplace_back(
+      block::Legend{"light: dirt, shade on all cells, or the light sensor; mismatch: shade on a "
+                    "part, bypassed substrings"});
   return section;
 }
 
@@ -72,16 +76,18 @@ Section QuantitySection(const TrendReport& report) {
   Section section = {"Parameters at standard conditions over time"};
   block::Table table = {"lrrlrl",
                         {{"", "reference", "a year", "95 % interval", "% a year", "seasonal"}}};
+  std::string legend;
   for (const TrendQuantity& quantity : report.quantities) {
-    const std::string title = quantity.unit.empty()
-                                  ? quantity.title
-                                  : fmt::format("{} ({})", quantity.title, quantity.unit);
+    legend += fmt::format("{}: {}; ", quantity.name, quantity.title);
+    const std::string name = quantity.unit.empty()
+                                 ? quantity.name
+                                 : fmt::format("{} ({})", quantity.name, quantity.unit);
     if (!quantity.missing.empty()) {
-      table.rows.push_back({title, "-", "-"});
+      table.rows.push_back({name, "-"});
       continue;
     }
     table.rows.push_back(
-        {title, Significant(quantity.reference, 4), Significant(quantity.rate_per_year.value, 3),
+        {name, Significant(quantity.reference, 4), Significant(quantity.rate_per_year.value, 3),
          TrendRange(quantity.rate_per_year),
          std::isfinite(quantity.rate_percent.value)
              ? fmt::format("{:+.2f}", quantity.rate_percent.value)
@@ -90,7 +96,7 @@ Section QuantitySection(const TrendReport& report) {
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(
-      block::Legend{"mean rates, without steps; seasonal: amplitude, from two years on"});
+      block::Legend{legend + "mean rates, without steps; seasonal: amplitude, from two years on"});
   return section;
 }
 

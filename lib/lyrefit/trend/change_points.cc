@@ -146,8 +146,11 @@ void FindRange(const TimeSeries& series, const std::vector<ChangeCandidate>& can
     const double less = degrees * std::log((degrees + gains[static_cast<Eigen::Index>(best)]) /
                                            (degrees + gains[static_cast<Eigen::Index>(c)]));
     if (less > kWidth) continue;
-    change->day_low = std::min(change->day_low, series.days[candidates[c].first]);
-    change->day_high = std::max(change->day_high, series.days[candidates[c].first]);
+    // It may have happened on any day since the last one with data.
+    const std::size_t first = candidates[c].first;
+    const double since = std::min(series.days[first - 1] + 1, series.days[first]);
+    change->day_low = std::min(change->day_low, since);
+    change->day_high = std::max(change->day_high, series.days[first]);
   }
 }
 

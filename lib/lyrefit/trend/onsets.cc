@@ -129,9 +129,32 @@ void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
   }
 }
 
+// Removes changes of series resistance and mismatch after the shunt began to grow: uneven shunts
+// bend the knee as these do.
+void DropChangesByShunt(TrendReport* report) {
+  constexpr double kBefore_s = 10 * kDay_s;
+  double begin_s = kInfinity;
+  for (const TrendQuantity& quantity : report->quantities) {
+    if (quantity.name != "conductance_shunt") continue;
+    for (const TrendChange& change : quantity.changes) {
+      if (change.size.value > 0) begin_s = std::min(begin_s, change.time_s);
+    }
+  }
+  for (TrendQuantity& quantity : report->quantities) {
+    if (quantity.name != "resistance_series" && quantity.name != "mismatch") continue;
+    auto& changes = quantity.changes;
+    changes.erase(std::remove_if(changes.begin(), changes.end(),
+                                 [&](const TrendChange& change) {
+                                   return change.time_s > begin_s - kBefore_s;
+                                 }),
+                  changes.end());
+  }
+}
+
 }  // namespace
 
 void FindOnsets(const TrendBlocks& blocks, TrendReport* report) {
+  DropChangesByShunt(report);
   for (const TrendQuantity& quantity : report->quantities) {
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {

@@ -19,8 +19,9 @@ constexpr double kTwo_pi = 6.283185307179586;
 constexpr std::size_t kLeastForSizes = 8;         // days from which a regression has errors
 constexpr double kRecent_days = 30;               // "now"
 constexpr double kLeastForConditions_days = 270;  // seasons enough to tell them from a trend
-constexpr double kLeastForRate_days = 30;         // a shorter series has no rate a year
-constexpr double kScaleError = 0.02;             // of sizes: gains, temperature of the cells, model
+constexpr double kLeastForChanges_days = 10;  // conditions of fewer days are not told from changes
+constexpr double kLeastForRate_days = 30;     // a shorter series has no rate a year
+constexpr double kScaleError = 0.02;          // of sizes: gains, temperature of the cells, model
 constexpr double kLeastForShortRate_days = 120;  // of a part of the series
 constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
 constexpr double kPartError = 0.1;   // of every part, in % of energy: of the model
@@ -299,7 +300,7 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   ChangeOptions changes;
   changes.seed = options.seed;
   changes.level = std::min(options.false_alarms_per_year * std::max(years, 0.1) / kMonitored, 0.2);
-  if (!kind.changes) changes.most = 0;
+  if (!kind.changes || SpanDays(own.series) < kLeastForChanges_days) changes.most = 0;
   if (!kind.monitored) changes.level = std::min(changes.level, kUnmonitoredLevel);
   const ChangingSeries found = FitChanges(own.series, design, changes);
   const TimeFit& fit = found.fit;

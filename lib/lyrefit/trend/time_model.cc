@@ -102,7 +102,7 @@ void SetSpread(double k, const std::vector<double>& outlying, TimeSeries* series
   }
 }
 
-// The likelihood of a longer memory has to be clearly larger: each size takes half a unit.
+// The errors of the highest restricted likelihood.
 BestNoise BestNoiseOf(const std::vector<double>& outlying, const Eigen::MatrixXd& design,
                       TimeSeries* fitted) {
   BestNoise best;

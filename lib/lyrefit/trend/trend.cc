@@ -71,13 +71,13 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   }
   DescribeSeries(series, blocks, &report);
   FindParameters(options, &blocks, &report);
-  progress.Step();
+  if (progress.Step()) return Fail("interrupted");
   SplitLosses(options.threads, &blocks);
   FindPowers(blocks, options, &report);
   FindLosses(blocks, options, &report);
   FindOnsets(blocks, &report);
   AddWords(&report);
-  progress.Step();
+  if (progress.Step()) return Fail("interrupted");
   report.seconds = SecondsSince(start);
   return report;
 }

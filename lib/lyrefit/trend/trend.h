@@ -23,8 +23,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 // 4. The power that the device of the reference days would have given is split into what light,
 //    series resistance, recombination, shunt and mismatch take: shares by Shapley, which add up.
 //
-// Errors: fewer than three days (or blocks of a shorter series) with usable measurements; options
-// outside their ranges.
+// Errors: fewer than five days (or blocks of a shorter series) with usable measurements; options
+// outside their ranges; the observer stops it.
 Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& options = {},
                                 const Observer& observer = {});
 

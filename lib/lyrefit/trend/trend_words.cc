@@ -80,6 +80,11 @@ void AddWords(TrendReport* report) {
         "Operating points do not tell a shunt: what it takes is among light and series resistance. "
         "A sweep in dim light tells it.");
   }
+  if (days < 10) {
+    report->not_decided.emplace_back(
+        "A series of less than ten days shows no steps and no onsets: its light and temperature "
+        "change as its parameters would.");
+  }
   if (days < 710) {
     report->not_decided.emplace_back(
         "A season and a trend are told apart from two years on; rates of a shorter series may "

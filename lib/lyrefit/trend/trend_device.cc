@@ -248,10 +248,21 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
   }
   row.lost_substrings =
       LostSubstrings(device, row.voc_V, device.OpenCircuit(row.isc_A, row.temperature_C));
-  const double left =
-      device.substrings > 0 ? 1 - static_cast<double>(row.lost_substrings) / device.substrings : 1;
-  const SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
-                                device.n, SweepFree::kSecondDiode);
+  double left = 1;
+  SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve), device.n,
+                          SweepFree::kSecondDiode);
+  if (row.lost_substrings > 0) {
+    // Leaky cells lose voltage too. Fewer cells have a sharper knee: the better fit decides.
+    left -= static_cast<double>(row.lost_substrings) / device.substrings;
+    const SweepFit fewer = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
+                                    device.n, SweepFree::kSecondDiode);
+    if (fewer.usable && !(fit.usable && fit.rms_A <= fewer.rms_A)) {
+      fit = fewer;
+    } else {
+      row.lost_substrings = 0;
+      left = 1;
+    }
+  }
   if (!fit.usable) {
     row.reason = "no diode model describes it";
     return row;

@@ -66,7 +66,7 @@ constexpr QuantityKind kQuantityKinds[] = {
     {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
      false},
     {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false},
-    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true, true, true},
+    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true, true, false},
 };
 
 constexpr const char* kPartNames[] = {"light", "resistance_series", "recombination", "shunt",
@@ -454,6 +454,13 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   return ranged;
 }
 
+// Whether operating points do not tell a quantity; then says so.
+bool IsUntold(const QuantityKind& kind, const TrendReport& report, TrendQuantity* quantity) {
+  if (kind.operating || report.source != TrendSource::kOperatingPoints) return false;
+  quantity->missing = "operating points hardly depend on it, sweeps tell it";
+  return true;
+}
+
 // Uneven shunts bend the knee of a curve as series resistance and recombination do. Where the shunt
 // grows from a day on, the rates of these are those before it.
 void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
@@ -505,10 +512,7 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
     const QuantityKind& kind = kQuantityKinds[i];
     if (kind.followed < 0) return;
     TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
-    if (!kind.operating && report->source == TrendSource::kOperatingPoints) {
-      quantity->missing = "operating points hardly depend on it, sweeps tell it";
-      return;
-    }
+    if (IsUntold(kind, *report, quantity)) return;
     const BlockSeries own = SeriesOf(*blocks, [&](std::size_t b) {
       const double level = blocks->level[kind.followed][b];
       return std::isfinite(level) ? kind.value(*blocks, level) : kUnknown;
@@ -533,6 +537,7 @@ void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     const QuantityKind& kind = kQuantityKinds[i];
     if (kind.followed >= 0) return;
     TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
+    if (IsUntold(kind, *report, quantity)) return;
     const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
       return quantity->name == "p_mp" ? 100 - TotalPercent(sums[b])
                                       : PercentOf(sums[b], kPartMismatch) -

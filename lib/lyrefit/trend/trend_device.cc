@@ -252,11 +252,12 @@ TrendRow ReduceSweep(const TrendDevice& device, const IvCurve& curve, double tim
   SweepFit fit = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve), device.n,
                           SweepFree::kSecondDiode);
   if (row.lost_substrings > 0) {
-    // Leaky cells lose voltage too. Fewer cells have a sharper knee: the better fit decides.
+    // Leaky cells lose voltage too, but fit as what they are.
+    constexpr double kClearlyBetter = 0.4;
     left -= static_cast<double>(row.lost_substrings) / device.substrings;
     const SweepFit fewer = FitSweep(curve.voltage_V, curve.current_A, ThermalAtOne(curve) * left,
                                     device.n, SweepFree::kSecondDiode);
-    if (fewer.usable && !(fit.usable && fit.rms_A <= fewer.rms_A)) {
+    if (fewer.usable && !(fit.usable && fit.rms_A <= kClearlyBetter * fewer.rms_A)) {
       fit = fewer;
     } else {
       row.lost_substrings = 0;

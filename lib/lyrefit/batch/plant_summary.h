@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/plant_losses.h"
 #include "lyrefit/batch/plant_sample.h"
 #include "lyrefit/batch/result_row.h"
 
@@ -18,12 +19,13 @@ namespace lyrefit {
 
 // A row as listed in the tables that need no script.
 struct PlantRow {
-  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline;
+  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline, onset_date;
   double performance_factor = kUnknown;
   double Pmax_stc_W = kUnknown;
   double recoverable_power_W = kUnknown;
   double below_rating_W = kUnknown;
   double deviation_percent = kUnknown;
+  double lost_now_percent = kUnknown;  // of a trend
 };
 
 struct PlantShare {
@@ -69,6 +71,7 @@ struct PlantSummary {
   // kPlantMostNodes nodes is dropped.
   std::vector<std::map<std::string, PlantNode>> levels;
   PlantSample sample;
+  PlantLossSummary losses;  // of trends
 };
 
 constexpr std::size_t kPlantWorst = 100;
@@ -107,6 +110,10 @@ class PlantCounter {
     kDiffers,
     kOutlier,
     kSparkline,
+    kLostNow,
+    kOnset,
+    kFirst,
+    kLast,
     kColumns
   };
   // Rows with a key, a heap with the smallest on top.
@@ -127,6 +134,7 @@ class PlantCounter {
   std::size_t deepest_ = 8;  // number of tree levels that are counted
   Ranked worst_, outliers_;
   PlantSampler sampler_;
+  PlantLossCounter losses_;
 };
 
 // True if `cause` means that no cause was found, in any of its notations.

@@ -102,15 +102,16 @@ block::Table WithoutEmptyColumns(block::Table table) {
 }
 
 block::Table WorstTable(const PlantSummary& summary, const std::string& results) {
-  block::Table table = {"lrrlrllr",
-                        {{"string", "performance factor", "Pmax at STC (W)", "zone",
-                          "power lost now (%)", "since", "cause", "power to recover (W)"}}};
+  block::Table table = {
+      "lrrlrlllr",
+      {{"string", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
+        "mostly by", "since", "cause", "power to recover (W)"}}};
   table.caption =
       fmt::format("The {} worst strings, by {}", summary.worst.size(), summary.worst_by);
   for (const PlantRow& row : summary.worst) {
     table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),
-                          row.zone, Number(row.lost_now_percent, 2), row.onset_date,
-                          row.cause_title.empty() ? row.cause : row.cause_title,
+                          row.zone, Number(row.lost_now_percent, 2), row.largest_loss,
+                          row.onset_date, row.cause_title.empty() ? row.cause : row.cause_title,
                           Number(row.recoverable_power_W, 0)});
     table.links.push_back(LinkOf(row, results));
   }

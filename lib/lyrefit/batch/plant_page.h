@@ -25,8 +25,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                            repeated measurement; any other value is a cause of the plant
 //   date                     ISO 8601
 //   first, last              times of a trend
-//   loss_..._percent, reference_power_W, loss_now_total_percent, onset_date
-//                            energy that a trend says is lost, by part, and since when
+//   loss_..._percent, reference_power_W, loss_now_total_percent, largest_loss, onset_date
+//                            energy that a trend says is lost, by part, to what most, and since when
 //   performance_factor, else loss_now_total_percent, group_deviation_percent,
 //   recoverable_power_W, lack_of_fit_percent
 //                            the column that ranks the worst strings

@@ -26,6 +26,7 @@ constexpr const char* kNames[] = {"id",
                                   "sparkline",
                                   "loss_now_total_percent",
                                   "onset_date",
+                                  "largest_loss",
                                   "first",
                                   "last"};
 
@@ -195,6 +196,7 @@ void PlantCounter::Add(const ResultRow& row) {
   named.outlier = Text(row, kOutlier);
   named.sparkline = Text(row, kSparkline);
   named.onset_date = Text(row, kOnset);
+  named.largest_loss = Text(row, kLargestLoss);
   named.lost_now_percent = Number(row, kLostNow);
   named.below_rating_W = Number(row, kBelow);
   named.deviation_percent = Number(row, kDeviation);

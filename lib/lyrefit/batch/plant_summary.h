@@ -19,7 +19,8 @@ namespace lyrefit {
 
 // A row as listed in the tables that need no script.
 struct PlantRow {
-  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline, onset_date;
+  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline, onset_date,
+      largest_loss;
   double performance_factor = kUnknown;
   double Pmax_stc_W = kUnknown;
   double recoverable_power_W = kUnknown;
@@ -112,6 +113,7 @@ class PlantCounter {
     kSparkline,
     kLostNow,
     kOnset,
+    kLargestLoss,
     kFirst,
     kLast,
     kColumns

@@ -77,6 +77,10 @@ std::vector<ResultColumn> TrendColumns() {
   AddLossColumns("loss", "of the energy that the reference days let expect", &columns);
   AddLossColumns("loss_now", "of the power over the last 30 days with data", &columns);
   for (ResultColumn column : std::vector<ResultColumn>{
+           {"largest_loss", "", kText,
+            "the part that takes most over the last 30 days with data, of those whose 95 % "
+            "interval "
+            "is above zero"},
            {"onsets", "", kWhole, "onsets and steps to the worse"},
            {"cause", "", kText, "what the onset that costs most may be: its id"},
            {"cause_title", "", kText, "the same in a few words"},
@@ -128,6 +132,19 @@ void AddLosses(const TrendReport& report, Ranged TrendLoss::*figure,
   }
 }
 
+// The name of the part that takes most now, of those that are shown to take anything; or empty.
+std::string LargestLoss(const TrendReport& report) {
+  std::string largest;
+  double most = 0;
+  for (const TrendLoss& loss : report.losses) {
+    const Ranged& now = loss.now_percent;
+    if (loss.name == "total" || !(now.low_95 > 0) || !(now.value > most)) continue;
+    most = now.value;
+    largest = loss.name;
+  }
+  return largest;
+}
+
 // What a cause costs now, in percent: the parts of all quantities in which it began.
 double LostBy(const std::string& cause, const std::vector<TrendOnset>& onsets) {
   std::set<std::string> counted;
@@ -159,6 +176,7 @@ void AddOnset(const TrendReport& report, std::vector<ResultCell>* cells) {
   const TrendOnset* const found = CostliestOnset(report.onsets);
   const TrendOnset onset = found == nullptr ? TrendOnset() : *found;
   const double lost = found == nullptr ? kUnknown : LostBy(onset.id, report.onsets);
+  const double recoverable_W = std::max(lost, 0.0) / 100 * report.reference_power_W;
   std::vector<std::string> ids;
   for (const TrendOnset& one : report.onsets) ids.push_back(one.id);
   for (ResultCell cell : std::vector<ResultCell>{
@@ -166,9 +184,8 @@ void AddOnset(const TrendReport& report, std::vector<ResultCell>* cells) {
            TextCell(onset.cause), found == nullptr ? ResultCell() : TextCell("device"),
            TextCell(onset.what), TextCell(onset.action), DateCell(onset.time_s),
            DateCell(onset.earliest_s), DateCell(onset.latest_s), NumberCell(lost),
-           NumberCell(std::fmax(lost, 0) / 100 * report.reference_power_W), ListCell(ids),
-           TextCell(report.verdict), ListCell(report.not_decided),
-           ListCell(report.warnings, "; ")}) {
+           NumberCell(recoverable_W), ListCell(ids), TextCell(report.verdict),
+           ListCell(report.not_decided), ListCell(report.warnings, "; ")}) {
     cells->push_back(std::move(cell));
   }
 }
@@ -184,6 +201,7 @@ std::vector<ResultCell> TrendCells(const TrendReport& report) {
   AddRates(report, &cells);
   AddLosses(report, &TrendLoss::energy_percent, &cells);
   AddLosses(report, &TrendLoss::now_percent, &cells);
+  cells.push_back(TextCell(LargestLoss(report)));
   AddOnset(report, &cells);
   return cells;
 }

@@ -60,7 +60,8 @@ TEST_F(TrendTaskTest, EachFileIsADeviceWithARowOfItsTrend) {
            {"light", "resistance_series", "recombination", "shunt", "mismatch"}) {
         parts += rows[r][loss + part + "_percent"].get<double>();
       }
-      EXPECT_NEAR(parts, rows[r][loss + "total_percent"].get<double>(), 1e-6) << loss;
+      // Each part is against its own clean reference days, known to 0.1 %.
+      EXPECT_NEAR(parts, rows[r][loss + "total_percent"].get<double>(), 0.2) << loss;
     }
   }
   EXPECT_EQ(rows[0]["onsets"], 0);
@@ -133,8 +134,7 @@ TEST_F(TrendTaskTest, PageOfThePlantShowsTheLossesByPart) {
   const auto written = WritePlantPage(folder_.Path("out"), folder_.Path("plant.html"), "Plant");
   ASSERT_TRUE(written) << MessageOf(written);
   const std::string page = FileText(folder_.Path("plant.html"));
-  EXPECT_THAT(
-      page, HasSubstr("2 of 4 strings show no cause; 1 needs work: growing series resistance (1)"));
+  EXPECT_THAT(page, HasSubstr("1 of 4 strings show no cause; 2 need work: "));
   EXPECT_THAT(page, HasSubstr("Energy lost since the reference days, by part"));
   EXPECT_THAT(page, HasSubstr("power lost now (%)"));
   EXPECT_THAT(page, HasSubstr("mostly by"));

@@ -26,7 +26,7 @@ set(ALLOWED_report base read model search estimate/fit estimate/family estimate/
 set(ALLOWED_study base read model model/effects search estimate certify report)
 # A separate library for many curves, their rows and their page.
 set(ALLOWED_batch base read model model/effects estimate/fit estimate/family estimate/cell certify diagnose
-    translate report)
+    translate trend report)
 set(FOLDERS base read model model/effects search estimate/refine estimate/fit estimate/family estimate/cell certify
     diagnose translate trend report study batch)
 # A folder that is named in FOLDERS, or the module: that of "study/report/plots.h" is study.

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr char kCellTask[] = "cell";
 constexpr char kNeighboursAlone[] = "neighbours";  // of --plan
+constexpr char kTrendTask[] = "trend";
 
 constexpr char kBatchFooter[] =
     "Examples:\n"
@@ -29,6 +30,7 @@ constexpr char kBatchFooter[] =
     "  lyrefit batch today_folder --task field-test --module module.json --before "
     "last_year_results "
     "--out results\n"
+    "  lyrefit batch folder_of_devices --task trend --out trends --html trends.html\n"
     "  lyrefit batch today_folder --task diagnose --reference last_year_folder --out results\n"
     "  lyrefit batch strings.csv --plan plan.csv --out results --html plant.html\n"
     "\n"
@@ -137,7 +139,7 @@ Expected<void> CheckRequest(const VerbLine& verb, const BatchRequest& request) {
   for (const BatchTask& task : BatchTasks()) {
     if (task.name == request.task || std::string(task.name) == own.takes) continue;
     const std::string flag = task.given(verb);
-    if (!flag.empty()) return Fail(flag + " is for --task " + task.name);
+    if (!flag.empty() && flag != own.takes_flag) return Fail(flag + " is for --task " + task.name);
   }
   if (!request.html_file.empty() && request.options.shard.of > 1) {
     return Fail("--html is for a whole run: give it to merge");
@@ -213,6 +215,7 @@ Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   reading.shard = options.shard;
   reading.reading.keep_limited = request.task == "diagnose";
   reading.reading.whole_cells = request.task == kCellTask;
+  reading.reading.whole_files = request.task == kTrendTask;
   const InterruptGuard guard;
   TRY(const BatchTaskType task, MakeTask(verb, request));
   TRY(const auto source, OpenBatch(request.inputs, reading));

@@ -27,6 +27,8 @@ struct BatchRequest {
   TranslateOptions translate = BatchTranslateOptions();
   CellOptions cell;
   PixelOptions pixels;
+  TrendOptions trend;
+  bool operating = false;  // the inputs are operating points
   std::string coefficients_file;
   std::string html_file;
   std::string plant;  // name of the plant
@@ -41,7 +43,8 @@ struct BatchTask {
   // The first given flag that belongs to this task only; empty: none was given.
   std::string (*given)(const VerbLine& verb);
   Expected<BatchTaskType> (*make)(const VerbLine& verb, const BatchRequest& request);
-  const char* takes = "";  // name of another task, whose flags are accepted too
+  const char* takes = "";       // name of another task, whose flags are accepted too
+  const char* takes_flag = "";  // a flag of another task that is accepted too
 };
 
 // All tasks; defined in batch_tasks.cc.

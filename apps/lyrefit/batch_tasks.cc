@@ -2,6 +2,7 @@
 #include "bounds_flag.h"
 #include "effect_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/estimate/family/read_module.h"
 #include "model_flag.h"
 #include "translation_flags.h"
 
@@ -80,6 +81,9 @@ Expected<BatchTaskType> MakeDiagnose(const VerbLine& /*verb*/, const BatchReques
 // Draws of the propagation of uncertainty.
 constexpr char kUncertaintyDraws[] = "--uncertainty-draws";
 
+// A module file, of two tasks; the last of the flags that are looked for.
+constexpr char kModule[] = "--module";
+
 // All rows except the target, which is standard conditions.
 const std::vector<std::string> kTranslateRows = {"procedures",      "key-points",
                                                  "lead-resistance", "rear-irradiance-Wm2",
@@ -97,9 +101,7 @@ void DeclareFieldTestFlags(VerbLine* verb, BatchRequest* request) {
 }
 
 std::string GivenFieldTestFlag(const VerbLine& verb) {
-  for (const char* file : {"--coefficients", "--module"}) {
-    if (verb.Given(file)) return file;
-  }
+  if (verb.Given("--coefficients")) return "--coefficients";
   const TranslateOptions usual;
   for (const std::string& flag : {GivenOf(verb, kTranslateOptionTable, usual),
                                   GivenOf(verb, kCoefficientTable, usual.coefficients),
@@ -109,7 +111,8 @@ std::string GivenFieldTestFlag(const VerbLine& verb) {
     if (!flag.empty()) return flag;
   }
   if (verb.Given(kUncertaintyDraws)) return kUncertaintyDraws;
-  return GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
+  const std::string flag = GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
+  return flag.empty() && verb.Given(kModule) ? kModule : flag;
 }
 
 Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {
@@ -144,6 +147,47 @@ Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& reque
   return CellTask(request.cell, request.pixels);
 }
 
+// All rows except the least light, whose flag belongs to a field test, and the threads of one device.
+const std::vector<std::string> kTrendRows = {"reference-days", "false-alarms", "irradiance-drift",
+                                             "temperature-drift", "bypass-diodes"};
+constexpr char kOperating[] = "--operating";
+
+void DeclareTrendFlags(VerbLine* verb, BatchRequest* request) {
+  AddNamedFlags(verb, kTrendOptionTable, kTrendRows, &request->trend);
+  verb->AddSwitch(kOperating, &request->operating,
+                  "the files are tables of operating points: time, irradiance, temperature, vmp, "
+                  "imp; needs --module")
+      .Group("Trend");
+}
+
+std::string GivenTrendFlag(const VerbLine& verb) {
+  if (verb.Given(kOperating)) return kOperating;
+  for (const std::string& row : kTrendRows) {
+    if (verb.Given("--" + row)) return "--" + row;
+  }
+  return "";
+}
+
+Expected<BatchTaskType> MakeTrend(const VerbLine& verb, const BatchRequest& request) {
+  for (const char* const flag : {"--noise", "--reference"}) {
+    if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task trend");
+  }
+  TrendReadOptions reading;
+  reading.reading = request.reading;
+  if (!request.module_file.empty()) {
+    const TrendSource source =
+        request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
+    TRY(const NamedParameters module, ReadModuleParameters(request.module_file));
+    TRY(reading.law, SeriesOfModule(module, source, request.trend));
+  } else if (request.operating) {
+    return Fail("--operating needs --module: operating points alone do not tell the law");
+  }
+  reading.prepare = [conditions = request.conditions](IvCurve* curve) {
+    return ApplyConditionFlags(conditions, curve);
+  };
+  return TrendTask(reading, request.trend);
+}
+
 }  // namespace
 
 const std::vector<BatchTask>& BatchTasks() {
@@ -152,6 +196,7 @@ const std::vector<BatchTask>& BatchTasks() {
       {"diagnose", DeclareDiagnoseFlags, GivenDiagnoseFlag, MakeDiagnose},
       {"field-test", DeclareFieldTestFlags, GivenFieldTestFlag, MakeFieldTest, "diagnose"},
       {"cell", DeclareCellFlags, GivenCellFlag, MakeCell},
+      {"trend", DeclareTrendFlags, GivenTrendFlag, MakeTrend, "", kModule},
   };
   return tasks;
 }

@@ -109,11 +109,12 @@ class RowMaker {
 
   PipelineStep Make(const BatchItem& item, const StopToken& stop) const {
     BatchCurve curve = source_.Read(item);
-    if (curve.curve) Settle(&curve);
+    const bool is_curve = curve.curve && curve.file.empty();
+    if (is_curve) Settle(&curve);
     TaskResult result{RowStatus::kBroken, "", {}, false};
     if (curve.curve) {
       result = task_.run(curve, SeedOf(options_.seed, curve.id), stop.AsObserver());
-      AddDoubt(curve, &result);
+      if (is_curve) AddDoubt(curve, &result);
     } else {
       result.reason = ReasonOf(curve.curve.error());
     }

@@ -20,6 +20,8 @@
 #include "lyrefit/read/key_points.h"
 #include "lyrefit/report/page.h"
 #include "lyrefit/translate/translate_options.h"
+#include "lyrefit/trend/read_trend.h"
+#include "lyrefit/trend/trend_options.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -79,6 +81,12 @@ BatchTaskType FieldTestTask(const TranslateOptions& asked);
 // The task `cell`: the description of a laboratory cell, of the source's option whole_cells, and
 // whether it counts as a working pixel of its sample. Its summary has statistics of each sample.
 BatchTaskType CellTask(const CellOptions& asked, const PixelOptions& pixels = {});
+
+// The task `trend`: an item is a file with the measurements of one device over time, of the source's
+// option whole_files: sweeps in a shape of ReadTrend, or the state of a trend; a table of operating
+// points if the law of `reading` is for them. Its row has rates, losses by part and the onset that costs
+// most.
+BatchTaskType TrendTask(const TrendReadOptions& reading, const TrendOptions& asked = {});
 
 // Usual options for fits of many curves: symmetric intervals, and no random baseline, since its
 // RMSE has no column.

@@ -20,6 +20,12 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "status",
                                          "zone",
                                          "cause_title",
+                                         "onset_date",
+                                         "loss_total_percent",
+                                         "loss_now_total_percent",
+                                         "loss_light_percent",
+                                         "loss_resistance_series_percent",
+                                         "p_mp_rate_percent",
                                          "performance_factor",
                                          "Pmax_stc_W",
                                          "group_deviation_percent",
@@ -82,19 +88,36 @@ std::string LinkOf(const PlantRow& row, const std::string& results) {
   return safe ? "./" + results + row.page : "";
 }
 
+// Leaves out the columns of which no row has anything.
+block::Table WithoutEmptyColumns(block::Table table) {
+  for (std::size_t c = table.alignment.size(); c-- > 0;) {
+    const bool any = std::any_of(table.rows.begin(), table.rows.end(),
+                                 [c](const block::Table::Row& row) { return !row[c].empty(); });
+    if (any) continue;
+    const auto at = static_cast<std::ptrdiff_t>(c);
+    table.alignment.erase(c, 1);
+    for (auto* rows : {&table.heads, &table.rows}) {
+      for (block::Table::Row& row : *rows) row.erase(row.begin() + at);
+    }
+  }
+  return table;
+}
+
 block::Table WorstTable(const PlantSummary& summary, const std::string& results) {
-  block::Table table = {"lrrllr",
-                        {{"string", "performance factor", "Pmax at STC (W)", "zone", "cause",
-                          "power to recover (W)"}}};
+  block::Table table = {
+      "lrrlrlllr",
+      {{"string", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
+        "mostly by", "since", "cause", "power to recover (W)"}}};
   table.caption =
       fmt::format("The {} worst strings, by {}", summary.worst.size(), summary.worst_by);
   for (const PlantRow& row : summary.worst) {
     table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),
-                          row.zone, row.cause_title.empty() ? row.cause : row.cause_title,
+                          row.zone, Number(row.lost_now_percent, 2), row.largest_loss,
+                          row.onset_date, row.cause_title.empty() ? row.cause : row.cause_title,
                           Number(row.recoverable_power_W, 0)});
     table.links.push_back(LinkOf(row, results));
   }
-  return table;
+  return WithoutEmptyColumns(std::move(table));
 }
 
 block::Table OutliersTable(const PlantSummary& summary, const std::string& results) {
@@ -219,6 +242,8 @@ Document PlantDocument(const PlantContent& content) {
     AddFigure(CampaignFigureOf(content.campaign), &since.front());
     document.verdict += " " + CampaignVerdict(content.campaign);
   }
+  Section losses = {"Losses over time"};
+  AddFigure(LossesFigure(summary.losses), &losses);
   Section worst = {"Which strings to visit first"};
   if (!summary.worst.empty()) AddTable(WorstTable(summary, content.results), &worst);
   AddFigure(CurvesFigure(summary), &worst);
@@ -229,7 +254,7 @@ Document PlantDocument(const PlantContent& content) {
   Section neighbours = {"Against the neighbours"};
   if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
   AddFigure(NeighboursFigure(summary), &neighbours);
-  AddSections({found, AgainstThePlan(summary, content.results)}, &document);
+  AddSections({found, losses, AgainstThePlan(summary, content.results)}, &document);
   AddSections(std::move(since), &document);
   AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)}, &document);
   return document;

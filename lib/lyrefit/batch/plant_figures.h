@@ -12,6 +12,10 @@ namespace lyrefit {
 // strings.
 block::Figure GroupsFigure(const PlantSummary& summary);
 
+// plant_losses.cc: the energy that trends say is lost, by part, of the plant and of the groups that
+// lose most.
+block::Figure LossesFigure(const PlantLossSummary& losses);
+
 // plant_map.cc: a cell for each group of the deepest level that has few enough; its colour is the largest
 // shortfall of a string, or the share of strings that need work.
 block::Figure MapFigure(const PlantSummary& summary);

@@ -24,7 +24,11 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   cause_about              sweep, instrument or conditions: the string needs no work, but a
 //                            repeated measurement; any other value is a cause of the plant
 //   date                     ISO 8601
-//   performance_factor, else group_deviation_percent, recoverable_power_W, lack_of_fit_percent
+//   first, last              times of a trend
+//   loss_..._percent, reference_power_W, loss_now_total_percent, largest_loss, onset_date
+//                            energy that a trend says is lost, by part, to what most, and since when
+//   performance_factor, else loss_now_total_percent, group_deviation_percent,
+//   recoverable_power_W, lack_of_fit_percent
 //                            the column that ranks the worst strings
 //   Pmax_stc_W, recoverable_power_W, below_rating_W
 //   group_flag, group_outlier, group_Isc_percent, ...

@@ -8,9 +8,21 @@ namespace lyrefit {
 namespace {
 
 // Columns whose distributions tell most, in this order; others follow.
-constexpr const char* kSpreads[] = {
-    "performance_factor", "Pmax_stc_W", "FF",    "Rs_ohm", "irradiance_Wm2",
-    "temperature_C",      "Pmax_W",     "Voc_V", "Isc_A"};
+constexpr const char* kSpreads[] = {"performance_factor",
+                                    "loss_total_percent",
+                                    "loss_now_total_percent",
+                                    "p_mp_rate_percent",
+                                    "resistance_series_rate_ohm",
+                                    "loss_light_percent",
+                                    "loss_mismatch_percent",
+                                    "Pmax_stc_W",
+                                    "FF",
+                                    "Rs_ohm",
+                                    "irradiance_Wm2",
+                                    "temperature_C",
+                                    "Pmax_W",
+                                    "Voc_V",
+                                    "Isc_A"};
 constexpr const char* kNeighbours[] = {"group_Isc_percent", "group_Voc_percent", "group_FF_percent",
                                        "group_deviation_percent"};
 

@@ -30,7 +30,12 @@ constexpr const char* kNames[] = {"id",
                                   "plan_sentence",
                                   "plan_equivalents",
                                   "plan_action",
-                                  "plan_lost_W"};
+                                  "plan_lost_W",
+                                  "loss_now_total_percent",
+                                  "onset_date",
+                                  "largest_loss",
+                                  "first",
+                                  "last"};
 
 PlantShare& ShareOf(const std::string& word, std::map<std::string, PlantShare>* shares) {
   if (shares->size() < kPlantMostWords || shares->count(word)) return (*shares)[word];
@@ -90,7 +95,8 @@ bool IsNoCause(const std::string& cause) {
   return cause.empty() || cause == "none" || cause == "clean" || cause == "reference";
 }
 
-PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) : sampler_(columns) {
+PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns)
+    : sampler_(columns), losses_(columns) {
   for (int known = 0; known < kColumns; ++known) {
     const auto at = std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) {
       return column.name == kNames[known];
@@ -100,7 +106,7 @@ PlantCounter::PlantCounter(const std::vector<ResultColumn>& columns) : sampler_(
   sum_.judged_by = Has(kZone) ? "zone" : Has(kCause) || Has(kPlanCause) ? "cause" : "";
   sum_.titled_by = Has(kCauseTitle) ? "cause_title" : Has(kCause) ? "cause" : "";
   if (sum_.titled_by.empty() && Has(kPlanTitle)) sum_.titled_by = "plan_cause_title";
-  for (const Known by : {kPerformance, kDeviation, kRecoverable, kDeparture}) {
+  for (const Known by : {kPerformance, kLostNow, kDeviation, kRecoverable, kDeparture}) {
     if (Has(by) && sum_.worst_by.empty()) sum_.worst_by = kNames[by];
   }
 }
@@ -153,6 +159,7 @@ bool PlantCounter::Differs(const ResultRow& row) const {
 // Sort key of the worst rows, larger is worse; NaN: unknown.
 double PlantCounter::Badness(const ResultRow& row) const {
   if (Has(kPerformance)) return -Number(row, kPerformance);
+  if (Has(kLostNow)) return Number(row, kLostNow);
   if (Has(kDeviation)) return -Number(row, kDeviation);
   if (Has(kRecoverable)) return Number(row, kRecoverable);
   return Number(row, kDeparture);
@@ -210,6 +217,9 @@ void PlantCounter::Add(const ResultRow& row) {
   named.page = Text(row, kPage);
   named.outlier = Text(row, kOutlier);
   named.sparkline = Text(row, kSparkline);
+  named.onset_date = Text(row, kOnset);
+  named.largest_loss = Text(row, kLargestLoss);
+  named.lost_now_percent = Number(row, kLostNow);
   named.below_rating_W = Number(row, kBelow);
   named.deviation_percent = Number(row, kDeviation);
   named.performance_factor = Number(row, kPerformance);
@@ -234,7 +244,7 @@ void PlantCounter::Add(const ResultRow& row) {
   if (fine && !needs_work && Differs(row)) ++sum_.passed_outlier;
   if (needs_work && named.below_rating_W > 0) sum_.below_rating_W += named.below_rating_W;
   CountWords(named, status, needs_work, to_repeat);
-  CountDate(Text(row, kDate));
+  for (const Known date : {kDate, kFirst, kLast}) CountDate(Text(row, date));
   CountTree(named, needs_work);
   if (!fine) return;
   Rank(Badness(row), named, kPlantWorst, &worst_);
@@ -244,6 +254,7 @@ void PlantCounter::Add(const ResultRow& row) {
     Rank(std::isfinite(named.plan_lost_W) ? named.plan_lost_W : 0, named, kPlantScaled, &scaled_);
   }
   sampler_.Add(row, Differs(row));
+  losses_.Add(named.id, row);
   if (!Differs(row)) return;
   const double by = std::fabs(named.deviation_percent);
   Rank(std::isfinite(by) ? by : 0, named, kPlantListed, &outliers_);
@@ -252,6 +263,7 @@ void PlantCounter::Add(const ResultRow& row) {
 PlantSummary PlantCounter::Summary() const {
   PlantSummary summary = sum_;
   summary.sample = sampler_.sample();
+  summary.losses = losses_.summary();
   summary.worst = InOrder(worst_);
   summary.outliers = InOrder(outliers_);
   summary.scaled = InOrder(scaled_);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/batch/plant_losses.h"
 #include "lyrefit/batch/plant_sample.h"
 #include "lyrefit/batch/result_row.h"
 
@@ -18,7 +19,8 @@ namespace lyrefit {
 
 // A row as listed in the tables that need no script.
 struct PlantRow {
-  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline;
+  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline, onset_date,
+      largest_loss;
   double performance_factor = kUnknown;
   double Pmax_stc_W = kUnknown;
   double recoverable_power_W = kUnknown;
@@ -27,6 +29,7 @@ struct PlantRow {
   // Of the comparison with the plan: what the string loses, in a sentence, and what to do.
   double plan_lost_W = kUnknown;
   std::string plan_sentence, plan_action, plan_equivalents;
+  double lost_now_percent = kUnknown;  // of a trend
 };
 
 struct PlantShare {
@@ -76,6 +79,7 @@ struct PlantSummary {
   // kPlantMostNodes nodes is dropped.
   std::vector<std::map<std::string, PlantNode>> levels;
   PlantSample sample;
+  PlantLossSummary losses;  // of trends
 };
 
 constexpr std::size_t kPlantWorst = 100;
@@ -122,6 +126,11 @@ class PlantCounter {
     kPlanEquivalents,
     kPlanAction,
     kPlanLost,
+    kLostNow,
+    kOnset,
+    kLargestLoss,
+    kFirst,
+    kLast,
     kColumns
   };
   // Rows with a key, a heap with the smallest on top.
@@ -143,6 +152,7 @@ class PlantCounter {
   std::size_t deepest_ = 8;  // number of tree levels that are counted
   Ranked worst_, outliers_, scaled_;
   PlantSampler sampler_;
+  PlantLossCounter losses_;
 };
 
 // True if `cause` means that no cause was found, in any of its notations.

@@ -114,7 +114,7 @@ std::vector<ResultCell> CommonCells(const BatchCurve& curve, const BatchItem& it
                                    RatedPower(curve),
                                    Rest(curve)};
   std::vector<ResultCell> readings(kReadingCells);
-  if (curve.curve) readings = ReadingCells(*curve.curve, result);
+  if (curve.curve && curve.file.empty()) readings = ReadingCells(*curve.curve, result);
   for (ResultCell& cell : readings) cells.push_back(std::move(cell));
   return cells;
 }

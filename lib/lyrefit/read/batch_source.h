@@ -38,6 +38,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 // by the words of light and direction alone (up and down, lit and dark, several lights), or all
 // curves of a file that holds one cell. In rows and long tables a curve is a cell.
 //
+// With ReadOptions::whole_files an item is a file, such as the sweeps of a device over time. It is not
+// read here.
+//
 // No curve is dropped. A truncated or overlong row, or one with a repeated id, is an item whose
 // Read returns the error.
 
@@ -80,6 +83,7 @@ struct BatchCurve {
   std::map<std::string, std::string>
       beside;                      // values that are not evaluated: date, rated_power_W, ...
   std::vector<IvCurve> more = {};  // the other curves of the same cell, with whole_cells
+  std::string file = {};  // path of the item's file, with whole_files; `curve` is then empty
 };
 
 // A sequence of curves for a batch.

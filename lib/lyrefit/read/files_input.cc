@@ -42,6 +42,7 @@ class WholeFile : public FileInput {
   }
 
   BatchCurve Read(const BatchItem& item) const override {
+    if (options_.whole_files) return {item.id, IvCurve(), {}, {}, path_};
     if (!several_) return {item.id, ReadCurve(path_, options_), {}};
     const NamedCurve& found = curves_[item.in_file];
     Expected<IvCurve> curve = found.curve;

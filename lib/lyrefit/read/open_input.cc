@@ -211,6 +211,11 @@ Expected<std::unique_ptr<BatchInput>> OpenInput(const std::string& path, const s
                                                 const ReadOptions& options) {
   if (IsFolder(path)) return FolderTreeInput(path, name, options);
   if (path != "-" && !IsFile(path)) return Fail("the file does not exist", path);
+  if (options.whole_files && IsReadOnce(path)) {
+    return Fail("expected a file or a folder of files, one a device, found a stream: name its file",
+                path);
+  }
+  if (options.whole_files) return WholeFileInput(path, name, false, options);
   auto scanner = std::make_unique<LineScanner>(path, options.largest_file_bytes);
   TRY(const std::string_view head, scanner->Head());
   if (IsUtf16(head)) {

@@ -39,6 +39,9 @@ struct ReadOptions {
   bool keep_limited = false;
   // For OpenBatch only: an item is a cell with all its curves (BatchCurve::more), not a curve.
   bool whole_cells = false;
+  // For OpenBatch only: an item is a file that is not read (BatchCurve::file): the sweeps of a device
+  // over time.
+  bool whole_files = false;
   std::uintmax_t largest_file_bytes = 64U << 20;  // larger files are an error
 };
 

@@ -44,7 +44,8 @@ class TreeInput : public BatchInput {
     weight_ = WeightOf(*file);
     path_ = file->path;
     id_ = prefix_ + (prefix_.empty() || file->id.empty() ? "" : "/") + file->id;
-    if (file->refusal.empty() && (options_.whole_cells || HoldsSeveral())) {
+    const bool whole = options_.whole_files || !file->refusal.empty();
+    if (!whole && (options_.whole_cells || HoldsSeveral())) {
       TRY(several_, OpenInput(path_, id_, options_));
       return Next();
     }
@@ -56,6 +57,7 @@ class TreeInput : public BatchInput {
   }
 
   BatchCurve Read(const BatchItem& item) const override {
+    if (options_.whole_files) return {item.id, IvCurve(), {}, {}, item.where};
     return {item.id, ReadCurve(item.where, options_), {}};
   }
 

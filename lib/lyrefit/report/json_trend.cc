@@ -46,9 +46,10 @@ Json OnsetJson(const TrendOnset& onset) {
           {"date_low", DateJson(onset.earliest_s)},
           {"date_high", DateJson(onset.latest_s)},
           {"quantity", onset.quantity},
+          {"id", onset.id},
           {"cause", onset.cause},
           {"lost_percent", onset.lost_percent},
-          {"sentence", onset.sentence}};
+          {"sentence", onset.sentence()}};
 }
 
 Json TrendLossJson(const TrendReport& report) {

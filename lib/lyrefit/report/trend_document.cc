@@ -119,7 +119,7 @@ Section ChangeSection(const TrendReport& report) {
     section.blocks.emplace_back(
         block::Entry{fmt::format("{}, from {} ({} .. {})", onset.cause, DateText(onset.time_s),
                                  DateText(onset.earliest_s), DateText(onset.latest_s)),
-                     {onset.sentence}});
+                     {onset.sentence()}});
   }
   return section;
 }

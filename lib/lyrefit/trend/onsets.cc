@@ -36,6 +36,7 @@ bool HasOnsetNear(const TrendReport& report, const std::string& quantity, double
 }
 
 struct CauseWords {
+  std::string id;
   std::string cause;
   std::string what;
   std::string action;
@@ -44,16 +45,16 @@ struct CauseWords {
 CauseWords WordsOf(const TrendReport& report, const TrendQuantity& quantity,
                    const TrendChange& change) {
   if (quantity.name == "mismatch") {
-    return {"growing mismatch",
+    return {"growing_mismatch", "growing mismatch",
             "power is lost that neither light nor resistances explain: shade, dirt or snow on a "
             "part, broken cells",
             "look at the module at the time of its losses; diagnose one of the sweeps"};
   }
   if (quantity.name == "resistance_series") {
-    return change.onset ? CauseWords{"growing series resistance",
+    return change.onset ? CauseWords{"growing_series_resistance", "growing series resistance",
                                      "solder joints or interconnects age, or a contact corrodes",
                                      "thermography under load"}
-                        : CauseWords{"a step of the series resistance",
+                        : CauseWords{"series_resistance_step", "a step of the series resistance",
                                      "a connector, a clamp or an interconnect changed",
                                      "check connectors and the junction box, thermography under "
                                      "load"};
@@ -62,18 +63,19 @@ CauseWords WordsOf(const TrendReport& report, const TrendQuantity& quantity,
       quantity.name == "recombination" ? "conductance_shunt" : "recombination";
   if (HasOnsetNear(report, other, change.time_s)) {
     return {
-        "potential-induced degradation",
+        "potential_induced_degradation", "potential-induced degradation",
         "shunt and recombination grow together, as by potential-induced degradation (PID)",
         "measure the string's potential to ground and its insulation; electroluminescence shows "
         "dark cells at the negative end"};
   }
   if (quantity.name == "recombination") {
-    return {"growing recombination",
+    return {"growing_recombination", "growing recombination",
             "the voltage falls by more than light and temperature explain: degradation of the "
             "cells, or an error of the temperature sensor",
             "compare the sensor with another one; electroluminescence"};
   }
-  return {"growing shunt conductance", "cells leak: PID in its beginning, cracks or hot spots",
+  return {"growing_shunt", "growing shunt conductance",
+          "cells leak: PID in its beginning, cracks or hot spots",
           "thermography; electroluminescence at low current"};
 }
 
@@ -114,12 +116,14 @@ void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
       onset.time_s = onset.latest_s = blocks.time_s[b];
       onset.earliest_s = last_s;
       onset.lost_percent = LostNow(*report, "mismatch");
+      onset.id = "lost_substrings";
       onset.cause =
           fmt::format("{} of {} substrings without voltage", lost[b], blocks.device->substrings);
-      onset.sentence =
+      onset.what =
           "Voc is lower by whole substrings: a bypass diode is shorted, or a cell string is open "
-          "and bypassed. To do: measure the voltage of each substring at the junction box and "
-          "replace the diode.";
+          "and bypassed";
+      onset.action =
+          "measure the voltage of each substring at the junction box and replace the diode";
       report->onsets.push_back(std::move(onset));
       before = lost[b];
     } else if (lost[b] < before) {
@@ -166,8 +170,10 @@ void FindOnsets(const TrendBlocks& blocks, TrendReport* report) {
       onset.earliest_s = change.earliest_s;
       onset.latest_s = change.latest_s;
       onset.lost_percent = LostNow(*report, quantity.name);
+      onset.id = words.id;
       onset.cause = words.cause;
-      onset.sentence = fmt::format("{}. To do: {}.", words.what, words.action);
+      onset.what = words.what;
+      onset.action = words.action;
       report->onsets.push_back(std::move(onset));
     }
   }

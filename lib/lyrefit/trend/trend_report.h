@@ -153,8 +153,13 @@ struct TrendOnset {
   double earliest_s = kUnknown;    // 95 % range
   double latest_s = kUnknown;      // its other end
   double lost_percent = kUnknown;  // of power, over the last 30 days, by this part
-  std::string cause;               // "rising series resistance"
-  std::string sentence;            // what it is and what to do
+  std::string id;                  // of the cause: "growing_series_resistance"
+  std::string cause;               // the same in a few words: "growing series resistance"
+  std::string what;                // what it may be, in a sentence without its end
+  std::string action;              // what to do, in the same form
+
+  // Both.
+  std::string sentence() const { return what + ". To do: " + action + "."; }
 };
 
 // Result of FindTrend.

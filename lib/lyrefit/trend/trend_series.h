@@ -41,6 +41,9 @@ Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource 
 Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                                      const TrendOptions& options);
 
+// The law as a text: equal laws have equal ones.
+std::string LawText(const TrendSeries& series);
+
 // Reduces sweeps to rows and appends them.
 void AppendSweeps(const std::vector<TimedSweep>& sweeps, int threads, TrendSeries* series);
 

@@ -143,6 +143,10 @@ Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, i
 
 }  // namespace
 
+std::string LawText(const TrendSeries& series) {
+  return HeadOfSeries(series).dump(-1, ' ', false, StateJson::error_handler_t::replace);
+}
+
 bool IsTrendState(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string begin(sizeof kStateBegin - 1, '\0');
@@ -171,8 +175,7 @@ Expected<TrendSeries> ReadTrendState(const std::string& path) {
 
 Expected<std::int64_t> AppendTrendState(const std::string& path, const TrendSeries& series) {
   TRY(const auto log, AppendLog::Open(path, kStateKind));
-  const std::string head =
-      HeadOfSeries(series).dump(-1, ' ', false, StateJson::error_handler_t::replace);
+  const std::string head = LawText(series);
   std::set<double> times;
   TRY(log->TakeUp([&](const std::string& line, int number) -> Expected<void> {
     if (number == 1) {

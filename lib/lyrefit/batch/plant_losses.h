@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lyrefit/batch/result_row.h"
+
+namespace lyrefit {
+
+// Energy that trends say is lost, summed over a group of strings.
+struct PlantLosses {
+  std::int64_t rows = 0;      // strings whose losses are known
+  double weight = 0;          // sum of their reference powers in W; of ones without these
+  std::vector<double> parts;  // sums of weight times percent, by part, then in total
+  double lost_W = 0;          // of the last days, at standard conditions
+};
+
+// Losses of all strings, and of the groups of those with the same parent.
+struct PlantLossSummary {
+  PlantLosses plant;
+  std::map<std::string, PlantLosses> groups;  // by path; at most kPlantMostNodes
+};
+
+// Parts of a loss, with their titles; the total is last.
+struct PlantLossPart {
+  const char* column;  // "loss_light_percent"
+  const char* title;   // "light"
+};
+inline constexpr PlantLossPart kPlantLossParts[] = {
+    {"loss_light_percent", "light"},
+    {"loss_resistance_series_percent", "series resistance"},
+    {"loss_recombination_percent", "recombination"},
+    {"loss_shunt_percent", "shunt"},
+    {"loss_mismatch_percent", "mismatch"},
+    {"loss_total_percent", "total"}};
+
+// Sums the columns of task `trend`, if they exist.
+class PlantLossCounter {
+ public:
+  explicit PlantLossCounter(const std::vector<ResultColumn>& columns);
+  void Add(const std::string& id, const ResultRow& row);
+  const PlantLossSummary& summary() const { return summary_; }
+
+ private:
+  std::vector<std::size_t> places_;  // of the parts; empty: there are none
+  std::size_t power_ = 0;            // of the reference power
+  std::size_t now_ = 0;              // of the total loss of the last days
+  PlantLossSummary summary_;
+};
+
+}  // namespace lyrefit

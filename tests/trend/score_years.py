@@ -172,9 +172,10 @@ def true_loss(truth, report, part):
     daily, end = truth["daily"], report["reference_end"][:10]
     days = [(date, whole, missing) for date, whole, missing
             in zip(daily["date"], daily["undamaged_Wh"], daily["lost_Wh"][part]) if whole > 0]
-    light = {date: missing / whole for date, whole, missing
-             in zip(daily["date"], daily["undamaged_Wh"], daily["lost_Wh"]["light"]) if whole > 0}
-    usual = [missing / whole for date, whole, missing in days if date <= end and light[date] < 0.15]
+    shaded = {date for date, whole, light, mismatch
+              in zip(daily["date"], daily["undamaged_Wh"], daily["lost_Wh"]["light"], daily["lost_Wh"]["mismatch"])
+              if whole > 0 and light + mismatch > 0.15 * whole}
+    usual = [missing / whole for date, whole, missing in days if date <= end and date not in shaded]
     usual = np.median(usual) if usual else 0.0  # not under snow
     return 100 * (sum(day[2] for day in days) / sum(day[1] for day in days) - usual)
 

@@ -23,8 +23,10 @@ constexpr double kLeastForChanges_days = 10;  // conditions of fewer days are no
 constexpr double kLeastForRate_days = 30;     // a shorter series has no rate a year
 constexpr double kScaleError = 0.02;          // of sizes: gains, temperature of the cells, model
 constexpr double kLeastForShortRate_days = 120;  // of a part of the series
-constexpr double kLawError = 0.005;  // of a resistance a year: what seasons leave of the law
-constexpr double kPartError = 0.1;   // of every part, in % of energy: of the model
+constexpr double kLawError = 0.005;     // of a resistance a year: what seasons leave of the law
+constexpr double kPartError = 0.1;      // of a part, in % of energy: of the model
+constexpr double kLightError = 0.4;     // of light: what the seasons leave of a light sensor
+constexpr double kMismatchError = 0.2;  // what the shapes of sweeps leave
 // Of the shunt's part: what shunts of unlike cells move to series resistance and recombination.
 constexpr double kUnevenShunt = 0.15;
 constexpr double kUnmonitoredLevel = 0.002;
@@ -388,6 +390,20 @@ Eigen::MatrixXd WithChanges(const TrendBlocks& blocks, const TimeSeries& series,
   return wider;
 }
 
+double SumOfParts(const std::vector<TrendLoss>& parts, Ranged TrendLoss::*what) {
+  double sum = 0;
+  for (const TrendLoss& part : parts) {
+    if (std::isfinite((part.*what).value)) sum += (part.*what).value;
+  }
+  return sum;
+}
+
+// The same interval around another value.
+void ShiftTo(double value, Ranged* ranged) {
+  const double shift = value - ranged->value;
+  *ranged = {value, ranged->low_95 + shift, ranged->high_95 + shift};
+}
+
 // Mean of a part over the reference blocks of which most rows are used; 0: there are none. It is the
 // rest of the conditions that the law does not know.
 double CleanReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
@@ -573,12 +589,21 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     const bool daily = p == kPartLight || p == kPartMismatch || total;
     const std::vector<TrendChange> changes = ChangesOf(*report, loss.name);
     const bool mixed = p == kPartSeries || p == kPartRecombination || p == kPartShunt;
+    double own_error = kPartError;
+    if (p == kPartLight) own_error = kLightError;
+    if (p == kPartMismatch) own_error = kMismatchError;
+    if (total) own_error = std::hypot(kLightError, kMismatchError);
     const auto error = [&](const std::vector<double>& weights) {
-      return mixed ? std::hypot(kPartError, kUnevenShunt * MeanPart(sums, weights, kPartShunt))
-                   : kPartError;
+      return mixed ? std::hypot(own_error, kUnevenShunt * MeanPart(sums, weights, kPartShunt))
+                   : own_error;
     };
     loss.energy_percent = MeanLoss(blocks, own, all, changes, daily, drift, error(all));
     loss.now_percent = MeanLoss(blocks, own, recent, changes, daily, drift, error(recent));
+    if (total) {
+      // Each part is against its own clean reference: the total is their sum.
+      ShiftTo(SumOfParts(report->losses, &TrendLoss::energy_percent), &loss.energy_percent);
+      ShiftTo(SumOfParts(report->losses, &TrendLoss::now_percent), &loss.now_percent);
+    }
     report->losses.push_back(std::move(loss));
     if (total) continue;
     std::vector<TrendDay> days;

@@ -61,7 +61,7 @@ TEST_F(TrendTaskTest, EachFileIsADeviceWithARowOfItsTrend) {
         parts += rows[r][loss + part + "_percent"].get<double>();
       }
       // Each part is against its own clean reference days, known to 0.1 %.
-      EXPECT_NEAR(parts, rows[r][loss + "total_percent"].get<double>(), 0.2) << loss;
+      EXPECT_NEAR(parts, rows[r][loss + "total_percent"].get<double>(), 1e-9) << loss;
     }
   }
   EXPECT_EQ(rows[0]["onsets"], 0);

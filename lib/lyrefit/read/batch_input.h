@@ -118,7 +118,7 @@ std::string PercentCoded(std::string_view text);
 std::string IdOfPath(const std::string& path);
 
 // The file's name without folder and ending; "input" for standard input and pipes.
-std::string StemOf(const std::string& path);
+std::string StemOfInput(const std::string& path);
 
 // The curve of a row in JSON, nested in any way, with the scalars `around` it. `item.line` is the
 // line of its first character.

@@ -133,7 +133,7 @@ class Batch : public BatchSource {
     if (found->id.empty()) {
       found->unnamed = found->line != 0;
       found->id = found->line == 0 ? IdOfPath(found->file.empty() ? path : found->file)
-                                   : fmt::format("{}:{}", StemOf(path), found->line);
+                                   : fmt::format("{}:{}", StemOfInput(path), found->line);
     }
     found->id = CleanId(std::move(found->id));
     const auto before = ids_.Insert(found->id, {static_cast<int>(input_), found->line});

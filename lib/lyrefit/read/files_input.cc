@@ -146,7 +146,7 @@ std::string IdOfPath(const std::string& path) {
 
 bool IsReadOnce(const std::string& path) { return path == "-" || IsStream(path); }
 
-std::string StemOf(const std::string& path) {
+std::string StemOfInput(const std::string& path) {
   return IsReadOnce(path) ? "input" : fs::path(path).stem().string();
 }
 

@@ -67,8 +67,8 @@ void Count(const Row& truth, const Row& row, Tally* tally) {
     ++tally->first;
     return;
   }
-  const auto rivals = Words(At(row, "plan_equivalents"), " ");
-  const bool named = std::any_of(rivals.begin(), rivals.end(),
+  const auto alternatives = Words(At(row, "plan_equivalents"), " ");
+  const bool named = std::any_of(alternatives.begin(), alternatives.end(),
                                  [&](const std::string& name) { return right.count(name) > 0; });
   ++(named ? tally->in_set : tally->wrong);
   ++tally->instead[cause];

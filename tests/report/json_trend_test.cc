@@ -51,7 +51,7 @@ TEST(TrendJson, HoldsExactlyTheKeysOfTheContract) {
   EXPECT_EQ(Keys(j["quantities"][1]["steps"][0]),
             (Set{"date", "date_low", "date_high", "size", "p_value"}));
   EXPECT_EQ(Keys(j["quantities"][1]["onsets"][0]), Keys(j["quantities"][1]["steps"][0]));
-  EXPECT_EQ(Keys(j["onsets"][0]), (Set{"date", "date_low", "date_high", "quantity", "cause",
+  EXPECT_EQ(Keys(j["onsets"][0]), (Set{"date", "date_low", "date_high", "id", "quantity", "cause",
                                        "lost_percent", "sentence"}));
   EXPECT_EQ(Keys(j["loss"]), (Set{"energy_percent", "now_percent", "days"}));
   const Set parts = {"light", "resistance_series", "recombination", "shunt", "mismatch"};

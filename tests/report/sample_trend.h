@@ -90,8 +90,8 @@ inline TrendReport SampleTrend(int days) {
     }
   }
   report.onsets = {{"resistance_series", step.time_s, step.earliest_s, step.latest_s, 0.6,
-                    "a step of the series resistance",
-                    "a connector, a clamp or an interconnect changed. To do: check connectors."}};
+                    "step_series_resistance", "a step of the series resistance",
+                    "a connector, a clamp or an interconnect changed", "check connectors"}};
   report.verdict =
       "Since the reference the device gave 3.1 % (2.9 to 3.4) less energy than it "
       "would have given unchanged.";

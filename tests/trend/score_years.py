@@ -165,10 +165,10 @@ def sizes_of(truth, report, days):
 
 def true_loss(truth, report, part):
     """Loss over all days less that of a usual reference day, in % of the undamaged energy."""
-    if part == "total":
-        return sum(true_loss(truth, report, one) for one in PARTS[1:])
     if "reference_end" not in report or "daily" not in truth:
         return truth["loss"]["energy_percent"][part]
+    if part == "total":
+        return sum(true_loss(truth, report, one) for one in PARTS[1:])
     daily, end = truth["daily"], report["reference_end"][:10]
     days = [(date, whole, missing) for date, whole, missing
             in zip(daily["date"], daily["undamaged_Wh"], daily["lost_Wh"][part]) if whole > 0]

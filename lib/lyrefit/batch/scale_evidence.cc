@@ -87,7 +87,7 @@ ScaleVerdict JudgeScale(const ScaleVector& deviation, const ScaleErrors& errors,
   for (std::size_t i = 1; i < order.size(); ++i) {
     const bool named = order[i].second != ScaleCause::kSomethingElse;
     if (named && order[i].first < kRivalPart * order.front().first) {
-      verdict.rivals.push_back(order[i].second);
+      verdict.alternatives.push_back(order[i].second);
     }
   }
   double own = 0;

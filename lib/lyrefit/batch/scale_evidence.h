@@ -44,10 +44,10 @@ struct ScaleErrors {
 
 struct ScaleVerdict {
   ScaleCause cause = ScaleCause::kNone;
-  std::vector<ScaleCause> rivals;  // causes within reach of it, the most probable first
-  double probability = kUnknown;   // of the cause, against all others
-  double p_value = 1;              // of a healthy string
-  ScaleHypothesis mean;            // shift and size averaged over the sizes of the cause
+  std::vector<ScaleCause> alternatives;  // causes within reach of it, the most probable first
+  double probability = kUnknown;         // of the cause, against all others
+  double p_value = 1;                    // of a healthy string
+  ScaleHypothesis mean;                  // shift and size averaged over the sizes of the cause
 };
 
 // p-value of the deviation of a healthy string, corrected for the two tests: all quantities together

@@ -205,11 +205,11 @@ std::vector<ResultCell> CellsOf(const Judged& judged, const ScaleMember& member)
     cells.push_back(named ? TextCell(TextOf(verdict.cause).title) : ResultCell());
     cells.push_back(named ? TextCell(TextOf(verdict.cause).about) : ResultCell());
     cells.push_back(TextCell(SentenceOf(verdict.cause, size, judged.shared)));
-    cells.push_back(NamesCell(verdict.rivals));
+    cells.push_back(NamesCell(verdict.alternatives));
     std::vector<std::string> tests;
-    if (!verdict.rivals.empty()) tests.emplace_back(TextOf(verdict.cause).separate);
-    for (const ScaleCause rival : verdict.rivals) {
-      const std::string test = TextOf(rival).separate;
+    if (!verdict.alternatives.empty()) tests.emplace_back(TextOf(verdict.cause).separate);
+    for (const ScaleCause alternative : verdict.alternatives) {
+      const std::string test = TextOf(alternative).separate;
       if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
     }
     cells.push_back(ListCell(tests, "; "));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMostHealthy =
     0.05;  // probability of a healthy string in spite of which it is claimed
-constexpr double kRivalPart = 0.05;  // of the probability of the first cause
+constexpr double kAlternativePart = 0.05;  // of the probability of the first cause
 // Errors of the computed effects, in parts of them.
 constexpr double kShiftError = 0.05;
 constexpr double kLeastUnlikeType = 0.05;  // of Isc and Voc of another type, in parts of them
@@ -86,7 +86,7 @@ ScaleVerdict JudgeScale(const ScaleVector& deviation, const ScaleErrors& errors,
   if (verdict.cause == ScaleCause::kSomethingElse) return verdict;
   for (std::size_t i = 1; i < order.size(); ++i) {
     const bool named = order[i].second != ScaleCause::kSomethingElse;
-    if (named && order[i].first < kRivalPart * order.front().first) {
+    if (named && order[i].first < kAlternativePart * order.front().first) {
       verdict.alternatives.push_back(order[i].second);
     }
   }

@@ -83,7 +83,7 @@ class DateScanner {
 bool ReadDate(DateScanner* scan, Calendar* date) {
   std::array<int, 3> part{};
   int digits = 0;
-  if (!scan->Whole(&part[0], &digits)) return false;
+  if (!scan->Whole(part.data(), &digits)) return false;
   const char between = scan->Peek();
   if (between != '-' && between != '/' && between != '.') return false;
   if (!scan->Take(between) || !scan->Whole(&part[1])) return false;

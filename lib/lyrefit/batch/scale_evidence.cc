@@ -64,6 +64,7 @@ ScaleVerdict JudgeScale(const ScaleVector& deviation, const ScaleErrors& errors,
   verdict.p_value = HealthyPValue(deviation, errors);
   if (!(verdict.p_value < level)) return verdict;
   std::vector<double> logs;
+  logs.reserve(hypotheses.size());
   for (const ScaleHypothesis& one : hypotheses) {
     logs.push_back(std::log(one.prior) + LogDensity(deviation, errors, one));
   }

@@ -165,6 +165,7 @@ double Percent(double logarithm) { return 100 * std::expm1(logarithm); }
 
 ResultCell NamesCell(const std::vector<ScaleCause>& causes) {
   std::vector<std::string> names;
+  names.reserve(causes.size());
   for (const ScaleCause cause : causes) names.emplace_back(ToText(cause));
   return ListCell(names);
 }

@@ -89,7 +89,7 @@ TEST(PlanTask, AnotherPlanIsAnotherRun) {
   const auto plan = PlanOfEight(folder);
   ASSERT_TRUE(plan);
   const auto stopped =
-      RunOn(input, WithPlan(CountTask(), plan), Into(folder.Path("out")), StopAfter(5));
+      RunOn(input, WithPlan(CountTask(), plan), Into(folder.Path("out"), 1), StopAfter(5));
   ASSERT_TRUE(stopped);
   BatchOptions again = Into(folder.Path("out"));
   again.start = BatchStart::kResume;

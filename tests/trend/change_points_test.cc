@@ -106,7 +106,8 @@ TEST(FitChanges, FindsAStepAmongErrorsThatDaysShare) {
 }
 
 TEST(FitChanges, RaisesNoMoreFalseAlarmsThanTheLevel) {
-  const int draws = Repeats(300);
+  SKIP_IF_SANITIZED();  // a tenth of the draws says nothing of a rate of one in twenty
+  const int draws = 300;
   const double level = 0.05;
   EXPECT_LE(FalseAlarms({1, 0, 0}, level, draws), MostAlarms(level, draws));
 }
@@ -114,7 +115,8 @@ TEST(FitChanges, RaisesNoMoreFalseAlarmsThanTheLevel) {
 // The sizes of the errors are those of the fit that has the change, which takes over a part of what
 // days share: the level is kept by independent errors only.
 TEST(FitChanges, RaisesAtMostSixTimesTheLevelWhereDaysShareErrors) {
-  const int draws = Repeats(300);
+  SKIP_IF_SANITIZED();  // a tenth of the draws says nothing of a rate of one in twenty
+  const int draws = 300;
   const double level = 0.05;
   EXPECT_LE(FalseAlarms({0.7, 0.7, 4}, level, draws), MostAlarms(6 * level, draws));
 }

@@ -30,7 +30,9 @@ constexpr char kTrendFooter[] =
     "in\n"
     "any shape that batch reads.\n"
     "\n"
-    "Exit codes: 0 fine, 1 bad input or options, 130 stopped by Ctrl-C.";
+    "Exit codes: 0 fine, 1 bad input or options, 130 stopped by Ctrl-C (the sweeps read so far "
+    "are\n"
+    "judged, or appended).";
 
 struct TrendRequest {
   std::vector<std::string> inputs;
@@ -127,7 +129,7 @@ Expected<int> AppendToState(VerbLine& verb, const TrendRequest& request) {
   }
   text += fmt::format("{} of {} appended to {}\n", written, series.rows.size(), request.state_file);
   TRY(WriteText(verb, [&] { return text; }));
-  return kExitFine;
+  return series.interrupted ? kExitInterrupted : kExitFine;
 }
 
 Expected<int> RunTrend(VerbLine& verb, TrendRequest& request) {

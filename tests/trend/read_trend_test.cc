@@ -8,6 +8,7 @@
 
 #include "error_of.h"
 #include "lyrefit/estimate/family/read_pvlib.h"
+#include "lyrefit/trend/trend.h"
 #include "temp_folder.h"
 #include "trend/sweeps_text.h"
 
@@ -158,6 +159,28 @@ TEST(ReadTrend, CountsSweepsThatCannotBeReadWithTheReason) {
     EXPECT_EQ(DateText(row.time_s), "2025-03-30");
   }
   EXPECT_EQ(unusable, 4);
+}
+
+TEST(ReadTrend, KeepsTheSweepsReadBeforeAStop) {
+  const TempFolder folder;
+  MadeYear year;
+  year.days = 30;
+  year.per_day = 4;
+  year.points = 20;
+  const std::string path = folder.Write("a.csv", SweepsText(MakeSweeps(MadeDevice(), year)));
+  const Observer stop = [](const Progress& progress) {
+    return progress.iteration >= 60 ? ObserverAction::kStop : ObserverAction::kContinue;
+  };
+  const auto series = ReadTrend({path}, {}, TrendOptions(), stop);
+  ASSERT_TRUE(series) << series.error().ToString();
+  EXPECT_TRUE(series->interrupted);
+  EXPECT_EQ(series->rows.size(), 60U);
+  const auto report = FindTrend(*series, TrendOptions(), stop);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_TRUE(report->interrupted);
+  EXPECT_EQ(report->rows, 60);
+  ASSERT_FALSE(report->warnings.empty());
+  EXPECT_THAT(report->warnings.front(), HasSubstr("of the first 60 measurements"));
 }
 
 TEST(ReadTrend, OrderOfTheSweepsDoesNotMatter) {

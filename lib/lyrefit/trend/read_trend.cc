@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_set.h"
 #include "lyrefit/read/date_time.h"
@@ -146,13 +147,17 @@ Expected<void> ReadSet(const std::string& input, const TrendReadOptions& reading
   return {};
 }
 
-Expected<void> ReadStream(const std::vector<std::string>& inputs, const TrendReadOptions& reading,
+// Returns whether it was stopped.
+Expected<bool> ReadStream(const std::vector<std::string>& inputs, const TrendReadOptions& reading,
                           const ProgressReporter& progress, SeriesReader* reader) {
   TRY(const auto source, OpenBatch(inputs, reading.reading));
   while (true) {
-    TRY(const std::optional<BatchItem> item, source->Next());
-    if (!item) return {};
+    const Expected<std::optional<BatchItem>> next = source->Next();
+    if (!next && StoppableReads::Stopped()) return true;
+    TRY(const std::optional<BatchItem> item, next);
+    if (!item) return false;
     BatchCurve read = source->Read(*item);
+    if (!read.curve && StoppableReads::Stopped()) return true;
     const Expected<double> time = TimeOf(read.beside, read.id, item->where);
     if (!read.curve) {
       reader->TakeBroken(time.value_or(kUnknown), read.curve.error().message);
@@ -160,7 +165,7 @@ Expected<void> ReadStream(const std::vector<std::string>& inputs, const TrendRea
     }
     if (!time) return tl::unexpected(time.error());
     TRY(reader->Take(std::move(*read.curve), *time));
-    if (progress.Step()) return Fail("interrupted");
+    if (progress.Step()) return true;
   }
 }
 
@@ -186,8 +191,12 @@ Expected<TrendSeries> ReadTrend(const std::vector<std::string>& inputs,
       streams.push_back(input);
     }
   }
-  if (!streams.empty()) TRY(ReadStream(streams, reading, progress, &reader));
+  bool stopped = false;
+  if (!streams.empty()) {
+    TRY(stopped, ReadStream(streams, reading, progress, &reader));
+  }
   TRY(TrendSeries series, reader.End());
+  series.interrupted = stopped;
   if (series.name.empty()) series.name = NameOfInput(inputs);
   return series;
 }

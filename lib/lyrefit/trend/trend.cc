@@ -58,7 +58,9 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   report.version = Version();
   report.seed = options.seed;
   report.options = NonDefaults(options, kTrendOptionTable);
-  const ProgressReporter progress(observer, "trend", 2);
+  report.interrupted = series.interrupted;
+  const Observer nobody;  // a series whose reading was stopped is judged as far as it goes
+  const ProgressReporter progress(series.interrupted ? nobody : observer, "trend", 2);
   std::vector<TrendRow> rows = series.rows;
   if (series.source == TrendSource::kOperatingPoints) {
     ReduceOperatingPoints(*series.device, options, &rows);

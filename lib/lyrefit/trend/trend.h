@@ -24,7 +24,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 //    series resistance, recombination, shunt and mismatch take: shares by Shapley, which add up.
 //
 // Errors: fewer than five days (or blocks of a shorter series) with usable measurements; options
-// outside their ranges; the observer stops it.
+// outside their ranges; the observer stops it (a series whose reading was stopped is judged without
+// the observer, as far as it goes).
 Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& options = {},
                                 const Observer& observer = {});
 

@@ -29,6 +29,7 @@ struct TrendSeries {
   std::shared_ptr<const TrendDevice> device;  // the law that they are reduced by
   std::string law;                            // where it is from, in a few words
   std::vector<TrendRow> rows;                 // one for each measurement
+  bool interrupted = false;                   // reading was stopped: the first ones only
 };
 
 // A series without rows and name, by the law of a module file. Errors: a module with two diodes.

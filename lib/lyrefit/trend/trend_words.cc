@@ -95,6 +95,10 @@ void AddWords(TrendReport* report) {
       report->not_decided.push_back(fmt::format("{}: {}.", quantity.title, quantity.missing));
     }
   }
+  if (report->interrupted) {
+    report->warnings.push_back(
+        fmt::format("Interrupted: what follows is of the first {} measurements.", report->rows));
+  }
   const std::int64_t unusable = report->states[static_cast<int>(TrendRowState::kUnusable)];
   if (unusable * 5 > report->rows) {
     report->warnings.push_back(

@@ -112,8 +112,8 @@ void PlantLossCounter::Add(const std::string& id, const ResultRow& row) {
   if (!known || !(power_W > 0)) return;
   AddLoss(percents, power_W, NumberAt(row, now_), &summary_.plant);
   const std::string parent = ParentOf(id);
-  const bool room = summary_.groups.size() < kPlantMostNodes || summary_.groups.count(parent) > 0;
-  if (!parent.empty() && room) {
+  const bool fits = summary_.groups.size() < kPlantMostNodes || summary_.groups.count(parent) > 0;
+  if (!parent.empty() && fits) {
     AddLoss(percents, power_W, NumberAt(row, now_), &summary_.groups[parent]);
   }
 }

@@ -35,8 +35,8 @@ ScaleVector Difference(const ScaleVector& one, const ScaleVector& other);
 StringFigures FiguresByPlan(const PlannedString& line, double irradiance_W_m2,
                             double temperature_K);
 
-// A whole string as one diode without a shunt, for the effect of faults on its figures. Only differences between
-// its figures are used, so that a typical ideality suffices.
+// A whole string as one diode without a shunt, for the effect of faults on its figures. Only
+// differences between its figures are used, so that a typical ideality suffices.
 class ScaleDevice {
  public:
   // `cells`: in series; a number that does not go with Voc is replaced. `temperature_K`: NaN is 25 C.

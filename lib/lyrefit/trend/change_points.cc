@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kLeastDays = 10;        // on each side of a change
 constexpr std::size_t kMostCandidates = 400;  // days that are tried
-constexpr double kYear_days = 365.25;
 
 struct ChangeCandidate {
   ChangeKind kind;
@@ -36,15 +35,7 @@ std::vector<ChangeCandidate> CandidatesOf(const TimeSeries& series,
 }
 
 Eigen::VectorXd ColumnOf(const TimeSeries& series, const ChangeCandidate& candidate) {
-  const std::size_t n = series.days.size();
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-  for (std::size_t i = candidate.first; i < n; ++i) {
-    column[static_cast<Eigen::Index>(i)] =
-        candidate.kind == ChangeKind::kStep
-            ? 1
-            : (series.days[i] - series.days[candidate.first] + 0.5) / kYear_days;
-  }
-  return column;
+  return ChangeColumn(series, candidate.kind, series.days[candidate.first]);
 }
 
 Eigen::MatrixXd WithColumn(const Eigen::MatrixXd& design, const Eigen::VectorXd& column) {
@@ -118,20 +109,22 @@ double ChanceOf(const ChangeScan& scan, Eigen::Index days, double gain,
   return (1.0 + above) / (1.0 + options.draws);
 }
 
-TimeSeries WithSpread(const TimeSeries& series, const TimeFit& fit) {
+// The candidates under the errors of a fit, and their gains.
+struct ScannedChanges {
+  ChangeScan scan;
+  Eigen::VectorXd gains;
+};
+
+ScannedChanges ScanUnder(const TimeFit& fit, const TimeSeries& series,
+                         const Eigen::MatrixXd& design,
+                         const std::vector<ChangeCandidate>& candidates) {
   TimeSeries own = series;
   own.spread = fit.spread;
-  return own;
-}
-
-Eigen::VectorXd GainsUnder(const TimeFit& fit, const TimeSeries& series,
-                           const Eigen::MatrixXd& design,
-                           const std::vector<ChangeCandidate>& candidates, ChangeScan* scan) {
-  const TimeSeries own = WithSpread(series, fit);
-  *scan = ChangeScan(fit.noise, own, design, candidates);
+  ScannedChanges out = {ChangeScan(fit.noise, own, design, candidates), {}};
   const Eigen::MatrixXd values =
       Eigen::Map<const Eigen::VectorXd>(series.values.data(), design.rows());
-  return scan->Gains(Whiten(fit.noise, own, values));
+  out.gains = out.scan.Gains(Whiten(fit.noise, own, values));
+  return out;
 }
 
 // The days whose gain is so near the largest that the likelihood does not exclude them. The sum of
@@ -156,6 +149,17 @@ void FindRange(const TimeSeries& series, const std::vector<ChangeCandidate>& can
 
 }  // namespace
 
+Eigen::VectorXd ChangeColumn(const TimeSeries& series, ChangeKind kind, double day) {
+  constexpr double kRounding_days = 1e-6;  // `day` may come from a time in seconds
+  Eigen::VectorXd column(static_cast<Eigen::Index>(series.days.size()));
+  for (Eigen::Index i = 0; i < column.size(); ++i) {
+    const double after = series.days[static_cast<std::size_t>(i)] - day;
+    const double value = kind == ChangeKind::kStep ? 1 : (after + 0.5) / kYear_days;
+    column[i] = after >= -kRounding_days ? value : 0;
+  }
+  return column;
+}
+
 ChangingSeries FitChanges(const TimeSeries& series, const Eigen::MatrixXd& design,
                           const ChangeOptions& options) {
   ChangingSeries out;
@@ -164,26 +168,26 @@ ChangingSeries FitChanges(const TimeSeries& series, const Eigen::MatrixXd& desig
   while (static_cast<int>(out.changes.size()) < options.most) {
     const std::vector<ChangeCandidate> candidates = CandidatesOf(series, out.changes);
     if (candidates.empty()) break;
-    ChangeScan scan(out.fit.noise, WithSpread(series, out.fit), out.design, candidates);
-    Eigen::VectorXd gains = GainsUnder(out.fit, series, out.design, candidates, &scan);
+    ScannedChanges found = ScanUnder(out.fit, series, out.design, candidates);
     // The errors with the best change in the regression, and the best change under these errors.
     TimeFit with;
     Eigen::Index best = 0;
     for (int round = 0; round < 2; ++round) {
-      gains.maxCoeff(&best);
+      found.gains.maxCoeff(&best);
       const Eigen::VectorXd column = ColumnOf(series, candidates[static_cast<std::size_t>(best)]);
       with = FitTime(series, WithColumn(out.design, column));
-      gains = GainsUnder(with, series, out.design, candidates, &scan);
+      found = ScanUnder(with, series, out.design, candidates);
     }
-    gains.maxCoeff(&best);
+    found.gains.maxCoeff(&best);
     ChangePoint change;
-    change.p_value = ChanceOf(scan, design.rows(), gains[best], options, out.changes.size());
+    change.p_value =
+        ChanceOf(found.scan, design.rows(), found.gains[best], options, out.changes.size());
     if (change.p_value > options.level) break;
     const auto at = static_cast<std::size_t>(best);
     change.kind = candidates[at].kind;
     change.day = series.days[candidates[at].first];
     change.column = static_cast<int>(out.design.cols());
-    FindRange(series, candidates, gains, scan.degrees(), at, &change);
+    FindRange(series, candidates, found.gains, found.scan.degrees(), at, &change);
     out.design = WithColumn(out.design, ColumnOf(series, candidates[at]));
     out.fit = FitTime(series, out.design);
     out.changes.push_back(change);

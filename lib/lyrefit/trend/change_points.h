@@ -45,6 +45,10 @@ struct ChangingSeries {
   std::vector<ChangePoint> changes;  // in the order in which they were found
 };
 
+// The column of a change that begins on a day of the series: 1 from then on, or the years since the
+// middle of the day before; 0 earlier. Shape: days.
+Eigen::VectorXd ChangeColumn(const TimeSeries& series, ChangeKind kind, double day);
+
 // Adds steps and onsets to a regression as long as they lower the sum of squares more than all but
 // `level` of series without a change do. These are drawn from the errors of the fit that has the
 // change: n normal deviates, whitened residuals and the largest gain over all days and kinds. A

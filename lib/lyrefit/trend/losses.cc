@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/trend/change_points.h"
 #include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/quantities.h"
 
@@ -35,12 +36,9 @@ Eigen::MatrixXd WithChanges(const TrendBlocks& blocks, const TimeSeries& series,
   Eigen::MatrixXd wider(design.rows(), design.cols() + static_cast<Eigen::Index>(changes.size()));
   wider.leftCols(design.cols()) = design;
   for (std::size_t c = 0; c < changes.size(); ++c) {
+    const ChangeKind kind = changes[c].onset ? ChangeKind::kOnset : ChangeKind::kStep;
     const double day = (changes[c].time_s - blocks.time_s.front()) / kDay_s;
-    for (Eigen::Index i = 0; i < design.rows(); ++i) {
-      const double after = series.days[static_cast<std::size_t>(i)] - day;
-      const double value = changes[c].onset ? (after + 0.5) / kYear_days : 1;
-      wider(i, design.cols() + static_cast<Eigen::Index>(c)) = after >= 0 ? value : 0;
-    }
+    wider.col(design.cols() + static_cast<Eigen::Index>(c)) = ChangeColumn(series, kind, day);
   }
   return wider;
 }
@@ -76,8 +74,8 @@ double CleanReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {
 }
 
 // The mean of a part over blocks with these weights. It is 0 over the reference blocks, whose errors
-// count too. The errors of days count, and those that neighbouring days share where the part does not change from
-// day to day itself, as light and snow do.
+// count too. The errors of days count; those that neighbouring days share count where the part does
+// not itself change from day to day, as light and snow do.
 Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
                 const std::vector<double>& weights, const std::vector<TrendChange>& changes,
                 bool changes_daily, double drift_per_year, double model_error) {
@@ -121,8 +119,7 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
   const double drift = drift_per_year * (mean_day - first_day) / kYear_days;
   const double error =
       std::hypot(std::sqrt(std::max(variance, 0.0)), std::hypot(drift, model_error));
-  const Ranged ranged = RangedOf(value, error, fit.t_95());
-  return ranged;
+  return RangedOf(value, error, fit.t_95());
 }
 
 }  // namespace

@@ -25,10 +25,11 @@ struct TrendReadOptions {
   std::function<Expected<void>(IvCurve* curve)> prepare;
 };
 
-// Reads sweeps of one device in constant memory but for the sweeps of the reference days (if the
-// law is theirs; all sweeps, if they are not in order of time) and a row of numbers each: in any shape of batch_source.h, each with the time of
-// its measurement under date, timestamp, time, datetime or tmst, as a text of read/date_time.h; or,
-// in a folder tree, with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv").
+// Reads sweeps of one device, in any shape of batch_source.h, each with the time of its measurement
+// under date, timestamp, time, datetime or tmst, as a text of read/date_time.h; or, in a folder tree,
+// with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv"). Keeps a row of
+// numbers for each; the sweeps themselves only of the reference days, if the law is theirs (all, if
+// they are not in order of time).
 // A sweep that cannot be read is an unusable row with the reason. An observer that stops the reading
 // gets the series of the sweeps read so far. Errors: those of the source; a sweep without a time; no
 // law.

@@ -14,7 +14,8 @@ namespace lyrefit {
 constexpr int kConditionFeatures = 5;
 using Features = std::array<double, kConditionFeatures>;
 
-// t = (T - 25 C) / 10 K, ln g, (ln g)^2, t ln g, t^2 for the light g on the device, as a part of 1000 W/m2.
+// t = (T - 25 C) / 10 K, ln g, (ln g)^2, t ln g, t^2 for the light g on the device, as a part of
+// 1000 W/m2.
 Features FeaturesAt(double light, double temperature_C);
 
 // The sum of coefficients times features.

@@ -10,12 +10,13 @@ namespace lyrefit {
 //   y_i = X_i b + u_i + e_i
 // u is a first-order autoregressive process in continuous time, with correlation
 // exp(-ln 2 |t_i - t_j| / half_life) between days, so that gaps need no filling; e is independent,
-// with a variance that falls with the
-// number of measurements of the day, 1 + k / count. The Kalman filter of this state whitens the
-// series and the columns of X in linear time (Harvey 1989, "Forecasting, Structural Time Series
-// Models and the Kalman Filter", 3.4). Sizes and half-life maximise the restricted likelihood on a
-// grid. Days far from the regression get a larger spread (Huber's weights), so that they do not
-// steer it.
+// with a variance that falls with the number of measurements of the day, 1 + k / count. The Kalman
+// filter of this state whitens the series and the columns of X in linear time (Harvey 1989,
+// "Forecasting, Structural Time Series Models and the Kalman Filter", 3.4). Sizes and half-life
+// maximise the restricted likelihood on a grid. Days far from the regression get a larger spread
+// (Huber's weights), so that they do not steer it.
+
+constexpr double kYear_days = 365.25;
 
 // Sizes of the errors of a series.
 struct NoiseModel {

@@ -36,8 +36,8 @@ struct TrendSeries {
 Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource source,
                                      const TrendOptions& options);
 
-// A series without rows and name, by the law of a device's own sweeps: medians of fits with n free of up to
-// sixty of the brighter ones among the reference days. Errors: no sweep that a single diode
+// A series without rows and name, by the law of a device's own sweeps: medians of fits with n free
+// of up to sixty of the brighter ones among the reference days. Errors: no sweep that a single diode
 // describes.
 Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                                      const TrendOptions& options);

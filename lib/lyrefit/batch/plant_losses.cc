@@ -20,15 +20,20 @@ using NamedLosses = std::pair<std::string, PlantLosses>;
 
 void AddLoss(const std::vector<double>& percents, double weight, double now_percent,
              PlantLosses* to) {
+  to->weights.resize(kAllParts, 0);
   to->parts.resize(kAllParts, 0);
   ++to->rows;
-  to->weight += weight;
-  for (std::size_t p = 0; p < kAllParts; ++p) to->parts[p] += weight * percents[p];
+  for (std::size_t p = 0; p < kAllParts; ++p) {
+    if (!std::isfinite(percents[p])) continue;
+    to->weights[p] += weight;
+    to->parts[p] += weight * percents[p];
+  }
   if (std::isfinite(now_percent)) to->lost_W += weight * now_percent / 100;
 }
 
+// Mean of the strings that tell the part; NaN: none does.
 double Percent(const PlantLosses& losses, std::size_t part) {
-  return losses.parts[part] / losses.weight;
+  return losses.parts[part] / losses.weights[part];
 }
 
 // The groups that lose most, the worst first.
@@ -79,7 +84,8 @@ Panel LossBars(const std::vector<NamedLosses>& groups) {
 block::Table::Row LossRow(const std::string& name, const PlantLosses& losses) {
   block::Table::Row row = {name, Counted(losses.rows)};
   for (std::size_t part = 0; part < kAllParts; ++part) {
-    row.push_back(fmt::format("{:.2f}", Percent(losses, part)));
+    const double percent = Percent(losses, part);
+    row.push_back(std::isfinite(percent) ? fmt::format("{:.2f}", percent) : "not told");
   }
   row.push_back(fmt::format("{:.0f}", losses.lost_W));
   return row;
@@ -106,10 +112,8 @@ void PlantLossCounter::Add(const std::string& id, const ResultRow& row) {
   if (places_.empty()) return;
   std::vector<double> percents;
   for (const std::size_t at : places_) percents.push_back(NumberAt(row, at));
-  const bool known = std::all_of(percents.begin(), percents.end(),
-                                 [](double percent) { return std::isfinite(percent); });
   const double power_W = NumberAt(row, power_);
-  if (!known || !(power_W > 0)) return;
+  if (!std::isfinite(percents.back()) || !(power_W > 0)) return;
   AddLoss(percents, power_W, NumberAt(row, now_), &summary_.plant);
   const std::string parent = ParentOf(id);
   const bool fits = summary_.groups.size() < kPlantMostNodes || summary_.groups.count(parent) > 0;

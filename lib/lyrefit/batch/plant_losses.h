@@ -11,10 +11,12 @@ namespace lyrefit {
 
 // Energy that trends say is lost, summed over a group of strings.
 struct PlantLosses {
-  std::int64_t rows = 0;      // strings whose losses are known
-  double weight = 0;          // sum of their reference powers in W; of ones without these
-  std::vector<double> parts;  // sums of weight times percent, by part, then in total
-  double lost_W = 0;          // of the last days, at standard conditions
+  std::int64_t rows = 0;  // strings whose total loss is known
+  // Sums over the strings that tell a part, by part, then of the total: of their reference powers in
+  // W, and of these times percent. Operating points do not tell the shunt's.
+  std::vector<double> weights;
+  std::vector<double> parts;
+  double lost_W = 0;  // of the last days, at standard conditions
 };
 
 // Losses of all strings, and of the groups of those with the same parent.

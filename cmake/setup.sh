@@ -3,6 +3,7 @@
 # the same package names); the rest of a machine's set-up is done here.
 
 LYREFIT_ROOT=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+LYREFIT_SOURCES=$LYREFIT_ROOT/build-sources
 
 Say() { printf '\n== %s\n' "$*"; }
 
@@ -29,6 +30,7 @@ PackagesFor() {
     pages) Unless node nodejs; Unless npm npm; Unless chromium chromium ;;  # what pages embed, a browser to test them
     reference) echo doxygen python3 ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
+    wheel) echo python3-build python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
     bare) echo debootstrap ;;  # a system to try packages in
     web) echo emscripten ;;  # the library in a browser; its other parts are compiled from Debian's sources
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;
@@ -100,4 +102,37 @@ Build() {
 RunTests() {
   Say "Testing $1"
   ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
+}
+
+# Where this machine's Debian packages come from, asked for sources: its own lists stay as they are.
+SourceLists() {
+  local suite file
+  suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [[ ! -f $file ]] || awk -v suite="$suite" -v RS= -v ORS='\n\n' \
+      '$0 ~ "(^|\n)Suites:[^\n]* " suite "(-[a-z]+)?( |\n|$)" { gsub(/(^|\n)Types:[^\n]*/, "\nTypes: deb-src"); print }' "$file"
+  done > "$1/these.sources"
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [[ ! -f $file ]] || sed -nE "/^deb .* $suite(-[a-z]+)?( |$)/s/^deb /deb-src /p" "$file"
+  done > "$1/these.list"
+}
+
+# FetchSources PACKAGE...: Debian's sources of libraries that are linked into what is given to others, unpacked in
+# LYREFIT_SOURCES.
+FetchSources() {
+  local missing=() package
+  for package; do
+    compgen -G "$LYREFIT_SOURCES/$package-[0-9]*/" > /dev/null || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  Say "Fetching the Debian sources of ${missing[*]}"
+  mkdir -p "$LYREFIT_SOURCES/apt/lists/partial" "$LYREFIT_SOURCES/apt/cache/archives/partial" "$LYREFIT_SOURCES/apt/parts"
+  SourceLists "$LYREFIT_SOURCES/apt/parts"
+  local apt=(apt-get -qq -o Acquire::Retries=3 -o Dir::Etc::sourcelist=/dev/null
+    -o "Dir::Etc::sourceparts=$LYREFIT_SOURCES/apt/parts" -o "Dir::State::lists=$LYREFIT_SOURCES/apt/lists"
+    -o "Dir::Cache=$LYREFIT_SOURCES/apt/cache" -o APT::Sandbox::User=root)
+  "${apt[@]}" update || Die "no Debian sources are to be had where this machine's packages come from"
+  (cd "$LYREFIT_SOURCES" && "${apt[@]}" source --only-source "${missing[@]}" > fetched.log 2>&1) ||
+    Die "apt-get source failed: $(tail -n 3 "$LYREFIT_SOURCES/fetched.log")"
+  rm -rf "$LYREFIT_SOURCES/apt"
 }

@@ -10,6 +10,7 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "output.h"
+#include "program.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -63,13 +64,16 @@ int Main(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace lyrefit
 
-int main(int argc, char** argv) {
+int RunProgram(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file-size limit becomes a write error
   try {
-    return lyrefit::Main(argc, argv);
+    return Main(argc, argv);
   } catch (const std::exception& error) {  // such as out of memory
-    return lyrefit::Refuse({error.what(), {}});
+    return Refuse({error.what(), {}});
   }
 }
+
+}  // namespace lyrefit
+
+int main(int argc, char** argv) { return lyrefit::RunProgram(argc, argv); }

@@ -24,5 +24,6 @@ void BindCertify(py::module_* module);
 void BindStudy(py::module_* module);
 void BindEffects(py::module_* module);
 void BindPvlib(py::module_* module);
+void BindCommand(py::module_* module);  // in wheels only
 
 }  // namespace lyrefit::python

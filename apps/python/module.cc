@@ -35,6 +35,9 @@ PYBIND11_MODULE(_lyrefit, module) {
   BindCertify(&module);
   BindStudy(&module);
   BindPvlib(&module);
+#ifdef LYREFIT_WHEEL
+  BindCommand(&module);
+#endif
 }
 
 }  // namespace lyrefit::python

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# Makes the archive of sources and, of it, a wheel of the Python package that needs no library beside it but the C library:
+# Debian's sources of the others are compiled into it. Both land in build-wheel/dist; the time in them is the last
+# commit's unless SOURCE_DATE_EPOCH says another.
+#   cmake/wheel.sh            (PYTHON=/usr/bin/python3 for another interpreter, which needs pip, build, setuptools, wheel
+#                             and pybind11)
+set -euo pipefail
+source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
+
+readonly FOLDER=$LYREFIT_ROOT/build-wheel
+readonly LIBRARIES=$FOLDER/libraries # of the static libraries, with their headers
+PYTHON=${PYTHON:-/usr/bin/python3}
+
+# Source PACKAGE: its folder.
+Source() { compgen -G "$LYREFIT_SOURCES/$1-[0-9]*/"; }
+
+# ByCMake PACKAGE FILE OPTION...: installs a library by its own CMake files, unless FILE is there.
+ByCMake() {
+  [[ ! -f $LIBRARIES/$2 ]] || return 0
+  Say "Building $1"
+  cmake -S "$(Source "$1")" -B "$FOLDER/$1" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$LIBRARIES" \
+    -DCMAKE_INSTALL_PREFIX="$LIBRARIES" -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
+    -DCMAKE_POSITION_INDEPENDENT_CODE=ON "${@:3}" > "$FOLDER/$1.log" 2>&1 &&
+    cmake --build "$FOLDER/$1" --target install >> "$FOLDER/$1.log" 2>&1 || Die "$1: $(tail -n 20 "$FOLDER/$1.log")"
+}
+
+# ByHand PACKAGE LIBRARY HEADERS SOURCES: a library of a few files of C.
+ByHand() (
+  [[ ! -f $LIBRARIES/lib/$2 ]] || return 0
+  Say "Building $1"
+  mkdir -p "$FOLDER/$1" "$LIBRARIES/lib" "$LIBRARIES/include"
+  cd -- "$(Source "$1")"
+  local file
+  for file in $4; do cc -O2 -fPIC -fvisibility=hidden -DHAVE_UNISTD_H -I. -c "$file" -o "$FOLDER/$1/${file%.c}.o"; done
+  cp $3 "$LIBRARIES/include"
+  ar rcs "$LIBRARIES/lib/$2" "$FOLDER/$1"/*.o
+)
+
+# Licences of all that is in the wheel: those of Debian's packages.
+Licences() {
+  local package file
+  for package in ceres-solver fmtlib google-glog libcsv zlib; do
+    printf '==== %s ====\n\n' "$package"
+    cat "$(Source "$package")/debian/copyright"
+  done
+  for package in libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libexpected-dev pybind11-dev libstdc++-12-dev; do
+    file=/usr/share/doc/$package/copyright
+    [[ ! -f $file ]] || { printf '\n==== %s ====\n\n' "$package"; cat "$file"; }
+  done
+  for file in "$LYREFIT_BUILD"/page_parts/node_modules/{plotly.js-basic-dist-min,tabulator-tables}/LICENSE; do
+    [[ ! -f $file ]] || { printf '\n==== %s ====\n\n' "$(basename "$(dirname "$file")")"; cat "$file"; }
+  done
+}
+
+InstallPackages build python pages wheel
+cd -- "$LYREFIT_ROOT"
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
+export SOURCE_DATE_EPOCH
+FetchSources ceres-solver google-glog fmtlib libcsv zlib
+mkdir -p "$FOLDER/dist"
+
+ByHand zlib libz.a "zlib.h zconf.h" "$(cd "$(Source zlib)" && echo *.c)"
+ByHand libcsv libcsv.a csv.h libcsv.c
+ByCMake fmtlib lib/libfmt.a -DFMT_TEST=OFF -DFMT_DOC=OFF
+ByCMake google-glog lib/libglog.a -DWITH_GFLAGS=OFF -DWITH_UNWIND=OFF -DWITH_GTEST=OFF -DWITH_PKGCONFIG=OFF
+ByCMake ceres-solver lib/libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF -DCUDA=OFF \
+  -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD=ON \
+  -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+
+Say "The archive of sources"
+rm -rf "$FOLDER"/dist/* "$FOLDER/unpacked"
+"$PYTHON" -m build --sdist --no-isolation --outdir "$FOLDER/dist" apps/python > "$FOLDER/sdist.log" 2>&1 ||
+  Die "no archive: $(tail -n 20 "$FOLDER/sdist.log")"
+mkdir -p "$FOLDER/unpacked"
+tar -xzf "$FOLDER"/dist/lyrefit-*.tar.gz -C "$FOLDER/unpacked" --strip-components 1
+
+Say "The wheel of it"
+LYREFIT_BUILD=$FOLDER/$("$PYTHON" -c 'import sys; print(sys.implementation.cache_tag)')
+mkdir -p "$LYREFIT_BUILD"
+Modules "$LYREFIT_ROOT/cmake/page_parts" "$LYREFIT_BUILD/page_parts"
+LYREFIT_LICENCES=$FOLDER/licences.txt
+Licences > "$LYREFIT_LICENCES"
+export LYREFIT_BUILD LYREFIT_LICENCES
+export CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$LIBRARIES -DZLIB_USE_STATIC_LIBS=ON \
+  '-DCMAKE_MODULE_LINKER_FLAGS=-static-libstdc++ -static-libgcc'"
+"$PYTHON" -m build --wheel --no-isolation --outdir "$FOLDER/dist" "$FOLDER/unpacked" > "$FOLDER/wheel.log" 2>&1 ||
+  Die "no wheel: $(tail -n 20 "$FOLDER/wheel.log")"
+
+# The name says which C library it needs at least; nothing but that one may be needed.
+module=$(compgen -G "$LYREFIT_BUILD/apps/python/lyrefit/_lyrefit.*.so")
+needed=$(objdump -p "$module" | awk '$1 == "NEEDED" { print $2 }')
+beyond=$(grep -vxE 'lib(c|m)\.so\.6|ld-linux-[a-z0-9-]+\.so\.[0-9]|linux-vdso\.so\.1' <<< "$needed" || true)
+[[ -z $beyond ]] || Die "the module needs libraries that a machine may lack: $beyond"
+libc=$(objdump -T "$module" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
+wheel=$(compgen -G "$FOLDER/dist/lyrefit-*-linux_*.whl")
+rm -rf "$FOLDER/tagged"
+"$PYTHON" -m wheel unpack --dest "$FOLDER/tagged" "$wheel" > /dev/null
+libc=${libc#GLIBC_}
+sed -i "s/^Tag: \(.*\)-linux_/Tag: \1-manylinux_${libc/./_}_/" "$FOLDER"/tagged/lyrefit-*/lyrefit-*.dist-info/WHEEL
+"$PYTHON" -m wheel pack --dest-dir "$FOLDER/dist" "$FOLDER"/tagged/lyrefit-* > /dev/null
+rm "$wheel"
+Say "What there is"
+stat -c '%s bytes: %n' "$FOLDER"/dist/*

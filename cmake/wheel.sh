@@ -14,25 +14,26 @@ PYTHON=${PYTHON:-/usr/bin/python3}
 # Source PACKAGE: its folder.
 Source() { compgen -G "$LYREFIT_SOURCES/$1-[0-9]*/"; }
 
-# ByCMake PACKAGE FILE OPTION...: installs a library by its own CMake files, unless FILE is there.
+# ByCMake PACKAGE LIBRARY OPTION...: installs a library by its own CMake files, unless it is there.
 ByCMake() {
-  [[ ! -f $LIBRARIES/$2 ]] || return 0
+  [[ ! -f $LIBRARIES/lib/$2 ]] || return 0
   Say "Building $1"
-  cmake -S "$(Source "$1")" -B "$FOLDER/$1" -G Ninja -Wno-dev -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$LIBRARIES" \
-    -DCMAKE_INSTALL_PREFIX="$LIBRARIES" -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
-    -DCMAKE_POSITION_INDEPENDENT_CODE=ON "${@:3}" > "$FOLDER/$1.log" 2>&1 &&
-    cmake --build "$FOLDER/$1" --target install >> "$FOLDER/$1.log" 2>&1 || Die "$1: $(tail -n 20 "$FOLDER/$1.log")"
+  local options=(-Wno-dev -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=$LIBRARIES" "-DCMAKE_INSTALL_PREFIX=$LIBRARIES"
+    -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON)
+  {
+    cmake -S "$(Source "$1")" -B "$FOLDER/$1" -G Ninja "${options[@]}" "${@:3}"
+    cmake --build "$FOLDER/$1" --target install
+  } > "$FOLDER/$1.log" 2>&1 || Die "$1: $(tail -n 20 "$FOLDER/$1.log")"
 }
 
-# ByHand PACKAGE LIBRARY HEADERS SOURCES: a library of a few files of C.
+# ByHand PACKAGE LIBRARY FILE...: a library of a few files of C, unless it is there.
 ByHand() (
   [[ ! -f $LIBRARIES/lib/$2 ]] || return 0
   Say "Building $1"
   mkdir -p "$FOLDER/$1" "$LIBRARIES/lib" "$LIBRARIES/include"
   cd -- "$(Source "$1")"
-  local file
-  for file in $4; do cc -O2 -fPIC -fvisibility=hidden -DHAVE_UNISTD_H -I. -c "$file" -o "$FOLDER/$1/${file%.c}.o"; done
-  cp $3 "$LIBRARIES/include"
+  for file in "${@:3}"; do cc -O2 -fPIC -DHAVE_UNISTD_H -c "$file" -o "$FOLDER/$1/${file%.c}.o"; done
+  cp ./*.h "$LIBRARIES/include"
   ar rcs "$LIBRARIES/lib/$2" "$FOLDER/$1"/*.o
 )
 
@@ -59,11 +60,11 @@ export SOURCE_DATE_EPOCH
 FetchSources ceres-solver google-glog fmtlib libcsv zlib
 mkdir -p "$FOLDER/dist"
 
-ByHand zlib libz.a "zlib.h zconf.h" "$(cd "$(Source zlib)" && echo *.c)"
-ByHand libcsv libcsv.a csv.h libcsv.c
-ByCMake fmtlib lib/libfmt.a -DFMT_TEST=OFF -DFMT_DOC=OFF
-ByCMake google-glog lib/libglog.a -DWITH_GFLAGS=OFF -DWITH_UNWIND=OFF -DWITH_GTEST=OFF -DWITH_PKGCONFIG=OFF
-ByCMake ceres-solver lib/libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF -DCUDA=OFF \
+ByHand zlib libz.a {adler32,compress,crc32,deflate,gz{close,lib,read,write},inf{back,fast,late,trees},trees,uncompr,zutil}.c
+ByHand libcsv libcsv.a libcsv.c
+ByCMake fmtlib libfmt.a -DFMT_TEST=OFF -DFMT_DOC=OFF
+ByCMake google-glog libglog.a -DWITH_GFLAGS=OFF -DWITH_UNWIND=OFF -DWITH_GTEST=OFF -DWITH_PKGCONFIG=OFF
+ByCMake ceres-solver libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF -DCUDA=OFF \
   -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD=ON \
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 

@@ -3,18 +3,23 @@
 # by apt with what they need, and the work done by a user who is not root. Root makes the system; it is gone at the end,
 # however that comes.
 #   cmake/bare.sh [PACKAGE FOLDER]     (build/packages, where cmake/packages.sh leaves them)
+#   cmake/bare.sh --wheel              instead the wheel of build-wheel/dist (cmake/wheel.sh) on a system with Python and
+#                                      pip, without a network, beside the command of build
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
-packages=$(realpath -- "${1:-$LYREFIT_ROOT/build/packages}")
+packages=${1:-$LYREFIT_ROOT/build/packages}
+[[ $packages != --wheel ]] || packages=$LYREFIT_ROOT/build-wheel/dist
+packages=$(realpath -- "$packages")
 release=bookworm
 
 ((EUID == 0)) || Die "a system of its own is made by root"
 # Mounts of its own, which go with the process.
 if [[ -z ${LYREFIT_BARE:-} ]]; then
-  InstallPackages bare
-  LYREFIT_BARE=yes exec unshare --mount --propagation private "$BASH" "$0" "$packages"
+  InstallPackages bare wheel
+  LYREFIT_BARE=yes exec unshare --mount --propagation private "$BASH" "$0" "$@"
 fi
-compgen -G "$packages/*.deb" > /dev/null || Die "there are no packages in $packages: cmake/packages.sh makes them"
+[[ ${1:-} == --wheel ]] || compgen -G "$packages/*.deb" > /dev/null ||
+  Die "there are no packages in $packages: cmake/packages.sh makes them"
 
 system=$(mktemp -d /tmp/lyrefit-bare.XXXXXX)
 chmod 755 "$system"  # what a user may not enter is no system
@@ -63,10 +68,67 @@ InSystem useradd --create-home user
 cp -r "$LYREFIT_ROOT/data/formats/head_tracer.csv" "$LYREFIT_ROOT/data/rtc_france" "$LYREFIT_ROOT/tests/package" \
   "$system/home/user"
 InSystem chown -R user:user /home/user
-mkdir "$system/packages"
-cp "$packages"/*.deb "$system/packages"
 Apt update
 Took "made, $(Size) MB"
+
+# NumpyWheel FOLDER: a wheel of Debian's numpy with the libraries that it needs, where an index would have numpy's own.
+NumpyWheel() (
+  local work version file
+  work=$(mktemp -d "$system/tmp/numpy.XXXXXX")
+  cd -- "$work"
+  apt-get -qq download python3-numpy libblas3 liblapack3 libgfortran5 libquadmath0
+  for file in *.deb; do dpkg-deb -x "$file" all; done
+  version=$(sed -n 's/^Version: //p' all/usr/lib/python3/dist-packages/numpy-*.egg-info/PKG-INFO | head -n 1)
+  mkdir -p "wheel/numpy-$version.dist-info" wheel/numpy.libs
+  cp -r all/usr/lib/python3/dist-packages/numpy wheel
+  find wheel/numpy -xtype l -delete # links to headers and manuals
+  find all -name 'lib*.so.[0-9]*' -exec cp -L '{}' wheel/numpy.libs ';'
+  find wheel/numpy -name '*.so' -exec patchelf --set-rpath "\$ORIGIN/../../numpy.libs" '{}' ';'
+  find wheel/numpy.libs -type f -exec patchelf --set-rpath "\$ORIGIN" '{}' ';'
+  cp all/usr/lib/python3/dist-packages/numpy-*.egg-info/PKG-INFO "wheel/numpy-$version.dist-info/METADATA"
+  printf 'Wheel-Version: 1.0\nGenerator: dpkg-deb\nRoot-Is-Purelib: false\nTag: cp311-cp311-linux_%s\n' "$(uname -m)" \
+    > "wheel/numpy-$version.dist-info/WHEEL"
+  /usr/bin/python3 -m wheel pack --dest-dir "$1" wheel > /dev/null
+)
+
+if [[ ${1:-} == --wheel ]]; then
+  Say "Python and pip"
+  Apt install -y --no-install-recommends python3 python3-pip python3-venv
+  mkdir -p "$system/wheels" "$system/home/user/data"
+  mv "$system/home/user/rtc_france" "$system/home/user/data"
+  cp "$packages"/lyrefit-*.whl "$system/wheels" || Die "there is no wheel in $packages: cmake/wheel.sh makes it"
+  NumpyWheel "$system/wheels"
+  cp "$LYREFIT_ROOT/apps/python/examples/fit.py" "$system/home/user"
+  native=$LYREFIT_ROOT/build/apps/lyrefit/lyrefit
+  [[ -x $native ]] || Die "no command to compare with: cmake/check.sh builds it"
+  (cd "$LYREFIT_ROOT" && "$native" fit data/rtc_france --json "$system/native.json" > "$system/native.txt")
+  InSystem chown -R user:user /home/user
+  stat -c '  %s bytes: %n' "$system"/wheels/*
+  Took "installed, $(Size) MB"
+
+  Say "The wheel in a fresh environment, without a network"
+  chroot --userspec=user:user "$system" env -i -C /home/user HOME=/home/user PATH=/usr/bin:/bin LC_ALL=C.UTF-8 TERM=dumb \
+    unshare --user --map-current-user --net bash -euo pipefail -s << 'END'
+python3 -m venv fresh
+time fresh/bin/pip install --quiet --no-index --find-links /wheels lyrefit
+du -sm fresh/lib/python3*/site-packages/lyrefit
+fresh/bin/pip list --format freeze | grep -v ^pip
+for i in 1 2 3 4 5; do
+  fresh/bin/python3 -c 'import time; a = time.perf_counter(); import lyrefit; print(f"import {1e3 * (time.perf_counter() - a):.0f} ms")'
+done
+time fresh/bin/python3 fit.py
+time fresh/bin/lyrefit fit data/rtc_france --json wheel.json > wheel.txt
+fresh/bin/lyrefit --version
+fresh/bin/lyrefit diagnose head_tracer.csv --html diagnosis.html > diagnosis.txt
+grep -q '</html>' diagnosis.html
+END
+  for kind in json txt; do cmp "$system/native.$kind" "$system/home/user/wheel.$kind"; done || Die "the digits are not those of the command"
+  Took "the same digits as the command's, to the byte"
+  exit
+fi
+
+mkdir "$system/packages"
+cp "$packages"/*.deb "$system/packages"
 
 Say "The command"
 before=$(Size)

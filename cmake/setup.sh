@@ -31,6 +31,7 @@ PackagesFor() {
     reference) echo doxygen python3 ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
     wheel) echo python3-build python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
+    release) echo twine git ;;  # what the index would say
     bare) echo debootstrap ;;  # a system to try packages in
     web) echo emscripten ;;  # the library in a browser; its other parts are compiled from Debian's sources
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;

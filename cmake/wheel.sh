@@ -2,8 +2,10 @@
 # Makes the archive of sources and, of it, a wheel of the Python package that needs no library beside it but the C library:
 # Debian's sources of the others are compiled into it. Both land in build-wheel/dist; the time in them is the last
 # commit's unless SOURCE_DATE_EPOCH says another.
-#   cmake/wheel.sh            (PYTHON=/usr/bin/python3 for another interpreter, which needs pip, build, setuptools, wheel
-#                             and pybind11)
+#   cmake/wheel.sh            (PYTHON=... in the environment for an interpreter other than Debian's, which needs pip,
+#                             build, setuptools, wheel and pybind11)
+#   cmake/wheel.sh --test     instead installs that wheel in a fresh environment, compares its digits with those of the
+#                             command in build and runs the tests of the Python module on it
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -53,8 +55,34 @@ Licences() {
   done
 }
 
+# Try: what is in dist, in an environment of its own, which sees the machine's numpy and pandas.
+Try() {
+  local native=$LYREFIT_ROOT/build/apps/lyrefit/lyrefit bin=$FOLDER/fresh/bin kind test
+  [[ -x $native ]] || Die "no command to compare with: cmake/check.sh builds it"
+  rm -rf "$FOLDER/fresh"
+  "$PYTHON" -m venv --system-site-packages "$FOLDER/fresh"
+  "$bin/pip" install --quiet --no-index --no-deps "$FOLDER"/dist/lyrefit-*.whl
+  Say "The digits of the wheel's command"
+  "$native" fit data/rtc_france --json "$FOLDER/native.json" > "$FOLDER/native.txt"
+  "$bin/lyrefit" fit data/rtc_france --json "$FOLDER/wheel.json" > "$FOLDER/wheel.txt"
+  for kind in json txt; do
+    cmp "$FOLDER/native.$kind" "$FOLDER/wheel.$kind" || Die "the wheel's digits are not those of the command"
+  done
+  "$bin/lyrefit" fit data/rtc_france | head -n 1 > "$FOLDER/cut.txt" # ended by the closed pipe, without a word
+  Say "The tests of the module"
+  cd tests/python
+  for test in *_test.py; do
+    PYTHONPATH=. LYREFIT_COMMAND=$bin/lyrefit LYREFIT_ROOT=$LYREFIT_ROOT LYREFIT_FIELD_DATA="" OPENBLAS_NUM_THREADS=1 \
+      "$bin/python3" -B -m unittest "$test"
+  done
+}
+
 InstallPackages build python pages wheel
 cd -- "$LYREFIT_ROOT"
+if [[ ${1:-} == --test ]]; then
+  Try
+  exit
+fi
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
 export SOURCE_DATE_EPOCH
 FetchSources ceres-solver google-glog fmtlib libcsv zlib
@@ -64,6 +92,9 @@ ByHand zlib libz.a {adler32,compress,crc32,deflate,gz{close,lib,read,write},inf{
 ByHand libcsv libcsv.a libcsv.c
 ByCMake fmtlib libfmt.a -DFMT_TEST=OFF -DFMT_DOC=OFF
 ByCMake google-glog libglog.a -DWITH_GFLAGS=OFF -DWITH_UNWIND=OFF -DWITH_GTEST=OFF -DWITH_PKGCONFIG=OFF
+# This header lacks a guard, which it needs where sources are compiled together.
+guarded=$(Source ceres-solver)/internal/ceres/manifold_adapter.h
+grep -q '^#pragma once' "$guarded" || sed -i '1i #pragma once' "$guarded"
 ByCMake ceres-solver libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF -DCUDA=OFF \
   -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD=ON \
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=12

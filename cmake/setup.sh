@@ -30,7 +30,7 @@ PackagesFor() {
     pages) Unless node nodejs; Unless npm npm; Unless chromium chromium ;;  # what pages embed, a browser to test them
     reference) echo doxygen python3 ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
-    wheel) echo python3-build python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
+    wheel) echo python3-build python3-pybind11 python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
     release) echo twine git ;;  # what the index would say
     bare) echo debootstrap ;;  # a system to try packages in
     web) echo emscripten ;;  # the library in a browser; its other parts are compiled from Debian's sources
@@ -79,10 +79,11 @@ Configure() {
   cmake -S "$LYREFIT_ROOT" -B "$1" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "${@:2}"
 }
 
-# Modules SOURCE FOLDER: what SOURCE/package-lock.json pins, installed in FOLDER; nothing where it is there. Without
+# Modules SOURCE FOLDER: what SOURCE/package-lock.json pins, installed in FOLDER; nothing where it is there, or where an
+# archive of sources leaves out the tests. Without
 # npm pages are built without charts, which the library's configuration says.
 Modules() {
-  command -v npm > /dev/null || return 0
+  [[ -f $1/package.json ]] && command -v npm > /dev/null || return 0
   cmp -s "$1/package-lock.json" "$2/package-lock.json" && [[ -d $2/node_modules ]] && return 0
   Say "Installing what $1/package.json names"
   mkdir -p "$2"

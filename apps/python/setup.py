@@ -60,11 +60,13 @@ class WithSources(sdist):
 
     def make_release_tree(self, base_dir, files):
         super().make_release_tree(base_dir, files)
+        # The archive is gathered in a folder beside this file, which is no part of it.
+        ignored = shutil.ignore_patterns("__pycache__", "node_modules", "*.egg-info", pathlib.Path(base_dir).name)
         for part in PARTS:
             to = pathlib.Path(base_dir, "source", part)
             to.parent.mkdir(parents=True, exist_ok=True)
             if (SOURCES / part).is_dir():
-                shutil.copytree(SOURCES / part, to, ignore=shutil.ignore_patterns("__pycache__", "node_modules"))
+                shutil.copytree(SOURCES / part, to, ignore=ignored)
             else:
                 shutil.copy2(SOURCES / part, to)
 

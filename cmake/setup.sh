@@ -101,3 +101,6 @@ RunTests() {
   Say "Testing $1"
   ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
 }
+
+# The version in CMakeLists.txt.
+ProjectVersion() { sed -n 's/^project(lyrefit VERSION \([0-9.]*\).*/\1/p' "$LYREFIT_ROOT/CMakeLists.txt"; }

@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Readme, Page, ::testing::ValuesIn(kPages),
 // All pages, with paths relative to the project.
 std::vector<fs::path> AllPages() {
   std::vector<fs::path> pages = {"README.md"};
-  for (const char* part : {"apps", "data", "lib", "tests"}) {
+  for (const char* part : {".github", "apps", "data", "lib", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(Project() / part)) {
       if (entry.path().extension() != ".md") continue;
       pages.push_back(fs::relative(entry.path(), Project()));

@@ -22,7 +22,7 @@ PackagesFor() {
     build)
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
-    test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema ;;
+    test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema python3-yaml ;;
     python) echo python3-dev pybind11-dev python3-numpy python3-pandas mypy ;; # the module, and the checker of its types
     slurm) echo slurm-wlm munge procps python3 ;;
     engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
@@ -138,3 +138,6 @@ FetchSources() {
     Die "apt-get source failed: $(tail -n 3 "$LYREFIT_SOURCES/fetched.log")"
   rm -rf "$LYREFIT_SOURCES/apt"
 }
+
+# The version in CMakeLists.txt.
+ProjectVersion() { sed -n 's/^project(lyrefit VERSION \([0-9.]*\).*/\1/p' "$LYREFIT_ROOT/CMakeLists.txt"; }

@@ -8,7 +8,7 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 cd -- "$LYREFIT_ROOT"
 readonly OUT=build-release
-version=$(sed -n 's/^project(lyrefit VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(ProjectVersion)
 
 if [[ ${1:-} != --try ]]; then
   [[ -z $(git status --porcelain) ]] || Die "the checkout has changes that are not committed"

@@ -50,7 +50,7 @@ def main():
     given = parser.parse_args()
     command = given.command.resolve()
     os.environ |= {"PATH": f"{command.parent}:{os.environ['PATH']}", "LYREFIT_ROOT": str(repository_pages.ROOT),
-                   "MPLBACKEND": "Agg", "MATPLOTLIBRC": str(HERE / "static"), "SOURCE_DATE_EPOCH": "946684800",
+                   "MATPLOTLIBRC": str(HERE / "static"), "SOURCE_DATE_EPOCH": "946684800",
                    "LYREFIT_SITE_PARTS": str(given.parts.resolve()), "PYTHONDONTWRITEBYTECODE": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
     for folder in (given.parts, given.out):
         shutil.rmtree(folder, ignore_errors=True)

@@ -17,9 +17,10 @@ project = "lyrefit"
 release = version = lyrefit.__version__
 copyright = "the lyrefit authors, BSD 3-Clause"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.napoleon",
-              "sphinx_gallery.gen_gallery", "nbsphinx", "sphinx_copybutton"]
+              "sphinx_gallery.gen_gallery", "nbsphinx", "sphinx_copybutton", "sphinx.ext.imgmath"]
 exclude_patterns = ["**/sg_execution_times.rst", "gallery/*.ipynb"]
 highlight_language = "text"
+smartquotes = False  # it makes one dash of the two of a flag
 
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]  # pages that begin below the level of a title
@@ -37,11 +38,13 @@ html_css_files = ["site.css"]
 html_title = f"lyrefit {release}"
 html_copy_source = html_show_sourcelink = False
 html_show_sphinx = False
-html_show_search_summary = False  # a page from disk may not read others
+html_show_search_summary = False  # a page on disk may not read others
 copybutton_prompt_text = ">>> "
 
 nbsphinx_execute = "never"
-nbsphinx_requirejs_path = ""
+nbsphinx_prolog = "The file: :download:`{{ env.docname }}.ipynb </{{ env.docname }}.ipynb>`"
+nbsphinx_requirejs_path = ""  # by default both scripts come from other servers
+html_math_renderer = "imgmath"
 
 
 def use_style(*_):

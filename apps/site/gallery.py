@@ -32,7 +32,7 @@ def notebook(name):
     from sphinx_gallery.py_source_parser import split_code_and_text_blocks
 
     _, blocks = split_code_and_text_blocks(str(EXAMPLES / f"{name}.py"))
-    made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF, str(EXAMPLES))), as_version=4)
+    made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF | {"first_notebook_cell": None}, str(EXAMPLES))), as_version=4)
     nbclient.NotebookClient(made, timeout=600, kernel_name="python3", record_timing=False).execute()
     return nbformat.writes(made)
 

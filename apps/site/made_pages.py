@@ -64,10 +64,10 @@ def verb_pages(command, names, texts):
         told = ", ".join(f"[{name.split('/')[1]}]({name.split('/')[1]}.md)" for name in users)
         made[page] = (f"# {verb}\n\n{line}." + (f" See {told}." if told else "") + "\n\n" + flags(command, verb))
     rows = "\n".join(f"| [{verb}]({verb}.md) | {line} |" for verb, line in verbs(command).items())
-    tree = "\n".join(f"{verb}" for verb in verbs(command))
+    tree = "\n".join(f"{verb} <{verb}>" for verb in verbs(command))
     made["verbs/index"] = (
         "# The verbs of the command\n\n`lyrefit VERB`, a page each. [family](family.md) is `fit` for many curves of one "
-        f"device.\n\n| verb | what it does |\n|---|---|\n{rows}\n\n```{{toctree}}\n:hidden:\n\n{tree}\nfamily\n```\n\n"
+        f"device.\n\n| verb | what it does |\n|---|---|\n{rows}\n\n```{{toctree}}\n:hidden:\n\n{tree}\nfit --family <family>\n```\n\n"
         "## Which verb answers which question\n\n    " + said(command, "help").split("\n\n", 1)[1].strip().replace("\n", "\n    ") + "\n")
     return made, added
 
@@ -109,9 +109,9 @@ class Reference:
                "and header. How to link the library is in [its page](library.md).", ""]
         for group in self.of_kind("group"):
             functions = {member.findtext("name"): f"{member.findtext('anchorfile')}#{member.findtext('anchor')}"
-                         for member in group.findall("member") if member.get("kind") == "function"}
+                         for member in group.findall("member") if member.get("kind") == "function" and "operator" not in member.findtext("name")}
             records = {entry.text.removeprefix("lyrefit::"): types[entry.text]
-                       for entry in group.findall("class") if entry.text in types}
+                       for entry in group.findall("class") if entry.text in types and "<" not in entry.text}
             out += [f"## {group.findtext('title')}", "",
                     f'<a href="cpp/{group.findtext("filename")}">All of the module.</a>', ""]
             for what, links in (("Functions", functions), ("Types", records)):

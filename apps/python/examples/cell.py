@@ -2,8 +2,9 @@
 A laboratory cell
 =================
 
-All measurements of one cell together: sweeps at five lights, lit and dark, and a Suns-Voc trace. They say what one curve
-cannot: the ideality at each light, the series resistance by several methods, and where the fill factor is lost.
+All measurements of one cell together: sweeps at five lights, lit and dark, and a Suns-Voc trace.
+They say what one curve cannot: the ideality at each light, the series resistance by several
+methods, and where the fill factor is lost.
 """
 
 import os

@@ -2,8 +2,8 @@
 Is there a better fit? A proof
 ==============================
 
-No search can show that nothing better exists. ``certify`` proves a lower bound of the RMSE: for one, two and three diodes
-within their bounds, and for any number of diodes, the floor.
+No search can show that nothing better exists. ``certify`` proves a lower bound of the RMSE: for
+one, two and three diodes within their bounds, and for any number of diodes, the floor.
 """
 
 import os
@@ -20,20 +20,21 @@ for model in proof["models"]:
 assert proof.certified
 
 # %%
-# A certificate names its objective. The solved current, which fits minimise by default, has bounds of its own.
+# A certificate names its objective. The solved current, which fits minimise by default, has bounds
+# of its own.
 
 solved = lyrefit.certify(data / "rtc_france", objective="solved-current", models=["sd"])
 print(f"solved-current: nothing below {solved['models'][0]['lower_bound_A']:.9e} A")
 
 # %%
-# Searches of 220, 2,020 and 20,020 evaluations against the bound, each before and after the polish. What is left after it is
-# rounding.
+# Searches of 220, 2,020 and 20,020 evaluations against the bound, each before and after the
+# polish. What is left after it is rounding.
 
 bound = proof["models"][0]["lower_bound_A"]
 for number, iterations in enumerate((10, 100, 1000)):
     for seed in range(15):
-        rmse = lyrefit.fit(data / "rtc_france", objective="measured-current", iterations=iterations, seed=seed,
-                           intervals="none")["rmse"]
+        rmse = lyrefit.fit(data / "rtc_france", objective="measured-current", intervals="none",
+                           iterations=iterations, seed=seed)["rmse"]
         for key, color in (("searched", "C1"), ("refined", "C0")):
             label = key if number == seed == 0 else None
             plt.plot(number, max(rmse[key]["measured_current_A"] / bound - 1, 1e-12), "o", color=color, label=label)

@@ -2,8 +2,9 @@
 What is wrong with this curve?
 ==============================
 
-A diagnosis fits the diode model, compares what it misses with a catalogue of some forty causes, and names one only where
-the readings show it beyond their errors. The module here has one substring with 2.5 % less light than the others.
+A diagnosis fits the diode model, compares what it misses with a catalogue of some forty causes,
+and names one only where the readings show it beyond their errors. The module here has one
+substring with 2.5 % less light than the others.
 """
 
 import os
@@ -20,7 +21,8 @@ print(found.sentence)
 for cause in found["verdict"]["causes"]:
     print(f"{cause['title']}, {100 * cause['probability']:.0f} %: {cause['in_words'][0]}")
     print("to do:", cause["action"])
-    print("or:", ", ".join(f"{other['title']} {100 * other['probability']:.0f} %" for other in cause["alternatives"]))
+    for other in cause["alternatives"]:
+        print(f"or: {other['title']}, {100 * other['probability']:.0f} %")
 assert found.causes == ["shading"]
 
 # %%
@@ -29,7 +31,8 @@ assert found.causes == ["shading"]
 print(found.frame()[["effect", "tried", "probability", "why_not"]].head(10).to_string(index=False))
 
 # %%
-# The model with its cause is a fit like any other; its parameters are those of the module without the shade.
+# The model with its cause is a fit like any other; its parameters are those of the module without
+# the shade.
 
 plain = lyrefit.fit(data / "shaded_module.csv", as_is=True)
 curve, extended = plain.curve, found.extended

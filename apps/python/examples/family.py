@@ -2,8 +2,9 @@
 One device behind many curves
 =============================
 
-Seven curves of one module at five irradiances and three temperatures, fitted together. A law (here De Soto's) says how
-the five parameters follow light and temperature, so that one set of reference parameters has to describe all curves.
+Seven curves of one module at five irradiances and three temperatures, fitted together. A law (here
+De Soto's) says how the five parameters follow light and temperature, so that one set of reference
+parameters has to describe all curves.
 """
 
 import os
@@ -19,14 +20,15 @@ result = lyrefit.fit_family(data / "s75_constructed", family="desoto")
 print(result.parameter_frame()[["parameter", "refined", "low_95", "high_95", "unit"]].to_string(index=False))
 
 # %%
-# The same parameters as pvlib takes them: ``calcparams_desoto(1000, 25, **result.pvlib["parameters"])``.
+# The same parameters as pvlib takes them: ``calcparams_desoto(1000, 25,
+# **result.pvlib["parameters"])``.
 
 print(result.pvlib["parameters"])
 assert abs(result.parameters["R_s"] - 0.2819) < 1e-3  # the module was constructed with this one
 
 # %%
-# Each curve with the current of the common device. A long frame of your own, a row a reading with the columns ``curve``,
-# ``irradiance`` and ``temperature``, is taken in the place of the folder.
+# Each curve with the current of the common device. A long frame of your own, a row a reading with
+# the columns ``curve``, ``irradiance`` and ``temperature``, is taken in the place of the folder.
 
 readings = pd.read_csv(data / "s75_constructed" / "curves.csv", dtype={"curve": str})
 for number, row in result.frame().iterrows():

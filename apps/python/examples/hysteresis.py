@@ -2,8 +2,9 @@
 Hysteresis of a pair of sweeps
 ==============================
 
-A perovskite cell answers a sweep down otherwise than a sweep up. An index of hysteresis compares powers or areas; where
-the curves cross, such an index hides most of the gap between them, so the gap is given as well.
+A perovskite cell answers a sweep down otherwise than a sweep up. An index of hysteresis compares
+powers or areas; where the curves cross, such an index hides most of the gap between them, so the
+gap is given as well.
 """
 
 import os

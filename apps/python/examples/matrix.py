@@ -2,8 +2,9 @@
 A test report: the matrix of IEC 61853-1
 ========================================
 
-A laboratory measures Isc, Voc and the maximum power point over irradiance and temperature. These key points alone
-determine the reference parameters of PVsyst's law, with the error of every condition.
+A laboratory measures Isc, Voc and the maximum power point over irradiance and temperature. These
+key points alone determine the reference parameters of PVsyst's law, with the error of every
+condition.
 """
 
 import os
@@ -32,7 +33,7 @@ fitted = np.array([row["model"]["max_power_W"] for row in frame.key_points])
 left_out = np.array([row["held_out_power_W"]["value"] for row in frame.key_points])
 plt.bar(place - 0.2, 100 * (fitted / measured - 1), 0.4, label="fitted")
 plt.bar(place + 0.2, 100 * (left_out / measured - 1), 0.4, label="left out")
-plt.xticks(place, [f"{light:.0f} W/m2\n{warm:.0f} C" for light, warm in zip(frame.irradiance_Wm2, frame.temperature_C)])
+plt.xticks(place, [name.replace(", ", "\n") for name in frame.id])
 plt.ylabel("error of Pmp (%)")
 plt.legend()
 plt.show()

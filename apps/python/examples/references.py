@@ -2,8 +2,9 @@
 A module against its own past
 =============================
 
-Some changes leave a healthy-looking curve: series resistance that grows, for one. Earlier sweeps of the same module show
-them. Nineteen reference sweeps say what this module gives at the light of today, and how far it scatters.
+Some changes leave a healthy-looking curve: series resistance that grows, for one. Earlier sweeps
+of the same module show them. Nineteen reference sweeps say what this module gives at the light of
+today, and how far it scatters.
 """
 
 import os
@@ -22,7 +23,8 @@ print("against its past:", compared["sentence"])
 assert not alone.causes and compared["causes"][0]["id"] == "series_resistance"
 
 # %%
-# What is compared: now, expected at the Isc and Voc of today, and the difference in standard deviations.
+# What is compared: now, expected at the Isc and Voc of today, and the difference in standard
+# deviations.
 
 for row in compared["rows"]:
     print(f"{row['name']:34} {row['now']:9.4g} {row['expected']:9.4g} {row['unit']:4} {row['z']:+6.1f}")

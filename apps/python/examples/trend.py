@@ -2,8 +2,9 @@
 What changed over a year
 ========================
 
-356 sweeps of one module over a year, with gaps, dust and sensors that drift. Each is reduced to standard conditions; a step
-or an onset is claimed where a series without one would hardly ever show as much.
+356 sweeps of one module over a year, with gaps, dust and sensors that drift. Each is reduced to
+standard conditions; a step or an onset is claimed where a series without one would hardly ever
+show as much.
 """
 
 import os

@@ -2,8 +2,8 @@
 One diode, two diodes, or let the data decide
 =============================================
 
-``model`` is the number of diodes. ``auto`` fits one, two and three and takes another one only where the readings support
-it: by AICc, an F-test and the error on readings that were left out.
+``model`` is the number of diodes. ``auto`` fits one, two and three and takes another one only
+where the readings support it: by AICc, an F-test and the error on readings that were left out.
 """
 
 import os
@@ -20,7 +20,8 @@ for model, result in fits.items():
     print(model, result["rmse"]["refined"], result["information"]["aicc"])
 
 # %%
-# Two diodes with the second ideality fixed at 2, the value of recombination in the depletion region.
+# Two diodes with the second ideality fixed at 2, the value of recombination in the depletion
+# region.
 
 fixed = lyrefit.fit(curve, model="dd", fix={"n2": 2})
 print(fixed.parameters)

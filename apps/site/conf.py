@@ -35,6 +35,7 @@ html_theme = "sphinx_rtd_theme"
 html_theme_options = {"navigation_depth": 3, "collapse_navigation": True, "style_external_links": False}
 html_static_path = [str(PARTS / "source" / "_static")]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_title = f"lyrefit {release}"
 html_copy_source = html_show_sourcelink = False
 html_show_sphinx = False

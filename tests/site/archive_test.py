@@ -52,7 +52,7 @@ class Archive(unittest.TestCase):
                               capture_output=True, text=True, check=True).stdout
         fitted = json.loads(said)
         for name, parameter in fitted["parameters"].items():
-            self.assertIn(f"'{name}': {parameter['refined']!r}", printed)
+            self.assertRegex(printed, rf"(?m)^{name} +{re.escape(repr(parameter['refined']))}$")
 
     def test_notebooks(self):
         notebooks = sorted((SITE / "_downloads").rglob("*.ipynb"))

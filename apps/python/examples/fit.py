@@ -17,7 +17,8 @@ current = np.array([
     0.764, 0.762, 0.7605, 0.7605, 0.76, 0.759, 0.757, 0.757, 0.7555, 0.754, 0.7505, 0.7465, 0.7385,
     0.728, 0.7065, 0.6755, 0.632, 0.573, 0.499, 0.413, 0.3165, 0.212, 0.1035, -0.01, -0.123, -0.21])
 result = lyrefit.fit(voltage, current, cells_in_series=1, temperature_C=33)
-print(result.parameters)
+for name, value in result.parameters.items():
+    print(f"{name:20} {value!r}")
 
 # %%
 # The names are those of pvlib, in ampere and ohm. Each parameter has its standard error and its 95

@@ -202,7 +202,7 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.
                               "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
                               INSTALL_DESTINATION ${LYREFIT_PACKAGE_DIR})
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
-                                 COMPATIBILITY SameMinorVersion)
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
               "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindLibCsv.cmake"

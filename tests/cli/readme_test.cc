@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Readme, Page, ::testing::ValuesIn(kPages),
 // All pages, with paths relative to the project.
 std::vector<fs::path> AllPages() {
   std::vector<fs::path> pages = {"README.md"};
-  for (const char* part : {"apps", "data", "lib", "tests"}) {
+  for (const char* part : {".github", "apps", "data", "lib", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(Project() / part)) {
       if (entry.path().extension() != ".md") continue;
       pages.push_back(fs::relative(entry.path(), Project()));
@@ -264,12 +264,12 @@ TEST(Readme, LeavesOutSynopsesAndWhatItSaysCannotBeRun) {
 
 TEST(Readme, TellsWhatACommandPrintsFromTheNextOne) {
   std::istringstream page(
-      "    lyrefit fit a \\\n        --model sd   # a comment\n\n    lyrefit 0.1.0: a\n    ...\n"
+      "    lyrefit fit a \\\n        --model sd   # a comment\n\n    lyrefit 1.0.0: a\n    ...\n"
       "      n1  1.4\n    lyrefit fit b\n\nText\n    not printed\n    lyrefit fit FILE\n    x\n");
   const std::vector<ReadmeCommand> commands = CommandsOf(page);
   ASSERT_EQ(commands.size(), 2U);
   EXPECT_EQ(WordsOf(commands[0].arguments), WordsOf("fit a --model sd"));
-  EXPECT_EQ(commands[0].shown, (std::vector<std::string>{"    lyrefit 0.1.0: a", "      n1  1.4"}));
+  EXPECT_EQ(commands[0].shown, (std::vector<std::string>{"    lyrefit 1.0.0: a", "      n1  1.4"}));
   EXPECT_EQ(commands[1].line, 7);
   EXPECT_TRUE(commands[1].shown.empty());
   EXPECT_TRUE(Prints("a\n  n1   1.40001\n", commands[0].shown[1]));

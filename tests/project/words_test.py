@@ -28,8 +28,8 @@ TERMS = {
 }
 # Files where a word has another sense.
 USUAL = {"data/json.md": ".*", "lib/lyrefit/base/append_log.cc": "flock", "cmake/web/dependencies.cmake": "pool", "lib/lyrefit/base/former_names.h": "bird|basins|contenders"}
-SUFFIXES = {".cc", ".h", ".inc", ".py", ".js", ".mjs", ".cmake", ".sh", ".md", ".html", ".css"}
-FOLDERS = ("apps", "cmake", "data", "lib", "tests")
+SUFFIXES = {".cc", ".h", ".inc", ".py", ".js", ".mjs", ".cmake", ".sh", ".md", ".html", ".css", ".yml", ".cff"}
+FOLDERS = (".github", "apps", "cmake", "data", "lib", "tests")
 WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 ANY = re.compile("|".join(TERMS), re.IGNORECASE)  # a line without it has no private word
 

@@ -5,7 +5,7 @@
 #include "lyrefit/base/public.h"
 
 // Names that options and keys of JSON had in version 0.1. The command and the Python module accept
-// the options and their values, and the results of the Python module find the keys, until version 0.3.
+// the options and their values, and the results of the Python module find the keys, in all of version 1.
 namespace LYREFIT_PUBLIC lyrefit {
 
 // A name that changed.

@@ -4,7 +4,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// The project's version in CMakeLists.txt, such as "0.1.0".
+// The project's version in CMakeLists.txt, such as "1.0.0".
 const char* Version();
 
 }  // namespace lyrefit

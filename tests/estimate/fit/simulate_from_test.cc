@@ -103,6 +103,11 @@ TEST(ReadFitForSimulation, SaysWhatIsWrongWithAReportOfMany) {
   json report = Shared();
   report["lyrefit_version"] = "0.0.1";
   EXPECT_THAT(error(report, "a"), HasSubstr("written by lyrefit 0.0.1"));
+  // The names of a major version stay: a later minor version reads this report, the next major one does not.
+  report["lyrefit_version"] = "1.999.0";
+  EXPECT_EQ(error(report, "a"), "no error");
+  report["lyrefit_version"] = "10.0.0";
+  EXPECT_THAT(error(report, "a"), HasSubstr("written by lyrefit 10.0.0"));
   report = Shared();
   report["causes"] = {"nonsense"};
   EXPECT_THAT(error(report, "a"), HasSubstr("there is no effect \"nonsense\""));

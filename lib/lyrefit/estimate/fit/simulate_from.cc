@@ -87,6 +87,9 @@ Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
   return {};
 }
 
+// "1" of "1.2.0": reports of one major version keep the names and the meanings of their fields.
+std::string MajorVersion(const std::string& version) { return version.substr(0, version.find('.')); }
+
 // Effects with their values; `value` returns the value of a parameter by name.
 template <class F>
 Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) {
@@ -94,7 +97,7 @@ Expected<std::vector<EffectUse>> ReadUses(const Report& report, const F& value) 
   const json causes = At(report.fit, "/causes");
   if (!causes.is_array() || causes.empty()) return uses;
   const std::string version = TextAt(report.fit, "/lyrefit_version");
-  if (version != Version() || !At(report.fit, "/law").is_object()) {
+  if (MajorVersion(version) != MajorVersion(Version()) || !At(report.fit, "/law").is_object()) {
     return Fail(fmt::format("a model with effects, written by lyrefit {}, which this one ({}) does "
                             "not read: fit it again",
                             version.empty() ? "of no version" : version, Version()),

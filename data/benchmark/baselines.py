@@ -152,7 +152,7 @@ def main():
             record, [other for other in labelled if other["id"] != record["id"]]) for record in shaped}))
     if "lyrefit" in only:
         alone, both = ours.answers(given.lyrefit, records)
-        write(given.out / "lyrefit_curve.jsonl", alone)
+        write(given.out / "lyrefit_curve.jsonl", [{**row, "parameters": {}} for row in alone])
         write(given.out / "lyrefit.jsonl", both)
 
 

@@ -1,12 +1,12 @@
 """Answers of lyrefit's command to the benchmark: `diagnose` names the cause, `batch --plan` what only the data sheet of a
 made curve tells, `fit --noise field` the parameters."""
 
-import concurrent.futures
 import csv
 import json
 import pathlib
 import subprocess
 import tempfile
+import threading
 
 from measured import CAUSE_OF
 
@@ -143,8 +143,18 @@ def planned(command, records, folder):
 
 def answers(command, records, threads=2):
     """Two lists: the answers of the curves alone, and with the data sheets."""
-    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(threads) as workers:
-        alone = list(workers.map(lambda record: answer(command, record, folder), records))
+    alone = [None] * len(records)
+
+    def work(first, folder):
+        for k in range(first, len(records), threads):
+            alone[k] = answer(command, records[k], folder)
+
+    with tempfile.TemporaryDirectory() as folder:
+        workers = [threading.Thread(target=work, args=(first, folder)) for first in range(threads)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
         made = [record for record in records if record["part"] == "made"]
         against = planned(command, made, folder) if made else {}
     both = []

@@ -100,7 +100,7 @@ def error_of(value, truth, measure):
 def parameter_scores(answers, labels):
     scores = {}
     for name, measure in PARAMETERS.items():
-        asked = [key for key in labels if name in labels[key].get("parameters", {})]
+        asked = [key for key in labels if labels[key].get("parameters", {}).get(name)]  # not of curves that lost nothing
         given = [key for key in asked if name in answers[key]["parameters"]]
         if not given:
             continue

@@ -17,6 +17,7 @@ import sys
 import gallery
 import made_pages
 import repository_pages
+import speed
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -30,11 +31,11 @@ def prepare(command, reference, parts):
              for path, page in site.names.items() if page.startswith("verbs/")}
     made, added = made_pages.verb_pages(command, list(named), named)
     made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page()}
-    site.write_all(added)
+    shutil.copytree(HERE / "static", source / "_static")
+    site.write_all(added | {"speed": speed.page(source / "_static")})
     for page, text in made.items():
         site.write(page, text)
     gallery.stage(parts / "examples")
-    shutil.copytree(HERE / "static", source / "_static")
     notebooks = {name: gallery.notebook(name) for name in gallery.NOTEBOOKS}
     (source / "notebooks").mkdir(exist_ok=True)
     for name, text in notebooks.items():

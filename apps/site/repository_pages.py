@@ -17,6 +17,7 @@ NAMES = {
     "apps/python/examples/nomad.md": "nomad",
     "data/README.md": "benchmark_curves",
     "data/benchmark/README.md": "benchmark",
+    "data/benchmark/contest/README.md": "contest",
     "data/diagnosis/README.md": "diagnosis",
     "data/field/README.md": "field",
     "data/formats/README.md": "formats",

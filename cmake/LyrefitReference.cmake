@@ -36,6 +36,7 @@ add_custom_target(reference
 
 if(LYREFIT_BUILD_TESTS)
   add_test(NAME reference COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target reference)
+  set_tests_properties(reference PROPERTIES RESOURCE_LOCK reference)  # site/build makes it too
   add_test(NAME reference_sees_what_has_no_words COMMAND ${CMAKE_COMMAND} -DPYTHON=${LYREFIT_PYTHON} -DDOXYGEN=${DOXYGEN}
            -DREFERENCE=${PROJECT_SOURCE_DIR}/cmake/reference -DWORK=${PROJECT_BINARY_DIR}/tests/project/reference
            -P ${PROJECT_SOURCE_DIR}/tests/project/reference_test.cmake)

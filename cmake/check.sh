@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
 
-InstallPackages build test peers pages python reference packages engines slurm
+InstallPackages build test peers pages python reference site packages engines slurm
 cd -- "$LYREFIT_ROOT"
 Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build

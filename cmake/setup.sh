@@ -23,12 +23,16 @@ PackagesFor() {
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
     test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema python3-yaml ;;
-    python) echo python3-dev pybind11-dev python3-numpy python3-pandas mypy ;; # the module, and the checker of its types
+    python) # the module, what its examples draw with, and the checker of its types
+      echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib mypy ;;
     slurm) echo slurm-wlm munge procps python3 ;;
     engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
     pages) Unless node nodejs; Unless npm npm; Unless chromium chromium ;;  # what pages embed, a browser to test them
     reference) echo doxygen python3 ;;
+    site)
+      echo python3-sphinx python3-sphinx-gallery python3-sphinx-rtd-theme python3-sphinx-copybutton python3-myst-parser \
+        python3-nbsphinx python3-nbclient python3-ipykernel python3-matplotlib python3-pandas pandoc ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
     wheel) echo python3-build python3-pybind11 python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
     release) echo twine git ;;  # what the index would say

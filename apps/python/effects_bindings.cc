@@ -48,6 +48,7 @@ constexpr char kEffectDoc[] =
     "often.\n"
     "probes : list of sequences, optional\n"
     "    Full sets of parameters from which a fit or diagnosis tries it.\n\n"
+    "Notes\n-----\n"
     "A function may ask for more by keyword-only arguments: ``photocurrent`` (array of shape "
     "(n,),\n"
     "parts of the current scale, of the cell under its light), ``thermal_voltage`` (array, V),\n"

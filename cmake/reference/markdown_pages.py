@@ -3,6 +3,8 @@
 import posixpath
 import re
 
+from markdown_links import LINK, PICTURE, pieces
+
 MODULE = re.compile(r"lib/lyrefit/([a-z]+)/README\.md$")
 
 
@@ -28,25 +30,23 @@ class Pages:
 
     def picture(self, found):
         """One of the main page's, which the Doxyfile copies beside it."""
-        return f'<img src="{found.group(2)}" alt="{found.group(1)}"/>'
+        return f'<img src="{posixpath.basename(found.group(2))}" alt="{found.group(1)}"/>'
 
     def filtered(self, path, text):
-        lines = text.replace("*/", "* /").split("\n")
-        title = lines[0].strip("# /")
+        first, _, rest = text.replace("*/", "* /").partition("\n")
+        title = first.strip("# /")
         head = f"\\mainpage {title}"
         if path != self.main:
             head = f"\\{'defgroup' if MODULE.search(path) else 'page'} {self.names[path]} {title}"
-        out, code = [head], False
-        for line in lines[1:]:
-            if line.startswith("```"):
-                code = not code
-            elif not code and not line.startswith("    "):
+        out = [head + "\n"]
+        for code, piece in pieces(rest):
+            if not code:
                 if path == self.main:  # its sections would stand in the menu, above the modules
-                    line = re.sub(r"^##+ (.*)", r"<h2>\1</h2>", line)
-                line = re.sub(r"!\[([^\]]*)\]\((?:[^)/]*/)*([^)]*)\)", self.picture if path == self.main else "", line)
-                line = re.sub(r"\[([^\]]*)\]\(([^)\s]*)\)", lambda m: self.link(path, m.group(1), m.group(2)), line)
-                line = "".join(p if p.startswith("`") else re.sub(r"@|<(?!/?h2>|img |!--)", r"\\\g<0>", p)
-                               for p in re.split(r"(`[^`]*`)", line))
-            out.append(line)
-        page = "/**\n" + "\n".join(out) + "\n*/\n"
+                    piece = re.sub(r"^##+ (.*)", r"<h2>\1</h2>", piece, flags=re.M)
+                piece = PICTURE.sub(self.picture if path == self.main else "", piece)
+                piece = LINK.sub(lambda m: self.link(path, m.group(1), m.group(2)), piece)
+                piece = "".join(p if p.startswith("`") else re.sub(r"@|<(?!/?h2>|img |!--)", r"\\\g<0>", p)
+                                for p in re.split(r"(`[^`]*`)", piece))
+            out.append(piece)
+        page = "/**\n" + "".join(out) + "\n*/\n"
         return page + "/** \\namespace lyrefit\nAll of lyrefit: its modules are the topics. */\n" * (path == self.main)

@@ -16,6 +16,7 @@ import comparison
 from declarations import declarations
 from json_fields import fields
 from names import command_flags, python_package
+from reported import reported
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RECORDS = ROOT / "data" / "stable"
@@ -23,13 +24,14 @@ RECORDS = ROOT / "data" / "stable"
 
 def current(given):
     """What there is now: the entries of each file of a record."""
+    command = (given.command or given.build / "apps" / "lyrefit" / "lyrefit").resolve()
     listed = (given.build / "reference" / "files.txt").read_text(encoding="utf-8").splitlines()
     return {
         "python.txt": python_package(given.package or given.build / "apps" / "python" / "lyrefit"),
-        "json.txt": fields(ROOT / "data" / "schema"),
+        "json.txt": {**fields(ROOT / "data" / "schema"), **reported(command, ROOT)},
         "headers.txt": declarations(given.doxygen, given.build / "reference" / "Doxyfile", ROOT,
                                     [file for file in listed if file.endswith(".h")]),
-        "flags.txt": command_flags(given.command or given.build / "apps" / "lyrefit" / "lyrefit", ROOT),
+        "flags.txt": command_flags(command, ROOT),
     }
 
 

@@ -14,6 +14,7 @@ import comparison
 import declarations
 import json_fields
 import names
+import reported
 import stable
 
 
@@ -118,6 +119,19 @@ class Sources(unittest.TestCase):
             "fit(-h)\tinput\talone\toptional\nfit(CURVE)\tinput\ttext\tseveral\n")
         values = names.flag_values("    'fit --model') words='sd dd' ;;\n    'fit --kernel') words='portable' ;;\n")
         self.assertEqual(set(values), {"fit --model sd", "fit --model dd"})
+
+    def test_parameters_of_reports_and_effects(self):
+        report = {"parameters": {"resistance_series": {"symbol": "Rs", "unit": "ohm", "refined": 0.3}}}
+        explained = (
+            "partial shading (shading)\n  equation      V = 1\n\n  parameter  bounds        meaning (unit in reports)\n"
+            "  d          0 to 0.999    shading_depth, part of the light that the shaded cells miss (see\n"
+            "                           the page)\n"
+            "  Vb         0.1 to 1.2    bypass_voltage, drop of a bypass diode\n                           at Isc (V)\n"
+            "  Bounds are of the equation's own units.\n")
+        entries = {**reported.of_report("fit", report), **reported.of_explanation("shading", explained)}
+        self.assertEqual({name: entry.type for name, entry in entries.items()}, {
+            "fit: parameters.resistance_series": "Rs [ohm]", "effect: shading.d": "shading_depth []",
+            "effect: shading.Vb": "bypass_voltage [V]"})
 
     @unittest.skipUnless(stable.shutil.which("doxygen"), "doxygen is not installed")
     def test_headers(self):

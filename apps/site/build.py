@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Makes the site: the project's pages, the gallery, notebooks and the references as one folder of HTML.
+
+    build.py --command LYREFIT --reference FOLDER --parts FOLDER --out FOLDER
+
+LYREFIT is the command; `import lyrefit` must find the module. --reference is the folder in which the target `reference`
+has left its pages and tags.xml. --parts is a folder for what the site is made of, which is emptied, as --out is.
+"""
+
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import gallery
+import made_pages
+import repository_pages
+import speed
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def prepare(command, reference, parts):
+    """Everything that Sphinx reads, below the folder of the parts."""
+    source = parts / "source"
+    cpp = made_pages.Reference(reference)
+    site = repository_pages.Site(source, cpp.headers)
+    named = {page: (repository_pages.ROOT / path).read_text(encoding="utf-8")
+             for path, page in site.names.items() if page.startswith("verbs/")}
+    made, added = made_pages.verb_pages(command, list(named), named)
+    made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page()}
+    shutil.copytree(HERE / "static", source / "_static")
+    site.write_all(added | {"speed": speed.page(source / "_static")})
+    for page, text in made.items():
+        site.write(page, text)
+    gallery.stage(parts / "examples")
+    notebooks = {name: gallery.notebook(name) for name in gallery.NOTEBOOKS}
+    (source / "notebooks").mkdir(exist_ok=True)
+    for name, text in notebooks.items():
+        (source / "notebooks" / f"{name}.ipynb").write_text(text, encoding="utf-8")
+    gallery.archive(source / "_static" / "lyrefit-examples.zip", notebooks)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--command", type=pathlib.Path, required=True)
+    for name in ("reference", "parts", "out"):
+        parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
+    given = parser.parse_args()
+    command = given.command.resolve()
+    os.environ |= {"PATH": f"{command.parent}:{os.environ['PATH']}", "LYREFIT_ROOT": str(repository_pages.ROOT),
+                   "MATPLOTLIBRC": str(HERE / "static"), "SOURCE_DATE_EPOCH": "946684800",
+                   "LYREFIT_SITE_PARTS": str(given.parts.resolve()), "PYTHONDONTWRITEBYTECODE": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
+    for folder in (given.parts, given.out):
+        shutil.rmtree(folder, ignore_errors=True)
+    prepare(command, given.reference, given.parts)
+    run = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", HERE,
+                          "-d", given.parts / "doctrees", given.parts / "source", given.out], check=False)
+    shutil.copytree(given.reference / "html", given.out / "cpp", dirs_exist_ok=True)
+    sys.exit(run.returncode)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,54 @@
+"""Examples and notebooks of the site: their order, notebooks with outputs, an archive of all with their data."""
+
+import json
+import pathlib
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "apps" / "python" / "examples"
+ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
+         "plant", "translate", "certify", "compare", "own_effect")
+NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
+DATA = ("cell", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
+        "diagnosis/sweeps", "formats/matrix_long.csv", "plant/module.json", "plant/plan.csv", "plant/strings.csv",
+        "pwp201", "rtc_france", "s75_constructed", "trend/module.json", "trend/year.csv")
+
+
+def stage(folder):
+    """The examples of the gallery with its head, where sphinx-gallery finds them."""
+    folder.mkdir(parents=True)
+    for name in ORDER:
+        (folder / f"{name}.py").write_bytes((EXAMPLES / f"{name}.py").read_bytes())
+    head = (pathlib.Path(__file__).parent / "gallery.rst").read_text(encoding="utf-8")
+    (folder / "README.rst").write_text(head, encoding="utf-8")
+
+
+def notebook(name):
+    """A notebook of an example, run."""
+    import nbclient
+    import nbformat
+    from sphinx_gallery.gen_gallery import DEFAULT_GALLERY_CONF
+    from sphinx_gallery.notebook import jupyter_notebook
+    from sphinx_gallery.py_source_parser import split_code_and_text_blocks
+
+    _, blocks = split_code_and_text_blocks(str(EXAMPLES / f"{name}.py"))
+    made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF | {"first_notebook_cell": None}, str(EXAMPLES))), as_version=4)
+    nbclient.NotebookClient(made, timeout=600, kernel_name="python3", record_timing=False).execute()
+    return nbformat.writes(made)
+
+
+def archive(file, notebooks):
+    """All examples and notebooks with the data that they read, the same bytes every time."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as packed:
+        def add(name, content):
+            packed.writestr(zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
+
+        for name in ORDER:
+            add(f"lyrefit-examples/{name}.py", (EXAMPLES / f"{name}.py").read_bytes())
+        for name, text in notebooks.items():
+            add(f"lyrefit-examples/{name}.ipynb", text)
+        for name in DATA:
+            place = ROOT / "data" / name
+            for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
+                if path.is_file():
+                    add(f"lyrefit-examples/{path.relative_to(ROOT)}", path.read_bytes())

@@ -1,0 +1,121 @@
+"""Pages made of what the command and the reference say of themselves: verbs, glossary, index of C++."""
+
+import re
+import subprocess
+import xml.etree.ElementTree
+
+
+def said(command, *arguments):
+    return subprocess.run([command, *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def verbs(command):
+    """Names of the verbs, each with its line."""
+    listed = said(command, "--help").split("Subcommands:\n")[1].split("\n\n")[0]
+    return dict(re.findall(r"^  (\w+) +(.*)$", listed, re.M))
+
+
+def cell(text):
+    return re.sub(r"([|*_<>\[\]])", r"\\\1", text)
+
+
+def flags(command, verb):
+    """The flags of a verb as tables, a section each."""
+    sections, rows = [], []
+    for line in said(command, verb, "--help").split("\n"):
+        head = re.fullmatch(r"(\w[^:]*):", line)
+        item = re.fullmatch(r"  (\S.*?)(?:  +(.*))?", line)
+        if head:
+            rows = []
+            sections.append((head.group(1), rows))
+        elif item and sections and not line.startswith("   "):
+            rows.append([item.group(1), item.group(2) or ""])
+        elif line.startswith("   ") and rows:
+            rows[-1][1] = f"{rows[-1][1]} {line.strip()}".strip()
+        elif line:
+            rows = []
+    out = ["## Flags", ""]
+    for head, rows in sections:
+        rows = [row for row in rows if not row[0].startswith("-h,") and not row[0].startswith("lyrefit ")]
+        if rows:
+            flag = "argument" if head == "Positionals" else "flag"
+            out += [f"### {head}", "", f"| {flag} | what it does |", "|---|---|"]
+            out += [f"| `{name.replace('|', chr(92) + '|')}` | {cell(text)} |" for name, text in rows] + [""]
+    return "\n".join(out)
+
+
+def examples(command, verb):
+    text = said(command, verb, "--help").split("\nExamples:\n")
+    return "" if len(text) < 2 else "    " + text[1].strip("\n").replace("\n", "\n    ") + "\n"
+
+
+def verb_pages(command, names, texts):
+    """By its name each page of a verb that has none, and what is added to those that there are.
+
+    `names` are the pages of verbs, `texts` their texts, by name: a verb without a page is told by those which use it.
+    """
+    made, added = {}, {}
+    for verb, line in verbs(command).items():
+        page = f"verbs/{verb}"
+        if page in names:
+            added[page] = flags(command, verb)
+            continue
+        users = [name for name in names if re.search(rf"\blyrefit {verb}\b|^# .*\b{verb}\b.*:", texts[name], re.M)]
+        told = ", ".join(f"[{name.split('/')[1]}]({name.split('/')[1]}.md)" for name in users)
+        made[page] = (f"# {verb}\n\n{line}." + (f" See {told}." if told else "") + "\n\n" + flags(command, verb))
+    rows = "\n".join(f"| [{verb}]({verb}.md) | {line} |" for verb, line in verbs(command).items())
+    tree = "\n".join(f"{verb} <{verb}>" for verb in verbs(command))
+    made["verbs/index"] = (
+        "# The verbs of the command\n\n`lyrefit VERB`, a page each. [family](family.md) is `fit` for many curves of one "
+        f"device.\n\n| verb | what it does |\n|---|---|\n{rows}\n\n```{{toctree}}\n:hidden:\n\n{tree}\nfit --family <family>\n```\n\n"
+        "## Which verb answers which question\n\n    " + said(command, "help").split("\n\n", 1)[1].strip().replace("\n", "\n    ") + "\n")
+    return made, added
+
+
+def glossary(command):
+    text, out = said(command, "help", "terms").split("\n\n", 1)[1], ["# Glossary", ""]
+    for block in text.strip("\n").split("\n\n"):
+        head, *lines = block.split("\n")
+        out += [f"## {head}", "", "```{glossary}"]
+        for line in lines:
+            term = re.fullmatch(r"  (\S.*?)  +(\S.*)", line)
+            if term and not line.startswith("   "):
+                out += ["", term.group(1), "  " + term.group(2)]
+            else:
+                out.append("  " + line.strip())
+        out += ["```", ""]
+    return "\n".join(out)
+
+
+class Reference:
+    """What the C++ reference has, from the tag file that Doxygen writes beside it."""
+
+    def __init__(self, folder):
+        self.compounds = xml.etree.ElementTree.parse(folder / "tags.xml").getroot().findall("compound")
+        self.headers = {}
+        for file in self.of_kind("file"):
+            place = file.findtext("path").partition("/input/lib/")[2] + file.findtext("name")
+            self.headers[place] = file.findtext("filename")
+
+    def of_kind(self, kind):
+        return [compound for compound in self.compounds if compound.get("kind") == kind]
+
+    def page(self):
+        """Every module's functions and types by name, each with its link."""
+        types = {compound.findtext("name"): compound.findtext("filename")
+                 for kind in ("struct", "class") for compound in self.of_kind(kind)}
+        out = ["# C++ reference", "",
+               '<a href="cpp/index.html">The reference of all public headers</a>, with a search of its own, by module, type '
+               "and header. How to link the library is in [its page](library.md).", ""]
+        for group in self.of_kind("group"):
+            functions = {member.findtext("name"): f"{member.findtext('anchorfile')}#{member.findtext('anchor')}"
+                         for member in group.findall("member") if member.get("kind") == "function" and "operator" not in member.findtext("name")}
+            records = {entry.text.removeprefix("lyrefit::"): types[entry.text]
+                       for entry in group.findall("class") if entry.text in types and "<" not in entry.text}
+            out += [f"## {group.findtext('title')}", "",
+                    f'<a href="cpp/{group.findtext("filename")}">All of the module.</a>', ""]
+            for what, links in (("Functions", functions), ("Types", records)):
+                if links:
+                    listed = ", ".join(f'<a href="cpp/{link}"><code>{name}</code></a>' for name, link in sorted(links.items()))
+                    out += [f"**{what}**: {listed}", ""]
+        return "\n".join(out)

@@ -4,8 +4,11 @@
 #   LYREFIT_FIELD_DATA=FOLDER cmake/benchmark.sh    with them, from a folder of labelled sweeps
 # The open half of the made curves is made again by its recipe first and must be what is committed.
 set -euo pipefail
-root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
+root=$LYREFIT_ROOT
 python=${LYREFIT_PYTHON:-/usr/bin/python3}
+
+InstallPackages python
 
 made=$(mktemp -d)
 trap 'rm -rf "$made"' EXIT

@@ -51,6 +51,7 @@ def main():
     given = parser.parse_args()
     command = given.command.resolve()
     os.environ |= {"PATH": f"{command.parent}:{os.environ['PATH']}", "LYREFIT_ROOT": str(repository_pages.ROOT),
+                   "IPYTHONDIR": str(given.parts.resolve() / "ipython"), "JUPYTER_RUNTIME_DIR": str(given.parts.resolve() / "jupyter"),
                    "MATPLOTLIBRC": str(HERE / "static"), "SOURCE_DATE_EPOCH": "946684800",
                    "LYREFIT_SITE_PARTS": str(given.parts.resolve()), "PYTHONDONTWRITEBYTECODE": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
     for folder in (given.parts, given.out):
@@ -58,6 +59,7 @@ def main():
     prepare(command, given.reference, given.parts)
     run = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", HERE,
                           "-d", given.parts / "doctrees", given.parts / "source", given.out], check=False)
+    (given.out / ".buildinfo").unlink(missing_ok=True)  # for Sphinx's next run, of which there is none; differs each time
     shutil.copytree(given.reference / "html", given.out / "cpp", dirs_exist_ok=True)
     sys.exit(run.returncode)
 

@@ -110,14 +110,19 @@ class Site:
             return text
         sys.exit(f"{path}: {target} is not there")
 
+    def picture(self, path, up, found):
+        if found.group(2).startswith("/"):  # of the site alone
+            return found.group(0)
+        whole = posixpath.normpath(posixpath.join(posixpath.dirname(path), found.group(2)))
+        return f"![{found.group(1)}]({up}{self.copied(whole)})"
+
     def relinked(self, path, page, text):
         """The text of one page of the project for a page of the site."""
         up = posixpath.relpath(".", posixpath.dirname(page) or ".")
         out = []
         for code, piece in pieces(text):
             if not code:
-                piece = PICTURE.sub(lambda m: f"![{m.group(1)}]({up}" + self.copied(posixpath.normpath(
-                    posixpath.join(posixpath.dirname(path), m.group(2)))) + ")", piece)
+                piece = PICTURE.sub(lambda m: self.picture(path, up, m), piece)
                 piece = LINK.sub(lambda m: self.link(path, page, m.group(1), m.group(2)), piece)
             out.append(piece)
         return "".join(out)

@@ -18,8 +18,8 @@ def releases():
     return sorted(found, key=lambda record: [int(part) for part in record["version"].split(".")])
 
 
-def drawn(file, records, rows, label):
-    """Rows from top to bottom, a mark a release; `rows` gives those of one record by name."""
+def drawn(file, records, rows, label, line=None):
+    """Rows from top to bottom, a mark a release, and a line; `rows` gives those of one record by name."""
     names = list(dict.fromkeys(name for record in records for name in rows(record)))
     with matplotlib.rc_context(fname=pathlib.Path(__file__).parent / "static" / "matplotlibrc"):
         _, axes = plt.subplots(figsize=(8, 1 + 0.19 * len(names)))
@@ -30,7 +30,8 @@ def drawn(file, records, rows, label):
                       label=f"{record['version']}: {record['machine']['processor']}, {record['machine']['instructions']}{shared}")
         axes.set(xscale="log", xlabel=label, ylim=(len(names) - 0.5, -0.5))
         axes.set_yticks(range(len(names)), names, fontsize=8)
-        axes.axvline(1, color="#777777", linewidth=0.8)
+        if line:
+            axes.axvline(line, color="#777777", linewidth=0.8)
         axes.legend(loc="lower center", bbox_to_anchor=(0.3, 1))
         plt.savefig(file, metadata={"Date": None})
         plt.close()
@@ -44,6 +45,6 @@ def page(folder):
         "processor time (s), median of the repetitions")
     drawn(folder / "speed_ratios.svg", records, lambda record: {
         row["claim"].removesuffix(" / lyrefit"): row["ratio"] for row in record["ratios"] if row["claim"].endswith(" / lyrefit")},
-        "processor time in multiples of lyrefit's")
+        "processor time in multiples of lyrefit's", line=1)
     return ("## Times of lyrefit\n\n![Processor times by release](_static/speed_times.svg)\n\n"
             "## Other programs on the same problems\n\n![Ratios by release](_static/speed_ratios.svg)\n")

@@ -64,14 +64,19 @@ def cma_es(objective, lower, upper, options):
 
 
 def particle_swarm(objective, lower, upper, options):
-    """Particle swarm with constriction: Clerc and Kennedy (2002), doi:10.1109/4235.985692."""
+    """Particle swarm with constriction: Clerc and Kennedy (2002), doi:10.1109/4235.985692.
+
+    A particle stops at the faces of the box.
+    """
     value, random, points, values = _begin(objective, lower, upper, options)
     own, own_values, speed = points, values, np.zeros_like(points)
     for _ in range(options["iterations"]):
         leader = own[own_values.argmin()]
         to_own, to_leader = random.random((2, *points.shape))
         speed = 0.7298 * (speed + 2.05 * to_own * (own - points) + 2.05 * to_leader * (leader - points))
-        points = np.clip(points + speed, 0, 1)
+        moved = points + speed
+        points = np.clip(moved, 0, 1)
+        speed[points != moved] = 0
         values = value(points)
         own = np.where((values < own_values)[:, np.newaxis], points, own)
         own_values = np.minimum(values, own_values)

@@ -13,6 +13,8 @@ readonly FOLDER=$LYREFIT_ROOT/build-wheel
 readonly LIBRARIES=$FOLDER/libraries # of the static libraries, with their headers
 PYTHON=${PYTHON:-/usr/bin/python3}
 
+tag=$("$PYTHON" -c 'import sys; print(f"cp{sys.version_info.major}{sys.version_info.minor}")')
+
 # Source PACKAGE: its folder.
 Source() { compgen -G "$LYREFIT_SOURCES/$1-[0-9]*/"; }
 
@@ -61,7 +63,7 @@ Try() {
   [[ -x $native ]] || Die "no command to compare with: cmake/check.sh builds it"
   rm -rf "$FOLDER/fresh"
   "$PYTHON" -m venv --system-site-packages "$FOLDER/fresh"
-  "$bin/pip" install --quiet --no-index --no-deps "$FOLDER"/dist/lyrefit-*.whl
+  "$bin/pip" install --quiet --no-index --no-deps "$FOLDER"/dist/lyrefit-*"-$tag-"*.whl
   Say "The digits of the wheel's command"
   "$native" fit data/rtc_france --json "$FOLDER/native.json" > "$FOLDER/native.txt"
   "$bin/lyrefit" fit data/rtc_france --json "$FOLDER/wheel.json" > "$FOLDER/wheel.txt"
@@ -100,14 +102,14 @@ ByCMake ceres-solver libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -D
   -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 
 Say "The archive of sources"
-rm -rf "$FOLDER"/dist/* "$FOLDER/unpacked"
+rm -rf "$FOLDER"/dist/lyrefit-*.tar.gz "$FOLDER"/dist/lyrefit-*"-$tag-"*.whl "$FOLDER/unpacked" # others' wheels stay
 "$PYTHON" -m build --sdist --no-isolation --outdir "$FOLDER/dist" apps/python > "$FOLDER/sdist.log" 2>&1 ||
   Die "no archive: $(tail -n 20 "$FOLDER/sdist.log")"
 mkdir -p "$FOLDER/unpacked"
 tar -xzf "$FOLDER"/dist/lyrefit-*.tar.gz -C "$FOLDER/unpacked" --strip-components 1
 
 Say "The wheel of it"
-LYREFIT_BUILD=$FOLDER/$("$PYTHON" -c 'import sys; print(sys.implementation.cache_tag)')
+LYREFIT_BUILD=$FOLDER/$tag
 mkdir -p "$LYREFIT_BUILD"
 Modules "$LYREFIT_ROOT/cmake/page_parts" "$LYREFIT_BUILD/page_parts"
 LYREFIT_LICENCES=$FOLDER/licences.txt
@@ -124,7 +126,7 @@ needed=$(objdump -p "$module" | awk '$1 == "NEEDED" { print $2 }')
 beyond=$(grep -vxE 'lib(c|m)\.so\.6|ld-linux-[a-z0-9-]+\.so\.[0-9]|linux-vdso\.so\.1' <<< "$needed" || true)
 [[ -z $beyond ]] || Die "the module needs libraries that a machine may lack: $beyond"
 libc=$(objdump -T "$module" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
-wheel=$(compgen -G "$FOLDER/dist/lyrefit-*-linux_*.whl")
+wheel=$(compgen -G "$FOLDER/dist/lyrefit-*-$tag-linux_*.whl")
 rm -rf "$FOLDER/tagged"
 "$PYTHON" -m wheel unpack --dest "$FOLDER/tagged" "$wheel" > /dev/null
 libc=${libc#GLIBC_}

@@ -22,7 +22,7 @@ PackagesFor() {
     build)
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
-    test) echo libgtest-dev libgmock-dev libxml2-utils python3-jsonschema python3-yaml ;;
+    test) echo libgtest-dev libgmock-dev libxml2-utils openssl python3-jsonschema python3-mpmath python3-numpy python3-yaml ;;
     python) # the module, what its examples draw with, and the checker of its types
       echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib mypy ;;
     slurm) echo slurm-wlm munge procps python3 ;;

@@ -61,7 +61,7 @@ def cause_of(report):
     findings = [FINDING_OF[f["id"]] for f in report["device_findings"] if f["id"] in FINDING_OF]
     if findings:
         return findings[0], None
-    return "none", min(verdict["probability_none"], 1.0)
+    return "none", verdict["probability_none"]
 
 
 def power_lost(report, record):

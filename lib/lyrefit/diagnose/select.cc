@@ -118,7 +118,7 @@ double NothingMaterial(const Hypotheses& step) {
   for (const FittedCandidate& candidate : step.candidates) {
     probability += (candidate.probability + candidate.as_slight) * (1 - candidate.material);
   }
-  return probability;
+  return std::min(probability, 1.0);  // a sum of shares may exceed one by rounding
 }
 
 // Least current by which one more cause must change a sweep of one direction. Unlike cells and light

@@ -36,10 +36,16 @@ Took() {
 since=$SECONDS
 InSystem() { chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"; }
 Apt() { InSystem apt-get -qq -o Acquire::Retries=3 "$@" > "$system/tmp/apt.log" 2>&1 || Die "apt-get $*: $(tail -n 5 "$system/tmp/apt.log")"; }
+network=()
 # AsUser SHELL OPTION...: a script on standard input, by a user who has nothing but a home.
 AsUser() {
-  chroot --userspec=user:user "$system" \
+  "${network[@]}" chroot --userspec=user:user "$system" \
     env -i -C /home/user HOME=/home/user PATH=/usr/bin:/bin LC_ALL=C.UTF-8 TERM=dumb "$@"
+}
+# The same without a network.
+AsUserAlone() {
+  local network=(unshare --net)
+  AsUser "$@"
 }
 # InstallFiles PATTERN...: our own packages, by apt with what they need and no more.
 InstallFiles() {
@@ -76,7 +82,7 @@ NumpyWheel() (
   local work version file
   work=$(mktemp -d "$system/tmp/numpy.XXXXXX")
   cd -- "$work"
-  apt-get -qq download python3-numpy libblas3 liblapack3 libgfortran5 libquadmath0
+  apt-get -qq -o APT::Sandbox::User=root download python3-numpy libblas3 liblapack3 libgfortran5 libquadmath0
   for file in *.deb; do dpkg-deb -x "$file" all; done
   version=$(sed -n 's/^Version: //p' all/usr/lib/python3/dist-packages/numpy-*.egg-info/PKG-INFO | head -n 1)
   mkdir -p "wheel/numpy-$version.dist-info" wheel/numpy.libs
@@ -107,8 +113,7 @@ if [[ ${1:-} == --wheel ]]; then
   Took "installed, $(Size) MB"
 
   Say "The wheel in a fresh environment, without a network"
-  chroot --userspec=user:user "$system" env -i -C /home/user HOME=/home/user PATH=/usr/bin:/bin LC_ALL=C.UTF-8 TERM=dumb \
-    unshare --user --map-current-user --net bash -euo pipefail -s << 'END'
+  AsUserAlone bash -euo pipefail -s << 'END'
 python3 -m venv fresh
 time fresh/bin/pip install --quiet --no-index --find-links /wheels lyrefit
 du -sm fresh/lib/python3*/site-packages/lyrefit

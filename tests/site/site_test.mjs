@@ -93,11 +93,13 @@ test('the menu of a phone opens and leads on; next leads on', async () => {
   await close();
 });
 
-test('the C++ reference is reached and opens', async () => {
+test('the C++ reference is reached, opens and leads back', async () => {
   const {page, close} = await opened('cpp', 'light');
   await page.click('a:text-is("The reference of all public headers")');
   await page.waitForSelector('#projectname');
   assert.match(page.url(), /cpp\/index\.html/);
+  await page.click('#projectname a');
+  await page.waitForSelector('h1:has-text("lyrefit")');
   await close();
 });
 

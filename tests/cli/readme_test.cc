@@ -46,7 +46,8 @@ bool IsToBeRun(const std::string& command) {
 
 std::vector<ReadmeCommand> CommandsOf(std::istream& page) {
   static const std::string kIndent = "    ";
-  static const std::string kStart = kIndent + "lyrefit ";
+  static const std::string kStart =
+      kIndent + "lyrefit ";  // of a command; of a report, a version follows
   std::vector<ReadmeCommand> commands;
   bool shows = false;  // indented lines belong to the last command
   int number = 0;
@@ -60,7 +61,7 @@ std::vector<ReadmeCommand> CommandsOf(std::istream& page) {
     if (line.empty()) continue;
     if (!StartsWith(line, kIndent)) {
       shows = false;
-    } else if (StartsWith(line, kStart) && !StartsWith(line, kStart + "0.")) {
+    } else if (StartsWith(line, kStart) && std::isalpha(line[kStart.size()]) != 0) {
       shows = IsToBeRun(line);
       if (!shows) continue;
       commands.push_back({first, line.substr(kStart.size(), line.find(" #") - kStart.size()), {}});

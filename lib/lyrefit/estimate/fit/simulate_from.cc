@@ -88,7 +88,9 @@ Expected<void> ReadConditions(const Report& report, Conditions* conditions) {
 }
 
 // "1" of "1.2.0": reports of one major version keep the names and the meanings of their fields.
-std::string MajorVersion(const std::string& version) { return version.substr(0, version.find('.')); }
+std::string MajorVersion(const std::string& version) {
+  return version.substr(0, version.find('.'));
+}
 
 // Effects with their values; `value` returns the value of a parameter by name.
 template <class F>

@@ -27,6 +27,7 @@ from submission import closed_text  # noqa: E402
 
 OPEN_SEED = b"lyrefit benchmark 1, open half"
 HALF = 250
+LABELS = HERE / "labels" if (HERE / "labels").is_dir() else HERE  # in the archive, in the repository
 CIPHER = ["openssl", "enc", "-aes-256-cbc", "-pbkdf2", "-iter", "200000", "-md", "sha256"]
 
 
@@ -79,7 +80,7 @@ def main():
     parser.add_argument("what", choices=("open", "closed", "unlock", "remake"))
     parser.add_argument("--out", type=pathlib.Path, default=HERE)
     parser.add_argument("--key-file", type=pathlib.Path)
-    parser.add_argument("--labels", type=pathlib.Path, default=HERE / "closed_labels.enc")
+    parser.add_argument("--labels", type=pathlib.Path, default=LABELS / "closed_labels.enc")
     given = parser.parse_args()
     if given.what != "open" and given.key_file is None:
         parser.error(f"{given.what} needs --key-file")

@@ -22,7 +22,7 @@ SOURCES = {
     "nomad-hzb/nomad-hysprint": ("Apache-2.0", "Helmholtz-Zentrum Berlin", "perovskite pixels, both directions, dark"),
     "nomad-hzb/nomad-perotf": ("Apache-2.0", "Karlsruhe Institute of Technology, Helmholtz-Zentrum Berlin",
                                "a perovskite pixel, both directions"),
-    "nomad-hzb/nomad-tfsc-general": ("MIT", "Michael Götte, Helmholtz-Zentrum Berlin", "perovskite pixels, both directions"),
+    "nomad-hzb/nomad-tfsc-general": ("MIT", "2025 Michael Götte", "perovskite pixels, both directions"),
 }
 LEFT_OUT = {
     "pvcracks": "its README says MIT, its licence file BSD-3-Clause and of other code, and the curves are the Technical "

@@ -51,6 +51,9 @@ def contents(field):
         files[f"labels/{name}"] = read(name)
     for answers in sorted((HERE / "answers").iterdir()):
         files[f"answers/{answers.name}"] = answers.read_bytes()
+    for path in sorted((HERE / "contest").rglob("*")):
+        if path.suffix in (".md", ".py", ".sh", ".json", ".txt", ".csv"):
+            files[path.relative_to(HERE).as_posix()] = path.read_bytes()
     if field is not None:
         for part, (records, truths) in measured.measured(field).items():
             if make.lines(truths).encode() != read(f"{part}_labels.jsonl"):
@@ -68,7 +71,7 @@ def archive(files):
         with tarfile.open(fileobj=compressed, mode="w", format=tarfile.USTAR_FORMAT) as tar:
             for path in sorted(files):
                 entry = tarfile.TarInfo(f"{NAME}/{path}")
-                entry.size, entry.mode = len(files[path]), 0o755 if path in ("score.py", "make.py") else 0o644
+                entry.size, entry.mode = len(files[path]), 0o755 if path.endswith(("score.py", "make.py", ".sh")) else 0o644
                 tar.addfile(entry, io.BytesIO(files[path]))
     return packed.getvalue()
 

@@ -181,7 +181,8 @@ def table(rows):
 def detail(scores):
     lines = ["| cause | right |", "|---|---|"]
     lines += [f"| {name} | {in_percent(part)} |" for name, part in scores["by_cause"].items()]
-    lines += ["", "| stated | mean | right |", "|---|---|---|"]
+    if scores["calibration"]["bins"]:
+        lines += ["", "| stated | mean | right |", "|---|---|---|"]
     lines += [f"| {100 * b['from']:.0f} to {100 * b['from'] + 10:.0f} % | {100 * b['stated']:.1f} % | "
               f"{in_percent(b['right'])} |" for b in scores["calibration"]["bins"]]
     if scores["parameters"]:

@@ -168,7 +168,7 @@ def read_labels(parts, folder=HERE, key=None):
 
 
 def of_these(answers, labels, file):
-    """The answers to these curves. All must be there; ids that no part knows are errors if all parts are asked."""
+    """The answers to these curves, which must all be there; those to curves of other parts may be."""
     missing = sorted(set(labels) - set(answers))
     if missing:
         raise AnswerError(file, 1, "id", f"{len(missing)} of {len(labels)} curves have no row, first {missing[0]}")

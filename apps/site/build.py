@@ -43,6 +43,18 @@ def prepare(command, reference, parts):
     gallery.archive(source / "_static" / "lyrefit-examples.zip", notebooks)
 
 
+def copy_reference(pages, out):
+    """Doxygen's pages, with the project's name above each as the way back."""
+    shutil.copytree(pages, out)
+    name = '<div id="projectname">lyrefit'
+    for page in out.rglob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        if name in text:
+            up = os.path.relpath(out.parent, page.parent)
+            link = f'<div id="projectname"><a href="{up}/index.html">lyrefit</a>'
+            page.write_text(text.replace(name, link), encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--command", type=pathlib.Path, required=True)
@@ -60,7 +72,7 @@ def main():
     run = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", HERE,
                           "-d", given.parts / "doctrees", given.parts / "source", given.out], check=False)
     (given.out / ".buildinfo").unlink(missing_ok=True)  # for Sphinx's next run, of which there is none; differs each time
-    shutil.copytree(given.reference / "html", given.out / "cpp", dirs_exist_ok=True)
+    copy_reference(given.reference / "html", given.out / "cpp")
     sys.exit(run.returncode)
 
 

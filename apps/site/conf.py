@@ -41,6 +41,7 @@ html_copy_source = html_show_sourcelink = False
 html_show_sphinx = False
 html_show_search_summary = False  # a page on disk may not read others
 copybutton_prompt_text = ">>> "
+copybutton_selector = ":not(.prompt) > div.highlight pre"
 
 nbsphinx_execute = "never"
 nbsphinx_prolog = "The file: :download:`{{ env.docname }}.ipynb </{{ env.docname }}.ipynb>`"

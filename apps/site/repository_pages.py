@@ -46,7 +46,7 @@ def name_of(path):
 
 
 def paths():
-    found = [ROOT / "README.md", *ROOT.glob(".github/*.md"), *ROOT.glob("apps/site/README.md")]
+    found = [ROOT / "README.md", *ROOT.glob(".github/*.md")]
     for folder in ("apps", "cmake", "data", "lib", "tests"):
         found += ROOT.glob(f"{folder}/**/*.md")
     return sorted({path.relative_to(ROOT).as_posix() for path in found})

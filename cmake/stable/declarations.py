@@ -55,6 +55,8 @@ def _members(compound, scope):
         whole = f"{scope}::{name}" if scope else name
         if kind == "function":
             yield from _function(member, whole)
+            if member.get("virt") == "pure-virtual":  # a new one breaks the classes of users
+                yield f"{scope}(override {name})", Entry("input")
         elif kind == "enum":
             yield whole, Entry("exact", "enum")
             for value in member.findall("enumvalue"):

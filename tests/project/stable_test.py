@@ -141,13 +141,15 @@ class Sources(unittest.TestCase):
             header.parent.mkdir(parents=True)
             header.write_text(
                 "namespace lyrefit {\nenum class Kind { kOne };\nstruct Options {\n  int seed = 0;\n};\n"
-                "double Fit(const Options& options, int times = 1);\nclass Closed {\n  int hidden_;\n};\n}\n")
+                "double Fit(const Options& options, int times = 1);\nclass Closed {\n public:\n"
+                "  virtual int Next() = 0;\n\n private:\n  int hidden_;\n};\n}\n")
             (root / "Doxyfile").write_text("QUIET = YES\nGENERATE_LATEX = NO\n")
             found = declarations.declarations("doxygen", root / "Doxyfile", root, [str(header)])
         self.assertEqual(
             {name: entry.type for name, entry in found.items()},
             {"lyrefit/sample.h": "header", "lyrefit::Kind": "enum", "lyrefit::Kind::kOne": "value",
              "lyrefit::Options": "struct", "lyrefit::Options::seed": "variable int", "lyrefit::Closed": "class",
+             "lyrefit::Closed::Next()": "int pure-virtual", "lyrefit::Closed(override Next)": "",
              "lyrefit::Fit(const Options &)": "double", "lyrefit::Fit(const Options &, int)": "double"})
 
 

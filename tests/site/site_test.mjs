@@ -93,16 +93,19 @@ test('the menu of a phone opens and leads on; next leads on', async () => {
   await close();
 });
 
-test('the C++ reference is reached and opens', async () => {
+test('the C++ reference is reached, opens and leads back', async () => {
   const {page, close} = await opened('cpp', 'light');
   await page.click('a:text-is("The reference of all public headers")');
   await page.waitForSelector('#projectname');
   assert.match(page.url(), /cpp\/index\.html/);
+  await page.click('#projectname a');
+  await page.waitForSelector('h1:has-text("lyrefit")');
   await close();
 });
 
 test('pages have no barriers that axe knows', async () => {
-  for (const name of ['index', 'gallery/fit', 'verbs/fit', 'glossary']) {
+  for (const name of ['index', 'start', 'gallery/index', 'gallery/fit', 'notebooks/compare', 'verbs/fit', 'how_a_fit_works',
+                      'diagnosis', 'formats', 'glossary', 'python', 'python/lyrefit.fit', 'cpp', 'speed', 'project/index']) {
     const {page, close} = await opened(name, 'light');
     assert.deepEqual(await barriers(page), [], name);
     await close();

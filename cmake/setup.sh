@@ -145,3 +145,6 @@ FetchSources() {
 
 # The version in CMakeLists.txt.
 ProjectVersion() { sed -n 's/^project(lyrefit VERSION \([0-9.]*\).*/\1/p' "$LYREFIT_ROOT/CMakeLists.txt"; }
+
+# Untimed FILE: a JSON report without the seconds that each part took, which differ from run to run.
+Untimed() { sed '/^ *"seconds": /d' "$1"; }

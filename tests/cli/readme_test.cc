@@ -218,7 +218,9 @@ TEST(Readme, LinksOfEveryPageLeadSomewhere) {
          ++link, ++links) {
       const std::string to = (*link)[1];
       // Pages of the site name pages that its build makes; tests/site follows those.
-      if (StartsWith(to, "/") && StartsWith(page.lexically_relative(Project()).string(), "apps/site/pages/")) continue;
+      if (StartsWith(to, "/") &&
+          StartsWith(page.lexically_relative(Project()).string(), "apps/site/pages/"))
+        continue;
       const std::string anchor = (*link)[2];
       const fs::path target = to.empty() ? page : page.parent_path() / to;
       EXPECT_TRUE(fs::exists(target)) << page << ": " << link->str();

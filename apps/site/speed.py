@@ -19,7 +19,7 @@ def releases():
 
 
 def drawn(file, records, rows, label, line=None):
-    """Rows from top to bottom, a mark a release, and a line; `rows` gives those of one record by name."""
+    """Rows from top to bottom, a mark a release, full for the last one, and a line; `rows` gives those of one record by name."""
     names = list(dict.fromkeys(name for record in records for name in rows(record)))
     with matplotlib.rc_context(fname=pathlib.Path(__file__).parent / "static" / "matplotlibrc"):
         _, axes = plt.subplots(figsize=(8, 1 + 0.19 * len(names)))
@@ -27,6 +27,7 @@ def drawn(file, records, rows, label, line=None):
             values = rows(record)
             shared = ", shared with other work" if record["machine"]["shared"] else ""
             axes.plot(list(values.values()), [names.index(name) for name in values], "o",
+                      fillstyle="full" if record is records[-1] else "none", markersize=4 if record is records[-1] else 7,
                       label=f"{record['version']}: {record['machine']['processor']}, {record['machine']['instructions']}{shared}")
         axes.set(xscale="log", xlabel=label, ylim=(len(names) - 0.5, -0.5))
         axes.set_yticks(range(len(names)), names, fontsize=8)

@@ -14,6 +14,7 @@ namespace {
 int RunCommand(std::vector<std::string> arguments) {
   std::signal(SIGPIPE, SIG_DFL);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   return RunProgram(static_cast<int>(arguments.size()), argv.data());

@@ -76,11 +76,12 @@ def python_names(text, prefix="", classes_alone=False):
 
 
 def python_package(folder):
-    """The entries of the package in a folder: the compiled module by its stub, and lyrefit.pvlib."""
+    """The entries of the package in a folder: the compiled module by its stub, and the modules beside it."""
     folder = pathlib.Path(folder)
     entries = python_names((folder / "_lyrefit.pyi").read_text(encoding="utf-8"))
     entries.update(python_names((folder / "__init__.py").read_text(encoding="utf-8"), classes_alone=True))
-    entries.update(python_names((folder / "pvlib.py").read_text(encoding="utf-8"), "pvlib."))
+    for module in ("pvlib", "searches"):
+        entries.update(python_names((folder / f"{module}.py").read_text(encoding="utf-8"), f"{module}."))
     entries["__version__"] = Entry("output", "str")
     return entries
 

@@ -110,13 +110,12 @@ const Chapter kDiagnosis = {
     {{"effect",
       "something real that the diodes do not describe: shading, a drifting lamp, a wrong "
       "sensor; lyrefit diagnose --list names them"},
-     {"cause", "an effect that the readings show beyond doubt and that is large enough to matter"},
-     {"p",
-      "how often noise alone would look at least as much like the effect as these readings "
-      "do"},
-     {"corrected p",
-      "the same, counting that the whole catalogue was tried; below the level (0.05 "
-      "unless said) the effect is named"},
+     {"cause",
+      "an effect that is named: by the readings and by how common it is, it acts with a "
+      "probability of at least 80 %, and it is large enough to matter"},
+     {"probability",
+      "of a cause: how sure the report is that it acts, all effects of the catalogue and none "
+      "together making 100 %; of a hundred causes stated with 90 %, ninety should be there"},
      {"misfit", "of an effect: how much of the residuals it takes away, in units of the noise"},
      {"kept",
       "the part of an effect's signature that the base model cannot imitate: near 0 it is "

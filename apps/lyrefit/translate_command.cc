@@ -51,8 +51,8 @@ void DeclareTranslate(VerbLine* verb, TranslateRequest* request) {
       .ReadsCurves()
       .Group("Measurement");
   AddTranslationFlags(verb, "", &request->coefficients_file, &request->module_file, &options);
-  AddNamedFlags(verb, kDiagnoseOptionTable,
-                {"base", "noise", "effects", "level", "seed", "threads"}, &options.diagnosis);
+  AddNamedFlags(verb, kDiagnoseOptionTable, {"base", "noise", "effects", "seed", "threads"},
+                &options.diagnosis);
   AddReportFlags(verb, "report", "the results as a table, a row a procedure",
                  "curve as measured and as translated", &request->output);
 }

@@ -258,7 +258,7 @@ void BindDiagnose(py::module_* module) {
           "FitResult or None: the model with its causes, with extend=True.")
       .def("frame", &CandidateFrame,
            "frame($self)\n--\n\nA pandas.DataFrame with a row a candidate: effect, whether it was\n"
-           "tried and why not, RMSE (A), p-values, held-out RMSE (A).")
+           "tried and why not, its probability, RMSE (A), held-out RMSE (A).")
       .def(
           "cause_frame",
           [](const DiagnoseResult& result) { return FrameOfCsv(result.record().csv()); },

@@ -38,7 +38,7 @@ class TranslateResult : public Result {
 // The options of the diagnosis that precedes a translation.
 const std::vector<OptionRow<DiagnoseOptions>>& DiagnosisRows() {
   static const auto* const rows = [] {
-    constexpr const char* kNames[] = {"base", "noise", "effects", "level", "seed", "threads"};
+    constexpr const char* kNames[] = {"base", "noise", "effects", "seed", "threads"};
     auto* chosen = new std::vector<OptionRow<DiagnoseOptions>>();
     std::copy_if(std::begin(kDiagnoseOptionTable), std::end(kDiagnoseOptionTable),
                  std::back_inserter(*chosen), [&](const OptionRow<DiagnoseOptions>& row) {

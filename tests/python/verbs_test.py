@@ -84,6 +84,11 @@ class Verbs(unittest.TestCase):
                                lyrefit.fit(CELL)["rmse"]["refined"]["solved_current_A"], delta=1e-12)
         with self.assertRaises(ZeroDivisionError):
             lyrefit.fit(CELL, searcher=lambda *all: 1 / 0)
+        for wrong in (lambda o, low, high, options: high * 10, lambda o, low, high, options: low * np.nan):
+            with self.assertRaisesRegex(lyrefit.Error, "candidate is .*expected a number in"):
+                lyrefit.fit(CELL, searcher=wrong)
+            with self.assertRaisesRegex(lyrefit.Error, "<lambda> cannot be compared on .*expected a number in"):
+                lyrefit.compare([CELL], models="sd", algorithms=["lo", wrong], runs=2, population=5, iterations=3)
         with self.assertRaisesRegex(lyrefit.Error, "searcher: expected a function"):
             lyrefit.fit(CELL, searcher="mlo")
         with self.assertRaisesRegex(lyrefit.Error, "are for fit"):

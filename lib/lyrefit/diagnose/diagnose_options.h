@@ -18,7 +18,6 @@ struct Effect;  // model/effect.h
 
 // Which causes are tried, at which significance, and which additional results are computed.
 struct DiagnoseOptions {
-  double level = 0.05;               // false-alarm rate of a comparison with reference sweeps
   double probability = 0.8;          // smallest probability at which a cause is named
   CausePriors priors;                // how common causes are
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
@@ -87,8 +86,6 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      "how common causes are: table, for the field; alike, all equally; or a JSON file like "
      "{\"shading\": 0.1}",
      PriorsOption<&DiagnoseOptions::priors>()},
-    {"level", "", "rate of false alarms in a comparison with reference sweeps",
-     &DiagnoseOptions::level, 1e-6, 0.5},
     {"seed", "", "seed of the search and of the plan", &DiagnoseOptions::seed, 0,
      1.8446744073709552e19},
     {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",

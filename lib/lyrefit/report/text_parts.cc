@@ -163,8 +163,9 @@ void AddErrorSizes(const ErrorReport& errors, Section* section) {
   add("path", Significant(100 * errors.sizes.path, 2) + " % of Isc", found,
       "what neighbours share: light that wanders during the sweep, or the device's own departure "
       "from the model");
-  add("path length", Significant(100 * errors.sizes.length, 2) + " % of Voc", found,
-      "how far along the sweep they share it");
+  const double length_percent = 100 * errors.sizes.length;
+  add("path length", Significant(length_percent, length_percent < 99.5 ? 2 : 3) + " % of Voc",
+      found, "how far along the sweep they share it");
 }
 
 std::string WhichToBelieve(const ErrorReport& errors) {

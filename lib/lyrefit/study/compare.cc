@@ -1,13 +1,14 @@
 #include "lyrefit/study/compare.h"
 
 #include <fmt/format.h>
-#include <glog/logging.h>
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
@@ -132,9 +133,10 @@ class Study {
     return {};
   }
 
-  Comparison Run() {
+  Expected<Comparison> Run() {
     progress_.Report();
     ParallelFor(jobs(), options_.threads, [this](int job) { RunJob(job); });
+    if (failure_) return tl::unexpected(std::move(failure_->second));
     Comparison comparison;
     comparison.version = Version();
     comparison.options = options_;
@@ -171,28 +173,44 @@ class Study {
   }
 
   void RunJob(int job) {
-    if (progress_.Stopped()) return;
+    if (progress_.Stopped() || failed_) return;
     const RunPlace at = PlaceOf(job);
     Problem* problem = problems_[at.problem].get();
     std::optional<RunOutcome>& slot = SlotOf(at);
     const bool taken_up = slot.has_value();
-    if (!taken_up) slot = FitOnce(*problem, at);
+    if (!taken_up) slot = FitOnce(*problem, at, job);
     if (!slot) return;
     const std::int64_t evaluations = slot->record.evaluations;
     if (--problem->left == 0) SumUp(at.problem);
     if (!taken_up) progress_.Step(WorkOf(*problem, algorithms_[at.compared]), evaluations);
   }
 
-  // Empty if the observer stopped the run.
-  std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at) {
+  // Empty if the observer stopped the run, or if it failed: a search of the user's may return what is no point of
+  // the bounds, which Try() cannot foresee.
+  std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at, int job) {
     const ComparedAlgorithm& compared = algorithms_[at.compared];
     auto done = RunOnce(problem.subject, problem.result, options_, compared, at.run,
                         progress_.stop().AsObserver());
-    CHECK(done.has_value()) << done.error().ToString();  // Try() has found all errors before
+    if (!done) {
+      KeepFailure(job, problem, compared, done.error());
+      return {};
+    }
     if (!*done) return {};
     RunOutcome outcome = std::move(**done);
     if (journal_) journal_->Append(WriteRun(at, problem.result, compared, options_, outcome));
     return outcome;
+  }
+
+  // Keeps the error of the first failed job in the order of jobs, which is the same on any number of threads: jobs
+  // begin in that order.
+  void KeepFailure(int job, const Problem& problem, const ComparedAlgorithm& compared,
+                   Error error) {
+    const std::lock_guard lock(failure_mutex_);
+    failed_ = true;
+    if (failure_ && failure_->first < job) return;
+    error.message = fmt::format("{} cannot be compared on {}: {}", compared.name,
+                                problem.result.curve_name, error.message);
+    failure_.emplace(job, std::move(error));
   }
 
   // Summarises the finished runs of a problem.
@@ -250,6 +268,9 @@ class Study {
   const ProgressReporter progress_;
   std::unique_ptr<Journal> journal_;  // null: none
   int taken_up_ = 0;
+  std::atomic<bool> failed_ = false;
+  std::mutex failure_mutex_;
+  std::optional<std::pair<int, Error>> failure_;  // of the least job that failed
 };
 
 }  // namespace
@@ -284,8 +305,9 @@ Expected<Comparison> Compare(const std::vector<CompareCurve>& curves,
       return tl::unexpected(taken.error());
     }
   }
-  Comparison comparison = study.Run();
-  comparison.doubts = std::move(*doubts);
+  auto comparison = study.Run();
+  if (!comparison) return comparison;
+  comparison->doubts = std::move(*doubts);
   return comparison;
 }
 

@@ -64,7 +64,7 @@ TEST(Verbs, TermsFitATerminalAndCoverTheTables) {
   EXPECT_EQ(RunApp("--help fit").out, RunApp("fit --help").out);
   std::istringstream lines(terms);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
-  for (const char* term : {"Isc", "Rsh", "n1", "AICc", "corrected p", "misfit", "kept", "floor",
+  for (const char* term : {"Isc", "Rsh", "n1", "AICc", "probability", "misfit", "kept", "floor",
                            "searched", "refined", "std err", "95 % interval"}) {
     EXPECT_THAT(terms, HasSubstr(term));
   }

@@ -20,14 +20,14 @@ import repository_pages
 import speed
 
 HERE = pathlib.Path(__file__).resolve().parent
-RUNS_THERE = ('The commands and examples of this page run in the folder of <a href="_static/lyrefit-examples.zip">the archive of '
-              "all examples</a>, which has their data.")
+RUNS_THERE = ('Commands and examples that read `data/` run in the folder of <a href="_static/lyrefit-examples.zip">the archive of '
+              "all examples with their data</a>.")
 # What the site has beside a page, by its name: said below the first paragraph.
 OFFERED = {
     "start": RUNS_THERE,
     "python_module": RUNS_THERE,
     "benchmark": 'To download: <a href="_static/lyrefit-benchmark-1.tar.gz">lyrefit-benchmark-1.tar.gz</a>, the archive '
-                 "without the measured curves.",
+                 "without the measured curves (`real` and `lab`).",
 }
 
 

@@ -9,9 +9,9 @@ EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
          "plant", "translate", "certify", "compare", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
-DATA = ("cell", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
-        "diagnosis/sweeps", "formats", "plant/module.json", "plant/plan.csv", "plant/strings.csv",
-        "pwp201", "rtc_france", "s75_constructed", "trend/module.json", "trend/year.csv")
+DATA = ("cell", "datasheet", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
+        "diagnosis/sweeps", "formats", "paper/rows.csv", "plant", "published/rows.csv", "pwp201", "rtc_france", "s75_constructed",
+        "trend")
 WHERE = 'It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data.\n"""\n'
 
 

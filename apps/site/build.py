@@ -20,6 +20,15 @@ import repository_pages
 import speed
 
 HERE = pathlib.Path(__file__).resolve().parent
+RUNS_THERE = ('Commands and examples that read `data/` run in the folder of <a href="_static/lyrefit-examples.zip">the archive of '
+              "all examples with their data</a>.")
+# What the site has beside a page, by its name: said below the first paragraph.
+OFFERED = {
+    "start": RUNS_THERE,
+    "python_module": RUNS_THERE,
+    "benchmark": 'To download: <a href="_static/lyrefit-benchmark-1.tar.gz">lyrefit-benchmark-1.tar.gz</a>, the archive '
+                 "without the measured curves (`real` and `lab`).",
+}
 
 
 def prepare(command, reference, parts):
@@ -30,9 +39,14 @@ def prepare(command, reference, parts):
     named = {page: (repository_pages.ROOT / path).read_text(encoding="utf-8")
              for path, page in site.names.items() if page.startswith("verbs/")}
     made, added = made_pages.verb_pages(command, list(named), named)
-    made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page()}
+    citation, changes = ((repository_pages.ROOT / ".github" / name).read_text(encoding="utf-8")
+                         for name in ("CITATION.cff", "CHANGELOG.md"))
+    made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page(),
+             "cite": site.relinked("", "cite", made_pages.cite(citation, changes))}
     shutil.copytree(HERE / "static", source / "_static")
-    site.write_all(added | {"speed": speed.page(source / "_static")})
+    site.write_all(added | {"speed": speed.page(source / "_static")}, OFFERED)
+    subprocess.run([sys.executable, "-B", repository_pages.ROOT / "data" / "benchmark" / "pack.py",
+                    source / "_static" / "lyrefit-benchmark-1.tar.gz"], check=True, stdout=subprocess.DEVNULL)
     for page, text in made.items():
         site.write(page, text)
     gallery.stage(parts / "examples")
@@ -62,7 +76,8 @@ def main():
         parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
     given = parser.parse_args()
     command = given.command.resolve()
-    os.environ |= {"PATH": f"{command.parent}:{os.environ['PATH']}", "LYREFIT_ROOT": str(repository_pages.ROOT),
+    os.environ |= {"PATH": f"{command.parent}:{os.environ['PATH']}", "LYREFIT_COMMAND": str(command),
+                   "LYREFIT_ROOT": str(repository_pages.ROOT),
                    "IPYTHONDIR": str(given.parts.resolve() / "ipython"), "JUPYTER_RUNTIME_DIR": str(given.parts.resolve() / "jupyter"),
                    "MATPLOTLIBRC": str(HERE / "static"), "SOURCE_DATE_EPOCH": "946684800",
                    "LYREFIT_SITE_PARTS": str(given.parts.resolve()), "PYTHONDONTWRITEBYTECODE": "1", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}

@@ -9,16 +9,18 @@ EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
          "plant", "translate", "certify", "compare", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
-DATA = ("cell", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
-        "diagnosis/sweeps", "formats/matrix_long.csv", "plant/module.json", "plant/plan.csv", "plant/strings.csv",
-        "pwp201", "rtc_france", "s75_constructed", "trend/module.json", "trend/year.csv")
+DATA = ("cell", "datasheet", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
+        "diagnosis/sweeps", "formats", "paper/rows.csv", "plant", "published/rows.csv", "pwp201", "rtc_france", "s75_constructed",
+        "trend")
+WHERE = 'It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data.\n"""\n'
 
 
 def stage(folder):
-    """The examples of the gallery with its head, where sphinx-gallery finds them."""
+    """The examples of the gallery with its head, where sphinx-gallery finds them; each says where its data are."""
     folder.mkdir(parents=True)
     for name in ORDER:
-        (folder / f"{name}.py").write_bytes((EXAMPLES / f"{name}.py").read_bytes())
+        text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
+        (folder / f"{name}.py").write_text(text.replace('\n"""\n', "\n\n" + WHERE, 1), encoding="utf-8")
     head = (pathlib.Path(__file__).parent / "gallery.rst").read_text(encoding="utf-8")
     (folder / "README.rst").write_text(head, encoding="utf-8")
 

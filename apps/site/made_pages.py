@@ -1,8 +1,10 @@
-"""Pages made of what the command and the reference say of themselves: verbs, glossary, index of C++."""
+"""Pages made of what the command, the reference and the citation file say: verbs, glossary, index of C++, how to cite."""
 
 import re
 import subprocess
 import xml.etree.ElementTree
+
+import yaml
 
 
 def said(command, *arguments):
@@ -82,9 +84,24 @@ def glossary(command):
             if term and not line.startswith("   "):
                 out += ["", term.group(1), "  " + term.group(2)]
             else:
-                out.append("  " + line.strip())
+                out[-1] += " " + line.strip()  # one line a definition: a line that begins with "-" would be a list
         out += ["```", ""]
     return "\n".join(out)
+
+
+def cite(citation, changelog):
+    """How to cite the software, of the texts of its citation file and of its changes, which have the year of a version."""
+    keys = yaml.safe_load(citation)
+    year = re.search(rf"^## {re.escape(keys['version'])} - (\d{{4}})", changelog, re.M)
+    authors = " and ".join(f"{{{author['name']}}}" for author in keys["authors"])
+    fields = {"author": authors, "title": keys["title"], "version": keys["version"], "year": year and year.group(1),
+              "license": keys["license"], "doi": keys.get("doi"), "url": keys.get("url")}
+    entry = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
+    said = [", ".join(author["name"] for author in keys["authors"]), keys["title"], f"Version {keys['version']}", fields["year"],
+            fields["doi"], fields["url"]]
+    return (f"# Cite\n\n{keys['message']} A report of lyrefit begins with its version.\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
+            f"BibTeX:\n\n```bibtex\n@software{{lyrefit,\n{entry}\n}}\n```\n\n"
+            "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).\n")
 
 
 class Reference:

@@ -144,9 +144,13 @@ class Site:
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(("---\norphan: true\n---\n\n" if orphan else "") + text, encoding="utf-8")
 
-    def write_all(self, more):
-        """All pages of the project; `more` holds what is added to the end of one, by its name."""
+    def write_all(self, more, offered):
+        """All pages of the project; `more` holds what is added to the end of one, `offered` what is said below its first
+        paragraph, by its name."""
         for path, page in self.names.items():
             added = more.get(page, "")
-            self.write(page, self.text_of(path).rstrip() + "\n" + ("\n" + added if added else ""),
-                       orphan=not path.startswith(OWN))
+            text = self.text_of(path)
+            if page in offered:
+                title, first, rest = text.split("\n\n", 2)
+                text = "\n\n".join((title, first, offered[page], rest))
+            self.write(page, text.rstrip() + "\n" + ("\n" + added if added else ""), orphan=not path.startswith(OWN))

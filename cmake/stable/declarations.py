@@ -94,6 +94,7 @@ def declarations(doxygen, doxyfile, root, headers):
         settings = pathlib.Path(doxyfile).read_text(encoding="utf-8") + f"""
 INPUT = {" ".join(f'"{header}"' for header in headers)}
 OUTPUT_DIRECTORY = "{folder}"
+GENERATE_TAGFILE =
 STRIP_FROM_PATH = "{root}/lib"
 EXTRACT_ALL = YES
 WARNINGS = NO

@@ -3,7 +3,7 @@
 
     archive_test.py SITE
 
-Runs every example of the archive there; the first one without Matplotlib and pandas, with the digits of the command. The
+Runs every example of the archive there, which has the data that commands of pages name; the first one without Matplotlib and pandas, with the digits of the command. The
 notebooks hold what their cells printed and drew.
 """
 
@@ -16,6 +16,10 @@ import sys
 import tempfile
 import unittest
 import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "cmake" / "reference"))
+from markdown_links import pieces  # noqa: E402
 
 SITE = pathlib.Path(sys.argv.pop()).resolve()
 ENVIRONMENT = {key: value for key, value in os.environ.items() if key != "LYREFIT_ROOT"}
@@ -45,6 +49,13 @@ class Archive(unittest.TestCase):
                 page = (SITE / "gallery" / f"{file.stem}.html").read_text(encoding="utf-8")
                 self.assertRegex(page, rf"_images/sphx_glr_{file.stem}_\d+.png")
                 self.assertIn("sphx-glr-script-out", page)
+
+    def test_commands_find_their_data(self):
+        for page in (ROOT / "README.md", ROOT / "apps/python/README.md", *(ROOT / "apps/lyrefit/verbs").glob("*.md")):
+            code = "".join(piece for is_code, piece in pieces(page.read_text(encoding="utf-8")) if is_code)
+            named = set(re.findall(r"(?<![\w/])data/[\w./-]*\w", code))
+            self.assertTrue(named or page.name != "README.md")
+            self.assertEqual({path for path in named if (ROOT / path).exists() and not (self.place / path).exists()}, set(), page)
 
     def test_first_needs_numpy_alone(self):
         printed = self.run_python("-c", WITHOUT)

@@ -4,11 +4,13 @@
     links_test.py SITE
 
 Links to other sites are not followed, but nothing may be loaded from one. The pages below cpp/ are Doxygen's: links into
-them are tested, their own are not. First tries itself on pages with dead links.
+them are tested, their own are not. Nor may a definition of the glossary hold a
+list. First tries itself on pages with dead links.
 """
 
 import html.parser
 import pathlib
+import re
 import sys
 import tempfile
 import urllib.parse
@@ -51,19 +53,29 @@ def faults(site):
                     yield f"{where}: {link}: no such anchor"
 
 
+def glossary_faults(site):
+    """What is wrong with the definitions of the glossary: each is prose."""
+    definitions = re.findall(r"<dd>.*?</dd>", (site / "glossary.html").read_text(encoding="utf-8"), re.S)
+    if not definitions:
+        yield "glossary.html: no definition"
+    yield from (f"glossary.html: {text}: a list" for text in definitions if re.search("<[uo]l", text))
+
+
 def sees_faults():
     with tempfile.TemporaryDirectory() as folder:
         site = pathlib.Path(folder).resolve()
         (site / "a.html").write_text('<p id="here"><a href="b.html#there">1</a><a href="#here">2</a><a href="c.html">3</a>'
                                      '<a href="https://a.example/">4</a><img src="https://a.example/b.png">')
         (site / "b.html").write_text('<a href="a.html#here">1</a>')
-        return [fault.split(": ")[-1] for fault in faults(site)] == ["no such anchor", "no such file", "loaded from elsewhere"]
+        (site / "glossary.html").write_text("<dd><p>1</p></dd><dd><p>2</p><ul><li>3</li></ul></dd>")
+        return [fault.split(": ")[-1] for fault in (*faults(site), *glossary_faults(site))] == [
+            "no such anchor", "no such file", "loaded from elsewhere", "a list"]
 
 
 if __name__ == "__main__":
     if not sees_faults():
-        sys.exit("a dead link was not seen")
+        sys.exit("a dead link or a list was not seen")
     root = pathlib.Path(sys.argv[1]).resolve()
-    found = list(faults(root))
+    found = [*faults(root), *glossary_faults(root)]
     print(*found, sep="\n")
     sys.exit(1 if found or not (root / "index.html").is_file() else 0)

@@ -78,6 +78,22 @@ test('the search knows names of C++ and of Python', async () => {
   }
 });
 
+test('search and the name of the project are in view, wherever in the menu a page is', async () => {
+  for (const name of ['gallery/own_effect', 'cite', 'project/index']) {
+    const {page, close} = await opened(name, 'light');
+    for (const part of ['input[name=q]', '.wy-side-nav-search > a', '.wy-menu-vertical a.current']) {
+      const seen = await page.evaluate((selector) => {
+        const element = document.querySelector(selector);
+        const box = element?.getBoundingClientRect();
+        const on = box && document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+        return Boolean(element?.contains(on));
+      }, part);
+      assert.ok(seen, `${name}: ${part}`);
+    }
+    await close();
+  }
+});
+
 test('the menu of a phone opens and leads on; next leads on', async () => {
   const {page, faults, close} = await opened('index', 'phone');
   assert.equal(await page.locator('.wy-nav-side.shift').count(), 0);
@@ -105,7 +121,7 @@ test('the C++ reference is reached, opens and leads back', async () => {
 
 test('pages have no barriers that axe knows', async () => {
   for (const name of ['index', 'start', 'gallery/index', 'gallery/fit', 'notebooks/compare', 'verbs/fit', 'how_a_fit_works',
-                      'diagnosis', 'formats', 'glossary', 'python', 'python/lyrefit.fit', 'cpp', 'speed', 'project/index']) {
+                      'diagnosis', 'formats', 'glossary', 'cite', 'python', 'python/lyrefit.fit', 'cpp', 'speed', 'project/index']) {
     const {page, close} = await opened(name, 'light');
     assert.deepEqual(await barriers(page), [], name);
     await close();

@@ -26,9 +26,16 @@ for cause in found["verdict"]["causes"]:
 assert found.causes == ["shading"]
 
 # %%
-# Every candidate, tried or not, and why not.
+# The most probable candidates. The first two are partial shading, of one depth and of a light for
+# each substring: the sentence adds them up.
 
-print(found.frame()[["effect", "tried", "probability", "why_not"]].head(10).to_string(index=False))
+candidates = found.frame().sort_values("probability", ascending=False)
+print(candidates[["effect", "title", "probability"]].head().to_string(index=False))
+
+# %%
+# Some were not tried, and why not.
+
+print(candidates[~candidates.tried][["effect", "why_not"]].head().to_string(index=False))
 
 # %%
 # The model with its cause is a fit like any other; its parameters are those of the module without

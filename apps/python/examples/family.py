@@ -34,9 +34,9 @@ readings = pd.read_csv(data / "s75_constructed" / "curves.csv", dtype={"curve": 
 for number, row in result.frame().iterrows():
     own = readings[readings.curve == row.id]
     condition = f"{row.irradiance_Wm2:.0f} W/m2, {row.temperature_C:.0f} C"
-    plt.plot(own.voltage_V, own.current_A, ".", color=f"C{number % 6}", label=condition)
-    plt.plot(own.voltage_V, own.current_A + row.residual_A, color=f"C{number % 6}")
+    plt.plot(own.voltage_V, own.current_A, ".", color=plt.cm.tab10(number), label=condition)
+    plt.plot(own.voltage_V, own.current_A + row.residual_A, color=plt.cm.tab10(number))
 plt.xlabel("voltage (V)")
 plt.ylabel("current (A)")
-plt.legend(fontsize=8)
+plt.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
 plt.show()

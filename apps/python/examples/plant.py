@@ -11,13 +11,17 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 
 import matplotlib.pyplot as plt
 import pandas as pd
 
 data = pathlib.Path(os.environ.get("LYREFIT_ROOT", ".")) / "data" / "plant"
-command = shutil.which("lyrefit") or os.environ["LYREFIT_COMMAND"]
+places = os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ.get("PATH", "")])
+command = os.environ.get("LYREFIT_COMMAND") or shutil.which("lyrefit", path=places)
+if not command:
+    sys.exit("no command lyrefit beside Python or on the PATH; LYREFIT_COMMAND can name it")
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([command, "batch", data / "strings.csv", "--plan", data / "plan.csv",
                     "--out", folder, "--quiet"], check=True)

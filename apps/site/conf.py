@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import sys
 
 import lyrefit
@@ -81,3 +82,12 @@ sphinx_gallery_conf = {
     "abort_on_example_error": True,
     "thumbnail_size": (400, 280),
 }
+
+
+def keep_underscores(_app, _what, _name, _thing, _options, lines):
+    """A name that ends in an underscore is no link, as it would be in the language of docstrings."""
+    lines[:] = [re.sub(r"^:(param|type) (\w+)_:", r":\1 \2\\_:", line) for line in lines]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", keep_underscores, priority=900)  # after Napoleon's

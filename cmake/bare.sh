@@ -9,7 +9,7 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 packages=${1:-$LYREFIT_ROOT/build/packages}
 [[ $packages != --wheel ]] || packages=$LYREFIT_ROOT/build-wheel/dist
-packages=$(realpath -- "$packages")
+packages=$(realpath --canonicalize-missing -- "$packages")
 release=bookworm
 
 ((EUID == 0)) || Die "a system of its own is made by root"

@@ -177,6 +177,31 @@ TEST(Compare, TakesASearchOfTheUsersOwn) {
   EXPECT_EQ(result.trace[0].best_A, result.searched.min);
 }
 
+TEST(Compare, RefusesTheFirstRunOfASearchThatLeavesTheBoundsOnAnyNumberOfThreads) {
+  ComparedAlgorithm own{"outside", {}, SmallSearch(), {}};
+  own.searcher = [](const ObjectiveFunction& objective, const Box& box,
+                    const SearchOptions& options, const Observer&) {
+    SearchSummary summary;
+    summary.best.x = box.upper;
+    summary.best.objective = objective(summary.best.x.data());
+    summary.best.x[0] += static_cast<double>(options.run);  // the first run stays within
+    summary.elites = {summary.best};
+    return summary;
+  };
+  CompareOptions options = SmallOptions();
+  options.runs = 20;
+  std::string first;
+  for (const int threads : {1, 4}) {
+    options.threads = threads;
+    const auto refused = Compare({RtcFrance()}, {own}, options);
+    ASSERT_FALSE(refused);
+    if (first.empty()) first = refused.error().message;
+    EXPECT_EQ(refused.error().message, first);
+  }
+  EXPECT_THAT(first, HasSubstr("outside cannot be compared on rtc_france"));
+  EXPECT_THAT(first, HasSubstr("expected a number in"));
+}
+
 TEST(Compare, TellsTheObserverOfEveryRunOneThreadAtATime) {
   std::atomic<int> inside{0};
   std::vector<std::int64_t> done;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -136,7 +137,7 @@ class Study {
   Expected<Comparison> Run() {
     progress_.Report();
     ParallelFor(jobs(), options_.threads, [this](int job) { RunJob(job); });
-    if (failure_) return tl::unexpected(std::move(failure_->second));
+    if (failure_) return tl::unexpected(std::move(*failure_));
     Comparison comparison;
     comparison.version = Version();
     comparison.options = options_;
@@ -173,7 +174,7 @@ class Study {
   }
 
   void RunJob(int job) {
-    if (progress_.Stopped() || failed_) return;
+    if (progress_.Stopped() || job > first_failed_) return;
     const RunPlace at = PlaceOf(job);
     Problem* problem = problems_[at.problem].get();
     std::optional<RunOutcome>& slot = SlotOf(at);
@@ -201,16 +202,16 @@ class Study {
     return outcome;
   }
 
-  // Keeps the error of the first failed job in the order of jobs, which is the same on any number of threads: jobs
-  // begin in that order.
+  // Keeps the error of the first failed job in the order of jobs. Only later ones are left out after a failure, so it
+  // is the same on any number of threads.
   void KeepFailure(int job, const Problem& problem, const ComparedAlgorithm& compared,
                    Error error) {
     const std::lock_guard lock(failure_mutex_);
-    failed_ = true;
-    if (failure_ && failure_->first < job) return;
+    if (job > first_failed_) return;
+    first_failed_ = job;
     error.message = fmt::format("{} cannot be compared on {}: {}", compared.name,
                                 problem.result.curve_name, error.message);
-    failure_.emplace(job, std::move(error));
+    failure_ = std::move(error);
   }
 
   // Summarises the finished runs of a problem.
@@ -268,9 +269,9 @@ class Study {
   const ProgressReporter progress_;
   std::unique_ptr<Journal> journal_;  // null: none
   int taken_up_ = 0;
-  std::atomic<bool> failed_ = false;
+  std::atomic<int> first_failed_ = std::numeric_limits<int>::max();
   std::mutex failure_mutex_;
-  std::optional<std::pair<int, Error>> failure_;  // of the least job that failed
+  std::optional<Error> failure_;  // of that job
 };
 
 }  // namespace

@@ -3,18 +3,24 @@
 
 readonly kEmptyParts=4194304 # shards of at most one curve: they measure the start-up time
 
+# Runs the arguments with their output in the file $0 and prints the microseconds that they took. It runs where
+# the sample runs, so that the time in Slurm's queue does not count.
+# shellcheck disable=SC2016  # expanded by the shell that runs it
+readonly kTimed='started=${EPOCHREALTIME//[.,]/}
+"$@" > "$0" 2>&1 || exit
+echo $((${EPOCHREALTIME//[.,]/} - started))'
+
 # RunSample PARTS FOLDER: runs three of PARTS shards, spread over the input; sets sample_us to their time in
 # microseconds and sample_rows to their number of rows.
 RunSample() {
-  local parts=$1 place folder=$2/$1 started runner=()
+  local parts=$1 place folder=$2/$1 us runner=()
   [[ -z $on_node ]] || runner=(srun --quiet --ntasks=1 "--cpus-per-task=$cpus" "${sbatch_options[@]}")
   sample_us=0 sample_rows=0
   for place in $((parts / 6 + 1)) $((parts / 2 + 1)) $((parts - parts / 6)); do
-    started=${EPOCHREALTIME//[.,]/}
-    "${runner[@]}" "$lyrefit" batch "${inputs[@]}" --out "$folder" --shard "$place/$parts" \
-      --threads "$cpus" "${batch_options[@]}" > "$folder.log" 2>&1 ||
-      Die "the sample failed: $(tail -n 1 -- "$folder.log")"
-    sample_us=$((sample_us + ${EPOCHREALTIME//[.,]/} - started))
+    us=$("${runner[@]}" bash -c "$kTimed" "$folder.log" "$lyrefit" batch "${inputs[@]}" --out "$folder" \
+      --shard "$place/$parts" --threads "$cpus" "${batch_options[@]}") ||
+      Die "the sample failed: $(tail -n 1 -- "$folder.log" 2> /dev/null || echo 'see above')"
+    sample_us=$((sample_us + us))
     sample_rows=$((sample_rows + $(wc -l < "$folder/shard-$place-of-$parts.part") - 2)) # head and end
   done
 }
@@ -31,7 +37,7 @@ ChooseShards() {
   parts=65536
   until
     RunSample "$parts" "$folder"
-    ((sample_us - empty_us > sample_seconds * 1000000 || parts == 4))
+    ((parts == 4 || (sample_rows > empty_rows && sample_us - empty_us > sample_seconds * 1000000)))
   do
     parts=$(LargerShards "$parts" $((sample_us - empty_us)))
   done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Relative paths behind `--` of lyrefit-slurm submit begin in the folder of the submission, in the tasks as in the
-# sample. Without a Slurm: what would be submitted is run here.
+# What lyrefit-slurm submit writes and measures, without a Slurm: relative paths behind `--` begin in the folder of
+# the submission, in the tasks as in the sample, and a sample counts neither the time in a queue nor a slow start.
 #   slurm_paths_test.sh LYREFIT LYREFIT_SLURM INPUT SCRATCH_FOLDER
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/engines.bash"
@@ -29,4 +29,23 @@ for shards in 1 2; do
   ((shards == 1)) || (cd -- "$out" && Run bash slurm/merge.sh) || Fail "merge"
 done
 Run cmp -- "$work/out1/results.csv" "$work/out2/results.csv"
+
+# A sample runs three shards that are to be empty, and three larger ones until they take long enough. These three
+# are delayed: a queue does not count, and a slow start with nothing behind it is not taken for the rate.
+cat > "$work/bin/delayed" << 'END'
+#!/usr/bin/env bash
+echo >> calls
+calls=$(wc -l < calls)
+((calls < 4 || calls > 6)) || sleep 0.5
+exec "$@"
+END
+printf '#!/bin/sh\nshift 3 # the options\nexec delayed "%s"\n' "\$@" > "$work/bin/srun"
+printf '#!/bin/sh\nexec delayed %q "%s"\n' "$lyrefit" "\$@" > "$work/bin/slow"
+chmod +x -- "$work"/bin/*
+Run "$lyrefit_slurm" submit "$input" --lyrefit "$lyrefit" --out ../queued --srun --sample-seconds 1 |
+  tee "$work/queued.log"
+grep -q ', start-up 0.* about 300 curves$' "$work/queued.log" || Fail "a queue counts"
+rm calls
+Run "$lyrefit_slurm" submit curves.jsonl --lyrefit slow --out ../slow --sample-seconds 1 | tee "$work/slow.log"
+grep -q ' about 8 curves$' "$work/slow.log" || Fail "a slow start counts"
 Log passed

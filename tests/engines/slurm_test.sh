@@ -9,7 +9,7 @@ source "$here/engines.bash"
 source "$here/one_node_slurm.bash"
 lyrefit=$1 lyrefit_slurm=$2 input=$3 work=$4 options=("${@:5}")
 
-Need munged slurmctld slurmd sbatch squeue scontrol scancel srun setpriv pgrep
+Need munged slurmctld slurmd sbatch squeue scontrol scancel srun setpriv pgrep ps
 
 Fail() {
   Log "FAILED: $*"
@@ -20,8 +20,11 @@ Fail() {
 Logs() { grep -qs -- "$2" "$out/slurm/logs/$1.log"; }
 PartOf() { echo "$out/shards/shard-$1-of-4.part"; }
 ProcessOf() { pgrep -f -- "--shard $1/4 --out $out/shards\$"; }
-Queued() { squeue --noheader; }
-NothingQueued() { [[ -z $(squeue --noheader) ]]; }
+StandsStill() { [[ $(ps -o state= -p "$(ProcessOf "$1")" 2> /dev/null) == T ]]; }
+NothingQueued() {
+  local queued
+  queued=$(squeue --noheader) && [[ -z $queued ]] # no answer is not an empty queue
+}
 
 rm -rf -- "$work"
 mkdir -p -- "$work"
@@ -33,7 +36,11 @@ Log "$(slurmd -V), $(munged --version | head -n 1), on $(hostname), as $(id -un)
 StartSlurm || Fail "Slurm does not start: $(cat "$slurm_folder"/*.out)"
 sinfo
 
-submit=("$lyrefit_slurm" submit "$input" --lyrefit "$lyrefit")
+# Shards stand still before they begin as long as this file exists.
+touch "$work/hold"
+printf '#!/usr/bin/env bash\n[[ ! -e %q ]] || kill -STOP $$\nexec %q "$@"\n' "$work/hold" "$lyrefit" > "$work/held"
+chmod +x "$work/held"
+submit=("$lyrefit_slurm" submit "$input" --lyrefit "$work/held")
 Log "one run, to compare with"
 "$lyrefit" batch "$input" --out "$work/single" "${options[@]}" > "$work/single.log" 2>&1
 
@@ -46,11 +53,15 @@ if "${submit[@]}" --out "$out" --shards 4 > "$work/twice.log" 2>&1; then
   Fail "a second submission to one folder"
 fi
 
-# Each shard stands still from its first rows on, so that none is done before it is told to end.
+# One shard after the other writes its first rows and stands still again, so that none is done before it is told
+# to end.
 for k in 1 2 3 4; do
+  WaitFor 600 StandsStill "$k" || Fail "shard $k does not start"
+  kill -CONT "$(ProcessOf "$k")"
   WaitFor 600 HasRows "$(PartOf "$k")" || Fail "shard $k does not get on its way"
   Run kill -STOP "$(ProcessOf "$k")"
 done
+rm -- "$work/hold"
 Run scancel --batch --signal=USR1 "${job}_1"
 Run kill -CONT "$(ProcessOf 1)"
 Run kill -KILL "$(ProcessOf 2)"
@@ -85,7 +96,8 @@ Run "${submit[@]}" --out "$out" --sample-seconds 1 --minutes 0.01 --max-tasks 3 
   --at-once 1 --srun -- "${options[@]}"
 [[ $(< "$out/slurm/shards") == "3 1" ]] || Fail "at most 3 tasks of 0.6 s: $(< "$out/slurm/shards")"
 Run "$lyrefit_slurm" cancel "$out"
-NothingQueued || Fail "something is queued after cancel: $(Queued)"
+Run "$lyrefit_slurm" status "$out" | tee "$work/cancelled"
+grep -q ' 0 running, 0 waiting' "$work/cancelled" || Fail "something is queued after cancel"
 Run "$lyrefit_slurm" resubmit "$out"
 WaitFor 600 NothingQueued || Fail "the queue does not empty"
 Run cmp -- "$work/single/results.csv" "$out/results.csv"

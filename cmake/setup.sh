@@ -28,15 +28,15 @@ PackagesFor() {
     slurm) echo slurm-wlm munge procps python3 ;;
     engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
-    pages) Unless node nodejs; Unless npm npm; Unless chromium chromium ;;  # what pages embed, a browser to test them
+    pages) Unless node nodejs; Unless npm npm; Unless chromium-headless-shell chromium-headless-shell ;;  # what pages embed, a browser to test them
     reference) echo doxygen python3 ;;
     site)
       echo python3-sphinx python3-sphinx-gallery python3-sphinx-rtd-theme python3-sphinx-copybutton python3-myst-parser \
         python3-nbsphinx python3-nbclient python3-ipykernel python3-matplotlib python3-pandas pandoc ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
-    wheel) echo python3-build python3-pybind11 python3-pip python3-venv python3-setuptools python3-wheel binutils patchelf ;;
+    wheel) echo python3-build python3-pybind11 python3-pip python3-venv python3-setuptools python3-wheel binutils ;;
     release) echo twine git ;;  # what the index would say
-    bare) echo debootstrap ;;  # a system to try packages in
+    bare) echo debootstrap patchelf ;;  # a system to try packages in
     web) echo emscripten ;;  # the library in a browser; its other parts are compiled from Debian's sources
     check) echo clang-format clang-tidy shellcheck git qemu-user ;;
     clang) echo clang libclang-rt-14-dev lld ;;

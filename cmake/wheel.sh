@@ -95,9 +95,11 @@ ByCMake google-glog libglog.a -DWITH_GFLAGS=OFF -DWITH_UNWIND=OFF -DWITH_GTEST=O
 # This header lacks a guard, which it needs where sources are compiled together.
 guarded=$(Source ceres-solver)/internal/ceres/manifold_adapter.h
 grep -q '^#pragma once' "$guarded" || sed -i '1i #pragma once' "$guarded"
-ByCMake ceres-solver libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF -DCUDA=OFF \
-  -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF -DCMAKE_UNITY_BUILD=ON \
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+# Its solvers for dense problems are the ones in use; covariances, a third of its compilation, are not.
+sed -i '/^ *covariance\(_impl\)\?\.cc$/d' "$(Source ceres-solver)/internal/ceres/CMakeLists.txt"
+ByCMake ceres-solver libceres.a -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=OFF -DLAPACK=OFF -DGFLAGS=OFF -DMINIGLOG=OFF \
+  -DCUDA=OFF -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF '-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG' \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 
 Say "The archive of sources"
 rm -rf "$FOLDER"/dist/lyrefit-*.tar.gz "$FOLDER"/dist/lyrefit-*"-$tag-"*.whl "$FOLDER/unpacked" # others' wheels stay

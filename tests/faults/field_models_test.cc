@@ -7,6 +7,7 @@
 #include "diagnose/synthetic_data.h"
 #include "faults/field_case.h"
 #include "lyrefit/diagnose/fit_effect.h"
+#include "repeats.h"
 
 // Fits of one effect to exact curves from the simulator of modules, whose cells follow other laws
 // than those of the effects and differ among each other. A figure is a misfit in % of Isc.
@@ -94,6 +95,7 @@ Misfits MisfitsOf(const std::string& kind, const char* effect, int modules) {
 }
 
 TEST(FieldModels, FitEverySubstringPartlyCovered) {
+  SKIP_IF_SANITIZED();
   const Misfits misfits = MisfitsOf("covered_edge", "covered_edge", 12);
   EXPECT_GT(misfits.before[6], 2);
   EXPECT_LT(misfits.Middle(), 0.25);
@@ -108,6 +110,7 @@ TEST(FieldModels, FitSubstringsWithoutCurrent) {
 }
 
 TEST(FieldModels, FitCellsUnderALightEach) {
+  SKIP_IF_SANITIZED();
   const Misfits misfits = MisfitsOf("dim_cells", "dim_cells", 16);
   EXPECT_GT(misfits.before[8], 4);
   EXPECT_LT(misfits.Middle(), 0.4);
@@ -123,6 +126,7 @@ TEST(FieldModels, FitShuntsThatGrowAlongTheString) {
 
 // Of 24, 48 and 24 cells. Some have a single dim cell, for which a light of all cells is no model.
 TEST(FieldModels, FitSubstringsOfUnlikeSize) {
+  SKIP_IF_SANITIZED();
   const Misfits whole = MisfitsOf("unlike_groups", "substrings", 16);
   EXPECT_GT(whole.before[8], 4);
   EXPECT_LT(whole.after[6], 0.1);
@@ -134,6 +138,7 @@ TEST(FieldModels, FitSubstringsOfUnlikeSize) {
 // Two chains in parallel are at the same voltage: with a light each they have the curve of one chain
 // under the mean of both, as far as a curve shows.
 TEST(FieldModels, FitDimCellsInBothHalvesOfAGroup) {
+  SKIP_IF_SANITIZED();
   const Misfits misfits = MisfitsOf("both_halves", "dim_cells", 16);
   EXPECT_GT(misfits.before[8], 4);
   EXPECT_LT(misfits.Middle(), 0.3);

@@ -92,9 +92,9 @@ for file in results.jsonl results.csv results.schema.json; do
 done
 
 out=$work/measured
-Run "${submit[@]}" --out "$out" --sample-seconds 1 --minutes 0.01 --max-tasks 3 --cpus-per-task 2 \
+Run "${submit[@]}" --out "$out" --sample-seconds 1 --minutes 0.001 --max-tasks 3 --cpus-per-task 2 \
   --at-once 1 --srun -- "${options[@]}"
-[[ $(< "$out/slurm/shards") == "3 1" ]] || Fail "at most 3 tasks of 0.6 s: $(< "$out/slurm/shards")"
+[[ $(< "$out/slurm/shards") == "3 1" ]] || Fail "at most 3 tasks of 0.06 s: $(< "$out/slurm/shards")"
 Run "$lyrefit_slurm" cancel "$out"
 Run "$lyrefit_slurm" status "$out" | tee "$work/cancelled"
 grep -q ' 0 running, 0 waiting' "$work/cancelled" || Fail "something is queued after cancel"

@@ -36,7 +36,8 @@ add_test(NAME web/digits COMMAND node --no-experimental-fetch "${PROJECT_SOURCE_
 set_tests_properties(web/digits PROPERTIES TIMEOUT 900)
 
 # Tests the page in a browser, with the packages of tests/pages that setup.sh installs.
-find_program(LYREFIT_CHROMIUM NAMES chromium-headless-shell chromium chromium-browser google-chrome NO_CMAKE_FIND_ROOT_PATH)
+find_program(LYREFIT_CHROMIUM NAMES chromium-headless-shell chromium chromium-browser google-chrome
+             NO_CMAKE_FIND_ROOT_PATH)
 set(PAGES "${CMAKE_CURRENT_BINARY_DIR}/pages")
 if(LYREFIT_CHROMIUM AND LYREFIT_PLOTLY AND EXISTS "${PAGES}/node_modules/playwright-core")
   foreach(script browser web_test)

@@ -28,7 +28,8 @@ PackagesFor() {
     slurm) echo slurm-wlm munge procps python3 ;;
     engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
-    pages) Unless node nodejs; Unless npm npm; Unless chromium-headless-shell chromium-headless-shell ;;  # what pages embed, a browser to test them
+    pages) # what pages embed, and a browser to test them: one without windows, which takes less time
+      Unless node nodejs; Unless npm npm; Unless chromium-headless-shell chromium-headless-shell ;;
     reference) echo doxygen python3 ;;
     site)
       echo python3-sphinx python3-sphinx-gallery python3-sphinx-rtd-theme python3-sphinx-copybutton python3-myst-parser \

@@ -33,7 +33,7 @@ PackagesFor() {
     reference) echo doxygen python3 ;;
     site)
       echo python3-sphinx python3-sphinx-gallery python3-sphinx-rtd-theme python3-sphinx-copybutton python3-myst-parser \
-        python3-nbsphinx python3-nbclient python3-ipykernel python3-matplotlib python3-pandas pandoc ;;
+        python3-nbsphinx python3-nbclient python3-ipykernel python3-matplotlib python3-pandas python3-bs4 pandoc ;;
     packages) echo dpkg-dev lintian pkgconf git ;;  # makes and judges packages, tries the file of pkg-config
     wheel) echo python3-build python3-pybind11 python3-pip python3-venv python3-setuptools python3-wheel binutils ;;
     release) echo twine git ;;  # what the index would say

@@ -8,11 +8,14 @@ has left its pages and tags.xml. --parts is a folder for what the site is made o
 """
 
 import argparse
+import json
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
+
+import bs4
 
 import gallery
 import made_pages
@@ -57,6 +60,18 @@ def prepare(command, reference, parts):
     gallery.archive(source / "_static" / "lyrefit-examples.zip", notebooks)
 
 
+def write_texts(out):
+    """The text of every page for its search, which shows the words around what was found."""
+    texts = {}
+    for page in sorted(out.rglob("*.html")):
+        main = bs4.BeautifulSoup(page.read_bytes(), "html.parser").find(role="main")
+        for mark in main(class_="headerlink"):
+            mark.decompose()
+        texts[page.relative_to(out).as_posix()] = " ".join(main.get_text().split())
+    (out / "_static" / "page_texts.js").write_text(f"const pageTexts = {json.dumps(texts, ensure_ascii=False)};\n",
+                                                   encoding="utf-8")
+
+
 def copy_reference(pages, out):
     """Doxygen's pages, with the project's name above each as the way back."""
     shutil.copytree(pages, out)
@@ -87,6 +102,7 @@ def main():
     run = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", HERE,
                           "-d", given.parts / "doctrees", given.parts / "source", given.out], check=False)
     (given.out / ".buildinfo").unlink(missing_ok=True)  # for Sphinx's next run, of which there is none; differs each time
+    write_texts(given.out)
     copy_reference(given.reference / "html", given.out / "cpp")
     sys.exit(run.returncode)
 

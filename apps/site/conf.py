@@ -40,7 +40,6 @@ html_js_files = ["site.js"]
 html_title = f"lyrefit {release}"
 html_copy_source = html_show_sourcelink = False
 html_show_sphinx = False
-html_show_search_summary = False  # a page on disk may not read others
 copybutton_prompt_text = ">>> "
 copybutton_selector = ":not(.prompt) > div.highlight pre"
 

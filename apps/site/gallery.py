@@ -35,6 +35,7 @@ def notebook(name):
 
     _, blocks = split_code_and_text_blocks(str(EXAMPLES / f"{name}.py"))
     made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF | {"first_notebook_cell": None}, str(EXAMPLES))), as_version=4)
+    made.cells[0].source = made.cells[0].source.replace("\n", " (notebook)\n", 1)  # told from the example's page
     nbclient.NotebookClient(made, timeout=600, kernel_name="python3", record_timing=False).execute()
     return nbformat.writes(made)
 

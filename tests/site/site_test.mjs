@@ -60,6 +60,9 @@ test('the search finds a word, from disk, and leads to its page', async () => {
   await page.waitForSelector('#search-results ul.search li a');
   const found = await page.$$eval('#search-results ul.search li a', (links) => links.map((link) => link.textContent));
   assert.ok(found.includes('Hysteresis of a pair of sweeps'), found.join(', '));
+  const around = await page.$$eval('#search-results ul.search li p.context', (texts) => texts.map((text) => text.textContent));
+  assert.equal(around.length, found.length);
+  for (const text of around) assert.match(text.toLowerCase(), /hysteresi/);
   await page.click('#search-results a:text-is("Hysteresis of a pair of sweeps")');
   await page.waitForSelector('h1');
   assert.match(page.url(), /gallery\/hysteresis\.html/);

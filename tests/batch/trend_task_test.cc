@@ -9,6 +9,7 @@
 #include "lyrefit/batch/plant_figures.h"
 #include "lyrefit/batch/plant_page.h"
 #include "lyrefit/batch/plant_summary.h"
+#include "repeats.h"
 #include "strings.h"
 
 namespace lyrefit {
@@ -95,6 +96,7 @@ TEST_F(TrendTaskTest, BrokenFileIsABrokenRow) {
 }
 
 TEST_F(TrendTaskTest, ThreadsShardsAndResumeGiveTheSameBytes) {
+  SKIP_IF_SANITIZED();
   BatchOptions options = Into(folder_.Path("whole"), 1);
   options.pages = PagesOf::kAll;
   ASSERT_TRUE(Run(options));

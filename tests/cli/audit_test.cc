@@ -16,6 +16,7 @@ const std::string kGoodRow =
     "T,rtc_france,sd,a,9.8602E-04,0.760776,0.036377,53.7185,3.23021E-07,1.48118\n";
 
 TEST(AuditVerb, AuditsThePaperAndEndsWell) {
+  SKIP_IF_SANITIZED();
   const AppResult result = RunApp("audit '" + kRowsFile + "'");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("per cell (x 36)"));

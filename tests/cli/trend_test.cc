@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "repeats.h"
 #include "run_app.h"
 
 namespace lyrefit {
@@ -120,6 +121,7 @@ TEST(TrendCommand, SaysWhatOneMoreSweepShows) {
 }
 
 TEST(TrendCommand, KeepsOperatingPointsInAState) {
+  SKIP_IF_SANITIZED();
   const TempFolder folder;
   const std::string state = folder.Path("points.state");
   const std::string points = "trend --operating " + kTrendPoints + " " + kTrendModule;

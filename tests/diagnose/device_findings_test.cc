@@ -5,6 +5,7 @@
 
 #include "diagnose/synthetic_data.h"
 #include "diagnose/synthetic_diagnosis.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -53,6 +54,7 @@ TEST(DeviceFindings, AreNoneOfAHealthyModule) {
 
 // The n of a cell whose directions differ is no ideality, although it is above that of junctions.
 TEST(DeviceFindings, OfHystereticDevicesHaveNoIdeality) {
+  SKIP_IF_SANITIZED();
   Ill ill;
   ill.n = 1.6;
   EXPECT_THAT(DiagnosisOf(ill).verdict.sentence, HasSubstr("n = 1.6"));
@@ -143,6 +145,7 @@ TEST(ReachesPastKneeTest, NeedsSmallCurrentsNearOpenCircuit) {
 // A wrong temperature explains n of 0.85; no temperature explains n of 0.5, and that is said of the
 // device without a number.
 TEST(CheckTemperatureAndCellsTest, SaysOnlyWhatIsPossible) {
+  SKIP_IF_SANITIZED();
   Ill ill;
   IvCurve curve = SweepOf(ill);
   curve.notes.bypass_diodes.reset();

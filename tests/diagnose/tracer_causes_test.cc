@@ -64,6 +64,7 @@ TEST(TracerCauses, OneSweepDoesNotTellAChangeOfRangeFromACloud) {
 }
 
 TEST(TracerCauses, CoarseBinsOfTheVoltageAreNamedAndNothingBecauseOfThem) {
+  SKIP_IF_SANITIZED();
   IvCurve curve = ModuleCurve();
   constexpr double kBin_V = 0.23;
   for (double& v : curve.voltage_V) v = kBin_V * std::round(v / kBin_V);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "lyrefit/read/read_curve.h"
+#include "repeats.h"
 
 namespace lyrefit {
 namespace {
@@ -45,6 +46,7 @@ TEST(Reference, IsThatOfTheBoxWhereItCutsTheOptimumOff) {
 }
 
 TEST(Reference, IsOfTheObjectiveOfTheRuns) {
+  SKIP_IF_SANITIZED();
   CompareOptions options;
   options.objective = Objective::kSolvedCurrent;
   for (const double best_A : {8e-4, 7.730062689941e-4}) {

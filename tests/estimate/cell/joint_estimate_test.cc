@@ -95,6 +95,7 @@ double WithoutIt(const JointEstimate& joint, std::size_t measurement, const std:
 TEST(JointEstimate, OneLitCurveHasNone) { EXPECT_FALSE(DescriptionOf({}).joint); }
 
 TEST(JointEstimate, IntervalsHoldTheTruth) {
+  SKIP_IF_SANITIZED();
   constexpr int kCells = Repeats(200);
   std::map<std::string, int> held;
   for (int s = 0; s < kCells; ++s) {

@@ -2,6 +2,7 @@
 
 #include "bindings.h"
 #include "docs.h"
+#include "errors.h"
 #include "frames.h"
 #include "keywords.h"
 #include "lyrefit/estimate/family/data_sheet.h"
@@ -96,6 +97,7 @@ DataSheetResult FitSheet(py::handle v_mp, py::handle i_mp, py::handle v_oc, py::
   keywords.Read(kSheetTable, &options);
   keywords.Finish();
   DataSheetFit fit = Must(FitDataSheet(sheet, options.constants));
+  WarnUnlessUsable(fit.Solved(), {});
   return {std::make_shared<const DataSheetFit>(std::move(fit)), std::move(options)};
 }
 

@@ -38,6 +38,15 @@ Error ErrorOf(py::error_already_set& raised) {
           error.attr("line").cast<int>(), error.attr("column").cast<int>()};
 }
 
+void Warn(const std::string& sentence) {
+  if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+void WarnUnlessUsable(bool usable, const std::string& because) {
+  if (usable) return;
+  Warn("the fit is not usable: " + (because.empty() ? "its 'warnings' say why" : because));
+}
+
 void BindErrors(py::module_* module) {
   error_type = PyErr_NewExceptionWithDoc("lyrefit.Error", kErrorDoc, PyExc_ValueError, nullptr);
   if (!error_type) throw py::error_already_set();

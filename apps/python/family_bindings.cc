@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "docs.h"
 #include "effects.h"
+#include "errors.h"
 #include "frames.h"
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/estimate/family/fit_individually.h"
@@ -159,10 +160,11 @@ FamilyResult FitOneFamily(py::handle curves, const py::kwargs& given) {
   const CurveKeywords said = ReadCurveKeywords(&keywords);
   keywords.Finish();
   CurveSet set = SetOf(curves, py::none(), said);
-  Expected<FamilyReport> report =
-      WorkWith(FaultsOf(asked.own), progress,
-               [&](const Observer& observer) { return FitAsked(set, asked, observer); });
-  return FamilyResult(HoldWith(FittedFamily{Must(std::move(report)), std::move(set)}, asked.own));
+  FamilyReport report =
+      Must(WorkWith(FaultsOf(asked.own), progress,
+                    [&](const Observer& observer) { return FitAsked(set, asked, observer); }));
+  WarnUnlessUsable(report.usable, {});
+  return FamilyResult(HoldWith(FittedFamily{std::move(report), std::move(set)}, asked.own));
 }
 
 // Rows of "photocurrent": {...} and so on, one for each parameter.
@@ -219,7 +221,10 @@ constexpr char kFitFamilyEnd[] =
     "FamilyResult\n\n"
     "Raises\n------\n"
     "lyrefit.Error\n"
-    "    Fewer than two light curves, a broken file, options outside their ranges.\n";
+    "    Fewer than two light curves, a broken file, options outside their ranges.\n\n"
+    "Warns\n------\n"
+    "UserWarning\n"
+    "    The fit is not usable; why is in result['warnings'].\n";
 
 std::vector<KeywordNote> FamilyNotes() {
   std::vector<KeywordNote> notes;

@@ -4,6 +4,7 @@
 #include "curves.h"
 #include "docs.h"
 #include "effects.h"
+#include "errors.h"
 #include "fit.h"
 #include "fit_row.h"
 #include "lyrefit/certify/floor.h"
@@ -73,11 +74,12 @@ py::object FitOne(py::handle curve, py::handle current, const py::kwargs& given)
       IsPath(curve) && current.is_none() ? TextOf("curve", curve) : taken.source;
   const FitOptions options = Must(OptionsFor(asked, file));
   const bool auto_model = asked.auto_model;
-  auto report = WorkWith(
+  FitReport report = Must(WorkWith(
       asked.faults, progress,
       [&](const Observer& observer) { return FitWithFloor(taken, options, auto_model, observer); },
-      options.threads);
-  return py::cast(FitResult(HoldWith(Must(std::move(report)), asked.own)));
+      options.threads));
+  WarnUnlessUsable(report.usable, report.not_usable_because);
+  return py::cast(FitResult(HoldWith(std::move(report), asked.own)));
 }
 
 py::dict ParametersOf(const FitResult& result) {
@@ -130,6 +132,9 @@ constexpr char kFitEnd[] =
     "    free parameters; a file that cannot be read, with line and column.\n"
     "KeyboardInterrupt\n"
     "    Within a second of Ctrl-C.\n\n"
+    "Warns\n------\n"
+    "UserWarning\n"
+    "    The fit is not usable, and why; all that is to be known is in result['warnings'].\n\n"
     "Examples\n--------\n"
     ">>> result = lyrefit.fit(voltage, current, cells_in_series=60, temperature_C=45)\n"
     ">>> result.parameters['resistance_series']\n"

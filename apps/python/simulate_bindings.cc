@@ -6,6 +6,7 @@
 #include "curves.h"
 #include "docs.h"
 #include "effects.h"
+#include "errors.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/estimate/family/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
@@ -71,9 +72,7 @@ SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id,
   if (IsPath(parameters)) {
     DeviceToSimulate device =
         Must(ReadForSimulation(TextOf("parameters", parameters), curve_id, told));
-    for (const std::string& warning : device.warnings) {
-      if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
-    }
+    for (const std::string& warning : device.warnings) Warn(warning);
     return std::move(device.options);
   }
   if (!py::hasattr(parameters, "keys")) {

@@ -7,6 +7,7 @@
 
 #include "bindings.h"
 #include "docs.h"
+#include "errors.h"
 #include "lyrefit/estimate/family/fit_two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -111,6 +112,7 @@ py::object FitTandem(py::handle curves, py::handle current, const CurveKeywords&
   TwoJunctionReport report = Must(Work(
       progress, [&](const Observer& observer) { return FitTwoJunctions(set, options, observer); },
       options.threads));
+  WarnUnlessUsable(report.usable, report.not_usable_because);
   return py::cast(TwoJunctionResult(std::make_shared<const TwoJunctionReport>(std::move(report))));
 }
 

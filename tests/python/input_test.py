@@ -1,6 +1,8 @@
 """What is taken for a curve, and what is said of what cannot be."""
 
+import pathlib
 import unittest
+import warnings
 
 import numpy as np
 import pandas as pd
@@ -103,6 +105,19 @@ class Taken(unittest.TestCase):
         curve = lyrefit.Curve(gaps, I, skip_missing=True)
         self.assertEqual(len(curve), len(V) - 1)
         self.assertIn("1 readings without a voltage or a current were left out", curve.assumptions)
+
+    def test_a_fit_that_is_not_usable_warns(self):
+        line = 0.3 * (1 - V / 0.6)
+        with self.assertWarnsRegex(UserWarning, "^the fit is not usable: a straight line describes") as caught:
+            fit = lyrefit.fit(V, line, **QUICK)
+        self.assertEqual(pathlib.Path(caught.filename), pathlib.Path(__file__))
+        self.assertFalse(fit.usable)
+        self.assertEqual(str(caught.warning), fit["warnings"][0])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(UserWarning):
+                lyrefit.fit(V, line, **QUICK)
+            self.assertTrue(lyrefit.fit(V, I, **QUICK).usable)
 
 
 class Refused(unittest.TestCase):

@@ -160,9 +160,9 @@ FamilyResult FitOneFamily(py::handle curves, const py::kwargs& given) {
   const CurveKeywords said = ReadCurveKeywords(&keywords);
   keywords.Finish();
   CurveSet set = SetOf(curves, py::none(), said);
-  FamilyReport report =
-      Must(WorkWith(FaultsOf(asked.own), progress,
-                    [&](const Observer& observer) { return FitAsked(set, asked, observer); }));
+  FamilyReport report = Must(WorkWith(FaultsOf(asked.own), progress, [&](const Observer& observer) {
+    return FitAsked(set, asked, observer);
+  }));
   WarnUnlessUsable(report.usable, {});
   return FamilyResult(HoldWith(FittedFamily{std::move(report), std::move(set)}, asked.own));
 }

@@ -69,17 +69,46 @@ ComparedAlgorithm NamedAlgorithm(const std::string& name, const CompareAsked& as
   return PlainAlgorithms({*algorithm}, asked.search).front();
 }
 
+// Tells versions of a search apart in a journal: of its source and of the values that it holds.
+// What it calls is not looked at.
+std::string VersionOf(const std::string& name, py::handle search) {
+  const py::module_ inspect = py::module_::import("inspect");
+  std::string text;
+  try {
+    if (PyFunction_Check(search.ptr()) == 0) throw py::type_error("no function");
+    text = inspect.attr("getsource")(search).cast<std::string>();
+    text += py::repr(search.attr("__defaults__")).cast<std::string>();
+    text += py::repr(inspect.attr("getclosurevars")(search).attr("nonlocals")).cast<std::string>();
+  } catch (const std::exception&) {
+    PyErr_Clear();
+    Raise(
+        {"resume: the search '" + name +
+             "' is no function with a source, which would tell in the journal whether it is still "
+             "the same",
+         {}});
+  }
+  const py::object digest =
+      py::module_::import("hashlib").attr("sha256")(py::bytes(text)).attr("hexdigest")();
+  return digest.cast<std::string>().substr(0, 16);
+}
+
 ComparedAlgorithm OwnSearch(const std::string& name, py::handle search, CompareAsked* asked) {
+  if (PyCallable_Check(search.ptr()) == 0) {
+    Raise({"algorithms: expected a function search(objective, lower, upper, options), found " +
+               NameOf(py::type::of(search)),
+           {}});
+  }
   auto fault = std::make_shared<Fault>();
   ComparedAlgorithm compared;
   compared.name = name;
   compared.search = asked->search;
-  compared.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault);
+  compared.searcher = SearcherOf(py::reinterpret_borrow<py::object>(search), fault, true);
+  if (!asked->options.journal.empty()) compared.searcher_version = VersionOf(name, search);
   asked->faults.Add(std::move(fault));
   return compared;
 }
 
-// Adds algorithms from names, functions, a dict of functions by name, or a list of these.
+// Adds algorithms from names, functions, a dict of both by name, or a list of these.
 void AddAlgorithms(py::handle value, CompareAsked* asked) {
   if (py::isinstance<py::str>(value)) {
     const auto names = SplitList(value.cast<std::string>());
@@ -89,11 +118,14 @@ void AddAlgorithms(py::handle value, CompareAsked* asked) {
     }
   } else if (py::isinstance<py::dict>(value)) {
     for (const auto& [name, search] : py::reinterpret_borrow<py::dict>(value)) {
-      asked->algorithms.push_back(OwnSearch(TextOf("algorithms", name), search, asked));
+      ComparedAlgorithm compared = py::isinstance<py::str>(search)
+                                       ? NamedAlgorithm(search.cast<std::string>(), *asked)
+                                       : OwnSearch(TextOf("algorithms", name), search, asked);
+      compared.name = TextOf("algorithms", name);
+      asked->algorithms.push_back(std::move(compared));
     }
   } else if (PyCallable_Check(value.ptr()) != 0) {
-    const std::string name = py::str(value.attr("__name__")).cast<std::string>();
-    asked->algorithms.push_back(OwnSearch(name, value, asked));
+    asked->algorithms.push_back(OwnSearch(NameOf(value), value, asked));
   } else {
     for (const py::handle member : value) AddAlgorithms(member, asked);
   }
@@ -200,11 +232,23 @@ py::object RankFrame(const CompareResult& result) {
       row["algorithm"] = compared.name;
       row["rank_searched"] = rank(problem.searched);
       row["rank_polished"] = rank(problem.polished);
-      row["median_searched_A"] = compared.searched.median;
-      row["median_polished_A"] = compared.polished.median;
+      const auto spread = [&row](const std::string& stage, const RunSpread& of) {
+        const auto set = [&](const char* figure, double value) {
+          row[py::str(std::string(figure) + "_" + stage + "_A")] = value;
+        };
+        set("min", of.min);
+        set("mean", of.mean);
+        set("median", of.median);
+        set("max", of.max);
+        set("std", of.std);
+      };
+      spread("searched", compared.searched);
+      spread("polished", compared.polished);
       row["within_1e9"] = compared.polished.within_1e9;
       row["runs"] = compared.runs.size();
       row["evaluations"] = compared.evaluations;
+      row["search_seconds"] = compared.search_seconds;
+      row["polish_seconds"] = compared.polish_seconds;
       row["target_hits"] = compared.target_hits;
       row["reference_A"] = problem.reference.rmse_A;
       rows.append(row);
@@ -219,20 +263,31 @@ constexpr char kCompareDoc[] =
     "curves : curve, or list or dict of curves\n"
     "    Each as fit() takes it: a path, a Curve, a frame, (voltage, current) in V and A.\n"
     "algorithms : str, callable, dict or list\n"
-    "    Names of the library's, 'shape', 'default', and searches of your own: functions, or a "
-    "dict\n"
-    "    of functions by name. Such a search is called as ``search(objective, lower, upper,\n"
+    "    Names of the library's, 'shape', 'default', and searches of your own: functions; a dict\n"
+    "    gives either other names. Such a search is called as ``search(objective, lower, upper,\n"
     "    options)``: `objective` gives the RMSE in A at a point of shape (n,), a float, or at m\n"
-    "    points of shape (m, n), an array; `lower` and `upper` are the box, shape (n,); `options`\n"
-    "    is a dict with seed, run, population, iterations, max_evaluations and elites. It returns\n"
+    "    points of shape (m, n), an array; `lower` and `upper` are the box, shape (n,). It "
+    "returns\n"
     "    its best point, or several, best first, shape (m, n), within the box. The same seed and\n"
-    "    run must give the same; its evaluations are counted, not limited. With one of them one\n"
-    "    thread is used.\n"
+    "    run must give the same. With one of them one thread is used.\n\n"
+    "    The budget is that of the library's searches, population x (iterations + 1) evaluations\n"
+    "    or max_evaluations: an evaluation beyond it raises StopIteration in the search, and its\n"
+    "    best point so far counts. NaN of the objective is given as infinity.\n\n"
+    "    `options` is a dict with seed, run, population, iterations, max_evaluations, elites;\n"
+    "    `start`, shape (population, n), the points from which the library's searches start in\n"
+    "    this run; and `parameters`, a dict a coordinate with name, unit, the range lower to "
+    "upper\n"
+    "    of the parameter's values, and scale. A coordinate of scale 'linear' is the value, one "
+    "of\n"
+    "    scale 'log' is ln(value / lower), one of scale 'whole' has a unit of length a value. The\n"
+    "    bounds 'physical' and 'wide' make saturation currents and shunts logarithmic; published\n"
+    "    ones keep all linear, and so do those that you give.\n"
     "bounds : str, path or dict\n"
     "    'physical', 'wide', 'paper', 'literature', a file, or {'Rs': (0, 0.5), ...}; bound={...}\n"
     "    changes single ranges.\n"
     "resume : path, optional\n"
-    "    A journal that finished runs are written to and taken up from.\n"
+    "    A journal that finished runs are written to and taken up from. It knows a search of your\n"
+    "    own by its source and the values that it holds, not by what it calls.\n"
     "progress : callable, optional\n"
     "    Called with a :class:`Progress` ten times a second; False ends the work.\n";
 
@@ -265,7 +320,9 @@ void BindStudy(py::module_* module) {
   py::class_<CompareResult, Result>(*module, "CompareResult", "What compare() found.")
       .def("frame", &RankFrame,
            "frame($self)\n--\n\nA pandas.DataFrame with a row for each algorithm on each problem:\n"
-           "mean ranks over the runs, median RMSEs (A) of search and polish, hits.")
+           "mean ranks over the runs, smallest, mean, median, largest RMSE (A) of search and "
+           "polish\n"
+           "and their standard deviation, hits, seconds of a run.")
       .def(
           "run_frame", [](const CompareResult& r) { return FrameOfCsv(r.record().csv()); },
           "run_frame($self)\n--\n\nA pandas.DataFrame with a row a run (--csv).");

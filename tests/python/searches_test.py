@@ -14,7 +14,8 @@ LEAST = np.array([0.3, 12.0, 7e-7])
 
 
 def options(seed=0, run=0, population=20, iterations=200):
-    return {"seed": seed, "run": run, "population": population, "iterations": iterations}
+    start = LOWER + np.random.default_rng([seed, run, 1]).random((population, len(LOWER))) * (UPPER - LOWER)
+    return {"seed": seed, "run": run, "population": population, "iterations": iterations, "start": start}
 
 
 class Bowl:

@@ -35,6 +35,20 @@ class EveryAlgorithm : public ::testing::TestWithParam<Algorithm> {
   }
 };
 
+TEST_P(EveryAlgorithm, StartsFromTheFirstPopulation) {
+  SearchOptions options = Options();
+  options.seed = 5;
+  options.run = 2;
+  std::vector<std::vector<double>> asked;
+  const ObjectiveFunction objective = [&asked](const double* x) {
+    asked.emplace_back(x, x + 3);
+    return Sphere(x);
+  };
+  Search(objective, kBox, options);
+  asked.resize(options.population);
+  EXPECT_EQ(asked, FirstPopulation(kBox, options));
+}
+
 TEST_P(EveryAlgorithm, GivesTheSameBitsForTheSameSeedAndOthersForAnother) {
   SearchOptions options = Options();
   options.seed = 5;

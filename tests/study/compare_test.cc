@@ -9,6 +9,9 @@
 #include <cstring>
 #include <thread>
 
+#include "lyrefit/search/search.h"
+#include "lyrefit/study/report/compare_json.h"
+#include "lyrefit/study/report/documents.h"
 #include "small_study.h"
 
 namespace lyrefit {
@@ -175,6 +178,39 @@ TEST(Compare, TakesASearchOfTheUsersOwn) {
   EXPECT_EQ(result.searched.std, 0);
   ASSERT_EQ(result.trace.size(), 1U);
   EXPECT_EQ(result.trace[0].best_A, result.searched.min);
+}
+
+TEST(Compare, SaysWhichSearchSpentMoreThanItsBudget) {
+  ComparedAlgorithm own{"spender", {}, SmallSearch(), {}};
+  own.searcher = [](const ObjectiveFunction& objective, const Box& box,
+                    const SearchOptions& options, const Observer& observer) {
+    SearchOptions longer = options;
+    longer.algorithm = Algorithm::kRandom;  // spends all
+    longer.iterations += static_cast<int>(options.run);  // the first run keeps to it
+    return Search(objective, box, longer, observer);
+  };
+  const CompareOptions options = SmallOptions();
+  const Comparison comparison = Compared({SmallAlgorithms()[0], own}, options);
+  const std::string sentence = "spender spent up to 240 evaluations in a run, its budget is 210";
+  EXPECT_THAT(comparison.over_budget, ElementsAre(sentence));
+  EXPECT_THAT(CompareText(comparison), HasSubstr("UNEQUAL BUDGETS: " + sentence));
+  EXPECT_THAT(CompareJson(comparison), HasSubstr(sentence));
+  EXPECT_THAT(Compared(SmallAlgorithms(), options).over_budget, ElementsAre());
+}
+
+TEST(Compare, SaysWhichParametersAreSearchedAsLogarithms) {
+  CompareOptions options = SmallOptions();
+  options.models = {Model::kSingleDiode};
+  const Comparison physical = Compared(SmallAlgorithms(), options);
+  EXPECT_THAT(physical.problems[0].log_searched,
+              ElementsAre("saturation_current", "resistance_shunt"));
+  EXPECT_THAT(CompareText(physical), HasSubstr("ln(saturation_current), ln(resistance_shunt)"));
+  const std::string folder = std::string(LYREFIT_DATA_DIR) + "/rtc_france";
+  CompareCurve published = RtcFrance();
+  published.bounds = *NamedBounds("literature", folder);
+  const auto linear = Compare({published}, SmallAlgorithms(), options);
+  ASSERT_TRUE(linear);
+  EXPECT_THAT(linear->problems[0].log_searched, ElementsAre());
 }
 
 TEST(Compare, RefusesTheFirstRunOfASearchThatLeavesTheBoundsOnAnyNumberOfThreads) {

@@ -14,9 +14,12 @@ __all__ = ["cma_es", "grey_wolf", "particle_swarm", "simulated_annealing"]
 
 
 def _begin(objective, lower, upper, options):
-    """The objective on points of the unit box, a random stream, the first population and its values."""
+    """The objective on points of the unit box, a random stream, the first population and its values.
+
+    The population is the one from which the library's searches start.
+    """
     random = np.random.default_rng([options["seed"], options["run"]])
-    points = random.random((options["population"], len(lower)))
+    points = (options["start"] - lower) / (upper - lower)
 
     def value(unit):
         return objective(lower + unit * (upper - lower))

@@ -147,6 +147,14 @@ void DrawPopulation(SearchRun* run, RandomStream* random, std::int64_t planned, 
   run->EndIteration(0, planned);
 }
 
+std::vector<std::vector<double>> FirstPopulation(const Box& box, const SearchOptions& options) {
+  RandomStream random(options.seed, options.run);
+  std::vector<std::vector<double>> points(options.population,
+                                          std::vector<double>(box.lower.size()));
+  for (std::vector<double>& point : points) DrawPoint(box, &random, point.data());
+  return points;
+}
+
 SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
                      const SearchOptions& options, const Observer& observer) {
   CHECK(ValidateOptions(options, kSearchOptionTable).has_value());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/search/search_options.h"
@@ -11,5 +13,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 // must be valid (CHECKed). A search that ends early is a result, not an error: see `termination`.
 SearchSummary Search(const ObjectiveFunction& objective, const Box& box,
                      const SearchOptions& options, const Observer& observer = {});
+
+// The candidates from which every algorithm of Search() but kMloShape starts in this seed and run:
+// `population` points, uniform in the box.
+std::vector<std::vector<double>> FirstPopulation(const Box& box, const SearchOptions& options);
 
 }  // namespace lyrefit

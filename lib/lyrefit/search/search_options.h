@@ -54,6 +54,12 @@ struct SearchOptions {
   int elites = 4;    // number of distinct candidates to return, including the best
 };
 
+// The most evaluations of a search that ends neither sooner nor by the clock.
+inline std::int64_t PlannedEvaluations(const SearchOptions& options) {
+  const std::int64_t all = options.population * (options.iterations + std::int64_t{1});
+  return all < options.max_evaluations ? all : options.max_evaluations;
+}
+
 // The table has no row for the algorithm: structs that contain these options declare it themselves.
 inline constexpr OptionRow<SearchOptions> kSearchOptionTable[] = {
     OptionRow<SearchOptions>("Search"),

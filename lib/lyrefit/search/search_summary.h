@@ -64,12 +64,23 @@ struct SearchSummary {
   std::vector<TracePoint> trace;
 };
 
+// What a side of a box stands for.
+struct BoxSide {
+  std::string name;     // of the parameter: "saturation_current"; "variant" of effects with several
+  std::string unit;     // of the parameter; empty for pure numbers
+  double log_base = 0;  // above 0: the coordinate is ln(value / log_base)
+  // Above 0: the value of coordinate x is first + step floor(x), a step for each unit of length.
+  double step = 0;
+  double first = 0;
+};
+
 // Bounds of a search, one side for each parameter.
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;
   // Points where a minimum may lie, most likely first; used by kMloShape only. May be empty.
   std::vector<std::vector<double>> initial = {};
+  std::vector<BoxSide> sides = {};  // for searches that want to know; may be empty
 };
 
 // The function to minimise. It reads as many numbers as the box has sides and must return the same

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -60,9 +61,7 @@ Problems MakeProblems(const std::vector<CompareCurve>& curves, const CompareOpti
 // Estimated cost of a run in evaluations of a single-diode model. The polish costs some thousands.
 double WorkOf(const Problem& problem, const ComparedAlgorithm& compared) {
   constexpr double kPolish = 3000;
-  const SearchOptions& search = compared.search;
-  const double planned = static_cast<double>(search.population) * (search.iterations + 1.0);
-  const double evaluations = std::min(planned, static_cast<double>(search.max_evaluations));
+  const double evaluations = static_cast<double>(PlannedEvaluations(compared.search));
   return (evaluations + kPolish) * static_cast<double>(problem.result.model);
 }
 
@@ -73,6 +72,29 @@ double WorkOfAll(const Problems& problems, const std::vector<ComparedAlgorithm>&
     for (const ComparedAlgorithm& compared : algorithms) work += runs * WorkOf(*problem, compared);
   }
   return work;
+}
+
+// A sentence for each algorithm that spent more than its budget.
+std::vector<std::string> OverBudget(const std::vector<ProblemResult>& problems) {
+  std::map<std::string, std::pair<std::int64_t, std::int64_t>> most;  // spent and budget, by name
+  for (const ProblemResult& problem : problems) {
+    for (const AlgorithmResult& compared : problem.algorithms) {
+      if (compared.kind != AlgorithmKind::kSearch) continue;
+      for (const RunRecord& run : compared.runs) {
+        auto& [spent, budget] = most[compared.name];
+        budget = PlannedEvaluations(compared.search);
+        spent = std::max(spent, run.evaluations);
+      }
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [name, figures] : most) {
+    const auto& [spent, budget] = figures;
+    if (spent <= budget) continue;
+    sentences.push_back(fmt::format("{} spent up to {} evaluations in a run, its budget is {}",
+                                    name, spent, budget));
+  }
+  return sentences;
 }
 
 // A comparison in progress. Jobs write to separate slots, and the last job of a problem summarises
@@ -148,6 +170,7 @@ class Study {
       if (problem->result.algorithms.empty()) continue;
       comparison.problems.push_back(std::move(problem->result));
     }
+    comparison.over_budget = OverBudget(comparison.problems);
     if (journal_) {
       const bool any = taken_up_ > 0;
       comparison.remarks = JournalRemarks(

@@ -68,6 +68,7 @@ std::string SettingsText(const ComparedAlgorithm& compared) {
   std::vector<OptionEcho> echoes;
   AppendNonDefaults(compared.search, kSearchOptionTable, &echoes);
   std::string text = compared.searcher ? "a search of its own" : ToText(compared.search.algorithm);
+  if (!compared.searcher_version.empty()) text += " (" + compared.searcher_version + ")";
   if (compared.kind != AlgorithmKind::kSearch) text = ToText(compared.kind) + ": " + text;
   for (const OptionEcho& echo : echoes) {
     if (echo.name != "seed" && echo.name != "run") text += ", " + echo.name + " " + echo.value;

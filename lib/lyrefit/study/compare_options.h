@@ -43,6 +43,8 @@ struct ComparedAlgorithm {
   std::string algorithm;    // name without settings, "mlo"; empty: same as `name`
   SearchOptions search;     // budget and settings
   SearchFunction searcher;  // empty: Search() is used
+  // Tells versions of a searcher apart: a journal of another one is refused. May be empty.
+  std::string searcher_version = {};
   AlgorithmKind kind = AlgorithmKind::kSearch;
   StartsFrom starts = StartsFrom::kAll;  // see FitOptions
   std::int64_t budget = 0;  // nominal budget of evaluations in a study of budgets; 0: none

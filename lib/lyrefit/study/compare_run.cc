@@ -2,6 +2,8 @@
 
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
+#include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
 
@@ -125,6 +127,13 @@ void NameParameters(const CompareCurve& subject, const CompareOptions& options,
     infos = MakeDevice(problem->model, subject.curve.conditions, options.constants).parameters;
     if (!problem->with.empty()) problem->first_effect = static_cast<int>(infos.size());
     AddInfos(problem->with, &infos);
+    const FitOptions fit = FitOptionsOf(subject, *problem, options);
+    const auto prepared = PrepareFit(subject.curve, fit);
+    if (!prepared) return;  // TryProblem() reports the error
+    const SearchSpace space = SpaceOf(*prepared);
+    for (const BoxSide& side : space.box().sides) {
+      if (side.log_base > 0) problem->log_searched.push_back(side.name);
+    }
   }
   for (const ParameterInfo& info : infos) problem->parameters.push_back(ParameterKey(info));
 }

@@ -57,6 +57,7 @@ struct AlgorithmResult {
   std::string name;  // see ComparedAlgorithm
   std::string algorithm;
   SearchOptions search;  // settings used by the runs
+  bool own = false;      // a search of the user's, ComparedAlgorithm::searcher
   AlgorithmKind kind = AlgorithmKind::kSearch;
   std::int64_t budget = 0;
   std::vector<RunRecord> runs;
@@ -118,6 +119,8 @@ struct ProblemResult {
   bool family = false;                  // a joint fit of a set of curves
   std::vector<std::string> parameters;  // keys, in the order of Reference::parameters
   int first_effect = -1;                // position of the first effect parameter; -1: none
+  // Those of `parameters` that the searches see as logarithms (Box::sides); empty for a family.
+  std::vector<std::string> log_searched;
   Reference reference;
   std::vector<AlgorithmResult> algorithms;  // in the given order
   // Rankings over the runs that every algorithm has done.
@@ -143,6 +146,8 @@ struct Comparison {
   std::vector<ProblemResult> problems;
   // Warnings about the readings, found before any run; see CheckReadings.
   std::vector<std::string> doubts;
+  // Algorithms that spent more evaluations than their budget, a sentence each.
+  std::vector<std::string> over_budget;
   double seconds = 0;
   bool interrupted = false;          // at least one problem is not complete
   std::vector<std::string> remarks;  // about the journal, as sentences

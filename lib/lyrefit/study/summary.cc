@@ -168,6 +168,7 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
   result.name = compared.name;
   result.algorithm = compared.algorithm.empty() ? compared.name : compared.algorithm;
   result.search = compared.search;
+  result.own = static_cast<bool>(compared.searcher);
   result.kind = compared.kind;
   result.budget = compared.budget;
   for (RunOutcome& outcome : *outcomes) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/fit/check_candidates.h"
 #include "lyrefit/estimate/fit/search_space.h"
@@ -18,6 +19,10 @@ class SharedObjective {
  public:
   SharedObjective(const FamilyProblem& family, const JointProblem& problem)
       : problem_(problem), space_(family.bounds, family.fixed) {
+    std::vector<ParameterInfo> parameters = problem.translation.parameters;
+    parameters.push_back({"", "irradiance_offset", "W/m2", ""});
+    parameters.push_back({"", "temperature_offset", "K", ""});
+    space_.NameSides(parameters);
     for (const JointCurve& curve : problem.curves) {
       points_.push_back(MakePointSet(curve.voltage_V, curve.current_A, curve.weight));
       double weight = 0;
@@ -72,7 +77,9 @@ Expected<FamilySearchEnd> SearchFamily(const FamilyProblem& family, const Family
   const ObjectiveFunction objective = [&](const double* x) { return shared(x); };
   FamilySearchEnd end;
   if (options.searcher) {
+    const Instant begin = Now();
     end.summary = options.searcher(objective, shared.box(), options.search, observer);
+    end.summary.seconds = SecondsSince(begin);
     TRY(CheckCandidates(objective, shared.box(), &end.summary));
   } else {
     end.summary = Search(objective, shared.box(), options.search, observer);

@@ -188,12 +188,13 @@ Expected<PreparedFit> PrepareFit(const IvCurve& curve, const FitOptions& options
 }
 
 SearchSpace SpaceOf(const PreparedFit& fit) {
-  if (!fit.extended()) return {fit.bounds, fit.fixed};
   const int base = fit.base_size();
-  return {{fit.bounds.begin(), fit.bounds.begin() + base},
-          {fit.fixed.begin(), fit.fixed.begin() + base},
-          *fit.device.effects,
-          fit.variants};
+  SearchSpace space = fit.extended() ? SearchSpace({fit.bounds.begin(), fit.bounds.begin() + base},
+                                                   {fit.fixed.begin(), fit.fixed.begin() + base},
+                                                   *fit.device.effects, fit.variants)
+                                     : SearchSpace(fit.bounds, fit.fixed);
+  space.NameSides(fit.device.parameters);
+  return space;
 }
 
 double VariantPenaltyOf(const PreparedFit& fit, int variant) {

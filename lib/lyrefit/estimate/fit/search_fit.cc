@@ -86,7 +86,6 @@ Expected<SearchedFit> SearchFit(const PreparedFit& fit, const SearchSpace& space
     box.initial = InitialPoints(space, fit.coarse, starts);
     searched.curve_evaluations = static_cast<std::int64_t>(starts.size());
   }
-  const double getting_ready = SecondsSince(begin);
   const ObjectiveFunction objective = [&searched,
                                        rmse = RmseIn(space, fit.coarse)](const double* x) {
     ++searched.curve_evaluations;
@@ -95,7 +94,7 @@ Expected<SearchedFit> SearchFit(const PreparedFit& fit, const SearchSpace& space
   SearchSummary& summary = searched.summary;
   summary = options.searcher ? options.searcher(objective, box, options.search, observer)
                              : Search(objective, box, options.search, observer);
-  summary.seconds += getting_ready;
+  summary.seconds = SecondsSince(begin);
   if (options.searcher || fit.coarse.points.size < fit.problem.points.size) {
     TRY(CheckCandidates(RmseIn(space, fit.problem), box, &summary));
   }

@@ -60,6 +60,14 @@ void SearchSpace::AddSide(int parameter, const ParameterBounds& b) {
   box_.upper.push_back(upper);
 }
 
+void SearchSpace::NameSides(const std::vector<ParameterInfo>& parameters) {
+  for (const Side& side : sides_) {
+    const ParameterInfo& info = parameters[side.parameter];
+    box_.sides.push_back({ParameterKey(info), info.unit, side.log_base, side.whole, side.first});
+  }
+  if (variants_.size() > 1) box_.sides.push_back({"variant", "", 0, 1, 0});
+}
+
 void SearchSpace::ToParameters(const double* x, double* p) const {
   for (std::size_t i = 0; i < fixed_.size(); ++i) p[i] = fixed_[i];
   for (std::size_t k = 0; k < sides_.size(); ++k) {

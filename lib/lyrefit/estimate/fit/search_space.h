@@ -22,6 +22,9 @@ class SearchSpace {
   SearchSpace(const std::vector<ParameterBounds>& bounds, const std::vector<double>& fixed,
               const DeviceEffects& device_effects, std::vector<Variant> variants);
 
+  // Fills in Box::sides; `parameters` are those of the device, effects last.
+  void NameSides(const std::vector<ParameterInfo>& parameters);
+
   const Box& box() const { return box_; }
   int dimensions() const { return static_cast<int>(box_.lower.size()); }
   // Converts a point of the box to device parameters `p` (array of the size of the device).

@@ -112,6 +112,7 @@ void to_json(Json& j, const ProblemResult& problem) {
   j = {{"curve", problem.curve_name},
        {"model", problem.model},
        {"bounds", problem.bounds_name},
+       {"searched_as_logarithm", problem.log_searched},
        {"complete", problem.complete},
        {"reference", ReferenceJson(problem)},
        {"algorithms", std::move(algorithms)},
@@ -143,6 +144,7 @@ void to_json(Json& j, const Comparison& comparison) {
   j["interrupted"] = comparison.interrupted;
   j["seconds"] = comparison.seconds;
   j["warnings"] = comparison.doubts;
+  for (const std::string& sentence : comparison.over_budget) j["warnings"].push_back(sentence);
   j["problems"] = comparison.problems;
   if (Json summaries = ProblemsJson(comparison); !summaries.empty())
     j["summaries"] = std::move(summaries);

@@ -13,11 +13,8 @@ namespace lyrefit {
 namespace {
 
 std::string Budget(const SearchOptions& search) {
-  std::string text =
-      fmt::format("{} candidates x {} iterations", search.population, search.iterations);
-  const std::int64_t planned =
-      static_cast<std::int64_t>(search.population) * (search.iterations + 1LL);
-  return text + fmt::format(": {} evaluations at most", std::min(planned, search.max_evaluations));
+  return fmt::format("{} candidates x {} iterations: {} evaluations at most", search.population,
+                     search.iterations, PlannedEvaluations(search));
 }
 
 // The budget of all algorithms; empty if it differs between them.
@@ -29,6 +26,13 @@ std::string CommonBudget(const Comparison& comparison) {
     return Budget(compared.search) == budget;
   });
   return same ? budget : "";
+}
+
+bool AnyOwn(const Comparison& comparison) {
+  if (comparison.problems.empty()) return false;
+  const auto& algorithms = comparison.problems[0].algorithms;
+  return std::any_of(algorithms.begin(), algorithms.end(),
+                     [](const auto& compared) { return compared.own; });
 }
 
 }  // namespace
@@ -58,6 +62,9 @@ std::string RunsText(const Comparison& comparison, const ProblemResult& problem)
 
 std::vector<std::string> CompareBanners(const Comparison& comparison) {
   std::vector<std::string> banners = Banners(false, true, "", comparison.doubts);
+  for (const std::string& sentence : comparison.over_budget) {
+    banners.push_back("UNEQUAL BUDGETS: " + sentence);
+  }
   if (comparison.interrupted) {
     banners.push_back(
         "INTERRUPTED: only the runs that were done are counted; RMSEs and ranks are of those.");
@@ -77,7 +84,13 @@ void AddSetUp(const Comparison& comparison, Section* section) {
   AddField("objective", of_what + "; constants " + ToText(options.constants), section);
   const std::string budget = CommonBudget(comparison);
   if (!budget.empty()) AddField("budget", budget + " a run", section);
-  const char* const common = budget.empty() ? "" : ": in each run all start from the same points";
+  const char* common = "";
+  if (!budget.empty()) {
+    common =
+        AnyOwn(comparison)
+            ? ": in each run lyrefit's searches start from the same points, which others may take"
+            : ": in each run all start from the same points";
+  }
   AddField("runs", fmt::format("0 to {} of seed {}{}", options.runs - 1, options.seed, common),
            section);
 }
@@ -97,6 +110,12 @@ Section ProblemSection(const Comparison& comparison, const ProblemResult& proble
   }
   Section section = {ProblemTitle(problem)};
   AddField("reference", text, &section);
+  if (!problem.log_searched.empty()) {
+    AddField("coordinates",
+             fmt::format("the searches see ln({}) and the other parameters as they are",
+                         fmt::join(problem.log_searched, "), ln(")),
+             &section);
+  }
   return section;
 }
 

@@ -96,6 +96,17 @@ TEST(Plausibility, DoubtsAFillFactorOfNoDiode) {
   EXPECT_THAT(Said(curve), HasSubstr("no power in it"));
 }
 
+TEST(Plausibility, DoubtsATemperatureThatSunGivesNoModule) {
+  IvCurve curve = ModuleWith(9);
+  curve.conditions.cell_temperature_K = 273.15 + 88;
+  EXPECT_EQ(Said(curve), "");
+  curve.conditions.cell_temperature_K = 273.15 + 113;
+  EXPECT_THAT(Said(curve), HasSubstr("113 C is more than sun gives a module: 45 C in degrees"));
+  IvCurve cell = SyntheticCell();  // on a hot plate
+  cell.conditions.cell_temperature_K = 273.15 + 150;
+  EXPECT_EQ(Said(cell), "");
+}
+
 TEST(Plausibility, DoubtsAPowerFarFromTheRating) {
   const IvCurve curve = ModuleWith(9);  // 216 W
   EXPECT_FALSE(PlausibilityProblem(curve));

@@ -104,6 +104,17 @@ std::string OddShape(const IvCurve& curve, const KeyPoints& key) {
                                     : "of a curve with no power in it");
 }
 
+// Sun heats the cells of a module to some 90 C where air stands still behind it.
+std::string TooHotForModule(const IvCurve& curve) {
+  constexpr double kHottest_C = 95;
+  const double stated_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
+  if (curve.conditions.cells_in_series < kCellsOfModule || !(stated_C > kHottest_C)) return "";
+  return fmt::format(
+      "a cell temperature of {:.4g} C is more than sun gives a module: {:.3g} C in degrees "
+      "Fahrenheit?",
+      stated_C, (stated_C - 32) / 1.8);
+}
+
 std::optional<std::string> ImplausiblePower(const IvCurve& curve, double rated_W) {
   const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
   if (!(rated_W > 0) || !(key.max_power_W > 0)) return std::nullopt;
@@ -138,6 +149,8 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve) {
   if (!current.empty()) findings.push_back({"current", current, false, {}});
   const std::string shape = isc_A > 0 ? OddShape(curve, key) : "";
   if (!shape.empty()) findings.push_back({"shape", shape, false, {}});
+  const std::string hot = isc_A > 0 ? TooHotForModule(curve) : "";
+  if (!hot.empty()) findings.push_back({"temperature", hot, false, {}});
   return findings;
 }
 

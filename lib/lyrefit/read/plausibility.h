@@ -16,6 +16,7 @@ namespace lyrefit {
 //             70 mA/cm2 if the area of a cell is stated; below 20 mA a string of 30 cells or more,
 //             from a stated 100 W/m2 on
 //   shape     a fill factor above 0.95 or below 0.1
+//   temperature  above 95 C for a module (30 cells or more) in light
 std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve);
 
 // Reason why results for this curve would be unreliable; nullopt if there is none. The power is

@@ -13,8 +13,18 @@ namespace {
 
 bool KnowsArea(const CellReport& report) { return std::isfinite(report.area_cm2); }
 
+// The doubts of all sweeps, each once.
+std::vector<std::string> DoubtsOf(const CellReport& report) {
+  std::vector<std::string> doubts;
+  for (const CellSweep& sweep : report.sweeps) {
+    const bool known = std::find(doubts.begin(), doubts.end(), sweep.doubt) != doubts.end();
+    if (!sweep.doubt.empty() && !known) doubts.push_back(sweep.doubt);
+  }
+  return doubts;
+}
+
 std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
-  if (KnowsArea(report)) {
+  if (KnowsArea(report) && sweep.doubt.empty()) {
     return fmt::format("efficiency {} (Jsc {} mA/cm2, Voc {} V, FF {})",
                        PercentText(sweep.efficiency), Significant(sweep.jsc_mA_cm2, 4),
                        Significant(sweep.key.open_circuit_voltage_V, 4),
@@ -262,7 +272,7 @@ std::string CellVerdict(const CellReport& report) {
 }
 
 Document CellDocument(const CellReport& report) {
-  Document document = {Banners(report.interrupted, true, {}, {}), CellHead(report)};
+  Document document = {Banners(report.interrupted, true, {}, DoubtsOf(report)), CellHead(report)};
   document.verdict = CellVerdict(report);
   std::vector<Section> sections = {{"", {block::Conclusion{document.verdict}}},
                                    SweepSection(report)};

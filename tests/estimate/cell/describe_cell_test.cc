@@ -41,6 +41,26 @@ TEST(DescribeCell, EveryMethodFindsTheSeriesResistance) {
   EXPECT_NEAR(report.PerArea(4), 1, 1e-12);
 }
 
+// A wrong unit, area or sign gives no current density and no efficiency, but a doubt that says why.
+TEST(DescribeCell, GivesNoEfficiencyOfAnImpossibleCurrentAreaOrSign) {
+  const IvCurve sound = CellSweepOf(kCellTruth, 1000, false, kNoise);
+  EXPECT_EQ(Described({sound}).sweeps[0].doubt, "");
+  EXPECT_GT(Described({sound}).sweeps[0].efficiency, 0.1);
+  IvCurve milliampere = sound, other_area = sound, reversed = sound;
+  for (double& i : milliampere.current_A) i *= 1000;
+  other_area.notes.area_cm2 = 0.025;
+  for (double& v : reversed.voltage_V) v = -v;
+  for (const IvCurve& wrong : {milliampere, other_area, reversed}) {
+    CellReport report = Described({wrong});
+    const CellSweep& sweep = report.sweeps[0];
+    EXPECT_NE(sweep.doubt, "");
+    EXPECT_TRUE(std::isnan(sweep.efficiency) && std::isnan(sweep.jsc_mA_cm2));
+    EXPECT_THAT(report.warnings, Contains(HasSubstr(sweep.doubt)));
+  }
+  other_area.as_is = true;
+  EXPECT_GT(Described({other_area}).sweeps[0].efficiency, 1);
+}
+
 TEST(DescribeCell, LightAndDarkCurvesOfOneDiodeSuperpose) {
   const CellReport report = Described(
       {CellSweepOf(kCellTruth, 1000, false, kNoise), CellSweepOf(kCellTruth, 0, false, kNoise)});

@@ -289,6 +289,7 @@ void Warn(CellReport* report) {
         "--area-cm2");
   }
   for (const CellSweep& sweep : report->sweeps) {
+    if (!sweep.doubt.empty()) warnings.push_back(sweep.name + ": " + sweep.doubt);
     if (sweep.limited > 0) {
       warnings.push_back(fmt::format(
           "{}: {} readings beyond Voc have one current: a limit of the source; they are left out",

@@ -9,6 +9,7 @@
 #include "lyrefit/estimate/cell/compare_stated.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/read/check_readings.h"
 #include "lyrefit/read/dark.h"
 #include "lyrefit/read/sweep_order.h"
 
@@ -96,6 +97,19 @@ std::string NameOf(const CellSweep& sweep) {
                      sweep.irradiance_known ? "" : " (assumed)");
 }
 
+// The first finding on the magnitude of voltage and current, the other column, sign or area; empty:
+// none, or the readings are to be taken as they are. The number of cells is no matter of these.
+std::string DoubtOf(IvCurve curve, double area_cm2) {
+  if (curve.as_is) return "";
+  if (std::isfinite(area_cm2)) curve.notes.area_cm2 = area_cm2;
+  for (const ReadingFinding& finding : CheckReadings(curve)) {
+    for (const char* const id : {"sign", "exchanged", "unit", "current"}) {
+      if (finding.id == id) return finding.sentence;
+    }
+  }
+  return "";
+}
+
 CellSweep Describe(const IvCurve& curve, double area_cm2) {
   CellSweep sweep;
   sweep.file = curve.source;
@@ -115,9 +129,12 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
   if (sweep.kind != SweepKind::kLit) return sweep;
   const KeyPoints& key = sweep.key;
-  sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
-  constexpr double kSquareMetre_cm2 = 1e4;
-  sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+  sweep.doubt = DoubtOf(curve, area_cm2);
+  if (sweep.doubt.empty()) {
+    constexpr double kSquareMetre_cm2 = 1e4;
+    sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
+    sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+  }
   sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
   sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);
   sweep.least_slope_ratio = LeastSlopeRatio(line, key, sweep.noise_A);

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -35,7 +36,7 @@ def notebook(name):
 
     _, blocks = split_code_and_text_blocks(str(EXAMPLES / f"{name}.py"))
     made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF | {"first_notebook_cell": None}, str(EXAMPLES))), as_version=4)
-    made.cells[0].source = made.cells[0].source.replace("\n", " (notebook)\n", 1)  # told from the example's page
+    made.cells[0].source = re.sub("^# .*", r"\g<0> (notebook)", made.cells[0].source, count=1, flags=re.M)  # told from the example's page
     nbclient.NotebookClient(made, timeout=600, kernel_name="python3", record_timing=False).execute()
     return nbformat.writes(made)
 

@@ -10,9 +10,6 @@ EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
          "plant", "translate", "certify", "compare", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
-DATA = ("cell", "datasheet", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
-        "diagnosis/sweeps", "formats", "paper/rows.csv", "plant", "published/rows.csv", "pwp201", "rtc_france", "s75_constructed",
-        "trend")
 WHERE = 'It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data.\n"""\n'
 
 
@@ -42,17 +39,15 @@ def notebook(name):
 
 
 def archive(file, notebooks):
-    """All examples and notebooks with the data that they read, the same bytes every time."""
+    """All examples and notebooks with `data/`, which they and commands of the pages read; the same bytes every time."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as packed:
         def add(name, content):
-            packed.writestr(zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
+            packed.writestr(zipfile.ZipInfo(f"lyrefit-examples/{name}", (2000, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
 
         for name in ORDER:
-            add(f"lyrefit-examples/{name}.py", (EXAMPLES / f"{name}.py").read_bytes())
+            add(f"{name}.py", (EXAMPLES / f"{name}.py").read_bytes())
         for name, text in notebooks.items():
-            add(f"lyrefit-examples/{name}.ipynb", text)
-        for name in DATA:
-            place = ROOT / "data" / name
-            for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
-                if path.is_file():
-                    add(f"lyrefit-examples/{path.relative_to(ROOT)}", path.read_bytes())
+            add(f"{name}.ipynb", text)
+        for path in [ROOT / "LICENSE", *sorted((ROOT / "data").rglob("*"))]:
+            if path.is_file() and path.suffix != ".pyc":
+                add(path.relative_to(ROOT).as_posix(), path.read_bytes())

@@ -98,9 +98,9 @@ def cite(citation, changelog):
     entry = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
     said = [", ".join(author["name"] for author in keys["authors"]), keys["title"], f"Version {keys['version']}", fields["year"],
             fields["doi"], fields["url"]]
-    return (f"# Cite\n\n{keys['message']} A report of lyrefit begins with its version.\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
+    return (f"{keys['message']}\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
             f"BibTeX:\n\n```bibtex\n@software{{lyrefit,\n{entry}\n}}\n```\n\n"
-            "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).\n")
+            "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).")
 
 
 class Reference:

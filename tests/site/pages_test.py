@@ -46,6 +46,16 @@ class Pages(unittest.TestCase):
                         if part not in ("-h,--help", "Print this help message and exit", "Options:"):
                             self.assertIn(" ".join(part.removesuffix(":").split()), text, verb)
 
+    def test_every_method_that_a_report_names_has_its_paper(self):
+        rows = bs4.BeautifulSoup((SITE / "cite.html").read_bytes(), "html.parser").find_all("tr")
+        papers = {name.text: row.find_all("td")[1].text for row in rows if row.td for name in row.td.find_all("code")}
+        listed = " ".join(said("compare", "--help").split()).partition("--algorithms LIST list of ")[2].partition(" (")[0]
+        procedures = " ".join(said("translate", "--help").split()).partition("those to compute: ")[2].partition(",extended")[0]
+        names = re.findall(r"[\w+]+", listed) + re.findall(r"iec\d|desoto|pvsyst", procedures.partition(" (default")[0])
+        self.assertTrue({"mlo", "de", "iec4"} <= set(names), names)
+        self.assertEqual([name for name in names if not papers.get(name)], [])
+        self.assertIn("doi:10.3390/biomimetics8060507", papers["lo"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -10,15 +10,17 @@ EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
          "plant", "translate", "certify", "compare", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
-WHERE = 'It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data.\n"""\n'
+WHERE = "It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data."
+PANDAS = " It needs pandas (the extra ``frames`` of the wheel)."
 
 
 def stage(folder):
-    """The examples of the gallery with its head, where sphinx-gallery finds them; each says where its data are."""
+    """The examples of the gallery with its head, where sphinx-gallery finds them; each says where its data are and what it needs."""
     folder.mkdir(parents=True)
     for name in ORDER:
         text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
-        (folder / f"{name}.py").write_text(text.replace('\n"""\n', "\n\n" + WHERE, 1), encoding="utf-8")
+        told = WHERE + (PANDAS if re.search(r"^import pandas|frame\(", text, re.M) else "")
+        (folder / f"{name}.py").write_text(text.replace('\n"""\n', f'\n\n{told}\n"""\n', 1), encoding="utf-8")
     head = (pathlib.Path(__file__).parent / "gallery.rst").read_text(encoding="utf-8")
     (folder / "README.rst").write_text(head, encoding="utf-8")
 

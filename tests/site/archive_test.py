@@ -55,8 +55,9 @@ class Archive(unittest.TestCase):
         self.assertEqual(len(examples), 15)
         for file in examples:
             with self.subTest(file.name):
-                self.assertTrue(self.run_python(file.name))
                 page = (SITE / "gallery" / f"{file.stem}.html").read_text(encoding="utf-8")
+                without = f"import runpy, sys; sys.modules['pandas'] = None; runpy.run_path('{file.name}')"
+                self.assertTrue(self.run_python(*([file.name] if "It needs pandas" in page else ["-c", without])))
                 self.assertRegex(page, rf"_images/sphx_glr_{file.stem}_\d+.png")
                 self.assertIn("sphx-glr-script-out", page)
 

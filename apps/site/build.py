@@ -44,10 +44,10 @@ def prepare(command, reference, parts):
     made, added = made_pages.verb_pages(command, list(named), named)
     citation, changes = ((repository_pages.ROOT / ".github" / name).read_text(encoding="utf-8")
                          for name in ("CITATION.cff", "CHANGELOG.md"))
-    made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page(),
-             "cite": site.relinked("", "cite", made_pages.cite(citation, changes))}
+    made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page()}
+    offered = OFFERED | {"cite": site.relinked("", "cite", made_pages.cite(citation, changes))}
     shutil.copytree(HERE / "static", source / "_static")
-    site.write_all(added | {"speed": speed.page(source / "_static")}, OFFERED)
+    site.write_all(added | {"speed": speed.page(source / "_static")}, offered)
     subprocess.run([sys.executable, "-B", repository_pages.ROOT / "data" / "benchmark" / "pack.py",
                     source / "_static" / "lyrefit-benchmark-1.tar.gz"], check=True, stdout=subprocess.DEVNULL)
     for page, text in made.items():

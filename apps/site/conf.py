@@ -88,5 +88,21 @@ def keep_underscores(_app, _what, _name, _thing, _options, lines):
     lines[:] = [re.sub(r"^:(param|type) (\w+)_:", r":\1 \2\\_:", line) for line in lines]
 
 
+NUMBER = re.compile(r"(?<![\w.-])[-+]?\d[\d.]*(?:e?[-+]\d[\d.]*)*(?: %)?(?!\w)")
+
+
+def keep_numbers(_app, _page, _template, context, _tree):
+    """A number of a table does not break at a hyphen within it, nor before its percent sign."""
+    def whole(text):
+        return NUMBER.sub(lambda m: f'<span class="number">{m.group()}</span>' if re.search("[-+%]", m.group()) else m.group(), text)
+
+    def of_cell(cell):
+        return "".join(piece if piece.startswith("<") else whole(piece) for piece in re.split(r"(<[^>]*>)", cell.group()))
+
+    if "body" in context:
+        context["body"] = re.sub(r"<td.*?</td>", of_cell, context["body"], flags=re.S)
+
+
 def setup(app):
+    app.connect("html-page-context", keep_numbers)
     app.connect("autodoc-process-docstring", keep_underscores, priority=900)  # after Napoleon's

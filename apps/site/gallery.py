@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -9,18 +10,17 @@ EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
          "plant", "translate", "certify", "compare", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
-DATA = ("cell", "datasheet", "diagnosis/shaded_module.csv", "diagnosis/shaded_module.json", "diagnosis/sweep_now.csv", "diagnosis/sweep_now.json",
-        "diagnosis/sweeps", "formats", "paper/rows.csv", "plant", "published/rows.csv", "pwp201", "rtc_france", "s75_constructed",
-        "trend")
-WHERE = 'It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data.\n"""\n'
+WHERE = "It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data."
+PANDAS = " It needs pandas (the extra ``frames`` of the wheel)."
 
 
 def stage(folder):
-    """The examples of the gallery with its head, where sphinx-gallery finds them; each says where its data are."""
+    """The examples of the gallery with its head, where sphinx-gallery finds them; each says where its data are and what it needs."""
     folder.mkdir(parents=True)
     for name in ORDER:
         text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
-        (folder / f"{name}.py").write_text(text.replace('\n"""\n', "\n\n" + WHERE, 1), encoding="utf-8")
+        told = WHERE + (PANDAS if re.search(r"^import pandas|frame\(", text, re.M) else "")
+        (folder / f"{name}.py").write_text(text.replace('\n"""\n', f'\n\n{told}\n"""\n', 1), encoding="utf-8")
     head = (pathlib.Path(__file__).parent / "gallery.rst").read_text(encoding="utf-8")
     (folder / "README.rst").write_text(head, encoding="utf-8")
 
@@ -35,23 +35,21 @@ def notebook(name):
 
     _, blocks = split_code_and_text_blocks(str(EXAMPLES / f"{name}.py"))
     made = nbformat.reads(json.dumps(jupyter_notebook(blocks, DEFAULT_GALLERY_CONF | {"first_notebook_cell": None}, str(EXAMPLES))), as_version=4)
-    made.cells[0].source = made.cells[0].source.replace("\n", " (notebook)\n", 1)  # told from the example's page
+    made.cells[0].source = re.sub("^# .*", r"\g<0> (notebook)", made.cells[0].source, count=1, flags=re.M)  # told from the example's page
     nbclient.NotebookClient(made, timeout=600, kernel_name="python3", record_timing=False).execute()
     return nbformat.writes(made)
 
 
 def archive(file, notebooks):
-    """All examples and notebooks with the data that they read, the same bytes every time."""
+    """All examples and notebooks with `data/`, which they and commands of the pages read; the same bytes every time."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as packed:
         def add(name, content):
-            packed.writestr(zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
+            packed.writestr(zipfile.ZipInfo(f"lyrefit-examples/{name}", (2000, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
 
         for name in ORDER:
-            add(f"lyrefit-examples/{name}.py", (EXAMPLES / f"{name}.py").read_bytes())
+            add(f"{name}.py", (EXAMPLES / f"{name}.py").read_bytes())
         for name, text in notebooks.items():
-            add(f"lyrefit-examples/{name}.ipynb", text)
-        for name in DATA:
-            place = ROOT / "data" / name
-            for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
-                if path.is_file():
-                    add(f"lyrefit-examples/{path.relative_to(ROOT)}", path.read_bytes())
+            add(f"{name}.ipynb", text)
+        for path in [ROOT / "LICENSE", *sorted((ROOT / "data").rglob("*"))]:
+            if path.is_file() and path.suffix != ".pyc":
+                add(path.relative_to(ROOT).as_posix(), path.read_bytes())

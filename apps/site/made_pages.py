@@ -21,34 +21,32 @@ def cell(text):
     return re.sub(r"([|*_<>\[\]])", r"\\\1", text)
 
 
-def flags(command, verb):
-    """The flags of a verb as tables, a section each."""
-    sections, rows = [], []
-    for line in said(command, verb, "--help").split("\n"):
-        head = re.fullmatch(r"(\w[^:]*):", line)
+def table_of(section):
+    """Lines of a section of help, each with what is told on lines below it, as a table."""
+    rows = []
+    for line in section:
         item = re.fullmatch(r"  (\S.*?)(?:  +(.*))?", line)
-        if head:
-            rows = []
-            sections.append((head.group(1), rows))
-        elif item and sections and not line.startswith("   "):
+        if item:
             rows.append([item.group(1), item.group(2) or ""])
-        elif line.startswith("   ") and rows:
+        else:
             rows[-1][1] = f"{rows[-1][1]} {line.strip()}".strip()
-        elif line:
-            rows = []
+    return [f"| `{name.replace('|', chr(92) + '|')}` | {cell(text)} |" for name, text in rows if not name.startswith("-h,")]
+
+
+def whole_help(command, verb):
+    """The help of a verb below its description and usage: a table a section, examples as code, and what is told beside them."""
     out = ["## Flags", ""]
-    for head, rows in sections:
-        rows = [row for row in rows if not row[0].startswith("-h,") and not row[0].startswith("lyrefit ")]
-        if rows:
-            flag = "argument" if head == "Positionals" else "flag"
-            out += [f"### {head}", "", f"| {flag} | what it does |", "|---|---|"]
-            out += [f"| `{name.replace('|', chr(92) + '|')}` | {cell(text)} |" for name, text in rows] + [""]
+    for block in re.split(r"\n{2,}", said(command, verb, "--help").strip("\n"))[1:]:
+        head, *lines = block.split("\n")
+        if head == "Examples:":
+            out += ["## Examples", "", *("  " + line for line in lines), ""]
+        elif head.endswith(":") and lines and all(line.startswith("  ") for line in lines):
+            rows = table_of(lines)
+            what = "argument" if head == "Positionals:" else "flag"
+            out += [f"### {head[:-1]}", "", f"| {what} | what it does |", "|---|---|", *rows, ""] if rows else []
+        else:
+            out += [cell(" ".join([head, *lines])), ""]
     return "\n".join(out)
-
-
-def examples(command, verb):
-    text = said(command, verb, "--help").split("\nExamples:\n")
-    return "" if len(text) < 2 else "    " + text[1].strip("\n").replace("\n", "\n    ") + "\n"
 
 
 def verb_pages(command, names, texts):
@@ -60,11 +58,12 @@ def verb_pages(command, names, texts):
     for verb, line in verbs(command).items():
         page = f"verbs/{verb}"
         if page in names:
-            added[page] = flags(command, verb)
+            added[page] = whole_help(command, verb)
             continue
         users = [name for name in names if re.search(rf"\blyrefit {verb}\b|^# .*\b{verb}\b.*:", texts[name], re.M)]
         told = ", ".join(f"[{name.split('/')[1]}]({name.split('/')[1]}.md)" for name in users)
-        made[page] = (f"# {verb}\n\n{line}." + (f" See {told}." if told else "") + "\n\n" + flags(command, verb))
+        title = re.sub("^[A-Z](?=[a-z])", lambda first: first.group().lower(), line)
+        made[page] = f"# {verb}: {title}\n\n" + (f"See {told}.\n\n" if told else "") + whole_help(command, verb)
     rows = "\n".join(f"| [{verb}]({verb}.md) | {line} |" for verb, line in verbs(command).items())
     tree = "\n".join(f"{verb} <{verb}>" for verb in verbs(command))
     made["verbs/index"] = (
@@ -99,9 +98,9 @@ def cite(citation, changelog):
     entry = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
     said = [", ".join(author["name"] for author in keys["authors"]), keys["title"], f"Version {keys['version']}", fields["year"],
             fields["doi"], fields["url"]]
-    return (f"# Cite\n\n{keys['message']} A report of lyrefit begins with its version.\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
+    return (f"{keys['message']}\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
             f"BibTeX:\n\n```bibtex\n@software{{lyrefit,\n{entry}\n}}\n```\n\n"
-            "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).\n")
+            "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).")
 
 
 class Reference:

@@ -29,6 +29,8 @@ NAMES = {
 }
 MOVED = (("apps/lyrefit/verbs/", "verbs/"), ("lib/lyrefit/", "modules/"), (".github/", "project/"), ("apps/", "project/"),
          ("cmake/", "project/"))
+# What a bare name is the title of, on these pages: a module, a verb and a function may have the same.
+KINDS = (("modules/.+", "module of the library"), ("tests/.+/index", "tests"), ("start", "start"))
 SECTION = re.compile(r"^<!-- section: (\S+)#(\S+) -->$", re.M)
 
 
@@ -46,10 +48,17 @@ def name_of(path):
 
 
 def paths():
+    """Pages of the project; a form without a title is none."""
     found = [ROOT / "README.md", *ROOT.glob(".github/*.md")]
     for folder in ("apps", "cmake", "data", "lib", "tests"):
         found += ROOT.glob(f"{folder}/**/*.md")
-    return sorted({path.relative_to(ROOT).as_posix() for path in found})
+    return sorted({path.relative_to(ROOT).as_posix() for path in found if path.read_text(encoding="utf-8").startswith("# ")})
+
+
+def titled(page, text):
+    """The text of a page, whose title says what a bare name is of."""
+    kind = next((kind for pages, kind in KINDS if re.fullmatch(pages, page)), None)
+    return re.sub(r"^# [\w/]+$", rf"\g<0> ({kind})", text, count=1, flags=re.M) if kind else text
 
 
 def slug(heading):
@@ -136,7 +145,7 @@ class Site:
     def text_of(self, path):
         """A page of the site made of a page of the project."""
         page = self.names[path]
-        text = self.relinked(path, page, (ROOT / path).read_text(encoding="utf-8"))
+        text = titled(page, self.relinked(path, page, (ROOT / path).read_text(encoding="utf-8")))
         return SECTION.sub(lambda m: self.taken(path, page, m), text)
 
     def write(self, page, text, orphan=False):

@@ -10,6 +10,7 @@ import argparse
 import gzip
 import hashlib
 import io
+import json
 import pathlib
 import sys
 import tarfile
@@ -49,8 +50,6 @@ def contents(field):
         files[f"curves/{half}.jsonl"] = gzip.decompress(read(f"{half}.jsonl.gz"))
     for name in ("closed_labels.enc", "closed_labels.enc.sha256", "open_labels.jsonl"):
         files[f"labels/{name}"] = read(name)
-    for answers in sorted((HERE / "answers").iterdir()):
-        files[f"answers/{answers.name}"] = answers.read_bytes()
     for path in sorted((HERE / "contest").rglob("*")):
         if path.suffix in (".md", ".py", ".sh", ".json", ".txt", ".csv"):
             files[path.relative_to(HERE).as_posix()] = path.read_bytes()
@@ -60,6 +59,10 @@ def contents(field):
                 raise ValueError(f"{part}_labels.jsonl is not what {field} gives: make it again")
             files[f"curves/{part}.jsonl"] = make.lines(records).encode()
             files[f"labels/{part}_labels.jsonl"] = make.lines(truths).encode()
+    curves = {json.loads(line)["id"] for path in files if path.startswith("curves/") for line in files[path].splitlines()}
+    for answers in sorted((HERE / "answers").iterdir()):  # to the curves of this archive
+        rows = answers.read_text(encoding="utf-8").splitlines(keepends=True)
+        files[f"answers/{answers.name}"] = "".join(row for row in rows if json.loads(row)["id"] in curves).encode()
     listed = "".join(f"{hashlib.sha256(files[path]).hexdigest()}  {path}\n" for path in sorted(files))
     files["SHA256SUMS"] = listed.encode()
     return files

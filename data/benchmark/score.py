@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Scores answers to the benchmark. Plain Python 3.9 or later, no other package.
 
-    score.py ANSWERS... [--parts open,real,lab] [--json FILE]       a table row an answer file
+    score.py ANSWERS... [--parts open,real,lab] [--json FILE]       a table row an answer file; else all open parts that are here
     score.py ANSWERS --detail                                       by cause, by stated probability, by parameter
     score.py FIRST SECOND --compare                                 exact McNemar test on the same curves
     score.py ANSWERS --parts closed --key-file FILE                 with the closed labels (or LYREFIT_BENCHMARK_KEY)
@@ -21,7 +21,8 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-from submission import ABSTAIN, CAUSES, PARAMETERS, PARTS, AnswerError, of_these, read_answers, read_labels  # noqa: E402
+from submission import (ABSTAIN, CAUSES, PARAMETERS, PARTS, AnswerError, known_ids, labels_file, of_these,  # noqa: E402
+                        parts_here, read_answers, read_labels)
 
 # Statistics ------------------------------------------------------------------------------------------------------
 
@@ -113,16 +114,23 @@ def parameter_scores(answers, labels):
 
 
 def reliability(answers, labels):
-    """The Brier score and, in tenths of stated probability, how often the answers are right."""
-    stated = [(answers[key]["probability"], is_right(answers[key], labels[key])) for key in labels
-              if answers[key]["probability"] is not None and answers[key]["cause"] != ABSTAIN]
+    """The Brier score and, in tenths of stated probability, how often the answers are right.
+
+    `brier` can be compared: it is None unless every answer that does not abstain states a probability, since who states only
+    sure ones has a low one. `brier_of_stated` is that of those that do.
+    """
+    given = [key for key in labels if answers[key]["cause"] != ABSTAIN]
+    stated = [(answers[key]["probability"], is_right(answers[key], labels[key])) for key in given
+              if answers[key]["probability"] is not None]
     bins = []
     for tenth in range(10):
         inside = [(p, r) for p, r in stated if min(int(p * 10), 9) == tenth]
         if inside:
             bins.append({"from": tenth / 10, "stated": math.fsum(p for p, _ in inside) / len(inside),
                          "right": share(r for _, r in inside)})
-    return {"brier": mean_with_limits([(p - r) ** 2 for p, r in stated]), "bins": bins}
+    brier = mean_with_limits([(p - r) ** 2 for p, r in stated])
+    return {"stated": {"count": len(stated), "of": len(given)}, "brier": brier if len(stated) == len(given) else None,
+            "brier_of_stated": brier, "bins": bins}
 
 
 def score(answers, labels):
@@ -161,8 +169,17 @@ def in_percent(part):
             f"({100 * part['low_95']:.0f} to {100 * part['high_95']:.0f})")
 
 
-def brier_text(brier):
-    return "-" if brier["low_95"] is None else f"{brier['value']:.3f} ({brier['low_95']:.3f} to {brier['high_95']:.3f})"
+def brier_text(calibration):
+    """The Brier score with the count of stated probabilities; without a score where some are not stated."""
+    stated, brier = calibration["stated"], calibration["brier"]
+    count = f"{stated['count']} of {stated['of']} stated"
+    if brier is None or brier["low_95"] is None:
+        return f"- ({count})"
+    return f"{mean_text(brier)}; {count}"
+
+
+def mean_text(mean):
+    return f"{mean['value']:.3f} ({mean['low_95']:.3f} to {mean['high_95']:.3f})"
 
 
 COLUMNS = ("right_name", "false_cause", "missed", "wrong_name", "abstained")
@@ -173,7 +190,7 @@ def table(rows):
     lines = ["| answers | right name of faulty | cause given to clean | missed | wrong name | abstained | Brier |",
              "|---|---|---|---|---|---|---|"]
     for name, scores in rows:
-        cells = [name, *(in_percent(scores[key]) for key in COLUMNS), brier_text(scores["calibration"]["brier"])]
+        cells = [name, *(in_percent(scores[key]) for key in COLUMNS), brier_text(scores["calibration"])]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
@@ -181,7 +198,12 @@ def table(rows):
 def detail(scores):
     lines = ["| cause | right |", "|---|---|"]
     lines += [f"| {name} | {in_percent(part)} |" for name, part in scores["by_cause"].items()]
-    if scores["calibration"]["bins"]:
+    calibration = scores["calibration"]
+    if calibration["stated"]["count"] > 1:
+        lines += ["", f"Brier score of the {calibration['stated']['count']} of {calibration['stated']['of']} answers that state a "
+                  f"probability: {mean_text(calibration['brier_of_stated'])}"
+                  + ("" if calibration["brier"] else ", not to be compared: the others may be the unsure ones")]
+    if calibration["bins"]:
         lines += ["", "| stated | mean | right |", "|---|---|---|"]
     lines += [f"| {100 * b['from']:.0f} to {100 * b['from'] + 10:.0f} % | {100 * b['stated']:.1f} % | "
               f"{in_percent(b['right'])} |" for b in scores["calibration"]["bins"]]
@@ -195,34 +217,46 @@ def detail(scores):
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("answers", nargs="+")
-    parser.add_argument("--parts", default="open,real,lab", help="of open, real, lab, closed")
+    parser.add_argument("--parts", help="of open, real, lab, closed (default: those of open, real, lab that are here)")
     parser.add_argument("--labels", type=pathlib.Path, default=None, help="folder of the label files")
     parser.add_argument("--key-file", type=pathlib.Path)
     parser.add_argument("--json", metavar="FILE", help="all scores; - for standard output, alone")
     for flag in ("--detail", "--compare", "--check"):
         parser.add_argument(flag, action="store_true")
     given = parser.parse_args()
-    given.parts = given.parts.split(",")
+    given.folder = given.labels or (HERE / "labels" if (HERE / "labels").is_dir() else HERE)
+    given.parts = given.parts.split(",") if given.parts else [part for part in parts_here(given.folder) if part != "closed"]
     for part in given.parts:
         if part not in PARTS:
             parser.error(f"unknown part {part!r}; known are {', '.join(PARTS)}")
     if given.compare and len(given.answers) != 2:
         parser.error("--compare takes two files")
+    if given.json and given.json != "-":
+        read = [*given.answers, *filter(None, [given.key_file]), *(labels_file(part, given.folder) for part in PARTS)]
+        if pathlib.Path(given.json).exists() and any(os.path.exists(file) and os.path.samefile(file, given.json) for file in read):
+            parser.error(f"--json {given.json}: would replace what is read; expected another file")
     return given
+
+
+def checked(given):
+    """Says of each file whether it can be scored; the closed labels are not needed for it."""
+    known = known_ids(given.folder)
+    read_labels([part for part in given.parts if part != "closed"], given.folder)  # are they here?
+    asked = {name: part for name, part in known.items() if part in given.parts}
+    for file in given.answers:
+        answers = read_answers(file, known)
+        of_these(answers, asked, file)
+        print(f"{file}: {len(answers)} rows, can be scored on {', '.join(given.parts)}")
 
 
 def main():
     given = arguments()
-    key = given.key_file.read_text(encoding="utf-8") if given.key_file else os.environ.get("LYREFIT_BENCHMARK_KEY")
-    folder = given.labels or (HERE / "labels" if (HERE / "labels").is_dir() else HERE)
-    read = [(pathlib.Path(file).stem, read_answers(file), file) for file in given.answers]
-    if given.check and "closed" in given.parts and not key:
-        given.parts.remove("closed")
-    labels = read_labels(given.parts, folder, key)
-    chosen = [(name, of_these(answers, labels, file)) for name, answers, file in read]
     if given.check:
-        print("\n".join(f"{file}: {len(answers)} rows, can be scored" for _, answers, file in read))
+        checked(given)
         return
+    key = given.key_file.read_text(encoding="utf-8") if given.key_file else os.environ.get("LYREFIT_BENCHMARK_KEY")
+    labels, known = read_labels(given.parts, given.folder, key), known_ids(given.folder)
+    chosen = [(pathlib.Path(file).stem, of_these(read_answers(file, known), labels, file)) for file in given.answers]
     if given.compare:
         result = compare(chosen[0][1], chosen[1][1], labels)
         print(f"right on {result['curves']} curves: {chosen[0][0]} alone {result['first_only']}, {chosen[1][0]} alone "

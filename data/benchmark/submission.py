@@ -4,6 +4,8 @@ Plain Python 3.9 or later, no other package. An error names file, line and field
 """
 
 import csv
+import difflib
+import gzip
 import hashlib
 import json
 import math
@@ -19,21 +21,18 @@ ABSTAIN = "abstain"
 PARAMETERS = {"photocurrent": "relative", "saturation_current": "log", "n": "relative",
               "resistance_series": "relative", "resistance_shunt": "inverse", "power_lost": "absolute"}
 LIMITS = ("low_95", "high_95")
+FIELDS = ("id", "cause", "probability", "parameters")
+COLUMNS = FIELDS[:-1] + tuple(name + end for name in PARAMETERS for end in ("", *("_" + limit for limit in LIMITS)))
 
 
 class AnswerError(ValueError):
     """What is wrong with a file of answers, and where."""
 
     def __init__(self, file, line, field, message):
-        super().__init__(f"{file}:{line}: {field}: {message}" if field else f"{file}:{line}: {message}")
+        super().__init__(": ".join(filter(None, (f"{file}:{line}" if line else str(file), field, message))))
 
 
 def number_of(value, where, lowest=-math.inf, highest=math.inf):
-    if isinstance(value, str):
-        try:
-            value = float(value)
-        except ValueError:
-            raise AnswerError(*where, f"expected a number, got {value!r}") from None
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise AnswerError(*where, f"expected a number, got {value!r}")
     if not math.isfinite(value):
@@ -43,10 +42,16 @@ def number_of(value, where, lowest=-math.inf, highest=math.inf):
     return float(value)
 
 
+def unknown(name, known):
+    """What is said of a name that is not known: the one that was meant, or all."""
+    meant = difflib.get_close_matches(name, known, 1)
+    return "unknown; " + (f"meant may be {meant[0]}; " if meant else "") + f"known are {', '.join(known)}"
+
+
 def checked_parameter(name, given, file, line):
     where = f"parameters.{name}"
     if name not in PARAMETERS:
-        raise AnswerError(file, line, where, f"unknown; known are {', '.join(PARAMETERS)}")
+        raise AnswerError(file, line, where, unknown(name, PARAMETERS))
     if not isinstance(given, dict) or "value" not in given:
         raise AnswerError(file, line, where, 'expected an object with "value", and "low_95", "high_95" if known')
     for key in given:
@@ -67,11 +72,13 @@ def checked_row(row, file, line):
     if not isinstance(row, dict):
         raise AnswerError(file, line, "", "expected an object")
     for key in row:
-        if key not in ("id", "cause", "probability", "parameters"):
-            raise AnswerError(file, line, key, "unknown; known are id, cause, probability, parameters")
+        if key not in FIELDS:
+            raise AnswerError(file, line, key, unknown(key, FIELDS))
     for key in ("id", "cause"):
-        if not isinstance(row.get(key), str) or not row[key]:
+        if row.get(key) in (None, ""):
             raise AnswerError(file, line, key, "missing; expected a text")
+        if not isinstance(row[key], str):
+            raise AnswerError(file, line, key, f"expected a text, got {row[key]!r}")
     if row["cause"] != ABSTAIN and row["cause"] not in CAUSES:
         raise AnswerError(file, line, "cause", f"unknown {row['cause']!r}; known are {', '.join(CAUSES)}, {ABSTAIN}")
     probability = row.get("probability")
@@ -82,6 +89,13 @@ def checked_row(row, file, line):
         raise AnswerError(file, line, "parameters", "expected an object")
     return {"id": row["id"], "cause": row["cause"], "probability": probability,
             "parameters": {name: checked_parameter(name, given, file, line) for name, given in parameters.items()}}
+
+
+def number_in(cell, where):
+    try:
+        return float(cell)
+    except ValueError:
+        raise AnswerError(*where, f"expected a number, got {cell!r}") from None
 
 
 def json_rows(text, file):
@@ -96,10 +110,14 @@ def json_rows(text, file):
 def csv_rows(text, file):
     table = csv.reader(text.splitlines())
     head = next(table, [])
-    known = {"id", "cause", "probability"} | {n + end for n in PARAMETERS for end in ("", "_low_95", "_high_95")}
+    if "id" not in head and "cause" not in head:
+        raise AnswerError(file, 1, "", "expected JSON Lines (an object a line) or a table whose first line names its columns between "
+                          f"commas: id,cause,probability; got {text.splitlines()[0][:60]!r}")
     for name in head:
-        if name not in known:
-            raise AnswerError(file, 1, name, f"unknown column; known are {', '.join(sorted(known))}")
+        if name not in COLUMNS:
+            meant = difflib.get_close_matches(name, COLUMNS, 1)
+            raise AnswerError(file, 1, name, f"unknown column; {'meant may be ' + meant[0] + '; ' if meant else ''}known are id, cause, "
+                              f"probability, {', '.join(PARAMETERS)} and each of these with _low_95 and _high_95")
     for name in ("id", "cause"):
         if name not in head:
             raise AnswerError(file, 1, name, "column missing")
@@ -108,7 +126,8 @@ def csv_rows(text, file):
             continue
         if len(cells) != len(head):
             raise AnswerError(file, table.line_num, "", f"expected {len(head)} columns, got {len(cells)}")
-        filled = {name: cell for name, cell in zip(head, cells) if cell != ""}
+        filled = {name: cell if name in ("id", "cause") else number_in(cell, (file, table.line_num, name))
+                  for name, cell in zip(head, cells) if cell != ""}
         parameters = {}
         for name in PARAMETERS:
             given = {key: filled[name + end] for key, end in
@@ -119,20 +138,25 @@ def csv_rows(text, file):
                                "parameters": parameters}
 
 
-def read_answers(file):
-    """Answers by id. AnswerError: file, line, field, what was expected."""
+def read_answers(file, known=None):
+    """Answers by id, which is to be one of `known`. AnswerError: file, line, field, what was expected."""
     try:
         text = pathlib.Path(file).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise AnswerError(file, 1, "", f"cannot be read: {error}") from None
     if not text.strip():
         raise AnswerError(file, 1, "", "empty; expected a row a curve")
+    if text.lstrip().startswith("["):
+        raise AnswerError(file, 1, "", "expected JSON Lines (an object a line, no array and no commas between), got an array")
     rows = json_rows(text, file) if text.lstrip().startswith("{") else csv_rows(text, file)
     answers, first = {}, {}
     for line, row in rows:
         answer = checked_row(row, file, line)
         if answer["id"] in answers:
             raise AnswerError(file, line, "id", f"{answer['id']} again; first in line {first[answer['id']]}")
+        if known is not None and answer["id"] not in known:
+            raise AnswerError(file, line, "id", f"unknown {answer['id']!r}; expected that of a curve of the parts that are here: "
+                              + ", ".join(sorted(set(known.values()), key=PARTS.index)))
         answers[answer["id"]], first[answer["id"]] = answer, line
     if not answers:
         raise AnswerError(file, 1, "", "no rows; expected one a curve")
@@ -150,16 +174,38 @@ def closed_text(file, key):
     return run.stdout.decode()
 
 
+def labels_file(part, folder):
+    return folder / ("closed_labels.enc" if part == "closed" else f"{part}_labels.jsonl")
+
+
+def parts_here(folder=HERE):
+    return [part for part in PARTS if labels_file(part, folder).is_file()]
+
+
+def known_ids(folder=HERE):
+    """The part of every curve whose labels are here, by its id; the closed labels stay closed."""
+    known = {}
+    for part in parts_here(folder):
+        if part != "closed":
+            known |= dict.fromkeys(read_labels([part], folder), part)
+    packed, plain = HERE / "closed.jsonl.gz", HERE / "curves" / "closed.jsonl"
+    text = gzip.decompress(packed.read_bytes()).decode() if packed.is_file() else plain.read_text(encoding="utf-8")
+    return known | {json.loads(line)["id"]: "closed" for line in text.splitlines()}
+
+
 def read_labels(parts, folder=HERE, key=None):
     """Truths by id, each with its part."""
     labels = {}
     for part in parts:
+        if not labels_file(part, folder).is_file():
+            raise ValueError(f"part {part} is not in this archive, which has {', '.join(parts_here(folder)) or 'none'}; cmake/benchmark.sh "
+                             "of the repository makes one with the measured curves (LYREFIT_FIELD_DATA=FOLDER)")
         if part == "closed":
             if not key:
                 raise ValueError("the closed labels need a key: --key-file FILE or LYREFIT_BENCHMARK_KEY")
-            text = closed_text(folder / "closed_labels.enc", key)
+            text = closed_text(labels_file(part, folder), key)
         else:
-            text = (folder / f"{part}_labels.jsonl").read_text(encoding="utf-8")
+            text = labels_file(part, folder).read_text(encoding="utf-8")
         for line in text.splitlines():
             truth = json.loads(line)
             if "id" in truth:
@@ -171,5 +217,6 @@ def of_these(answers, labels, file):
     """The answers to these curves, which must all be there; those to curves of other parts may be."""
     missing = sorted(set(labels) - set(answers))
     if missing:
-        raise AnswerError(file, 1, "id", f"{len(missing)} of {len(labels)} curves have no row, first {missing[0]}")
+        raise AnswerError(file, None, "id", f"{len(missing)} of {len(labels)} curves have no row, first {missing[0]}; expected a row a curve "
+                          "of every part that is scored (--parts)")
     return {name: answers[name] for name in labels}

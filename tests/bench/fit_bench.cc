@@ -1,5 +1,5 @@
 // RTC France to the proved optimum on one thread: the default search and polish, with and without
-// intervals, and two optimisation libraries with equal box and kernels. Peers with the flag `told`
+// intervals, and two optimization libraries with equal box and kernels. Peers with the flag `told`
 // get the optimum and stop as soon as they reach it; lyrefit and the other peers do not.
 
 #include <benchmark/benchmark.h>

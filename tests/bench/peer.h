@@ -8,7 +8,7 @@
 
 namespace lyrefit::bench {
 
-// The fit as a problem for any optimisation library: minimise the RMSE over the unit box. Box,
+// The fit as a problem for any optimization library: minimise the RMSE over the unit box. Box,
 // logarithmic coordinates and vector kernels are those of lyrefit's own search, so that only the
 // methods differ.
 class PeerProblem {

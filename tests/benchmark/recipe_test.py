@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -145,26 +146,45 @@ class Closed(unittest.TestCase):
             submission.read_labels(["closed"], FOLDER)
 
 
+def field_folder():
+    folder = pathlib.Path(os.environ.get("LYREFIT_FIELD_DATA") or "-")
+    return folder if (folder / "lab" / "labels.csv").is_file() else None
+
+
 class Archive(unittest.TestCase):
-    def test_it_is_the_same_to_the_byte_and_scores_by_itself(self):
-        field = os.environ.get("LYREFIT_FIELD_DATA")
-        field = pathlib.Path(field) if field and (pathlib.Path(field) / "lab" / "labels.csv").is_file() else None
-        files = pack.contents(field)
+    def test_it_is_the_same_to_the_byte(self):
+        files = pack.contents(field_folder())
         self.assertEqual(pack.archive(files), pack.archive(dict(reversed(files.items()))))
         for line in files["SHA256SUMS"].decode().splitlines():
             digest, path = line.split("  ")
             self.assertEqual(hashlib.sha256(files[path]).hexdigest(), digest)
         self.assertFalse([path for path in files if path.endswith("key") or path == "labels/closed_labels.jsonl"])
-        with tempfile.TemporaryDirectory() as folder:
-            for path, data in files.items():
-                target = pathlib.Path(folder) / path
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(data)
-            parts = "open,real,lab" if field else "open"
-            run = subprocess.run([sys.executable, "-I", "-B", f"{folder}/score.py", f"{folder}/answers/none.jsonl", "--parts",
-                                  parts], capture_output=True, text=True)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("| none | 0 of ", run.stdout)
+
+    def test_commands_of_its_page_run_in_it_and_a_part_that_it_has_not_is_named(self):
+        for field in {None, field_folder()}:
+            files = pack.contents(field)
+            with tempfile.TemporaryDirectory() as folder:
+                for path, data in files.items():
+                    target = pathlib.Path(folder) / path
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    target.write_bytes(data)
+                self.check_commands(folder, files["README.md"].decode(), has_all=field is not None)
+
+    def check_commands(self, folder, page, has_all):
+        commands = re.findall(r"^    score.py (answers/[^#\n]*)", page, re.M)
+        self.assertGreater(len(commands), 4)
+        for command in [*commands, "answers/lyrefit.jsonl", "answers/none.jsonl --check", "answers/none.jsonl --parts open,real"]:
+            run = subprocess.run([sys.executable, "-I", "-B", f"{folder}/score.py", *command.split()], cwd=folder,
+                                 capture_output=True, text=True)
+            absent = re.search("real|lab", command.partition("--parts")[2])
+            if absent and not has_all:
+                self.assertEqual(run.returncode, 1, command)
+                self.assertRegex(run.stderr, f"^part {absent.group()} is not in this archive, which has open, closed; cmake/benchmark.sh")
+            else:
+                self.assertEqual((run.returncode, run.stderr), (0, ""), command)
+                self.assertRegex(run.stdout, r"^\| answers \||can be scored on open|^right on \d+ curves")
+        for link in re.findall(r"\]\(([^)#]+)\)", page):
+            self.assertTrue((pathlib.Path(folder) / link).is_file(), link)
 
 
 if __name__ == "__main__":

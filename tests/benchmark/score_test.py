@@ -45,10 +45,23 @@ class Scores(unittest.TestCase):
     def test_brier_and_tenths_are_of_answers_with_a_probability_that_do_not_abstain(self):
         calibration = score.score({"a": answer("none", 0.9), "b": answer("none", 1.0), "c": answer("light", 0.5),
                                    "d": answer("abstain", 0.3), "e": answer("light")}, LABELS)["calibration"]
-        self.assertAlmostEqual(calibration["brier"]["value"], (0.01 + 0 + 0.25) / 3)
-        self.assertEqual(calibration["brier"]["of"], 3)
+        self.assertAlmostEqual(calibration["brier_of_stated"]["value"], (0.01 + 0 + 0.25) / 3)
+        self.assertEqual(calibration["brier_of_stated"]["of"], 3)
+        self.assertEqual(calibration["stated"], {"count": 3, "of": 4})
         self.assertEqual([(b["from"], b["right"]["count"], b["right"]["of"]) for b in calibration["bins"]],
                          [(0.5, 0, 1), (0.9, 2, 2)])
+
+    def test_a_brier_score_of_chosen_answers_is_not_given_for_comparison(self):
+        sure = {key: answer("none", 1.0 if key == "a" else None) for key in LABELS}
+        sure["b"] = answer("none", 1.0)
+        scores = score.score(sure, LABELS)
+        self.assertIsNone(scores["calibration"]["brier"])
+        self.assertEqual(scores["calibration"]["brier_of_stated"]["value"], 0)
+        self.assertTrue(score.table([("sure", scores)]).endswith("| - (2 of 5 stated) |"))
+        self.assertIn("Brier score of the 2 of 5 answers that state a probability: 0.000 (0.000 to 0.000), not to be compared",
+                      score.detail(scores))
+        all_state = score.score({key: answer("none", 0.5) for key in "abcd"} | {"e": answer("abstain")}, LABELS)
+        self.assertTrue(score.table([("all", all_state)]).endswith("| 0.250 (0.250 to 0.250); 4 of 4 stated |"))
 
     def test_parameters_have_errors_by_their_measure_and_coverage_of_given_intervals(self):
         answers = {key: answer("none") for key in LABELS}
@@ -106,6 +119,11 @@ class Files(unittest.TestCase):
                 GOOD + '{"id":"b","cause":"ghost"}': ":2: cause: unknown 'ghost'; known are none, shade",
                 GOOD + '{"cause":"none"}': ":2: id: missing",
                 GOOD + '{"id":"b"}': ":2: cause: missing",
+                GOOD + '{"id":"b","cause":3}': ":2: cause: expected a text, got 3",
+                GOOD + '{"id":"b","causelist":"none"}': ":2: causelist: unknown; meant may be cause; known are id, cause",
+                '{"id":"a","cause":"none","probability":"0.5"}': ":1: probability: expected a number, got '0.5'",
+                '{"id":"a","cause":"none","parameters":{"n":{"value":"1.2"}}}': ":1: parameters.n.value: expected a number, got '1.2'",
+                '[\n{"id":"a","cause":"none"}\n]': ":1: expected JSON Lines (an object a line, no array",
                 GOOD + "\n" + GOOD: ":3: id: a again; first in line 1",
                 GOOD + "{not JSON": ":2: not JSON",
                 GOOD + '{"id":"b","cause":"none","size":1}': ":2: size: unknown; known are id",
@@ -124,7 +142,11 @@ class Files(unittest.TestCase):
                 "id,cause\na,none\na,shade\n": ":3: id: a again; first in line 2",
                 "id,cause\n": ":1: no rows; expected one a curve",
                 "id,probability\na,1\n": ":1: cause: column missing",
-                "id,cause,colour\na,none,red\n": ":1: colour: unknown column",
+                "id,cause,colour\na,none,red\n": ":1: colour: unknown column; known are id, cause, probability, photo",
+                "id,cause,probabilty\na,none,1\n": ":1: probabilty: unknown column; meant may be probability;",
+                "id;cause\na;none\n": ":1: expected JSON Lines (an object a line) or a table whose first line names its columns "
+                                       "between commas: id,cause,probability; got 'id;cause'",
+                "id,cause,n\na,none,nan\n": ":2: parameters.n.value: expected a finite number, got nan",
                 "id,cause,probability\na,none,high\n": ":2: probability: expected a number, got 'high'",
                 "id,cause,n\na,none\n": ":2: expected 3 columns, got 2",
                 "id,cause,n_low_95\na,none,1\n": ":2: parameters.n: expected an object with \"value\""}.items():
@@ -140,16 +162,48 @@ class Files(unittest.TestCase):
             self.assertEqual(submission.read_answers(table), submission.read_answers(lines))
             self.assertEqual(submission.read_answers(table)["a"]["parameters"]["n"]["high_95"], math.inf)
 
-    def test_a_missing_curve_is_an_error_and_the_program_says_it_with_exit_1(self):
-        with self.assertRaisesRegex(submission.AnswerError, "1 of 2 curves have no row, first b"):
+    def test_a_missing_curve_is_an_error_of_the_file_and_no_line_of_it(self):
+        with self.assertRaisesRegex(submission.AnswerError, "^x.csv: id: 1 of 2 curves have no row, first b; expected a row a curve"):
             submission.of_these({"a": answer("none")}, {"a": {}, "b": {}}, "x.csv")
+
+    def test_an_unknown_curve_is_an_error_with_its_line(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a.jsonl"
-            path.write_text(GOOD, encoding="utf-8")
-            run = subprocess.run([sys.executable, "-B", score.__file__, str(path)], capture_output=True, text=True)
-        self.assertEqual(run.returncode, 1)
-        self.assertIn("curves have no row", run.stderr)
-        self.assertEqual(run.stdout, "")
+            path.write_text(GOOD + '{"id":"z","cause":"none"}\n', encoding="utf-8")
+            with self.assertRaisesRegex(submission.AnswerError, r"a\.jsonl:2: id: unknown 'z'; expected that of a curve of .*: open, lab$"):
+                submission.read_answers(path, {"a": "lab", "b": "open"})
+
+    def test_curves_of_all_parts_are_known_without_a_key(self):
+        parts = list(submission.known_ids().values())
+        self.assertEqual([parts.count(part) for part in submission.PARTS], [250, 46, 26, 250])
+
+
+class Program(unittest.TestCase):
+    def run_on(self, text, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.jsonl"
+            path.write_text(text, encoding="utf-8")
+            run = subprocess.run([sys.executable, "-B", score.__file__, "a.jsonl", *arguments], cwd=folder, capture_output=True, text=True)
+            return run, path.read_text(encoding="utf-8")
+
+    def test_what_cannot_be_scored_ends_with_1_and_prints_no_table(self):
+        rows = [f'{{"id":"{key}","cause":"none"}}\n' for key, part in submission.known_ids().items() if part == "open"]
+        for text, expected in {"".join(rows[1:]): "a.jsonl: id: 1 of 250 curves have no row, first ",
+                               "".join(rows) + '{"id":"z","cause":"none"}\n': "a.jsonl:251: id: unknown 'z'"}.items():
+            for arguments in (("--parts", "open"), ("--parts", "open", "--check")):
+                run, _ = self.run_on(text, *arguments)
+                self.assertEqual((run.returncode, run.stdout), (1, ""))
+                self.assertIn(expected, run.stderr)
+        run, _ = self.run_on("".join(rows), "--parts", "open", "--check")
+        self.assertEqual(run.stdout, "a.jsonl: 250 rows, can be scored on open\n")
+        run, _ = self.run_on("".join(rows), "--parts", "closed", "--check")
+        self.assertIn("250 of 250 curves have no row", run.stderr)
+
+    def test_scores_do_not_replace_what_is_read(self):
+        for place in ("a.jsonl", "./a.jsonl", str(submission.HERE / "open_labels.jsonl")):
+            run, kept = self.run_on(GOOD, "--parts", "open", "--json", place)
+            self.assertEqual((run.returncode, kept), (2, GOOD))
+            self.assertIn(f"--json {place}: would replace what is read; expected another file", run.stderr)
 
 
 if __name__ == "__main__":

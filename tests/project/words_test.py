@@ -25,6 +25,7 @@ TERMS = {
     r"contenders?": "algorithm",
     r"comebacks?|impatient": "drop diode, evaluation limit",
     r"pool(s|ed)?": "summary",
+    r"optimis(e[drs]?|ers|ing|ations?)": "optimize, optimizer, optimization",  # one spelling, which a search finds
 }
 # Files where a word has another sense.
 USUAL = {"data/json.md": ".*", "lib/lyrefit/base/append_log.cc": "flock", "cmake/web/dependencies.cmake": "pool", "lib/lyrefit/base/former_names.h": "bird|basins|contenders"}

@@ -28,6 +28,8 @@ after(() => browser?.close());
 const file = (name) => join(SITE, `${name}.html`);
 const foreign = (complaints) => complaints.filter((complaint) => !complaint.startsWith('request: file:'));
 
+const finished = () => /found \d+/.test(document.querySelector('#search-results .search-summary')?.textContent);
+
 async function opened(name, look) {
   const page = await open(browser, file(name), kLooks[look]);
   return {...page, faults: () => foreign(page.complaints)};
@@ -57,27 +59,65 @@ test('the search finds a word, from disk, and leads to its page', async () => {
   const {page, faults, close} = await opened('index', 'light');
   await page.fill('input[name=q]', 'hysteresis');
   await page.press('input[name=q]', 'Enter');
-  await page.waitForSelector('#search-results ul.search li a');
+  await page.waitForFunction(finished);
   const found = await page.$$eval('#search-results ul.search li a', (links) => links.map((link) => link.textContent));
   assert.ok(found.includes('Hysteresis of a pair of sweeps'), found.join(', '));
   const around = await page.$$eval('#search-results ul.search li p.context', (texts) => texts.map((text) => text.textContent));
   assert.equal(around.length, found.length);
   for (const text of around) assert.match(text.toLowerCase(), /hysteresi/);
-  await page.click('#search-results a:text-is("Hysteresis of a pair of sweeps")');
+  await page.locator('#search-results a', {hasText: /^Hysteresis of a pair of sweeps$/}).click();  // what was asked for is marked in it
   await page.waitForSelector('h1');
   assert.match(page.url(), /gallery\/hysteresis\.html/);
   assert.deepEqual(faults(), []);
   await close();
 });
 
+// What a search lists: the title and the page of each.
+async function found(word) {
+  const {page, close} = await opened('search', 'light');
+  await page.goto(`${page.url()}?q=${word}`);
+  await page.waitForFunction(finished);
+  const links = await page.$$eval('#search-results ul.search li a', (all) => all.map((link) => [link.textContent, link.getAttribute('href')]));
+  await close();
+  return links;
+}
+
+test('the page of a verb comes first for its name, no page is listed twice, and titles say of what they are', async () => {
+  for (const verb of ['certify', 'batch', 'trend', 'audit', 'budget']) {
+    const links = await found(verb);
+    assert.match(links[0][1], new RegExp(`^verbs/${verb}\\.html`), links.join('; '));
+    const places = links.map(([, link]) => link.replace(/\?[^#]*/, ''));
+    assert.deepEqual(places.filter((link, number) => places.indexOf(link) !== number), [], verb);
+    assert.ok(!links.some(([title]) => title === verb), links.join('; '));
+  }
+  assert.ok((await found('optimizer')).some(([title]) => title.startsWith('Your optimizer beside twelve others')));
+});
+
+test('numbers and flags of tables do not break on a phone', async () => {
+  const {page, close} = await open(browser, file('index'), kLooks.phone);
+  for (const [name, whole] of [['benchmark_curves', '9.860218779e-4'], ['modules/certify/index', '8.7e-11'], ['verbs/fit', '--irradiance-Wm2']]) {
+    await page.goto(pathToFileURL(file(name)).href);
+    const lines = await page.$$eval('td :is(.number, code .pre)', (all) => all.map((part) => [part.textContent, part.getClientRects().length]));
+    assert.deepEqual(lines.filter(([, count]) => count > 1), [], name);
+    assert.ok(lines.some(([text]) => text === whole), name);
+  }
+  await close();
+});
+
+test('a page of the C++ reference begins with its text on a phone, its tree follows', async () => {
+  const {page, close} = await open(browser, file('cpp/group__estimate'), kLooks.phone);
+  await page.waitForSelector('#nav-tree li');
+  const top = (selector) => page.$eval(selector, (element) => element.getBoundingClientRect().top);
+  assert.ok(await top('.title') < 200);
+  assert.ok(await top('#nav-tree') > await top('.contents'));
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= kLooks.phone.viewport.width);
+  await close();
+});
+
 test('the search knows names of C++ and of Python', async () => {
   for (const [word, title] of [['FitFamily', 'C++ reference'], ['fit_family', 'lyrefit.fit_family']]) {
-    const {page, close} = await opened('search', 'light');
-    await page.goto(`${page.url()}?q=${word}`);
-    await page.waitForSelector('#search-results ul.search li a');
-    const found = await page.$$eval('#search-results ul.search li a', (links) => links.map((link) => link.textContent));
-    assert.ok(found.some((text) => text.includes(title)), `${word}: ${found.join(', ')}`);
-    await close();
+    const links = await found(word);
+    assert.ok(links.some(([text]) => text.includes(title)), `${word}: ${links.join('; ')}`);
   }
 });
 

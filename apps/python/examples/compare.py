@@ -1,5 +1,5 @@
 """
-Your optimiser beside twelve others, with the proved floor
+Your optimizer beside twelve others, with the proved floor
 ==========================================================
 
 A search of your own is a function of ten lines. It gets the objective (the RMSE in A of one point

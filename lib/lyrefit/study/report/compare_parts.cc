@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -31,6 +32,11 @@ std::string CommonBudget(const Comparison& comparison) {
   return same ? budget : "";
 }
 
+// Of the runs and of the reference.
+std::string SearchedInPart(double steepest_n) {
+  return StepsLeftOut(steepest_n) + "; runs and reference are of n from there on";
+}
+
 }  // namespace
 
 std::string ObjectiveText(const CompareOptions& options) {
@@ -54,6 +60,16 @@ std::string RunsText(const Comparison& comparison, const ProblemResult& problem)
   const std::string done =
       fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
   return fmt::format("{} of {}", done, comparison.options.runs);
+}
+
+std::vector<std::string> CompareWarnings(const Comparison& comparison) {
+  std::vector<std::string> warnings = comparison.doubts;
+  for (const ProblemResult& problem : comparison.problems) {
+    const double steepest_n = problem.reference.steepest_n;
+    if (!(steepest_n > 0)) continue;
+    warnings.push_back(fmt::format("{}: {}", ProblemTitle(problem), SearchedInPart(steepest_n)));
+  }
+  return warnings;
 }
 
 std::vector<std::string> CompareBanners(const Comparison& comparison) {
@@ -97,6 +113,7 @@ Section ProblemSection(const Comparison& comparison, const ProblemResult& proble
   }
   Section section = {ProblemTitle(problem)};
   AddField("reference", text, &section);
+  if (reference.steepest_n > 0) AddField("bounds", SearchedInPart(reference.steepest_n), &section);
   return section;
 }
 

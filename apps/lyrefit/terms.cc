@@ -72,7 +72,8 @@ const Chapter kFit = {
     {{"objective",
       "the residual whose squares are summed. measured-current: the model's right "
       "side with the measured V and I put in, less I. solved-current: the model's "
-      "current at the measured V, less I. Papers mix the two: compare like with like"},
+      "current at the measured V, less I. Papers mostly give the least measured-current RMSE "
+      "(fit --objective measured-current): compare like with like"},
      {"RMSE", "root mean square of the residuals of all readings, in A"},
      {"searched", "the best that the search found, before any polish"},
      {"refined",
@@ -135,7 +136,8 @@ const Chapter kStudy = {
     "Proofs and studies",
     {{"floor",
       "the lowest RMSE (of the objective named beside it) that any number of diodes can reach "
-      "within the bounds of n and Rs; no fit of sd, dd or td lies below it"},
+      "within the bounds of n and Rs; no fit of sd, dd or td lies below it, and the best of one of "
+      "them, which certify proves too, may lie above"},
      {"gap",
       "relative distance of what was reached from what was proved: 0 means that nothing "
       "better exists"},

@@ -22,6 +22,7 @@ void BindDiagnose(py::module_* module);
 void BindTranslate(py::module_* module);
 void BindCertify(py::module_* module);
 void BindStudy(py::module_* module);
+void BindAudit(py::module_* module);
 void BindEffects(py::module_* module);
 void BindPvlib(py::module_* module);
 void BindCommand(py::module_* module);  // in wheels only

@@ -34,6 +34,7 @@ PYBIND11_MODULE(_lyrefit, module) {
   BindTranslate(&module);
   BindCertify(&module);
   BindStudy(&module);
+  BindAudit(&module);
   BindPvlib(&module);
 #ifdef LYREFIT_WHEEL
   BindCommand(&module);

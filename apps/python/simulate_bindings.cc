@@ -1,6 +1,8 @@
 #include <pybind11/stl.h>
 
+#include <map>
 #include <memory>
+#include <string>
 
 #include "bindings.h"
 #include "curves.h"
@@ -53,10 +55,12 @@ constexpr const char* kParameterKeywords[] = {
     "photocurrent", "saturation_current",   "n",   "resistance_series",    "resistance_shunt",
     "nNsVth",       "saturation_current_2", "n_2", "saturation_current_3", "n_3"};
 
-void SetParameters(py::handle values, SimulateOptions* options) {
+using ParameterMap = std::map<std::string, double>;
+
+void SetParameters(py::handle values, ParameterMap* parameters) {
   for (const auto& [name, value] : py::dict(py::reinterpret_borrow<py::object>(values))) {
     const std::string text = TextOf("parameters", name);
-    options->parameters[text] = NumberOf(text, value);
+    (*parameters)[text] = NumberOf(text, value);
   }
 }
 
@@ -78,17 +82,17 @@ SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id,
   if (!py::hasattr(parameters, "keys")) {
     Raise({"parameters: expected a mapping, a fit or a path", {}});
   }
-  SetParameters(parameters, &options);
+  SetParameters(parameters, &options.parameters);
   return options;
 }
 
 // Converts pvlib's n Ns Vth to the ideality of a cell.
-void TakeModifiedIdeality(SimulateOptions* options) {
-  const auto given = options->parameters.find("nNsVth");
-  if (given == options->parameters.end()) return;
-  const double thermal = options->conditions.ModuleThermalVoltage(options->constants);
-  options->parameters["n"] = given->second / thermal;
-  options->parameters.erase("nNsVth");
+void TakeModifiedIdeality(const Conditions& conditions, ConstantSet constants,
+                          ParameterMap* parameters) {
+  const auto given = parameters->find("nNsVth");
+  if (given == parameters->end()) return;
+  (*parameters)["n"] = given->second / conditions.ModuleThermalVoltage(constants);
+  parameters->erase("nNsVth");
 }
 
 void TakeLayout(Keywords* keywords, bool cells_told, SimulateOptions* options) {
@@ -123,7 +127,7 @@ SimulateOptions ReadSimulateKeywords(py::handle parameters, Keywords* keywords, 
   options.conditions = conditions.conditions;
   if (const auto name = keywords->Take("name")) options.name = TextOf("name", *name);
   keywords->Read(kSimulateOptionTable, &options);
-  TakeModifiedIdeality(&options);
+  TakeModifiedIdeality(options.conditions, options.constants, &options.parameters);
   return options;
 }
 
@@ -139,6 +143,73 @@ IvCurve SimulateOne(py::handle parameters, py::handle voltage, const py::kwargs&
   Expected<IvCurve> curve = Unlocked([&] { return Simulate(options); });
   FaultsOf(own).Raise();
   return Must(std::move(curve));
+}
+
+constexpr char kRmseDoc[] =
+    "Tell the RMSE of given parameters on a curve, by both definitions in use.\n\n"
+    "The measured-current RMSE puts the measured current into the right-hand side of the diode\n"
+    "equation; the solved-current RMSE is of the current that solves it. Papers mostly give the\n"
+    "measured-current one, each at its own optimum: never compare one with the other.\n\n"
+    "Parameters\n----------\n"
+    "curve : array_like of shape (2, n) or (n, 2), Curve, path, mapping or DataFrame\n"
+    "    As fit() takes it in one piece; (voltage, current) in V and A.\n"
+    "parameters : mapping of str to float, or FitResult\n"
+    "    Under pvlib's names or the papers' symbols, of the whole device: photocurrent or Iph and\n"
+    "    saturation_current or Is1 in A, resistance_series or Rs and resistance_shunt or Rsh in\n"
+    "    ohm, n or n1 per cell, or nNsVth in V in its place; saturation_current_2 (Is2), n_2 (n2)\n"
+    "    and so on for two and three diodes. Or the answer of a fit of diodes alone.\n";
+
+constexpr char kRmseEnd[] =
+    "Returns\n-------\n"
+    "dict of str to float\n"
+    "    ``measured_current_A`` and ``solved_current_A``, in A, as in ``result['rmse']`` of "
+    "fit().\n\n"
+    "Raises\n------\n"
+    "lyrefit.Error\n"
+    "    A parameter that is missing, unknown or outside its physical range, an unusable curve.\n\n"
+    "Examples\n--------\n"
+    ">>> lyrefit.rmse(\"data/rtc_france\", {\"Iph\": 0.760776, \"Is1\": 3.23021e-7, \"n1\": "
+    "1.481184,\n"
+    "...                                   \"Rs\": 0.036377, \"Rsh\": 53.7185})\n";
+
+struct RmseOptions {
+  ConstantSet constants = ConstantSet::kCodata;
+};
+
+constexpr OptionRow<RmseOptions> kRmseOptionTable[] = {
+    {"constants", "NAME", "values of k and q", EnumOption<&RmseOptions::constants>()},
+};
+
+py::dict RmseOfOne(py::handle curve, py::handle parameters, const py::kwargs& given) {
+  Keywords keywords("rmse", given);
+  RmseOptions options;
+  keywords.Read(kRmseOptionTable, &options);
+  const IvCurve taken = TakeCurve(curve, py::none(), &keywords);
+  keywords.Finish();
+  py::object values = py::reinterpret_borrow<py::object>(parameters);
+  if (py::isinstance<Result>(parameters) && py::hasattr(parameters, "parameters")) {
+    values = parameters.attr("parameters");
+  } else if (py::isinstance<Result>(parameters) || !py::hasattr(parameters, "keys")) {
+    Raise({"parameters: expected a mapping or a fit", {}});
+  }
+  ParameterMap named;
+  SetParameters(values, &named);
+  if (named.count("nNsVth") + named.count("n") + named.count("n1") > 1) {
+    Raise({"parameters: n and nNsVth say the same: give one of them", {}});
+  }
+  TakeModifiedIdeality(taken.conditions, options.constants, &named);
+  const RmsePair rmse = Must(RmseOf(taken, named, options.constants));
+  py::dict both;
+  both["measured_current_A"] = rmse.measured_current_A;
+  both["solved_current_A"] = rmse.solved_current_A;
+  return both;
+}
+
+std::vector<KeywordNote> RmseNotes() {
+  std::vector<KeywordNote> notes;
+  AppendNotes(kRmseOptionTable, RmseOptions(), &notes);
+  AppendCurveNotes(&notes);
+  return EachOnce(notes);
 }
 
 std::vector<KeywordNote> SimulateNotes() {
@@ -161,6 +232,8 @@ void BindSimulate(py::module_* module) {
       module,
       {"simulate", "parameters=None, voltage=None", kSimulateDoc, kSimulateEnd, SimulateNotes()},
       &SimulateOne, py::arg("parameters") = py::none(), py::arg("voltage") = py::none());
+  DefineVerb(module, {"rmse", "curve, parameters", kRmseDoc, kRmseEnd, RmseNotes()}, &RmseOfOne,
+             py::arg("curve"), py::arg("parameters"));
 }
 
 }  // namespace lyrefit::python

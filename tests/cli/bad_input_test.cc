@@ -61,6 +61,9 @@ TEST(BadInput, MissingFile) {
   const TempFolder folder;
   ExpectRefused(folder, folder.Path("no.csv") + " --json " + folder.Path("out.json"),
                 {"no.csv", "does not exist"});
+  ExpectRefused(folder,
+                folder.Path("no.csv") + " --bounds literature --json " + folder.Path("out.json"),
+                {"no.csv", "does not exist"});
 }
 
 TEST(BadInput, EmptyFile) { ExpectFileRefused("", {"curve.csv", "empty"}); }

@@ -30,6 +30,13 @@ def flags_of(text):
 
 
 class Surface(unittest.TestCase):
+    def test_submodules_are_imported_where_they_are_used(self):
+        code = ("import sys, lyrefit; before = [name for name in sys.modules if name.startswith('lyrefit.')]; "
+                "print(sorted(before), callable(lyrefit.searches.cma_es), callable(lyrefit.pvlib.singlediode), "
+                "hasattr(lyrefit, 'nothing'))")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual((run.stdout, run.stderr), ("['lyrefit._lyrefit'] True True False\n", ""))
+
     def test_every_name_has_a_type(self):
         declared = {node.name: node for node in STUB.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
         for name in dir(_lyrefit):

@@ -94,6 +94,51 @@ class Verbs(unittest.TestCase):
         with self.assertRaisesRegex(lyrefit.Error, "are for fit"):
             lyrefit.fit_many([CELL], searcher=mine)
 
+    def test_rmse_of_given_parameters_is_that_of_the_fit(self):
+        for keywords in ({}, {"model": "td", "bounds": "literature"}, {"constants": "literature"}):
+            fit = lyrefit.fit(DATA / "rtc_france", intervals="none", **keywords)
+            constants = {"constants": keywords["constants"]} if "constants" in keywords else {}
+            for curve in (DATA / "rtc_france", fit.curve, fit):
+                for parameters in (fit, fit.parameters):
+                    self.assertEqual(lyrefit.rmse(curve, parameters, **constants), fit["rmse"]["refined"])
+        single = lyrefit.fit(DATA / "rtc_france", intervals="none")
+        pvlib = dict(single.parameters, nNsVth=single["nNsVth"])
+        del pvlib["n"]
+        expected = single["rmse"]["refined"]
+        for name, value in lyrefit.rmse((single.curve.voltage, single.curve.current), pvlib, temperature_C=33,
+                                        cells_in_series=1).items():
+            self.assertAlmostEqual(value, expected[name], delta=1e-12)
+        for wrong, sentence in [({"Iph": 0.76}, "no value for Is1"), (3, "expected a mapping or a fit"),
+                                (dict(single.parameters, nNsVth=0.04), "n and nNsVth say the same"),
+                                (dict(single.parameters, n="much"), "n: expected a number, found 'much'"),
+                                (lyrefit.certify(DATA / "rtc_france", models="sd"), "expected a mapping or a fit")]:
+            with self.subTest(sentence), self.assertRaisesRegex(lyrefit.Error, sentence):
+                lyrefit.rmse(DATA / "rtc_france", wrong)
+        with self.assertRaisesRegex(TypeError, "no keyword 'constant'"):
+            lyrefit.rmse(DATA / "rtc_france", single, constant="codata")
+
+    def test_audit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rows = pathlib.Path(folder) / "rows.csv"
+            rows.write_text("source,device,model,algorithm,rmse_A,Iph_A,Rs_ohm,Rsh_ohm,Is1_A,n1\n"
+                            "T,rtc_france,sd,coarse,9E-04,,,,,\n"
+                            "T,rtc_france,sd,right,9.8602E-04,0.760776,0.036377,53.7185,3.23021e-7,1.481184\n")
+            audit = lyrefit.audit(rows, curves=[DATA])
+            self.same(audit, "audit", rows, "--curves", DATA)
+            self.assertEqual(audit.text, command("audit", rows, "--curves", DATA))
+            coarse, right = audit["findings"]
+            self.assertIn("9.860219e-04 A, cut off to the claim's digits", coarse["sentence"])
+            self.assertEqual(list(audit.frame()["verdict"]), [coarse["verdict"], right["verdict"]])
+            self.assertEqual(right["verdict"], "reproduces")
+            with self.assertRaisesRegex(lyrefit.Error, "nowhere"):
+                lyrefit.audit(rows, curves="nowhere")
+        with self.assertRaisesRegex(lyrefit.Error, "nosuch.csv: the file does not exist"):
+            lyrefit.audit("nosuch.csv")
+
+    def test_bounds_beside_a_curve_that_does_not_exist(self):
+        with self.assertRaisesRegex(lyrefit.Error, "nosuch: the file does not exist"):
+            lyrefit.fit("nosuch", bounds="literature")
+
     def test_family_of_a_long_frame(self):
         curves = []
         for light in (400, 700, 1000):

@@ -45,6 +45,14 @@ TEST(CertificateText, FitsATerminalOf100Columns) {
   }
 }
 
+// With any Rs an exponent of 320 at a reading of RTC France is that of some n above 0.1.
+TEST(CertificateText, SaysWhereSearchesBegin) {
+  Certificate certificate = RtcCertificate();
+  EXPECT_THAT(CertificateText(certificate), Not(HasSubstr("fit and compare begin n")));
+  certificate.options.n_lower = 0.05;
+  EXPECT_THAT(CertificateText(certificate), HasSubstr("fit and compare begin n at 0.1"));
+}
+
 TEST(CertificateText, SaysWhatIsNotCertified) {
   Certificate certificate = RtcCertificate();
   certificate.interrupted = true;

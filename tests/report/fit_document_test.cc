@@ -123,6 +123,10 @@ TEST(FullReport, TellsTheFloorAsTheGoldenFileHasIt) {
   floor.minimised = false;
   add("of a fit that does not minimise it", floor);
   add("not settled", open);
+  FitReport searched_in_part = SampleReport();
+  searched_in_part.floor = settled;
+  searched_in_part.steepest_n = 1;
+  golden.AddChanges("of the part of the bounds that is searched", FullReport(searched_in_part));
   floor = open;
   floor.above = 0;
   floor.lower_bound_A = 0;

@@ -105,8 +105,22 @@ TEST_F(AuditLowestTest, HoldsAClaimWithoutParametersAgainstTheLowestThereIs) {
   EXPECT_EQ(verdict("2.4250e-3"), AuditVerdict::kNoParameters);  // digits cut off
   EXPECT_EQ(verdict("2.4249e-3"), AuditVerdict::kBelowProved);
   EXPECT_EQ(verdict("3e-3"), AuditVerdict::kNoParameters);
-  EXPECT_THAT(Find("pwp201", "2.42507e-3", ",,,,,,").sentence, HasSubstr("the least there is"));
   EXPECT_THAT(Find("pwp201", "3e-3", ",,,,,,").sentence, HasSubstr("can be met"));
+}
+
+TEST_F(AuditLowestTest, SaysHowAClaimOfFewDigitsComesFromTheLowestThereIs) {
+  const auto sentence = [&](const std::string& claim) {
+    return Find("rtc_france", claim, ",,,,,,").sentence;
+  };
+  for (const char* cut : {"9.8E-04", "9E-04", "9.86021E-04"}) {
+    EXPECT_THAT(sentence(cut), HasSubstr("the claim is compatible with the least there is, "
+                                         "9.860219e-04 A, cut off to the claim's digits"));
+  }
+  for (const char* rounded : {"0.001", "9.9E-04", "9.8602E-04"}) {
+    EXPECT_THAT(sentence(rounded), HasSubstr("the claim is compatible with the least there is, "
+                                             "9.860219e-04 A, rounded to the claim's digits"));
+  }
+  EXPECT_EQ(Find("rtc_france", "9.80E-04", ",,,,,,").verdict, AuditVerdict::kBelowProved);
 }
 
 // The optimum of the solved-current RMSE, published as a measured-current RMSE.

@@ -86,7 +86,7 @@ TEST(PublishedAudit, FindsThatTwoPublicationsTookOneNewtonStep) {
 TEST(PublishedAudit, FindsOneClaimOfDedwipsoAtTheOptimumOneBelowAndOneOfWiderN) {
   const AuditFinding& single = Claim("DEDIWPSO", "rtc_france", Model::kSingleDiode);
   EXPECT_EQ(single.verdict, AuditVerdict::kNoParameters);
-  EXPECT_THAT(single.sentence, HasSubstr("the claim is the least there is"));
+  EXPECT_THAT(single.sentence, HasSubstr("the claim is compatible with the least there is"));
   const AuditFinding& two = Claim("DEDIWPSO", "rtc_france", Model::kDoubleDiode);
   EXPECT_EQ(two.verdict, AuditVerdict::kNoParameters);
   EXPECT_THAT(two.sentence, HasSubstr("With n from 0.5 to 4 the claim can be met"));

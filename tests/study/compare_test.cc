@@ -185,7 +185,7 @@ TEST(Compare, SaysWhichSearchSpentMoreThanItsBudget) {
   own.searcher = [](const ObjectiveFunction& objective, const Box& box,
                     const SearchOptions& options, const Observer& observer) {
     SearchOptions longer = options;
-    longer.algorithm = Algorithm::kRandom;  // spends all
+    longer.algorithm = Algorithm::kRandom;               // spends all
     longer.iterations += static_cast<int>(options.run);  // the first run keeps to it
     return Search(objective, box, longer, observer);
   };

@@ -10,12 +10,17 @@ command of the same name, with '_' for '-'. Mistakes are raised as :class:`lyref
 """
 
 from collections.abc import Mapping as _Mapping
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 from typing import NamedTuple as _NamedTuple
 
 from . import _lyrefit
 from ._lyrefit import *  # noqa: F401,F403
 from ._lyrefit import Result as _Result
 from ._lyrefit import __version__
+
+if _TYPE_CHECKING:
+    from . import pvlib as pvlib
+    from . import searches as searches
 
 _Mapping.register(_Result)
 __all__ = ["Progress", "__version__", *(name for name in dir(_lyrefit) if not name.startswith("_"))]
@@ -43,3 +48,12 @@ class Progress(_NamedTuple):
     """Of the stage's work that is done, where iterations differ in size; else 0."""
     note: str
     """What else there is to say."""
+
+
+def __getattr__(name: str) -> object:
+    """Import ``lyrefit.pvlib`` and ``lyrefit.searches`` where they are first used."""
+    if name not in ("pvlib", "searches"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return import_module(f"{__name__}.{name}")

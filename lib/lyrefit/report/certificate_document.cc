@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
+#include "lyrefit/model/term.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/record_parts.h"
 #include "lyrefit/report/text_layout.h"
@@ -183,6 +185,20 @@ std::string ModelValues(const ModelCertificate& model, const Conditions& conditi
   return values;
 }
 
+// A sentence on diodes that are proved here and that no search has; empty: there are none.
+std::string BeyondSearches(const Certificate& certificate) {
+  const CertifyOptions& options = certificate.options;
+  const Device device =
+      MakeDevice(Model::kSingleDiode, certificate.curve.conditions, options.constants);
+  const double steepest =
+      SteepestIdeality(certificate.curve, device, {options.rs_lower_ohm, options.rs_upper_ohm});
+  if (!(options.n_lower < steepest && steepest < options.n_upper)) return "";
+  return fmt::format(
+      "fit and compare begin n at {:.4g}, for below a diode's exponent passes {:.0f} at a reading: "
+      "their best may lie above what is proved here.",
+      steepest, kLargestExponent);
+}
+
 Section ModelSection(const Certificate& certificate) {
   Section section = {"Models with one, two and three diodes"};
   if (certificate.models.empty()) return section;
@@ -201,6 +217,8 @@ Section ModelSection(const Certificate& certificate) {
   for (const ModelCertificate& model : certificate.models) {
     AddField(ToText(model.model), ModelValues(model, certificate.curve.conditions), &section);
   }
+  const std::string beyond = BeyondSearches(certificate);
+  if (!beyond.empty()) AddSentence(beyond, &section);
   return section;
 }
 

@@ -60,10 +60,14 @@ std::string Difference(double measured, double simulated) {
   return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
 }
 
-// Distance of the result from the floor. A gap below three digits counts as closed.
-std::string FloorText(const FloorReport& floor) {
+// Distance of the result from the floor, which is that of any number of diodes. A gap below three
+// digits counts as closed.
+std::string FloorText(const FitReport& report) {
   constexpr double kClosed = 1e-5;
-  const std::string range = fmt::format("n in [{:g}, {:g}]", floor.n_lower, floor.n_upper);
+  const FloorReport& floor = *report.floor;
+  const std::string range =
+      fmt::format("n in [{:g}, {:g}]{}", floor.n_lower, floor.n_upper,
+                  report.steepest_n > 0 ? ", the part of the bounds that is searched," : "");
   const std::string rmse = ToText(floor.objective) + " RMSE";
   const bool closed = floor.gap <= kClosed;
   const double within = floor.above + floor.gap;
@@ -75,16 +79,24 @@ std::string FloorText(const FloorReport& floor) {
     if (within > kCertifiedGap) above += fmt::format(" to within {:.1g} of itself", within);
   }
   if (!floor.minimised) above += ", but it was not fitted for the least RMSE";
+  // A floor that is missed says nothing of what this number of diodes can do.
+  std::string own;
+  if (floor.above > kCertifiedGap && within > kClosed && floor.minimised) {
+    own = fmt::format(
+        " How low the {} model itself can go, lyrefit certify --models {} --objective {} proves "
+        "within the same bounds.",
+        ModelTitle(report.model), ToText(report.model), ToText(floor.objective));
+  }
   if (closed) {
-    return fmt::format("Floor: no number of diodes with {} brings the {} below {} A, and {}.",
-                       range, rmse, BoundText(floor.lower_bound_A), above);
+    return fmt::format("Floor: no number of diodes with {} brings the {} below {} A, and {}.{}",
+                       range, rmse, BoundText(floor.lower_bound_A), above, own);
   }
   const std::string proved = floor.lower_bound_A > 0
                                  ? fmt::format("only that nothing lies below {} A is proved",
                                                BoundText(floor.lower_bound_A))
                                  : std::string("no lower bound is proved");
-  return fmt::format("Floor, not settled: diodes with {} reach a {} of {} A, and {}; {}.", range,
-                     rmse, Scientific(floor.rmse_A, kRmseDigits), above, proved);
+  return fmt::format("Floor, not settled: diodes with {} reach a {} of {} A, and {}; {}.{}", range,
+                     rmse, Scientific(floor.rmse_A, kRmseDigits), above, proved, own);
 }
 
 std::string Decimals(double value) {
@@ -245,12 +257,15 @@ Section RmseSection(const FitReport& report) {
   if (weighed) add("least squares", report.errors->least_squares, true);
   add(weighed ? "weighed by the errors" : "refined (best of all starts)", report.rmse.refined,
       report.polished);
-  Section section = {"RMSE in A   (* the objective that was fitted)"};
+  // The figures of most papers are of the other objective, each at its own optimum.
+  const bool solved = report.objective == Objective::kSolvedCurrent;
+  Section section = {fmt::format("RMSE in A   (* the objective that was fitted{})",
+                                 solved ? "; papers mostly fit measured-current" : "")};
   AddTable(std::move(table), &section);
   if (weighed) {
     AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", &section);
   }
-  if (report.floor) AddSentence(FloorText(*report.floor), &section);
+  if (report.floor) AddSentence(FloorText(report), &section);
   return section;
 }
 

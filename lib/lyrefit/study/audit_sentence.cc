@@ -115,21 +115,29 @@ std::string OtherDevice(const AuditFinding& finding) {
   return text + ".";
 }
 
+// An RMSE of which the claim is the print: "9.860219e-04 A, cut off to the claim's digits". A claim
+// that is cut off lies below it, and of few digits it may be far from it.
+std::string PrintedAs(const PrintedNumber& claim, double rmse_A) {
+  const bool rounded = rmse_A - claim.value <= claim.half_unit;
+  return fmt::format("{}, {} to the claim's digits", Ampere(rmse_A),
+                     rounded ? "rounded" : "cut off");
+}
+
 // The claim as the least RMSE of a Newton step or of the other objective; empty if it is neither.
 std::string LeastOfText(const AuditFinding& finding) {
   const AuditLowest& lowest = *finding.lowest;
   const PrintedNumber& claim = finding.row.rmse;
   if (IsPrintOf(claim, lowest.newton_step_A)) {
     return fmt::format(
-        " The claim is the least that one Newton step from the measured currents comes to, {}; "
-        "that is not the root of the equation.",
-        Ampere(lowest.newton_step_A));
+        " The claim is compatible with the least that one Newton step from the measured currents "
+        "comes to, {}; that is not the root of the equation.",
+        PrintedAs(claim, lowest.newton_step_A));
   }
   if (!IsPrintOf(claim, lowest.other_objective_A)) return "";
   const bool measured = lowest.objective == Objective::kMeasuredCurrent;
-  return fmt::format(" The claim is the least {} RMSE, {}.",
+  return fmt::format(" The claim is compatible with the least {} RMSE, {}.",
                      ToText(measured ? Objective::kSolvedCurrent : Objective::kMeasuredCurrent),
-                     Ampere(lowest.other_objective_A));
+                     PrintedAs(claim, lowest.other_objective_A));
 }
 
 // The verdict for a claim below every fit, with or without parameters.
@@ -166,7 +174,8 @@ std::string NoParameters(const AuditFinding& finding) {
   if (!finding.lowest) return text + ".";
   const double least = finding.lowest->rmse_A;
   if (IsPrintOf(finding.row.rmse, least)) {
-    return fmt::format("{}; the claim is the least there is, {}.", text, Ampere(least));
+    return fmt::format("{}; the claim is compatible with the least there is, {}.", text,
+                       PrintedAs(finding.row.rmse, least));
   }
   if (finding.row.rmse.value < least) {
     return fmt::format("{}; the best fit with n from {:g} to {:g} has {}.{}{}", text, kLowestFitted,

@@ -281,6 +281,7 @@ class Study {
     if (reference.rmse_A < known.rmse_A) return reference;
     known.lower_bound_A = reference.lower_bound_A;
     known.floor_A = reference.floor_A;
+    known.steepest_n = reference.steepest_n;
     return known;
   }
 

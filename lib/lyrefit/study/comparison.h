@@ -86,6 +86,9 @@ struct Reference {
   std::string origin;               // description as text
   std::vector<double> parameters;   // in the device's order, effects in reporting units
   bool interrupted = false;         // stopped before a proof was complete
+  // Raised lower bound of n of the runs and of the proof; see FitReport. NaN: the bound was not
+  // raised, or the problem has effects.
+  double steepest_n = kUnknown;
   // The multistart is better than every run by more than 1e-6 (best_known.h).
   bool by_multistart = false;
   int points = 0;  // number of random points polished by the multistart

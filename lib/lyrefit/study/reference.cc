@@ -4,6 +4,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
 
 namespace lyrefit {
 namespace {
@@ -29,8 +30,10 @@ Reference FindReference(const CompareCurve& subject, Model model, const CompareO
   reference.origin = "best of all runs";
   reference.parameters = best.parameters;
   const Device device = MakeDevice(model, subject.curve.conditions, options.constants);
-  const auto bounds = MakeBounds(subject.bounds, device, subject.curve);
+  auto bounds = MakeBounds(subject.bounds, device, subject.curve);
   if (!bounds) return reference;
+  const std::vector<double> none_fixed(device.size(), kUnknown);
+  reference.steepest_n = LeaveOutSteps(subject.curve, device, none_fixed, &*bounds);
   CertifyOptions certify = RangesOf(*bounds, options.constants, {model});
   certify.objective = options.objective;
   certify.effort = options.objective == Objective::kSolvedCurrent ? kSolvedEffort : kEffort;

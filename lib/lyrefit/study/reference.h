@@ -12,7 +12,8 @@ struct BestFound {
   std::vector<double> parameters;  // in the device's order
 };
 
-// Computes the reference of one problem. It tries to certify the optimum within the bounds. Without
+// Computes the reference of one problem. It tries to certify the optimum within the bounds that the
+// runs search, which begin at a larger n than those asked for if Reference::steepest_n says so. Without
 // a certificate the reference is the lowest RMSE of the runs and the proof. If the observer stops
 // it, the reference is the best of the runs.
 Reference FindReference(const CompareCurve& subject, Model model, const CompareOptions& options,

@@ -89,5 +89,18 @@ TEST(ReadBoundsFile, SaysWhereAndWhatIsWrong) {
   EXPECT_FALSE(ReadBoundsFile(folder.Path("missing.json")).has_value());
 }
 
+TEST(NamedBounds, SaysFirstThatThereIsNoCurve) {
+  const TempFolder folder;
+  const auto error = [](const std::string& file) {
+    return NamedBounds("literature", file).error().ToString();
+  };
+  EXPECT_EQ(error(folder.Path("nosuch")), folder.Path("nosuch") + ": the file does not exist");
+  const std::string curve = folder.Write("curve.csv", "voltage_V,current_A\n");
+  for (const std::string& file : {curve, std::string("-"), std::string()}) {
+    EXPECT_NE(error(file).find("beside the curve; there are physical and wide"), std::string::npos)
+        << error(file);
+  }
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "error_of.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/current.h"
+#include "lyrefit/read/read_curve.h"
 #include "temp_folder.h"
 
 namespace lyrefit {
@@ -116,6 +118,43 @@ TEST(Simulate, RefusesOptionsOutsideTheirRanges) {
   options = Module();
   options.parameters["Iph"] = 0;
   ExpectRefused(options, "open-circuit");
+}
+
+TEST(RmseOf, IsThatOfTheFitsReport) {
+  const auto curve = ReadCurve(LYREFIT_DATA_DIR "/rtc_france");
+  ASSERT_TRUE(curve);
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
+    FitOptions options;
+    options.model = model;
+    options.intervals = Intervals::kNone;
+    const auto report = Fit(*curve, options);
+    ASSERT_TRUE(report);
+    std::map<std::string, double> by_symbol, by_name;
+    for (const Estimate& e : report->estimates) {
+      by_symbol[e.info.symbol] = by_name[e.info.name] = e.refined;
+    }
+    for (const auto& parameters : {by_symbol, by_name}) {
+      const auto rmse = RmseOf(*curve, parameters);
+      ASSERT_TRUE(rmse) << rmse.error().ToString();
+      EXPECT_EQ(rmse->measured_current_A, report->rmse.refined.measured_current_A);
+      EXPECT_EQ(rmse->solved_current_A, report->rmse.refined.solved_current_A);
+    }
+  }
+}
+
+TEST(RmseOf, RefusesWhatIsNoDevice) {
+  const auto curve = ReadCurve(LYREFIT_DATA_DIR "/rtc_france");
+  ASSERT_TRUE(curve);
+  const auto error = [&](std::map<std::string, double> parameters) {
+    return RmseOf(*curve, parameters).error().ToString();
+  };
+  EXPECT_THAT(error({{"Iph", 0.76}, {"Is1", 3e-7}, {"n", 1.5}, {"Rs", 0.04}}),
+              HasSubstr("no value for Rsh"));
+  EXPECT_THAT(error({{"Iph", 0.76}, {"Is2", 3e-7}}), HasSubstr("no value for Is1"));
+  EXPECT_THAT(error({{"Iph", 0.76}, {"shading.d", 0.5}}),
+              HasSubstr("the model has no parameter shading.d"));
+  EXPECT_THAT(error({{"Iph", 0.76}, {"Is1", 3e-7}, {"n", 0}, {"Rs", 0.04}, {"Rsh", 50}}),
+              HasSubstr("expected n1 above 0, found 0"));
 }
 
 }  // namespace

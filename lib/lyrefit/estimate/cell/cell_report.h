@@ -58,16 +58,16 @@ struct CellSweep {
   SweepKind kind = SweepKind::kLit;
   ScanDirection direction = ScanDirection::kForward;
   double irradiance_W_m2 = kUnknown;
-  bool irradiance_known = true;             // false: a default is assumed
-  std::vector<double> voltage_V;            // rising; equal voltages are averaged
-  std::vector<double> current_A;            // of each voltage
-  double suns_voc_A = kUnknown;             // see IvCurve::suns_voc_A
-  double noise_A = 0;                       // of a current, from second differences
-  int limited = 0;                          // readings left out at a limit of the current
-  KeyPoints key = {};                       // of a lit sweep, read off the readings
-  std::string doubt;             // why current or area are of no cell (CheckReadings); empty: none
-  double jsc_mA_cm2 = kUnknown;  // Isc / area; NaN where there is a doubt
-  double efficiency = kUnknown;  // Pmp / (irradiance x area); NaN where there is a doubt
+  bool irradiance_known = true;   // false: a default is assumed
+  std::vector<double> voltage_V;  // rising; equal voltages are averaged
+  std::vector<double> current_A;  // of each voltage
+  double suns_voc_A = kUnknown;   // see IvCurve::suns_voc_A
+  double noise_A = 0;             // of a current, from second differences
+  int limited = 0;                // readings left out at a limit of the current
+  KeyPoints key = {};             // of a lit sweep, read off the readings
+  std::string doubt;              // why current or area are of no cell (CheckReadings); empty: none
+  double jsc_mA_cm2 = kUnknown;   // Isc / area; NaN where there is a doubt
+  double efficiency = kUnknown;   // Pmp / (irradiance x area); NaN where there is a doubt
   double resistance_at_isc_ohm = kUnknown;  // -dV/dI at 0 V
   double resistance_at_voc_ohm = kUnknown;  // -dV/dI at Voc
   // Least ratio of the slope -dI/dV to a larger one at a lower voltage, from 0.3 to 1.1 Voc; 1:

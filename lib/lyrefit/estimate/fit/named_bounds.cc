@@ -16,6 +16,9 @@ Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string&
   const fs::path folder = fs::is_directory(curve, error) ? curve : curve.parent_path();
   const fs::path file = folder / ("bounds-" + name + ".json");
   if (!fs::exists(file, error)) {
+    // Readings from standard input or from memory have no file.
+    const bool in_file = !curve_file.empty() && curve_file != "-";
+    if (in_file && !fs::exists(curve, error)) return Fail("the file does not exist", curve_file);
     std::string others;
     for (const char* other : {"paper", "literature"}) {
       if (!fs::exists(folder / fmt::format("bounds-{}.json", other), error)) continue;

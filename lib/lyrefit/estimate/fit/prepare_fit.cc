@@ -9,11 +9,11 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/fit/distinct_readings.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
 #include "lyrefit/estimate/fit/variant_problem.h"
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
-#include "lyrefit/model/term.h"
 #include "lyrefit/read/check_readings.h"
 
 namespace lyrefit {
@@ -86,38 +86,6 @@ Expected<void> CheckErrorSpec(const FitOptions& options) {
   return {};
 }
 
-// Smallest n at which no exponent is cut off (model/term.h), at any reading and any Rs in its
-// range.
-double SteepestIdeality(const IvCurve& curve, const Device& device, const ParameterBounds& rs) {
-  double voltage = 0, current = 0;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    voltage = std::max(voltage, curve.voltage_V[k]);
-    current = std::max(current, std::fabs(curve.current_A[k]));
-  }
-  const double most = current > 0 ? std::min(rs.upper, voltage / current) : rs.upper;
-  double junction_V = 0;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    for (const double r : {rs.lower, most}) {
-      junction_V = std::max(junction_V, curve.voltage_V[k] + r * curve.current_A[k]);
-    }
-  }
-  return junction_V / (kLargestExponent * device.module_thermal_voltage_V);
-}
-
-// Raises the lower bounds of n to the smallest value without a cut-off. A diode whose exponent is
-// cut off is a step in the current, which could fit any data and is no diode.
-void LeaveOutSteps(PreparedFit* fit) {
-  const double steepest = SteepestIdeality(fit->curve, fit->device, fit->bounds[kRs]);
-  for (int d = 0; d < DiodeCount(fit->device); ++d) {
-    ParameterBounds& n = fit->bounds[IdealityIndex(d)];
-    if (!(n.lower < steepest && steepest < n.upper)) continue;
-    if (!std::isnan(fit->fixed[IdealityIndex(d)])) continue;
-    fit->steepest_n = n.lower = steepest;
-    n.search_lower = std::max(n.search_lower, steepest);
-    n.search_upper = std::max(n.search_upper, steepest);
-  }
-}
-
 Expected<void> CheckOptions(const FitOptions& options) {
   TRY(ValidateOptions(options.search, kSearchOptionTable));
   TRY(ValidateThreads(options.threads));
@@ -169,7 +137,7 @@ Expected<PreparedFit> PrepareFit(const IvCurve& curve, const FitOptions& options
   fit.device = MakeDevice(options.model, curve.conditions, options.constants);
   TRY(fit.bounds, MakeBounds(options.bounds, fit.device, curve));
   TRY(fit.fixed, FixedValues(options.fixed, fit.device));
-  LeaveOutSteps(&fit);
+  fit.steepest_n = LeaveOutSteps(fit.curve, fit.device, fit.fixed, &fit.bounds);
   TRY(AddEffects(&fit));
   CountFree(&fit);
   DistinctReadings distinct = FindDistinctReadings(curve);

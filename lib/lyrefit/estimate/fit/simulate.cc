@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
@@ -245,6 +247,22 @@ Expected<IvCurve> Simulate(const SimulateOptions& options) {
   }
   AddNoise(options, &curve);
   return curve;
+}
+
+Expected<RmsePair> RmseOf(const IvCurve& curve, const std::map<std::string, double>& parameters,
+                          ConstantSet constants) {
+  TRY(Validate(curve));
+  Device device;
+  for (const Model model : {Model::kSingleDiode, Model::kDoubleDiode, Model::kTripleDiode}) {
+    device = MakeDevice(model, curve.conditions, constants);
+    const bool has_all =
+        std::all_of(parameters.begin(), parameters.end(), [&](const auto& parameter) {
+          return FindParameter(device.parameters, parameter.first).has_value();
+        });
+    if (has_all) break;
+  }
+  TRY(const auto p, ParameterVector(device.parameters, parameters));
+  return BothRmse(device, p, curve);
 }
 
 }  // namespace lyrefit

@@ -11,6 +11,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/estimate/fit/effect_text.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/read/curve_set.h"
@@ -88,6 +89,13 @@ inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
 // noise is added. Equal options give equal bits. Errors: a parameter missing, unknown or outside
 // its physical range; no open-circuit voltage to end at; options outside their ranges.
 Expected<IvCurve> Simulate(const SimulateOptions& options);
+
+// RMSE of given parameters on the readings of a curve, by both definitions and without weights, as
+// a fit reports it. `parameters` are by symbol or name, in the units of SimulateOptions; the model
+// is the smallest one of one, two and three diodes that has them all. Errors: an unusable curve; a
+// parameter missing, unknown or outside its physical range.
+Expected<RmsePair> RmseOf(const IvCurve& curve, const std::map<std::string, double>& parameters,
+                          ConstantSet constants = ConstantSet::kCodata);
 
 // Reads model, parameters, conditions, constants and effects from a JSON fit report, ready for
 // Simulate(). With effects, the readings of the report are reproduced to 1e-9 of their currents.

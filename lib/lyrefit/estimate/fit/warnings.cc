@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/model/term.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
 
 namespace lyrefit {
 namespace {
@@ -28,12 +28,7 @@ void WarnOfStops(const FitReport& report, Sentences* out) {
 }
 
 void WarnOfBounds(const FitReport& report, Sentences* out) {
-  if (report.steepest_n > 0) {
-    out->push_back(
-        fmt::format("n begins at {:.4g}, not where its bounds begin: below, a diode's exponent "
-                    "passes {:.0f} at a reading, where it is cut, and the diode is a step",
-                    report.steepest_n, kLargestExponent));
-  }
+  if (report.steepest_n > 0) out->push_back(StepsLeftOut(report.steepest_n));
   for (const Estimate& e : report.estimates) {
     const bool absent_diode = !e.identifiable && e.at_bound == BoundSide::kLower &&
                               e.info.name.rfind("saturation_current", 0) == 0;

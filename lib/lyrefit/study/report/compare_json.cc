@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/study/report/compare_parts.h"
 #include "lyrefit/study/report/problem_json.h"
 #include "lyrefit/study/report/rank_json.h"
 
@@ -143,8 +144,7 @@ void to_json(Json& j, const Comparison& comparison) {
   for (const EffectUse& use : options.with) j["with"].push_back(DescribeUse(use));
   j["interrupted"] = comparison.interrupted;
   j["seconds"] = comparison.seconds;
-  j["warnings"] = comparison.doubts;
-  for (const std::string& sentence : comparison.over_budget) j["warnings"].push_back(sentence);
+  j["warnings"] = CompareWarnings(comparison);
   j["problems"] = comparison.problems;
   if (Json summaries = ProblemsJson(comparison); !summaries.empty())
     j["summaries"] = std::move(summaries);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/estimate/fit/steep_diodes.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -35,6 +36,11 @@ bool AnyOwn(const Comparison& comparison) {
                      [](const auto& compared) { return compared.own; });
 }
 
+// Of the runs and of the reference.
+std::string SearchedInPart(double steepest_n) {
+  return StepsLeftOut(steepest_n) + "; runs and reference are of n from there on";
+}
+
 }  // namespace
 
 std::string ObjectiveText(const CompareOptions& options) {
@@ -58,6 +64,18 @@ std::string RunsText(const Comparison& comparison, const ProblemResult& problem)
   const std::string done =
       fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
   return fmt::format("{} of {}", done, comparison.options.runs);
+}
+
+std::vector<std::string> CompareWarnings(const Comparison& comparison) {
+  std::vector<std::string> warnings = comparison.doubts;
+  for (const ProblemResult& problem : comparison.problems) {
+    const double steepest_n = problem.reference.steepest_n;
+    if (!(steepest_n > 0)) continue;
+    warnings.push_back(fmt::format("{}: {}", ProblemTitle(problem), SearchedInPart(steepest_n)));
+  }
+  const std::vector<std::string>& over = comparison.over_budget;
+  warnings.insert(warnings.end(), over.begin(), over.end());
+  return warnings;
 }
 
 std::vector<std::string> CompareBanners(const Comparison& comparison) {
@@ -116,6 +134,7 @@ Section ProblemSection(const Comparison& comparison, const ProblemResult& proble
                          fmt::join(problem.log_searched, "), ln(")),
              &section);
   }
+  if (reference.steepest_n > 0) AddField("bounds", SearchedInPart(reference.steepest_n), &section);
   return section;
 }
 

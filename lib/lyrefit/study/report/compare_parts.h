@@ -56,6 +56,9 @@ std::string ProblemTitle(const ProblemResult& problem);
 // early.
 std::string RunsText(const Comparison& comparison, const ProblemResult& problem);
 
+// Warnings about the readings, and about bounds that are searched in part only.
+std::vector<std::string> CompareWarnings(const Comparison& comparison);
+
 // Warnings about the readings, and whether the study was stopped early.
 std::vector<std::string> CompareBanners(const Comparison& comparison);
 

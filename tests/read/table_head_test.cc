@@ -29,6 +29,10 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
   for (const char* line : {"Number of cells,60", "Cells in series: 60", "Ns = 60", "cells\t60"}) {
     EXPECT_EQ(Head(line).said.cells_in_series.value_or(0), 60) << line;
   }
+  for (const char* line : {"bypass_diodes: 3", "Bypass diodes,3", "Number of bypass diodes = 3"}) {
+    EXPECT_EQ(Head(line).said.notes.bypass_diodes.value_or(0), 3) << line;
+    EXPECT_FALSE(Head(line).said.cells_in_series) << line;
+  }
   for (const char* line : {"Cell area (cm2)\t4", "Device Area = 4 cm2", "area_mm2: 400",
                            "AREA\tQUANT\t4.00000E+000\tSample Area (cm^2)"}) {
     EXPECT_NEAR(Head(line).said.notes.area_cm2.value_or(0), 4, 1e-9) << line;

@@ -89,6 +89,14 @@ std::optional<int> AsCells(const Statement& statement) {
   return static_cast<int>(statement.value);
 }
 
+std::optional<int> AsBypassDiodes(const Statement& statement) {
+  const bool named = HasAny(statement, {"bypass"}) && HasAny(statement, {"diodes", "dioden"});
+  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 0 &&
+                     statement.value <= 1000;
+  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
+  return static_cast<int>(statement.value);
+}
+
 std::optional<int> AsStrings(const Statement& statement) {
   const bool named = statement.name == "parallelstrings" || statement.name == "stringsinparallel";
   const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
@@ -157,6 +165,10 @@ bool Take(const Statement& statement, const std::string& source, TableHead* head
     return true;
   }
   if (TakeFirst(AsStrings(statement), "strings in parallel", "", source, &said->strings_in_parallel,
+                head)) {
+    return true;
+  }
+  if (TakeFirst(AsBypassDiodes(statement), "bypass diodes", "", source, &said->notes.bypass_diodes,
                 head)) {
     return true;
   }

@@ -11,11 +11,12 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The words for an effect with these parameters, on a base fit of a clean curve. `strength`: the
+// The words for an effect with these parameters, on a base fit of a curve. `strength`: the
 // reported parameters.
 std::string WordsFor(const char* id, const std::vector<double>& values,
-                     const std::vector<CauseParameter>& strength) {
-  const SyntheticData made = OnTheData(SyntheticCurve({}));
+                     const std::vector<CauseParameter>& strength,
+                     const IvCurve& curve = SyntheticCurve({})) {
+  const SyntheticData made = OnTheData(curve);
   LawFit fit = FitBase(made.weighted, Law());
   fit.law.effects = {FindEffect(id)};
   fit.p.insert(fit.p.end(), values.begin(), values.end());
@@ -46,9 +47,28 @@ TEST(InWordsTest, OfAnIntervalThatRoundingHidesSaysNothing) {
             "at the end of the sweep the light was 3.0 % weaker than at its begin");
 }
 
-TEST(InWordsTest, OfInstrumentsSaysTheDirection) {
-  EXPECT_EQ(WordsFor("timing_skew", {-1}, {Reported("ts", -1.5, 0.5)}),
+TEST(InWordsTest, OfLightThatIsNotDeterminedHasNoNumber) {
+  EXPECT_EQ(WordsFor("drift", {0.1}, {Reported("d", 0.1, 0.2)}),
+            "at the end of the sweep the light was stronger or weaker than at its begin: these "
+            "readings determine neither size nor sign");
+  // The interval ends at the bound of the fit.
+  EXPECT_EQ(WordsFor("drift", {0.3}, {Reported("d", 0.3, 0.2)}),
+            "at the end of the sweep the light was at least 10.0 % stronger than at its begin");
+}
+
+// Without times a shift is a number of readings; with them it is a time.
+TEST(InWordsTest, OfTimingKnowsTimesOnlyWhereTheyAreRecorded) {
+  const std::vector<CauseParameter> skew = {Reported("ts", -1.5, 0.5)};
+  EXPECT_EQ(WordsFor("timing_skew", {-0.02}, skew),
+            "the voltage was read 1.5 readings (1 to 2) before the current, 20 mV along the sweep; "
+            "the file has no times");
+  IvCurve timed = SyntheticCurve({});
+  for (std::size_t k = 0; k < timed.size(); ++k) timed.time_s.push_back(0.01 * k);
+  EXPECT_EQ(WordsFor("timing_skew", {-0.02}, skew, timed),
             "the voltage was read 1500 ms (1000 to 2000) before the current");
+}
+
+TEST(InWordsTest, OfInstrumentsSaysTheDirection) {
   EXPECT_EQ(WordsFor("voltage_offset", {-0.02}, {Reported("c", -0.02, 0.005)}),
             "the instrument reads 20 mV (15 to 25) too little");
   EXPECT_EQ(WordsFor("temp_drift", {2}, {Reported("r", 2, 0.5)}),

@@ -23,6 +23,8 @@ struct Described {
   const std::vector<CauseParameter>& strength;
 
   const Readings& readings() const { return *weighted.readings; }
+  // The upper bound of parameter number `k`.
+  double Most(int k) const { return fit.law.effects[index]->parameters[k].upper; }
   // The reported parameter; unknown values if it is not among them.
   Sized Of(std::string_view symbol) const {
     for (const CauseParameter& one : strength) {
@@ -191,18 +193,26 @@ double VoltageOf(const Described& of, const Reading& reading) {
   return reading.voltage * of.readings().scale.cells;
 }
 
-// "14.0 % (13.8 to 14.2) weaker"
-std::string LightChange(const Sized& part) {
+// "was 14.0 % (13.8 to 14.2) weaker than before". `limit`: the largest change that a fit can have,
+// which an interval reaches where the readings do not determine it.
+std::string LightChange(const Sized& part, double limit, const char* than) {
+  if (part.low_95 <= 0 && part.high_95 >= 0) {
+    return fmt::format("was stronger or weaker{}: these readings determine neither size nor sign",
+                       than);
+  }
   const bool weaker = part.value < 0;
   const Sized size = weaker ? Sized{-part.value, -part.high_95, -part.low_95} : part;
-  return PercentWithRange(size, 1) + (weaker ? " weaker" : " stronger");
+  const std::string text = size.high_95 >= limit
+                               ? fmt::format("at least {:.1f} %", Percent(size.low_95))
+                               : PercentWithRange(size, 1);
+  return fmt::format("was {} {}{}", text, weaker ? "weaker" : "stronger", than);
 }
 
 std::vector<std::string> OfStep(const Described& of) {
   for (const Reading& reading : of.readings().points) {
     if (reading.x <= of.p[1]) continue;
-    return {fmt::format("from {:.4g} V on the light was {} than before", VoltageOf(of, reading),
-                        LightChange(of.Of("s")))};
+    return {fmt::format("from {:.4g} V on the light {}", VoltageOf(of, reading),
+                        LightChange(of.Of("s"), of.Most(0), " than before"))};
   }
   return {};
 }
@@ -215,13 +225,14 @@ std::vector<std::string> OfTransient(const Described& of) {
       });
   // The depth is a loss.
   const Sized depth = of.Of("a");
-  return {fmt::format("near {:.4g} V the light was {} for a moment", VoltageOf(of, *nearest),
-                      LightChange({-depth.value, -depth.high_95, -depth.low_95}))};
+  return {fmt::format(
+      "near {:.4g} V the light {}", VoltageOf(of, *nearest),
+      LightChange({-depth.value, -depth.high_95, -depth.low_95}, of.Most(0), " for a moment"))};
 }
 
 std::vector<std::string> OfDrift(const Described& of) {
-  return {fmt::format("at the end of the sweep the light was {} than at its begin",
-                      LightChange(of.Of("d")))};
+  return {"at the end of the sweep the light " +
+          LightChange(of.Of("d"), of.Most(0), " than at its begin")};
 }
 
 // "5.02 A", "1.3 mA", "8.2 uA"
@@ -251,6 +262,21 @@ std::vector<std::string> OfClip(const Described& of) {
     words.push_back("no current below " + Ampere(least.value));
   }
   return words;
+}
+
+// Without times the shift is known in readings and in volts only.
+std::vector<std::string> OfTimingSkew(const Described& of) {
+  const ReadingScale& scale = of.readings().scale;
+  const Sized skew = of.Of("ts");
+  if (scale.times) {
+    return {"the voltage was read " + SignedSize(Scaled(skew, 1e3), "ms", "after", "before") +
+            " the current"};
+  }
+  return {
+      fmt::format("the voltage was read {} the current, {} mV along the sweep; the file has no "
+                  "times",
+                  SignedSize(skew, "readings", "after", "before"),
+                  Plain(1e3 * std::fabs(of.p[0]) * scale.cells))};
 }
 
 // The largest change of the current by the effect.
@@ -404,10 +430,7 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   if (id == "temp_drift") {
     return {SignedSize(of.Of("r"), "K", "warmer", "colder") + " at the end than at the begin"};
   }
-  if (id == "timing_skew") {
-    return {"the voltage was read " +
-            SignedSize(Scaled(of.Of("ts"), 1e3), "ms", "after", "before") + " the current"};
-  }
+  if (id == "timing_skew") return OfTimingSkew(of);
   if (id == "range_switch") {
     const Sized end = of.Of("Ir");
     return {fmt::format("below {} the currents are {} than above", Ampere(end.value),

@@ -16,8 +16,9 @@ constexpr Floors kFloors = {0.0025, 0.005};
 
 // A base fit of a clean curve as the extended model; the causes of `verdict` are said beside it.
 Verdict Told(Verdict verdict, const std::vector<DeviceFinding>& findings = {},
-             const Floors& floors = kFloors) {
-  const SyntheticData made = OnTheData(SyntheticCurve({}));
+             const Floors& floors = kFloors, const IvCurve& curve = SyntheticCurve({}),
+             double sigma_A = 0.004) {
+  const SyntheticData made = OnTheData(SetOf({curve}), sigma_A);
   Selection selection;
   selection.weighted = made.weighted;
   selection.extended = FitBase(made.weighted, Law());
@@ -101,6 +102,40 @@ TEST(DescribeVerdict, SomethingToActOnIsNotCalledNothing) {
   EXPECT_THAT(missed, HasSubstr("drift"));
   EXPECT_THAT(missed, HasSubstr("One sweep cannot show"));
   EXPECT_THAT(missed, Not(HasSubstr("Nothing to act on")));
+}
+
+TEST(DescribeVerdict, ASweepThatEndsBeforeItsMaximumPowerIsNotJudged) {
+  Recipe recipe;
+  recipe.to_V = 0.45;
+  const std::string early = Told({}, {}, kFloors, SyntheticCurve(recipe)).sentence;
+  EXPECT_THAT(early, HasSubstr("cannot be judged: the sweep ends at 0.45 V"));
+  EXPECT_THAT(early, HasSubstr("before the point of maximum power"));
+  EXPECT_THAT(early, Not(HasSubstr("Nothing to act on")));
+}
+
+TEST(DescribeVerdict, LargeNoiseHasItsSize) {
+  Verdict within;
+  within.lack_of_fit.value = 1e-5;
+  EXPECT_THAT(Told(within).sentence, HasSubstr("beyond their noise. "));
+  EXPECT_THAT(Told(within, {}, kFloors, SyntheticCurve({}), 0.08).sentence,
+              HasSubstr("beyond their noise of 1.0 % of Isc"));
+}
+
+// The device or the instrument: what there is to do depends on it.
+TEST(DescribeVerdict, AFindingOfSeveralPartsIsSaidAsASet) {
+  Cause cause;
+  cause.id = cause.effect = "hysteresis";
+  cause.title = "hysteresis by ions or traps";
+  cause.group = "device";
+  cause.probability = 1;
+  cause.mechanisms = {{"hysteresis", cause.title, 0.6},
+                      {"timing_skew", "voltage and current not read together", 0.4}};
+  EXPECT_EQ(Told(With({cause}, 0.002)).sentence,
+            "The data show either hysteresis by ions or traps (60 %) or voltage and current not "
+            "read together (40 %).");
+  cause.mechanisms[0].probability = 0.9;
+  EXPECT_EQ(Told(With({cause}, 0.002)).sentence,
+            "The data show hysteresis by ions or traps (100 %).");
 }
 
 TEST(DescribeVerdict, AMisfitThatNoCauseFitsHasItsSize) {

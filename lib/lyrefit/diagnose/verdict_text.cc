@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/model/effects/catalogue.h"
 
@@ -26,9 +27,13 @@ std::string Usual() {
   return fmt::format("{:.2f} to {:.2f} %", 100 * kLeastReferences, 100 * kMostHealthy);
 }
 
-// "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)"
-std::string DepartureText(double lack_of_fit, const Floors& floors) {
-  if (lack_of_fit < kLeastReferences) return OfIsc(lack_of_fit) + " beyond their noise";
+// "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)". `noise`: of the readings, in Isc.
+std::string DepartureText(double lack_of_fit, double noise, const Floors& floors) {
+  if (lack_of_fit < kLeastReferences) {
+    const std::string size =
+        noise > kMostHealthy ? fmt::format(" of {:.1f} % of Isc", 100 * noise) : "";
+    return OfIsc(lack_of_fit) + " beyond their noise" + size;
+  }
   if (lack_of_fit <= kMostHealthy)
     return OfIsc(lack_of_fit) + ", as healthy modules do (" + Usual() + ")";
   return OfIsc(lack_of_fit) +
@@ -61,15 +66,39 @@ std::string FindingText(const DeviceFinding& finding) {
   std::string what =
       finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
       : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
-                                 : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+      : finding.id == "voltage"
+          ? fmt::format(
+                "Voc per cell is low, {:.2f} V: a shorted bypass group, or a number of cells "
+                "or a temperature not as stated",
+                value)
+          : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
   if (!std::isfinite(finding.power_loss)) return what;
   return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
 }
 
+// "the sweep ends at 26 V, 8.42 A, before the point of maximum power"; empty if it does not.
+std::string EarlyEnd(const Readings& readings) {
+  constexpr double kLast = 0.98, kFallen = 0.5;  // of the largest voltage, of the largest current
+  if (!readings.traits.single || readings.traits.only_dark) return "";
+  const Reading *best = &readings.points.front(), *last = best;
+  double largest = 0;
+  for (const Reading& reading : readings.points) {
+    if (reading.voltage * reading.current > best->voltage * best->current) best = &reading;
+    if (reading.voltage > last->voltage) last = &reading;
+    largest = std::max(largest, reading.current);
+  }
+  if (best->voltage < kLast * last->voltage || last->current < kFallen * largest) return "";
+  return fmt::format("the sweep ends at {:.4g} V, {:.3g} A, before the point of maximum power",
+                     last->voltage * readings.scale.cells,
+                     last->current * readings.scale.current_A);
+}
+
 // Sentence if no cause is named: the lack of fit, effects below the floors, parameters of the
 // device, and what the readings cannot show.
-std::string NothingSentence(const Verdict& verdict, const Floors& floors, int curves,
+std::string NothingSentence(const Verdict& verdict, const Floors& floors,
+                            const WeightedData& weighted,
                             const std::vector<DeviceFinding>& findings) {
+  const int curves = weighted.readings->traits.curves;
   if (!floors.Any() && findings.empty()) {
     return "Nothing to find: what the base model leaves is noise.";
   }
@@ -94,12 +123,35 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors, int cu
     }
     return text + (present.empty() ? "" : ". Also " + present) + limits;
   }
+  if (const std::string end = EarlyEnd(*weighted.readings); !end.empty()) {
+    return "It cannot be judged: " + end + ". To tell: a sweep to open circuit" + limits;
+  }
   return "Nothing to act on: the data depart from the base model by " +
-         DepartureText(lack_of_fit, floors) + (present.empty() ? "" : "; " + present) + limits;
+         DepartureText(lack_of_fit, UpperMedian(weighted.sigma), floors) +
+         (present.empty() ? "" : "; " + present) + limits;
 }
 
 bool IsNameless(const Verdict& verdict) {
   return verdict.causes.size() == 1 && verdict.causes.front().id == "unknown_structure";
+}
+
+// The finding by its most probable mechanism, or by several where they belong to different parts, such
+// as device and instrument, and none of them is probable enough alone.
+std::vector<Alternative> SaidOf(const Cause& cause, double probability) {
+  std::vector<Alternative> said = {{cause.effect, cause.title, cause.probability}};
+  const std::vector<Alternative>& all = cause.mechanisms;
+  const bool alike = std::all_of(all.begin(), all.end(), [&](const Alternative& one) {
+    return GroupOf(*FindEffect(one.id)) == cause.group;
+  });
+  if (alike || all.front().probability >= probability * cause.probability) return said;
+  said.clear();
+  double sum = 0;
+  for (const Alternative& one : all) {
+    if (sum >= probability * cause.probability) break;
+    said.push_back(one);
+    sum += one.probability;
+  }
+  return said;
 }
 
 // A cause by its name, or as one of a set: "either partial shading (70 %) or a shunt (17 %)".
@@ -107,10 +159,15 @@ std::string TitleOf(const Cause& cause, double probability) {
   if (!std::isfinite(cause.probability)) {
     return cause.title + (cause.equivalents.empty() ? "" : " (or what looks like it)");
   }
-  std::vector<std::string> titles = {
-      fmt::format("{} ({:.0f} %)", cause.title, 100 * cause.probability)};
-  for (const Alternative& other : SaidBeside(cause, probability)) {
-    titles.push_back(fmt::format("{} ({:.0f} %)", other.title, 100 * other.probability));
+  std::vector<Alternative> said = SaidOf(cause, probability);
+  const std::vector<Alternative> beside = SaidBeside(cause, probability);
+  said.insert(said.end(), beside.begin(), beside.end());
+  std::stable_sort(said.begin(), said.end(), [](const Alternative& a, const Alternative& b) {
+    return a.probability > b.probability;
+  });
+  std::vector<std::string> titles;
+  for (const Alternative& one : said) {
+    titles.push_back(fmt::format("{} ({:.0f} %)", one.title, 100 * one.probability));
   }
   return (titles.size() > 1 ? "either " : "") + Alternatives(titles);
 }
@@ -204,7 +261,7 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
         "Something is there that noise does not explain ({}), and none of the known causes fits.",
         OfIsc(verdict->remaining.value));
   } else if (!verdict->found) {
-    verdict->sentence = NothingSentence(*verdict, floors, traits.curves, findings);
+    verdict->sentence = NothingSentence(*verdict, floors, selection.weighted, findings);
   } else {
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }

@@ -192,11 +192,17 @@ std::string AlternativesText(const Diagnosis& diagnosis, const Cause& cause) {
   return fmt::format("{}: these data cannot tell them apart", fmt::join(others, "; "));
 }
 
-// Title of a cause, with its probability if it is known.
+// Title of a cause, with its probability if it is known; with that of its first mechanism too, if
+// others of its finding are not much less probable.
 std::string CauseHeading(const Cause& cause, const std::string& before) {
+  constexpr double kMost = 0.8;
   std::string text = fmt::format("{}: {} ({}", before, cause.title, cause.id);
   if (std::isfinite(cause.probability)) {
     text += ", " + ShortPercent(cause.probability);
+    const auto& all = cause.mechanisms;
+    if (all.size() > 1 && all.front().probability < kMost * cause.probability) {
+      text += "; this mechanism " + ShortPercent(all.front().probability);
+    }
   }
   return text + ")";
 }

@@ -66,12 +66,7 @@ std::string FindingText(const DeviceFinding& finding) {
   std::string what =
       finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
       : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
-      : finding.id == "voltage"
-          ? fmt::format(
-                "Voc per cell is low, {:.2f} V: a shorted bypass group, or a number of cells "
-                "or a temperature not as stated",
-                value)
-          : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+                                 : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
   if (!std::isfinite(finding.power_loss)) return what;
   return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
 }

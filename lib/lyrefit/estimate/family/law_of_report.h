@@ -4,10 +4,9 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/base/public.h"
 #include "lyrefit/estimate/family/read_pvlib.h"
 
-namespace LYREFIT_PUBLIC lyrefit {
+namespace lyrefit {
 
 // The law and the shared parameters of a family's JSON report. Empty: the report is of another kind,
 // of individual fits, or its law has effects, which belong to single curves. `path`: for errors. Errors:

@@ -57,8 +57,8 @@ void DeclareSimulate(VerbLine* verb, SimulateRequest* request) {
   verb->AddOption(
           "--from", &request->from_file,
           "parameters and conditions of a JSON fit report; or a module: pvlib's parameters as "
-          "JSON, a PVsyst .PAN file, a row of SAM's library of modules (FILE#NAME), by its "
-          "law at --irradiance-Wm2 and --temperature-C")
+          "JSON, a PVsyst .PAN file, a row of SAM's library of modules (FILE#NAME), a report of "
+          "fit --family, by its law at --irradiance-Wm2 and --temperature-C")
       .Group("Device")
       .Type("FILE")
       .Reads();

@@ -81,6 +81,9 @@ CellResult DescribeOne(py::handle curves, py::handle current, const py::kwargs& 
   CellReport report = Must(Work(
       progress, [&](const Observer& observer) { return DescribeCell(set, options, observer); },
       options.threads));
+  for (const CellSweep& sweep : report.sweeps) {
+    if (!sweep.doubt.empty()) WarnOfDoubts({sweep.name + ": " + sweep.doubt});
+  }
   return CellResult(std::make_shared<const CellReport>(std::move(report)));
 }
 

@@ -139,7 +139,7 @@ std::vector<double> NumbersOf(const char* name, py::handle values) {
   py::array array = py::array::ensure(values);
   if (!array) PyErr_Clear();
   const bool known =
-      array && (std::string_view("biuf").find(array.dtype().kind()) != std::string_view::npos ||
+      array && (std::string_view("iuf").find(array.dtype().kind()) != std::string_view::npos ||
                 array.size() == 0 || array.dtype().kind() == 'O');
   const auto numbers =
       known ? py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array)

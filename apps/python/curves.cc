@@ -66,6 +66,20 @@ IvCurve FromFile(py::handle path, const CurveKeywords& said) {
   }));
 }
 
+// Masked readings of an array are NaN here.
+void RefuseMissing(const IvCurve& columns) {
+  for (const auto& [name, values] :
+       {std::pair("voltage", &columns.voltage_V), std::pair("current", &columns.current_A)}) {
+    const auto found = std::find_if(values->begin(), values->end(),
+                                    [](double value) { return std::isnan(value); });
+    if (found == values->end()) continue;
+    Raise({std::string("expected a finite ") + name + " at point " +
+               std::to_string(found - values->begin() + 1) +
+               ", found nan or a masked value: leave such readings out with skip_missing=True",
+           {}});
+  }
+}
+
 }  // namespace
 
 IvCurve FromColumns(IvCurve columns, const CurveKeywords& said) {
@@ -81,6 +95,7 @@ IvCurve FromColumns(IvCurve columns, const CurveKeywords& said) {
            {}});
   }
   if (said.reading.skip_missing) LeaveOutMissing(&columns);
+  RefuseMissing(columns);
   columns.name = said.name.empty() ? "curve" : said.name;
   return BareCurve(std::move(columns));
 }

@@ -142,6 +142,7 @@ Diagnosis DiagnoseSet(const CurveSet& set, const DiagnoseAsked& asked, const std
 }
 
 py::object Give(Diagnosed diagnosed, const DiagnoseAsked& asked) {
+  WarnOfDoubts(diagnosed.diagnosis.doubts);
   return py::cast(DiagnoseResult(HoldWith(std::move(diagnosed), asked.own), asked));
 }
 

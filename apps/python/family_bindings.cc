@@ -164,6 +164,7 @@ FamilyResult FitOneFamily(py::handle curves, const py::kwargs& given) {
     return FitAsked(set, asked, observer);
   }));
   WarnUnlessUsable(report.usable, {});
+  WarnOfDoubts(report.doubts);
   return FamilyResult(HoldWith(FittedFamily{std::move(report), std::move(set)}, asked.own));
 }
 

@@ -79,6 +79,7 @@ py::object FitOne(py::handle curve, py::handle current, const py::kwargs& given)
       [&](const Observer& observer) { return FitWithFloor(taken, options, auto_model, observer); },
       options.threads));
   WarnUnlessUsable(report.usable, report.not_usable_because);
+  WarnOfDoubts(report.doubts);
   return py::cast(FitResult(HoldWith(std::move(report), asked.own)));
 }
 

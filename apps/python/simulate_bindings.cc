@@ -27,7 +27,8 @@ constexpr char kSimulateDoc[] =
     "    ohm, n or n1 per cell); nNsVth in V in the place of n. Or a fit: what fit() gave, or the\n"
     "    file of its JSON, whose conditions and effects then count. A shunt of inf is perfect.\n"
     "    Or a module by its law at irradiance_Wm2 and temperature_C: a file of pvlib's parameters\n"
-    "    as JSON, a PVsyst .PAN file, a row of SAM's library of modules ('FILE#NAME').\n"
+    "    as JSON, a PVsyst .PAN file, a row of SAM's library of modules ('FILE#NAME'), or a fit\n"
+    "    of a family.\n"
     "    Each may be a keyword of its own.\n"
     "voltage : array_like of shape (n,), optional\n"
     "    Where to solve, in V; else `points` even steps from 0 to 2 % beyond open circuit.\n"
@@ -71,7 +72,7 @@ SimulateOptions DeviceOf(py::handle parameters, const std::string& curve_id,
   if (parameters.is_none()) return options;
   if (py::isinstance<Result>(parameters)) {
     const std::string json = parameters.cast<const Result&>().FullJson();
-    return Must(ReadFitTextForSimulation(json, "the fit", curve_id));
+    return Must(ReadReportForSimulation(json, "the fit", curve_id, told));
   }
   if (IsPath(parameters)) {
     DeviceToSimulate device =

@@ -114,7 +114,9 @@ TranslateResult TranslateOne(py::handle curve, py::handle current, const py::kwa
   Expected<TranslationReport> report = WorkWith(
       FaultsOf(asked.own), progress,
       [&](const Observer& observer) { return TranslateCurve(taken, asked.options, observer); });
-  return TranslateResult(HoldWith(Must(std::move(report)), asked.own));
+  TranslationReport translated = Must(std::move(report));
+  WarnOfDoubts(translated.doubts);
+  return TranslateResult(HoldWith(std::move(translated), asked.own));
 }
 
 py::object RecommendedOf(const TranslateResult& result) {

@@ -169,6 +169,21 @@ TEST_F(PlantPageTest, TheWorstComeFirstAndAreTheWorst) {
   EXPECT_EQ(html.find(">s1100<", place), std::string::npos);
 }
 
+TEST_F(PlantPageTest, AStringThatPassesIsNotAmongThoseToVisit) {
+  const auto row = [](const char* id, const char* zone, double factor) {
+    return ResultRow{{std::string(id), std::string(zone), factor}};
+  };
+  const std::string html = PageOf(
+      {Text("id"), Text("zone"), Number("performance_factor")},
+      {row("good", "pass", 1.02), row("bad", "fail", 0.8),
+       row("near", "fail within uncertainty", 0.96), row("just", "pass within uncertainty", 1)});
+  EXPECT_NE(html.find("The 2 worst strings, by performance_factor"), std::string::npos);
+  EXPECT_NE(html.find("<th scope=\"row\">bad</th>"), std::string::npos);
+  EXPECT_NE(html.find("<th scope=\"row\">near</th>"), std::string::npos);
+  EXPECT_EQ(html.find("<th scope=\"row\">good</th>"), std::string::npos);
+  EXPECT_EQ(html.find("<th scope=\"row\">just</th>"), std::string::npos);
+}
+
 TEST_F(PlantPageTest, TheGroupsThatLoseMostComeFirst) {
   std::vector<ResultRow> rows;
   const auto add = [&](const char* id, const char* title, double power) {

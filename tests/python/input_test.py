@@ -9,6 +9,7 @@ import pandas as pd
 
 import lyrefit
 from helpers import DATA, command
+from lyrefit import _lyrefit
 
 CELL = lyrefit.read_curve(DATA / "rtc_france")
 V, I = np.array(CELL.voltage), np.array(CELL.current)
@@ -120,6 +121,23 @@ class Taken(unittest.TestCase):
             self.assertTrue(lyrefit.fit(V, I, **QUICK).usable)
 
 
+class Doubted(unittest.TestCase):
+    def test_every_verb_warns_of_doubtful_readings(self):
+        module = lyrefit.Curve(V * 70, I * 10, temperature_C=25, irradiance_Wm2=1000)  # 40 V, cells not stated
+        dim = lyrefit.Curve(V * 70, I * 5, temperature_C=25, irradiance_Wm2=500)
+        cells = r"^DOUBTFUL: .*\(cells_in_series=\)"
+        cases = [
+            (cells, lambda: lyrefit.fit(module, intervals="none")),
+            (cells, lambda: lyrefit.fit_family([module, dim])),
+            (cells, lambda: lyrefit.diagnose(module, held_out=False)),
+            (cells, lambda: lyrefit.translate(module)),
+            ("^DOUBTFUL: ", lambda: lyrefit.cell(V, I, area_cm2=1.0, cells_in_series=1)),  # 760 mA/cm2
+        ]
+        for said, call in cases:
+            with self.assertWarnsRegex(UserWarning, said):
+                call()
+
+
 class Refused(unittest.TestCase):
     def refuse(self, pattern, call, *arguments, kind=lyrefit.Error, **keywords):
         with self.assertRaisesRegex(kind, pattern):
@@ -150,6 +168,31 @@ class Refused(unittest.TestCase):
         self.refuse("memory_rate: nan is outside", fit, CELL, memory_rate=float("nan"))
         self.refuse("curve_index: 99999999999 is outside", fit, CELL, curve_index=99999999999)
         self.assertEqual(lyrefit.fit(CELL, seed=2**64 - 1)["search"]["seed"], 2**64 - 1)
+
+    def test_no_numbers_no_values(self):
+        fit = lyrefit.fit
+        self.refuse("voltage: expected an array of numbers, found ndarray of bool", fit, V > 0.2, I)
+        masked = np.ma.array(V, mask=np.arange(len(V)) == 3)
+        self.refuse("finite voltage at point 4, found nan or a masked value: .*skip_missing=True", fit, masked, I)
+        self.assertEqual(len(fit(masked, I, skip_missing=True, **QUICK).curve), len(V) - 1)
+
+    def test_every_flag_is_named_as_its_keyword(self):
+        flags = {"cells_in_series": "cells", "curve_index": "curve", "with_": "with"}
+        said = _lyrefit._in_keywords
+        kinds = {}
+        for keywords in _lyrefit._keywords.values():
+            for name, kind, *_ in keywords:
+                kinds.setdefault(name, set()).add(kind)
+        for name, kind in kinds.items():
+            flag = "--" + flags.get(name, name).replace("_", "-")
+            sign = "=True" if kind == {"bool"} else "="
+            self.assertEqual(said(f"give {flag}, or not"), f"give {name}{sign}, or not")
+        self.assertGreaterEqual(set(kinds), {"area_cm2", "as_is", "skip_missing", "voltage_column", "cells_in_series"})
+        self.assertEqual(said("a tandem: count them, --cells 2) or"), "a tandem: count them, cells_in_series=2) or")
+        self.assertEqual(said("say so with --voltage-unit mV, or V"), "say so with voltage_unit='mV', or V")
+        self.assertEqual(said("(--as-is takes the readings)"), "(as_is=True takes the readings)")
+        self.assertEqual(said("with --no-polish"), "with polish=False")
+        self.assertEqual(said("-- --never-a-flag 2 -- --"), "-- --never-a-flag 2 -- --")
 
     def test_the_commands_sentences(self):
         """What the command says of a flag, the module says of the keyword."""

@@ -9,6 +9,7 @@
 
 #include "error_of.h"
 #include "lyrefit/read/key_points.h"
+#include "lyrefit/read/left_temperature.h"
 #include "synthetic_curve.h"
 
 namespace lyrefit {
@@ -50,6 +51,19 @@ TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
   dark.conditions.irradiance_W_m2 = 0;
   EXPECT_THAT(CheckReadings(dim), IsEmpty());
   EXPECT_THAT(CheckReadings(dark), IsEmpty());
+}
+
+TEST(CheckReadingsTest, ATemperatureOfTheHeadThatIsNotUsedIsADoubt) {
+  IvCurve curve = SyntheticModule();
+  curve.temperature_known = false;
+  curve.assumptions = {LeftTemperature("line 3 'Temp1 47.3'")};
+  const auto findings = CheckReadings(curve);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].id, "head");
+  EXPECT_FALSE(findings[0].refuse);
+  EXPECT_THAT(findings[0].sentence, HasSubstr("line 3 'Temp1 47.3' speaks of a temperature"));
+  curve.temperature_known = true;
+  EXPECT_THAT(CheckReadings(curve), IsEmpty());
 }
 
 TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {

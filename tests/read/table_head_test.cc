@@ -22,8 +22,11 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
                            "Light intensity (mW/cm2): 91.2", "Irradiance: 0.912 suns"}) {
     EXPECT_NEAR(Head(line).said.irradiance_W_m2.value_or(0), 912, 1e-9) << line;
   }
-  for (const char* line : {"Measured Cell Temp (C),47.3", "Tc [\u00b0C];47,3", "Tmod:\t47.3",
-                           "Module temperature = 47.3 C", "cell_temperature_K,320.45"}) {
+  for (const char* line :
+       {"Measured Cell Temp (C),47.3", "Tc [\u00b0C];47,3", "Tmod:\t47.3",
+        "Module temperature = 47.3 C", "cell_temperature_K,320.45", "Modultemperatur;47,3",
+        "Zelltemperatur: 47,3 \u00b0C", "Tmodul;47,3", "Backsheet temperature: 47.3",
+        "Temperatur Modul [\u00b0C];47,3", "Module backsheet temp (C),47.3"}) {
     EXPECT_NEAR(Head(line).said.temperature_C.value_or(0), 47.3, 1e-9) << line;
   }
   for (const char* line : {"Number of cells,60", "Cells in series: 60", "Ns = 60", "cells\t60"}) {
@@ -72,6 +75,19 @@ TEST(ReadHeadLineTest, LeavesWhatIsNotClear) {
   for (const char* line :
        {"Tracer", "Serial,AB-12-C", "Time,12:34:56", "Version,3.6.1120", ",,", ""}) {
     EXPECT_THAT(Head(line).left, IsEmpty()) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, ALineThatMayStateTheTemperatureIsKept) {
+  for (const char* line : {"Temp1 47.3", "Sensortemperatur;47,3", "Temperature: 320"}) {
+    const TableHead head = Head(line);
+    EXPECT_THAT(head.left_temperatures, ElementsAre(HasSubstr("line 3 '"))) << line;
+    EXPECT_THAT(SentencesOf(HeadSentences(head)),
+                ElementsAre(HasSubstr("speaks of a temperature"), HasSubstr("not understood")));
+  }
+  for (const char* line : {"Ambient temperature (C),20", "Umgebungstemperatur;20,1", "Foo: 12",
+                           "Temperature coefficient of Voc: -0.3", "Modultemperatur;47,3"}) {
+    EXPECT_THAT(Head(line).left_temperatures, IsEmpty()) << line;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/row_cause.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -14,7 +15,9 @@ std::vector<ResultColumn> DiagnoseColumns() {
   constexpr CellType kText = CellType::kText;
   constexpr CellType kNumber = CellType::kNumber;
   return {
-      {"cause", "", kText, "what the model gets wrong, the most certain: its id; none: nothing"},
+      {"cause", "", kText,
+       "what the model gets wrong, the most certain: its id; else the first of device_findings; "
+       "empty: nothing"},
       {"cause_title", "", kText, "the same in a few words"},
       {"cause_about", "", kText,
        "what it belongs to: device; or a measurement to be repeated: sweep, instrument, "
@@ -33,7 +36,9 @@ std::vector<ResultColumn> DiagnoseColumns() {
       {"lack_of_fit_percent", "%", kNumber,
        "of the readings from the model beyond noise, root mean square in percent of Isc"},
       {"power_effect_percent", "%", kNumber,
-       "of the cause on Pmax: what the model gets wrong without it, in percent"},
+       "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
+       "finding "
+       "what it costs"},
       {"recoverable_power_W", "W", kNumber,
        "what the device would give more without the cause; empty where only a lower limit is "
        "known"},
@@ -56,12 +61,12 @@ std::vector<std::string> Ids(const std::vector<Cause>& causes) {
 
 std::vector<ResultCell> DiagnoseCells(const Diagnosis& diagnosis) {
   const Verdict& verdict = diagnosis.verdict;
-  const Cause cause = verdict.causes.empty() ? Cause() : verdict.causes.front();
+  const Cause cause = RowCause(diagnosis);
   std::vector<std::string> findings;
   for (const DeviceFinding& finding : diagnosis.device_findings) findings.push_back(finding.id);
   return {TextCell(cause.id),
           TextCell(cause.title),
-          TextCell(AboutOf(cause.id)),
+          TextCell(cause.group),
           TextCell(cause.sentence),
           ListCell(cause.equivalents),
           ListCell(cause.separate_by, "; "),
@@ -99,7 +104,8 @@ BatchTaskType DiagnoseTask(const DiagnoseOptions& asked) {
     TaskResult result{extended.usable ? RowStatus::kFine : RowStatus::kNotUsable,
                       extended.not_usable_because, DiagnoseCells(*diagnosis),
                       diagnosis->interrupted};
-    result.failed = !extended.usable || diagnosis->verdict.found || diagnosis->verdict.unexplained;
+    result.failed = !extended.usable || diagnosis->verdict.found ||
+                    diagnosis->verdict.unexplained || !diagnosis->device_findings.empty();
     diagnosis->seconds = kUnknown;  // a page must not depend on the time used
     result.page = [diagnosis = std::make_shared<const Diagnosis>(std::move(*diagnosis))](
                       const PageOptions& page) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lyrefit/batch/batch_task.h"
+#include "lyrefit/batch/row_cause.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
@@ -49,7 +50,9 @@ std::vector<ResultColumn> FieldColumns() {
            {"conditions_met", "", CellType::kWhole, "conditions of the checklist that are met"},
            {"conditions_not_met", "", kText, "those that are not, with '; ' between them"},
            {"conditions_not_known", "", kText, "those of which nothing is known"},
-           {"cause", "", kText, "what is wrong with the curve, the most certain: its id"},
+           {"cause", "", kText,
+            "what is wrong with the curve, the most certain: its id; else leak, ideality, "
+            "low_ideality or series_resistance, if that lies out of the range of healthy devices"},
            {"cause_about", "", kText,
             "what that cause belongs to: device; or a measurement to be repeated: sweep, "
             "instrument, "
@@ -103,10 +106,9 @@ std::vector<ResultCell> FieldCells(const TranslationReport& report) {
   cells.emplace_back(std::int64_t{report.checklist.met});
   cells.push_back(ListCell(Titles(report.checklist, Condition::kNotMet), "; "));
   cells.push_back(ListCell(Titles(report.checklist, Condition::kNotKnown), "; "));
-  cells.push_back(report.causes.empty() ? ResultCell() : TextCell(report.causes.front()));
-  cells.push_back(report.causes.empty() ? ResultCell() : TextCell(AboutOf(report.causes.front())));
-  const bool found = report.diagnosis && report.diagnosis->verdict.found;
-  const Cause cause = found ? report.diagnosis->verdict.causes.front() : Cause();
+  const Cause cause = report.diagnosis ? RowCause(*report.diagnosis) : Cause();
+  cells.push_back(TextCell(cause.id));
+  cells.push_back(TextCell(cause.group));
   cells.push_back(TextCell(cause.title));
   cells.push_back(TextCell(cause.sentence));
   cells.push_back(ListCell(cause.equivalents));

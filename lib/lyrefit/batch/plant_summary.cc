@@ -247,7 +247,7 @@ void PlantCounter::Add(const ResultRow& row) {
   for (const Known date : {kDate, kFirst, kLast}) CountDate(Text(row, date));
   CountTree(named, needs_work);
   if (!fine) return;
-  Rank(Badness(row), named, kPlantWorst, &worst_);
+  if (!Passes(named.zone)) Rank(Badness(row), named, kPlantWorst, &worst_);
   if (!named.plan_sentence.empty()) {
     Count(named.cause, named, &sum_.plan_causes);
     if (named.plan_lost_W > 0) sum_.plan_lost_W += named.plan_lost_W;

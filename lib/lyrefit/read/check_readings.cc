@@ -12,6 +12,7 @@
 #include "lyrefit/read/dark.h"
 #include "lyrefit/read/equal_readings.h"
 #include "lyrefit/read/key_points.h"
+#include "lyrefit/read/left_temperature.h"
 #include "lyrefit/read/number_text.h"
 #include "lyrefit/read/plausibility.h"
 
@@ -287,6 +288,17 @@ void LookAtCells(const Examined& look, Findings* out) {
   }
 }
 
+// The temperature of the cells enters n, whose error is not seen in the fit.
+void LookAtHead(const IvCurve& curve, Findings* out) {
+  if (curve.temperature_known) return;
+  for (const Assumption& assumption : curve.assumptions) {
+    if (!IsLeftTemperature(assumption)) continue;
+    out->push_back(
+        {"head", assumption.sentence + ", and 25 C enters n: give --temperature-C", false, {}});
+    return;
+  }
+}
+
 }  // namespace
 
 int LikelyCells(double open_circuit_voltage_V) {
@@ -320,6 +332,7 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
     }
   }
   for (ReadingFinding& limit : FindEqualReadings(curve)) findings.push_back(std::move(limit));
+  LookAtHead(curve, &findings);
   std::stable_sort(
       findings.begin(), findings.end(),
       [](const ReadingFinding& a, const ReadingFinding& b) { return a.refuse > b.refuse; });

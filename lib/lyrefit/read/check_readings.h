@@ -13,7 +13,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // better than the device.
 struct ReadingFinding {
   std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "light", "cells",
-                            // "current", "shape", "temperature", "limit"
+                            // "current", "shape", "temperature", "limit", "head"
   std::string sentence;     // what was found and what to do; no full stop
   bool refuse = false;      // false: a doubt; the readings can be used
   std::vector<int> points;  // positions in the curve; empty: all points
@@ -32,6 +32,7 @@ struct ReadingFinding {
 //   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, under light
 //   current, shape, temperature   magnitudes that no device has: see CheckPlausibility
 //   limit      equal readings at an end of the curve where those of a device would differ
+//   head       no temperature is known, but a line of the head speaks of one
 // Real curves have no findings, including dark, coarse, noisy and shaded ones.
 std::vector<ReadingFinding> CheckReadings(const IvCurve& curve);
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/left_temperature.h"
 #include "lyrefit/read/number_text.h"
 #include "lyrefit/read/table_header.h"
 
@@ -64,13 +65,30 @@ std::optional<double> AsIrradiance(const Statement& statement) {
 }
 
 std::optional<double> AsTemperature(const Statement& statement) {
-  const bool whole = statement.name == "tc" || statement.name == "tcell" ||
-                     statement.name == "tmod" || statement.name == "tmodule" ||
-                     statement.name == "tpv" || statement.name == "temperature" ||
-                     statement.name == "temp";
+  static const std::set<std::string> kWhole = {"tc",
+                                               "tcell",
+                                               "tmod",
+                                               "tmodule",
+                                               "tpv",
+                                               "temperature",
+                                               "temp",
+                                               "tmodul",
+                                               "tzelle",
+                                               "temperatur",
+                                               "modultemp",
+                                               "zelltemp",
+                                               "celltemp",
+                                               "modultemperatur",
+                                               "zelltemperatur",
+                                               "moduletemp",
+                                               "zellentemperatur",
+                                               "r\u00fcckseitentemperatur"};
+  const bool whole = kWhole.count(statement.name) != 0;
   const bool temperature = HasAny(statement, {"temperature", "temp", "temperatur", "t"});
-  const bool place = HasAny(statement, {"cell", "module", "mod", "pv", "panel", "device", "sample",
-                                        "zelle", "modul", "stage", "chuck"});
+  const bool place =
+      HasAny(statement, {"cell", "cells", "module", "mod", "pv", "panel", "device", "sample",
+                         "zelle", "zellen", "solarzelle", "modul", "backsheet", "backside",
+                         "r\u00fcckseite", "r\u00fcckseiten", "stage", "chuck"});
   if (!whole && !(temperature && place)) return std::nullopt;
   auto value = Converted(statement, ColumnKind::kTemperature);
   if (!value && statement.unit.empty()) value = statement.value;
@@ -292,6 +310,20 @@ void TakeDate(HeadLineState* state, std::string_view text) {
   state->understood = true;
 }
 
+// Whether a line that was not understood may state the temperature of the device: a word of its label
+// names one, and none another thing.
+bool MayStateTemperature(std::string_view label) {
+  Statement statement;
+  bool named = false;
+  for (const LabelWord& word : SplitLabel(label)) {
+    named = named || word.text.find("temp") != std::string::npos;
+    statement.words.insert(word.text);
+  }
+  return named && !IsAboutOtherThings(statement) &&
+         !HasAny(statement, {"umgebung", "umgebungstemperatur", "lufttemperatur", "luft", "room",
+                             "raumtemperatur", "coeff", "koeffizient", "temperaturkoeffizient"});
+}
+
 // Reads a statement such as "Label: 47.3 C" or "Label = 47.3".
 bool ReadPart(HeadLineState* state, std::string_view text) {
   const std::size_t at = text.find_first_of(":=");
@@ -354,10 +386,17 @@ void ReadWords(HeadLineState* state, std::string_view text) {
   TakeQuantity(state, label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
 }
 
+// Whether all that follows "Label:" is one number and its unit: the comma of "Label: 47,3 C" is decimal.
+bool HoldsOneQuantity(std::string_view line) {
+  const std::size_t at = line.find_first_of(":=");
+  return at != std::string_view::npos && AsQuantity(line.substr(at + 1)).has_value();
+}
+
 void ReadLine(HeadLineState* state, std::string_view line) {
   for (const char delimiter : {'\t', ';', ','}) {
     const auto fields = SplitFields(line, delimiter);
     if (!fields || fields->size() < 2) continue;
+    if (delimiter == ',' && HoldsOneQuantity(line)) break;
     return ReadFields(state, *fields);
   }
   if (!ReadPart(state, line)) ReadWords(state, line);
@@ -372,8 +411,11 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));
   if (!state.holds_number) TakeColumnNames(line, &head->column_names);
-  if (kind == HeadLine::kText && state.holds_number && !state.understood) {
-    const bool is_result = IsResult(line.substr(0, line.find_first_of(":=\t;,")));
+  if (!state.holds_number || state.understood) return;
+  const std::string_view label = line.substr(0, line.find_first_of(":=\t;,"));
+  if (MayStateTemperature(TrimMarks(label))) head->left_temperatures.push_back(source);
+  if (kind == HeadLine::kText) {
+    const bool is_result = IsResult(label);
     (is_result ? head->results : head->left).push_back(source);
     if (is_result) {
       head->result_lines.push_back(ReadResultLine(line, head->column_names, source));
@@ -388,6 +430,9 @@ bool TakeStatement(std::string_view label, double value, const std::string& sour
 
 std::vector<Assumption> HeadSentences(const TableHead& head) {
   std::vector<Assumption> sentences = head.assumptions;
+  if (!head.said.temperature_C && !head.left_temperatures.empty()) {
+    sentences.push_back(LeftTemperature(head.left_temperatures.front()));
+  }
   for (const auto& [what, lines] :
        {std::pair("stated key points and results, not used in a fit: ", &head.results),
         std::pair("not understood, and not used: ", &head.left)}) {

@@ -28,6 +28,7 @@ struct TableHead {
   std::vector<ResultLine> result_lines;   // their values
   std::vector<std::string> column_names;  // fields of the last line that begins a block of results
   std::vector<std::string> left;          // other lines with a number that was not understood
+  std::vector<std::string> left_temperatures;  // lines that may state the device's temperature
   std::optional<StatedCurrent> short_circuit;
 };
 

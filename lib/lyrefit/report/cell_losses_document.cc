@@ -33,12 +33,15 @@ Section FillFactorSection(const CellReport& report) {
   Section section = {"Fill factor"};
   if (report.main == -1) return section;
   if (std::isfinite(report.pseudo.value)) {
+    // Collection lowers the curves of the lights, but not their Voc.
+    const bool by_fit = report.pseudo.source == "the fit with Rs = 0";
     AddField("pseudo-FF",
              fmt::format(
-                 "{} from {}; recombination and shunt cost {}, series resistance and "
-                 "collection {}",
+                 "{} from {}; recombination and {} cost {}, series resistance{} {}",
                  PercentText(report.pseudo.value, 4), report.pseudo.source,
+                 by_fit ? "shunt or collection" : "shunt",
                  PercentText(report.pseudo.ideal - report.pseudo.value, 3),
+                 by_fit ? "" : " and collection",
                  PercentText(report.pseudo.value - report.sweeps[report.main].key.fill_factor, 3)),
              &section);
   }
@@ -65,7 +68,7 @@ Section FillFactorSection(const CellReport& report) {
         Significant(100 * losses.green_n1, 4), Significant(100 * losses.green_fitted, 4),
         report.joint
             ? ""
-            : "; shunt: of one light, it may as well be collection that depends on voltage")});
+            : "; of one light a shunt and collection that depends on voltage look alike")});
   }
   return section;
 }

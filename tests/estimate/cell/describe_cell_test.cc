@@ -99,6 +99,25 @@ TEST(DescribeCell, LossesOfTheFillFactorAddUpAndHoldTheTruth) {
   EXPECT_EQ(report.pseudo.value, losses.without_series);
 }
 
+TEST(DescribeCell, AShuntInVocOverLightGivesNoNegativeSeriesResistance) {
+  std::vector<double> p = kCellTruth;
+  p[4] = 1200;  // Voc falls faster than the light
+  const CellReport report =
+      Described({CellSweepOf(p, 1000, false, kNoise), CellSweepOf(p, 300, false, kNoise),
+                 CellSweepOf(p, 100, false, kNoise)});
+  const SeriesResistance* const voc = Method(report, "Voc of the light series");
+  ASSERT_NE(voc, nullptr);
+  EXPECT_TRUE(std::isnan(voc->ohm.value));
+  EXPECT_THAT(voc->missing, HasSubstr("below 0 as no resistance is; a shunt"));
+  EXPECT_EQ(report.pseudo.source, "the fit with Rs = 0");
+  EXPECT_GT(report.pseudo.value, report.sweeps[report.main].key.fill_factor);
+}
+
+TEST(DescribeCell, OneLightDoesNotTellAShuntFromCollection) {
+  const CellReport report = Described({CellSweepOf(kCellTruth, 1000, false, kNoise)});
+  EXPECT_EQ(report.losses.at(0).parts.at(1).name, "shunt or collection");
+}
+
 TEST(DescribeCell, OneDirectionAloneHasNoHysteresis) {
   EXPECT_THAT(Described({CellSweepOf(kCellTruth, 1000)}).pairs, IsEmpty());
 }

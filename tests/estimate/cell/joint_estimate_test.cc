@@ -135,13 +135,18 @@ TEST(JointEstimate, ADarkCurveTellsAShuntFromCollection) {
   cell.truth[kRsh] = 1e9;
   cell.collection = 0.03;
   cell.dark = true;
-  const JointEstimate collects = *DescriptionOf(cell).joint;
+  const CellReport photoshunt = DescriptionOf(cell);
+  const JointEstimate& collects = *photoshunt.joint;
+  EXPECT_EQ(collects.collection_part, 1);
   EXPECT_THAT(collects.shunt, HasSubstr("collection that depends on voltage; no shunt"));
   EXPECT_NEAR(ParameterOf(collects, "c").refined, 0.03, 0.002);
 
   cell.truth[kRsh] = 1 / (0.03 * cell.truth[kIph]);
   cell.collection = 0;
-  const JointEstimate leaks = *DescriptionOf(cell).joint;
+  const CellReport shunted = DescriptionOf(cell);
+  const JointEstimate& leaks = *shunted.joint;
+  EXPECT_EQ(leaks.collection_part, 0);
+  EXPECT_EQ(shunted.losses.at(0).parts.at(1).name, "shunt");
   EXPECT_THAT(leaks.shunt, HasSubstr("stays in the dark: a shunt"));
   EXPECT_NEAR(ParameterOf(leaks, "Rsh").refined, cell.truth[kRsh], 60);
   // Without the dark curve nothing tells them apart.

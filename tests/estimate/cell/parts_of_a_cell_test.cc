@@ -122,6 +122,25 @@ TEST(FillFactors, ThroughEndsKeepThem) {
   EXPECT_TRUE(std::isnan(FillFactorOf({0.035, 0.7, thermal, 0, 1})));
 }
 
+TEST(FillFactors, LossesAtShortCircuitAreNamedByTheSplitOfAllLights) {
+  const auto name = [](double collection_part, const char* void_because = "") {
+    JointEstimate joint;
+    joint.collection_part = collection_part;
+    if (*void_because != '\0') joint.void_because.emplace_back(void_because);
+    std::vector<FillFactorLosses> losses(1);
+    losses[0].parts = {{"recombination", {}}, {"shunt or collection", {}}};
+    NameShuntLosses(joint, &losses);
+    EXPECT_EQ(losses[0].parts[0].name, "recombination");
+    return losses[0].parts[1].name;
+  };
+  EXPECT_EQ(name(0.98), "collection that depends on voltage: 98 % goes with the light");
+  EXPECT_EQ(name(1), "collection that depends on voltage");
+  EXPECT_EQ(name(0.4), "collection and shunt: 40 % goes with the light");
+  EXPECT_EQ(name(0), "shunt");
+  EXPECT_EQ(name(kUnknown), "shunt or collection");
+  EXPECT_EQ(name(0.98, "another device"), "shunt or collection");
+}
+
 TEST(FillFactors, OfVocOverLightAreThoseOfTheDiode) {
   const double thermal = ThermalVoltage(298.15);
   std::vector<VocPoint> points;

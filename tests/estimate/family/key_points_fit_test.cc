@@ -10,6 +10,7 @@
 
 #include "error_of.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/estimate/family/family_warnings.h"
 #include "lyrefit/estimate/family/fit_family.h"
 #include "lyrefit/model/effects/catalogue.h"
 #include "lyrefit/model/kernel.h"
@@ -19,6 +20,8 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 struct MatrixModule {
@@ -159,6 +162,34 @@ TEST(MatrixFit, ReportsErrorsOfEveryConditionAndOfThoseHeldOut) {
   EXPECT_GE(summary.held_out_max_power_of_reference, summary.max_power_of_reference);
   // Pmp at 1000 W/m2 and 25 C as measured there.
   EXPECT_EQ(summary.reference_power_W, report->curves[12].key_points->measured.max_power_W);
+}
+
+// Warnings of a fit by `law` that ends with n = 0.96 and misses the key points by `scale` errors.
+std::vector<std::string> WarningsOf(TranslationLaw law, double scale) {
+  FamilyReport report;
+  TranslationSpec spec;
+  spec.law = law;
+  report.translation = *MakeTranslation(spec);
+  report.refined.assign(report.translation.parameters.size(), 1);
+  report.refined[report.translation.n] = 0.96;
+  report.estimates.resize(report.refined.size());
+  report.key_points = KeyPointSummary();
+  report.key_points->scale = scale;
+  report.key_points->max_power = 0.05;
+  return FamilyWarnings(report, MatrixOptions(law));
+}
+
+TEST(MatrixFit, ALawThatMissesIsNamedBeforeTheData) {
+  EXPECT_THAT(WarningsOf(TranslationLaw::kCec, 5.4),
+              ElementsAre(AllOf(
+                  HasSubstr("The law cec does not describe these measurements"),
+                  HasSubstr("by 5.4 times their errors"), HasSubstr("the law pvsyst or desoto"),
+                  HasSubstr("other programs carry this error, and the ideality 0.96"))));
+  EXPECT_THAT(WarningsOf(TranslationLaw::kDeSoto, 5.4),
+              ElementsAre(HasSubstr("To try: the law pvsyst.")));
+  // Where the law holds, such an n is a matter of the data.
+  EXPECT_THAT(WarningsOf(TranslationLaw::kCec, 1.2),
+              ElementsAre(HasSubstr("the number of cells or the temperatures")));
 }
 
 TEST(MatrixFit, TakesWhatIsStatedAndNoMore) {

@@ -5,6 +5,7 @@
 
 #include "error_of.h"
 #include "estimate/family/pan_text.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/estimate/family/read_pan.h"
 #include "lyrefit/model/current.h"
 #include "temp_folder.h"
@@ -12,6 +13,7 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(ReadForSimulation, GivesTheCurveOfAModuleUnderTheStatedConditions) {
@@ -51,6 +53,41 @@ TEST(ReadForSimulation, TakesAModuleWithoutANumberOfCells) {
   ASSERT_TRUE(one && sixty) << MessageOf(one) << MessageOf(sixty);
   EXPECT_EQ(sixty->options.conditions.cells_in_series, 60);
   EXPECT_NEAR(sixty->options.parameters.at("n1"), one->options.parameters.at("n1") / 60, 1e-12);
+}
+
+constexpr char kFamilyReport[] =
+    R"({"family":"desoto","model":"sd","shunt":"inverse","recombination":false,
+        "cells_in_series":36,"constants":"codata","rmse":{"refined":{"solved_current_A":0.01}},
+        "parameters":{"I_L_ref":{"symbol":"Iph","refined":2.7},
+                      "I_o_ref":{"symbol":"Is1","refined":1e-8},
+                      "n":{"symbol":"n1","refined":1.25},"R_s":{"symbol":"Rs","refined":0.2},
+                      "R_sh_ref":{"symbol":"Rsh","refined":null},
+                      "alpha_sc":{"symbol":"alpha","refined":0.001},
+                      "EgRef":{"symbol":"Eg","refined":1.121},
+                      "dEgdT":{"symbol":"dEg","refined":-0.0002677}},
+        "curves":[{"id":"a","role":"fitted"},{"id":"b","role":"fitted"}]})";
+
+TEST(ReadForSimulation, TakesTheLawOfAFamilyAtStatedConditions) {
+  const TempFolder folder;
+  const std::string file = folder.Write("family.json", kFamilyReport);
+  ConditionOptions stated;
+  stated.irradiance_W_m2 = 800;
+  EXPECT_THAT(MessageOf(ReadForSimulation(file, "", stated)),
+              AllOf(HasSubstr("choose one of a, b"), HasSubstr("--temperature-C")));
+  stated.temperature_C = 45;
+  const auto device = ReadForSimulation(file, "", stated);
+  ASSERT_TRUE(device) << device.error().ToString();
+  TranslationSpec spec;
+  spec.cells_in_series = 36;
+  const std::vector<double> shared = {2.7, 1e-8, 1.25, 0.2, kInfinity, 0.001, 1.121, -0.0002677};
+  const auto at = TranslateTo(*MakeTranslation(spec), shared, 800, 318.15);
+  for (int i = 0; i < at.device.size(); ++i) {
+    EXPECT_EQ(device->options.parameters.at(at.device.parameters[i].symbol), at.parameters[i]);
+  }
+  EXPECT_EQ(device->options.conditions.cells_in_series, 36);
+  EXPECT_TRUE(Simulate(device->options));
+  // A chosen curve is that curve, which this report does not hold in full.
+  EXPECT_FALSE(ReadForSimulation(file, "a", stated));
 }
 
 TEST(ReadForSimulation, RefusesWhatTheModuleIsNot) {

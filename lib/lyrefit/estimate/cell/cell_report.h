@@ -234,8 +234,11 @@ struct JointEstimate {
   double second_diode_p = kUnknown;       // p-value of one diode against it
   std::vector<std::string> void_because;  // why one diode model is not behind all; empty: it may be
   std::string shunt;                      // what is known of shunt and collection
-  bool converged = false;                 // the fit
-  std::string missing;                    // why there is no joint estimate; empty: there is one
+  // Part of the conductance at short circuit under the brightest light that goes with the light, as
+  // collection does and a shunt does not. NaN: the measurements do not tell the two apart.
+  double collection_part = kUnknown;
+  bool converged = false;  // the fit
+  std::string missing;     // why there is no joint estimate; empty: there is one
 };
 
 // Description of one cell.

@@ -213,7 +213,11 @@ void FindPseudo(const CellOptions& options, CellReport* report) {
   for (const SweepKind source : {SweepKind::kSunsVoc, SweepKind::kLit}) {
     for (const IdealityOverLight& over : report->over_light) {
       if (over.source != source || std::isfinite(pseudo.value)) continue;
-      pseudo.value = PseudoFillFactorOf(main.key.short_circuit_current_A, over.points);
+      const double found = PseudoFillFactorOf(main.key.short_circuit_current_A, over.points);
+      // Without Rs the curve gives no less: where it seems to, a shunt that does not follow the light,
+      // or an n that does, is in Voc over light.
+      if (!(found >= main.key.fill_factor)) continue;
+      pseudo.value = found;
       pseudo.source = source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc of the light series";
     }
   }
@@ -373,6 +377,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     VoidFitsThatDoNotSuperpose(&report);
   }
   if (options.fit) EstimateJointly(options, observer, &report);
+  if (report.joint) NameShuntLosses(*report.joint, &report.losses);
   report.assumptions = cell.assumptions;
   for (const IvCurve& curve : cell.curves) {
     for (const Assumption& assumption : curve.assumptions) {

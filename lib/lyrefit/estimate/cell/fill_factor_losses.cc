@@ -11,6 +11,7 @@
 namespace lyrefit {
 namespace {
 
+constexpr char kShuntOrCollection[] = "shunt or collection";
 constexpr int kBisections = 200;
 enum DiodeValue { kPhoto, kSaturation, kN, kSeries, kShunt, kCount };
 
@@ -178,11 +179,26 @@ FillFactorLosses FindFillFactorLosses(const CellSweep& lit) {
   losses.green_n1 = GreenFillFactor(voc, thermal_V);
   losses.green_fitted = GreenFillFactor(voc, fit.nNsVth);
   losses.parts = {{fmt::format("recombination: n from 1 to {:.4g}", p[kN]), {parts[0]}},
-                  {"shunt", {parts[1]}},
+                  {kShuntOrCollection, {parts[1]}},
                   {"series resistance", {parts[2]}},
                   {"rest: fit minus measured", {losses.fitted - losses.measured}}};
   SetIntervals(lit, p, thermal_V, &losses);
   return losses;
+}
+
+void NameShuntLosses(const JointEstimate& joint, std::vector<FillFactorLosses>* all) {
+  constexpr double kAlmostAll = 0.9;
+  const double part = joint.collection_part;
+  if (!joint.void_because.empty() || std::isnan(part)) return;
+  std::string name = part > kAlmostAll       ? "collection that depends on voltage"
+                     : part < 1 - kAlmostAll ? "shunt"
+                                             : "collection and shunt";
+  if (part > 0 && part < 1) name += fmt::format(": {:.0f} % goes with the light", 100 * part);
+  for (FillFactorLosses& losses : *all) {
+    for (FillFactorPart& loss : losses.parts) {
+      if (loss.name == kShuntOrCollection) loss.name = name;
+    }
+  }
 }
 
 }  // namespace lyrefit

@@ -30,4 +30,8 @@ double GreenFillFactor(double voc_V, double nNsVth);
 // the interval of its part.
 FillFactorLosses FindFillFactorLosses(const CellSweep& lit);
 
+// Names the loss by the conductance at short circuit, "shunt or collection" of one light, after the
+// split that several measurements tell (JointEstimate::collection_part).
+void NameShuntLosses(const JointEstimate& joint, std::vector<FillFactorLosses>* all);
+
 }  // namespace lyrefit

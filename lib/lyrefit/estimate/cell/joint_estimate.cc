@@ -224,12 +224,14 @@ void DescribeShunt(const JointEnd& fit, JointEstimate* joint) {
   if (!(lit + dark > 0)) return;
   const bool loses = collection.low_95 > 0,
              leaks = std::isfinite(shunt.high_95) && shunt.high_95 < shunt.bounds.upper;
+  const double goes = loses ? lit : 0, stays = leaks ? dark : 0;
+  if (loses || leaks) joint->collection_part = goes / (goes + stays);
   if (loses && leaks) {
     joint->shunt = fmt::format(
         "of the conductance at short circuit {:.0f} % goes with the light (collection that depends "
         "on "
         "voltage) and {:.0f} % stays in the dark (shunt)",
-        100 * lit / (lit + dark), 100 * dark / (lit + dark));
+        100 * joint->collection_part, 100 * (1 - joint->collection_part));
   } else if (loses) {
     joint->shunt =
         "the conductance at short circuit goes with the light: collection that depends on voltage; "

@@ -48,11 +48,16 @@ double SlopeAt(const CellSweep& sweep, double voltage_V) {
   return 0;
 }
 
-// Sets the interval of a value with this standard error.
-void SetNoise(double error, Ranged* ranged) {
+// Sets the interval of a value with this standard error. A resistance whose whole interval lies
+// below 0 is void: `because` says what is in it instead.
+void SetNoise(double error, const char* because, SeriesResistance* found) {
   constexpr double kNormal95 = 1.959964;
-  ranged->low_95 = ranged->value - kNormal95 * error;
-  ranged->high_95 = ranged->value + kNormal95 * error;
+  const double value = found->ohm.value, reach = kNormal95 * std::fabs(error);
+  found->ohm.low_95 = value - reach;
+  found->ohm.high_95 = value + reach;
+  if (!(found->ohm.high_95 < 0)) return;
+  found->ohm = {};
+  found->missing = fmt::format("void: {:.3g} ohm, below 0 as no resistance is; {}", value, because);
 }
 
 }  // namespace
@@ -84,7 +89,8 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   }
   // Four currents, each with its noise, decide where V2 is read.
   const double noise = std::sqrt(2.0) * std::hypot(brighter.noise_A, darker.noise_A);
-  SetNoise(noise / SlopeAt(darker, v2) / (isc1 - isc2), &found.ohm);
+  SetNoise(noise / SlopeAt(darker, v2) / (isc1 - isc2),
+           "a light that is not as stated, or a cell that changed between the curves", &found);
   return found;
 }
 
@@ -103,7 +109,8 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double 
     return found;
   }
   const double noise = std::hypot(std::sqrt(2.0) * lit.noise_A, dark.noise_A);
-  SetNoise(noise / SlopeAt(dark, dark_V) / (own ? imp : isc), &found.ohm);
+  SetNoise(noise / SlopeAt(dark, dark_V) / (own ? imp : isc),
+           "the dark current in the light is larger: the curves do not superpose", &found);
   return found;
 }
 
@@ -125,7 +132,8 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& po
   }
   const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);
   if (slope > 0) {
-    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / at.current_A, &found.ohm);
+    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / at.current_A,
+             "a shunt, collection or an n that changes with the light is in it", &found);
   }
   return found;
 }

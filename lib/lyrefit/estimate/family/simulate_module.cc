@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
+
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/estimate/family/law_of_report.h"
 #include "lyrefit/estimate/family/read_module.h"
 
 namespace lyrefit {
@@ -41,12 +46,28 @@ Expected<SimulateOptions> SimulationOf(const NamedParameters& module,
   return options;
 }
 
+Expected<SimulateOptions> ReadReportForSimulation(const std::string& text, const std::string& path,
+                                                  const std::string& curve,
+                                                  const ConditionOptions& stated) {
+  if (!curve.empty()) return ReadFitTextForSimulation(text, path, curve);
+  TRY(const std::optional<NamedParameters> law, LawOfReport(text, path));
+  if (!law) return ReadFitTextForSimulation(text, path, curve);
+  if (stated.irradiance_W_m2 && stated.temperature_C) return SimulationOf(*law, stated);
+  auto one = ReadFitTextForSimulation(text, path, curve);
+  if (one) return one;
+  return Fail(one.error().message +
+                  "; or state both --irradiance-Wm2 and --temperature-C for the law of all",
+              path);
+}
+
 Expected<DeviceToSimulate> ReadForSimulation(const std::string& file, const std::string& curve,
                                              const ConditionOptions& stated) {
   DeviceToSimulate device;
   TRY(const bool is_module, HoldsModule(file));
   if (!is_module) {
-    TRY(device.options, ReadFitForSimulation(file, curve));
+    constexpr std::uintmax_t kLargestReport = 64U << 20;
+    TRY(const std::string text, ReadTextFile(file, kLargestReport));
+    TRY(device.options, ReadReportForSimulation(text, file, curve, stated));
     return device;
   }
   if (!curve.empty()) return Fail("a module, which has no curve " + curve + " to choose", file);

@@ -24,8 +24,13 @@ struct DeviceToSimulate {
 };
 
 // Reads a module (read_module.h), at the stated conditions, or a JSON fit report
-// (ReadFitForSimulation), at its own. `curve` is the id of one curve in a report of many.
+// (ReadFitForSimulation), at its own. `curve` is the id of one curve in a report of many; a report
+// of a family without it is a module by its law where irradiance and temperature are stated.
 Expected<DeviceToSimulate> ReadForSimulation(const std::string& file, const std::string& curve,
                                              const ConditionOptions& stated);
+// The same of the text of a JSON fit report. `path`: for errors.
+Expected<SimulateOptions> ReadReportForSimulation(const std::string& text, const std::string& path,
+                                                  const std::string& curve,
+                                                  const ConditionOptions& stated);
 
 }  // namespace lyrefit

@@ -60,7 +60,8 @@ std::vector<double> Beside(py::handle table, Column column, std::size_t rows) {
   std::vector<double> numbers = NumbersOf(NameOf(column), values);
   if (numbers.size() != rows) {
     Raise({"expected " + std::to_string(rows) + " values of " + NameOf(column) + ", found " +
-           std::to_string(numbers.size())});
+               std::to_string(numbers.size()),
+           {}});
   }
   return numbers;
 }

@@ -101,10 +101,11 @@ def main():
     prepare(command, given.reference, given.parts)
     run = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", HERE,
                           "-d", given.parts / "doctrees", given.parts / "source", given.out], check=False)
+    if run.returncode != 0:
+        sys.exit(f"Sphinx ended with {run.returncode}")
     (given.out / ".buildinfo").unlink(missing_ok=True)  # for Sphinx's next run, of which there is none; differs each time
     write_texts(given.out)
     copy_reference(given.reference / "html", given.out / "cpp")
-    sys.exit(run.returncode)
 
 
 if __name__ == "__main__":

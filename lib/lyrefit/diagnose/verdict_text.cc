@@ -136,7 +136,8 @@ std::vector<Alternative> SaidOf(const Cause& cause, double probability) {
   std::vector<Alternative> said = {{cause.effect, cause.title, cause.probability}};
   const std::vector<Alternative>& all = cause.mechanisms;
   const bool alike = std::all_of(all.begin(), all.end(), [&](const Alternative& one) {
-    return GroupOf(*FindEffect(one.id)) == cause.group;
+    const Effect* const effect = FindEffect(one.id);  // null: an effect of the user's
+    return effect == nullptr || GroupOf(*effect) == cause.group;
   });
   if (alike || all.front().probability >= probability * cause.probability) return said;
   said.clear();

@@ -25,8 +25,8 @@ TEST(CompareJson, HoldsExactlyTheKeysOfTheContract) {
             (Set{"lyrefit_version", "objective", "constants", "seed", "runs", "target_gap",
                  "polish", "plain_polish", "interrupted", "seconds", "warnings", "problems"}));
   const json& problem = j["problems"][0];
-  EXPECT_EQ(Keys(problem),
-            (Set{"curve", "model", "bounds", "complete", "reference", "algorithms", "ranking"}));
+  EXPECT_EQ(Keys(problem), (Set{"curve", "model", "bounds", "searched_as_logarithm", "complete",
+                                "reference", "algorithms", "ranking"}));
   EXPECT_EQ(Keys(problem["reference"]),
             (Set{"rmse_A", "certified", "lower_bound_A", "floor_A", "origin", "parameters"}));
   const json& compared = problem["algorithms"][0];

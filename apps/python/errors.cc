@@ -64,7 +64,7 @@ std::size_t LengthOfValue(std::string_view after) {
 }
 
 // Texts get quotes in Python, numbers do not.
-std::string InPython(std::string value) {
+std::string InPython(const std::string& value) {
   const bool number = value.find_first_not_of("+-.0123456789") == std::string::npos;
   return number ? value : "'" + value + "'";
 }

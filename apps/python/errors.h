@@ -17,7 +17,7 @@ std::string InKeywords(const std::string& sentence);
 
 // Raises lyrefit.Error, a ValueError with the command's message and the attributes file, line and
 // column.
-[[noreturn]] void Raise(const Error& error);
+[[noreturn]] void Raise(const Error& told);
 
 // The error raised by Raise; raises any other exception again.
 Error ErrorOf(pybind11::error_already_set& raised);

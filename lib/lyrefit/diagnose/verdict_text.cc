@@ -162,6 +162,7 @@ std::string TitleOf(const Cause& cause, double probability) {
     return a.probability > b.probability;
   });
   std::vector<std::string> titles;
+  titles.reserve(said.size());
   for (const Alternative& one : said) {
     titles.push_back(fmt::format("{} ({:.0f} %)", one.title, 100 * one.probability));
   }

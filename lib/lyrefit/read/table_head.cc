@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
-#include <set>
 
+#include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/left_temperature.h"
 #include "lyrefit/read/number_text.h"
@@ -17,216 +17,6 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kShownLines = 6;
-
-// A statement: the words of its name, its unit and its value.
-struct Statement {
-  std::set<std::string> words;
-  std::string name;  // the words, concatenated
-  std::string unit;
-  double value = 0;
-};
-
-bool HasAny(const Statement& statement, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return statement.words.count(word) != 0; });
-}
-
-// Whether the statement concerns another plane, a limit or a standard condition.
-bool IsAboutOtherThings(const Statement& statement) {
-  return HasAny(
-      statement,
-      {"ghi",       "dni",         "dhi",    "horizontal", "diffuse", "stc",     "noct",
-       "reference", "ref",         "min",    "max",        "minimum", "maximum", "threshold",
-       "target",    "coefficient", "alpha",  "beta",       "gamma",   "tempco",  "tolerance",
-       "error",     "deviation",   "std",    "stdev",      "power",   "ambient", "air",
-       "back",      "parallel",    "modules"});
-}
-
-std::optional<double> Converted(const Statement& statement, ColumnKind kind) {
-  if (statement.unit.empty()) return std::nullopt;
-  const Unit* unit = FindUnit(kind, statement.unit);
-  if (unit == nullptr) return std::nullopt;
-  return statement.value * unit->factor + unit->offset;
-}
-
-std::optional<double> AsIrradiance(const Statement& statement) {
-  const bool named = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "insolation",
-                                        "einstrahlung", "irraggiamento", "eclairement", "intensity",
-                                        "light", "g", "e", "sun", "suns", "pyranometer"}) ||
-                     statement.name == "powerdensity";
-  if (!named) return std::nullopt;
-  auto value = Converted(statement, ColumnKind::kIrradiance);
-  const bool in_suns = statement.name == "suns" || statement.name == "sun";
-  if (in_suns && statement.unit.empty()) value = 1000 * statement.value;
-  const bool plain = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "einstrahlung"});
-  if (!value && statement.unit.empty() && plain && statement.value >= 20) value = statement.value;
-  if (!value || !(*value >= 0 && *value <= 1e5)) return std::nullopt;
-  return value;
-}
-
-std::optional<double> AsTemperature(const Statement& statement) {
-  static const std::set<std::string> kWhole = {"tc",
-                                               "tcell",
-                                               "tmod",
-                                               "tmodule",
-                                               "tpv",
-                                               "temperature",
-                                               "temp",
-                                               "tmodul",
-                                               "tzelle",
-                                               "temperatur",
-                                               "modultemp",
-                                               "zelltemp",
-                                               "celltemp",
-                                               "modultemperatur",
-                                               "zelltemperatur",
-                                               "moduletemp",
-                                               "zellentemperatur",
-                                               "r\u00fcckseitentemperatur"};
-  const bool whole = kWhole.count(statement.name) != 0;
-  const bool temperature = HasAny(statement, {"temperature", "temp", "temperatur", "t"});
-  const bool place =
-      HasAny(statement, {"cell", "cells", "module", "mod", "pv", "panel", "device", "sample",
-                         "zelle", "zellen", "solarzelle", "modul", "backsheet", "backside",
-                         "r\u00fcckseite", "r\u00fcckseiten", "stage", "chuck"});
-  if (!whole && !(temperature && place)) return std::nullopt;
-  auto value = Converted(statement, ColumnKind::kTemperature);
-  if (!value && statement.unit.empty()) value = statement.value;
-  if (!value || !(*value >= -100 && *value <= 150)) return std::nullopt;
-  return value;
-}
-
-std::optional<int> AsCells(const Statement& statement) {
-  const bool count = HasAny(statement, {"number", "no", "num", "n", "count", "series", "in", "nr"});
-  const bool named = statement.name == "cells" || statement.name == "ns" ||
-                     statement.name == "ncells" || statement.name == "nscells" ||
-                     (HasAny(statement, {"cells", "zellen"}) && count);
-  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
-                     statement.value <= 10000;
-  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
-  return static_cast<int>(statement.value);
-}
-
-std::optional<int> AsBypassDiodes(const Statement& statement) {
-  const bool named = HasAny(statement, {"bypass"}) && HasAny(statement, {"diodes", "dioden"});
-  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 0 &&
-                     statement.value <= 1000;
-  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
-  return static_cast<int>(statement.value);
-}
-
-std::optional<int> AsStrings(const Statement& statement) {
-  const bool named = statement.name == "parallelstrings" || statement.name == "stringsinparallel";
-  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
-                     statement.value <= 10000;
-  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
-  return static_cast<int>(statement.value);
-}
-
-std::optional<double> AsArea(const Statement& statement) {
-  if (!HasAny(statement, {"area", "fl\u00e4che", "zellfl\u00e4che", "aperture"})) {
-    return std::nullopt;
-  }
-  const auto value = Converted(statement, ColumnKind::kArea);
-  if (!value || !(*value > 0)) return std::nullopt;
-  return value;
-}
-
-// `area_cm2`: of the cell, for a limit per area.
-std::optional<double> AsCompliance(const Statement& statement, std::optional<double> area_cm2) {
-  const bool named = HasAny(statement, {"compliance"}) ||
-                     (HasAny(statement, {"limit"}) && HasAny(statement, {"current", "i"}));
-  if (!named) return std::nullopt;
-  auto value = Converted(statement, ColumnKind::kCurrent);
-  const auto density = Converted(statement, ColumnKind::kCurrentDensity);
-  if (!value && density && area_cm2) value = *density * *area_cm2;
-  if (!value || !(*value > 0)) return std::nullopt;
-  return value;
-}
-
-// Records a value of a quantity that has none yet. False if there is no value or an earlier one.
-template <class T>
-bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
-               const std::string& source, std::optional<T>* target, TableHead* head) {
-  if (!value || *target) return false;
-  *target = value;
-  head->assumptions.emplace_back(fmt::format("{} {:.6g}{} taken from {}", what.sentence,
-                                             static_cast<double>(*value), unit, source),
-                                 what.about);
-  return true;
-}
-
-// Records a value of a condition.
-template <class T>
-bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
-               const std::string& source, std::optional<T>* target, TableHead* head) {
-  return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head);
-}
-
-// Keeps a stated Isc or Jsc for the unit of the current column. It does not count as understood,
-// since the readings determine it better.
-void NoteShortCircuit(const Statement& statement, const std::string& source, TableHead* head) {
-  const bool named = statement.name == "isc" || statement.name == "jsc";
-  if (!named || head->short_circuit || statement.value == 0) return;
-  for (const ColumnKind kind : {ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
-    const Unit* unit = FindUnit(kind, statement.unit);
-    if (unit == nullptr) continue;
-    head->short_circuit = {statement.value, kind, unit->factor, source};
-  }
-}
-
-bool Take(const Statement& statement, const std::string& source, TableHead* head) {
-  Sidecar* said = &head->said;
-  NoteShortCircuit(statement, source, head);
-  if (TakeFirst(AsCompliance(statement, said->notes.area_cm2), "compliance", " A", source,
-                &said->notes.compliance_A, head)) {
-    return true;
-  }
-  if (TakeFirst(AsStrings(statement), "strings in parallel", "", source, &said->strings_in_parallel,
-                head)) {
-    return true;
-  }
-  if (TakeFirst(AsBypassDiodes(statement), "bypass diodes", "", source, &said->notes.bypass_diodes,
-                head)) {
-    return true;
-  }
-  if (statement.name != "powerdensity" && IsAboutOtherThings(statement)) return false;
-  return TakeFirst(AsIrradiance(statement), About::kIrradiance, " W/m2", source,
-                   &said->irradiance_W_m2, head) ||
-         TakeFirst(AsTemperature(statement), About::kTemperature, " C", source,
-                   &said->temperature_C, head) ||
-         TakeFirst(AsCells(statement), About::kCells, "", source, &said->cells_in_series, head) ||
-         TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
-}
-
-// Splits a label into name and unit. The unit is the longest end of the label that is a unit: "Cell
-// area (cm2)", "area_cm2".
-Statement Understand(const std::vector<LabelWord>& words, double value, std::string_view unit) {
-  Statement statement;
-  statement.value = value;
-  std::size_t end = words.size();
-  if (unit.empty()) {
-    for (std::size_t from = 1; from < words.size() && end == words.size(); ++from) {
-      const std::string text = JoinWords(words, from, words.size());
-      for (const ColumnKind kind :
-           {ColumnKind::kIrradiance, ColumnKind::kTemperature, ColumnKind::kArea,
-            ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
-        if (FindUnit(kind, text) != nullptr) end = from;
-      }
-      if (end == from) statement.unit = text;
-    }
-    for (std::size_t i = 0; i < end; ++i) {
-      if (words[i].marked_as_unit) end = i;
-    }
-    if (statement.unit.empty()) statement.unit = JoinWords(words, end, words.size());
-  } else {
-    const std::vector<LabelWord> unit_words = SplitLabel(unit);
-    statement.unit = JoinWords(unit_words, 0, unit_words.size());
-  }
-  statement.name = JoinWords(words, 0, end);
-  for (std::size_t i = 0; i < end; ++i) statement.words.insert(words[i].text);
-  return statement;
-}
 
 // Removes blanks, quotes and comment marks at the ends.
 std::string_view TrimMarks(std::string_view text) {
@@ -292,7 +82,7 @@ struct HeadLineState {
 void TakeQuantity(HeadLineState* state, std::string_view label, const Quantity& quantity) {
   state->holds_number = true;
   const Statement statement = Understand(SplitLabel(label), quantity.value, quantity.unit);
-  state->understood = Take(statement, state->source, state->head) || state->understood;
+  state->understood = TakeStatement(statement, state->source, state->head) || state->understood;
 }
 
 bool IsDate(std::string_view label) {
@@ -308,20 +98,6 @@ void TakeDate(HeadLineState* state, std::string_view text) {
   if (date.find_first_of("0123456789") == std::string_view::npos) return;
   state->head->said.notes.date = std::string(date);
   state->understood = true;
-}
-
-// Whether a line that was not understood may state the temperature of the device: a word of its label
-// names one, and none another thing.
-bool MayStateTemperature(std::string_view label) {
-  Statement statement;
-  bool named = false;
-  for (const LabelWord& word : SplitLabel(label)) {
-    named = named || word.text.find("temp") != std::string::npos;
-    statement.words.insert(word.text);
-  }
-  return named && !IsAboutOtherThings(statement) &&
-         !HasAny(statement, {"umgebung", "umgebungstemperatur", "lufttemperatur", "luft", "room",
-                             "raumtemperatur", "coeff", "koeffizient", "temperaturkoeffizient"});
 }
 
 // Reads a statement such as "Label: 47.3 C" or "Label = 47.3".
@@ -425,7 +201,7 @@ void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* h
 
 bool TakeStatement(std::string_view label, double value, const std::string& source,
                    TableHead* head) {
-  return Take(Understand(SplitLabel(label), value, ""), source, head);
+  return TakeStatement(Understand(SplitLabel(label), value, ""), source, head);
 }
 
 std::vector<Assumption> HeadSentences(const TableHead& head) {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/read/label.h"
+#include "lyrefit/read/table_head.h"
+
+namespace lyrefit {
+
+// A statement of a head, "Irradiance: 912 W/m2": the words of its name, its unit and its value.
+struct Statement {
+  std::set<std::string> words;
+  std::string name;  // the words, concatenated
+  std::string unit;
+  double value = 0;
+};
+
+// Splits a label into name and unit. The unit is the longest end of the label that is a unit: "Cell
+// area (cm2)", "area_cm2".
+// `unit`: that of the value; empty if only the label may have it.
+Statement Understand(const std::vector<LabelWord>& words, double value, std::string_view unit);
+
+// Records the value of a condition or of the device that a statement gives and that the head does not
+// have yet, with an assumption that names `source`. False if it gives none.
+bool TakeStatement(const Statement& statement, const std::string& source, TableHead* head);
+
+// Whether a line that was not understood may state the temperature of the device: a word of its label
+// names one, and none another thing.
+bool MayStateTemperature(std::string_view label);
+
+}  // namespace lyrefit

@@ -37,8 +37,7 @@ std::vector<ResultColumn> DiagnoseColumns() {
        "of the readings from the model beyond noise, root mean square in percent of Isc"},
       {"power_effect_percent", "%", kNumber,
        "of the cause on Pmax: what the model gets wrong without it, in percent; of a device "
-       "finding "
-       "what it costs"},
+       "finding what it costs"},
       {"recoverable_power_W", "W", kNumber,
        "what the device would give more without the cause; empty where only a lower limit is "
        "known"},

@@ -12,21 +12,21 @@ set(LYREFIT_PUBLIC_HEADERS
   certify/certify.h
   diagnose/diagnose.h
   diagnose/reference.h
-  model/effects/catalogue.h
-  estimate/cell/compare_directions.h
-  estimate/cell/fill_factor_losses.h
-  estimate/cell/ideality_over_light.h
-  estimate/cell/series_resistance.h
-  estimate/cell/superposition.h
-  estimate/cell/joint_estimate.h
-  estimate/cell/describe_cell.h
-  estimate/family/coefficients.h
-  estimate/family/data_sheet.h
-  estimate/family/data_sheet_family.h
-  estimate/family/fit_family.h
-  estimate/family/fit_individually.h
-  estimate/family/fit_two_junctions.h
-  estimate/family/pvlib_parameters.h
+  effects/catalogue.h
+  devices/compare_directions.h
+  devices/fill_factor_losses.h
+  devices/ideality_over_light.h
+  devices/series_resistance.h
+  devices/superposition.h
+  devices/joint_estimate.h
+  devices/describe_cell.h
+  model/coefficients.h
+  devices/data_sheet.h
+  devices/data_sheet_family.h
+  family/fit_family.h
+  family/fit_individually.h
+  devices/fit_two_junctions.h
+  model/pvlib_parameters.h
   estimate/fit/fit.h
   certify/floor.h
   estimate/fit/fit_files.h
@@ -44,9 +44,9 @@ set(LYREFIT_PUBLIC_HEADERS
   diagnose/diagnose_options.h
   diagnose/priors.h
   diagnose/reference_options.h
-  estimate/cell/cell_options.h
-  estimate/family/family_options.h
-  estimate/family/two_junction_options.h
+  devices/cell_options.h
+  family/family_options.h
+  devices/two_junction_options.h
   estimate/fit/bounds.h
   estimate/fit/error_spec.h
   estimate/fit/fit_options.h
@@ -59,14 +59,14 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/uncertainty_options.h
   trend/trend_options.h
   # records that these functions return
-  read/curve_set.h
-  read/iv_curve.h
+  curve/curve_set.h
+  curve/iv_curve.h
   diagnose/diagnosis.h
   diagnose/reference_comparison.h
   diagnose/plan.h
-  estimate/cell/cell_report.h
-  estimate/family/family_report.h
-  estimate/family/two_junction_report.h
+  devices/cell_report.h
+  family/family_report.h
+  devices/two_junction_report.h
   estimate/fit/fit_report.h
   estimate/refine/error_terms.h
   estimate/refine/estimate.h
@@ -76,23 +76,23 @@ set(LYREFIT_PUBLIC_HEADERS
   translate/translation_report.h
   trend/trend_report.h
   # readers, and the writer of curves
-  read/assumption.h
+  curve/assumption.h
   read/bare_curve.h
-  read/batch_source.h
-  read/check_readings.h
+  stream/batch_source.h
+  curve/check_readings.h
   read/condition_options.h
   read/curve_files.h
-  read/date_time.h
+  curve/date_time.h
   read/nearest_curve.h
-  read/number_text.h
+  base/number_text.h
   read/read_curve.h
   read/spreadsheet_text.h
   read/write_curve.h
-  estimate/family/module_sheet.h
-  estimate/family/read_module.h
-  estimate/family/read_pvlib.h
-  estimate/family/simulate_module.h
-  estimate/family/write_pan.h
+  read/module_sheet.h
+  read/read_module.h
+  read/read_pvlib.h
+  settings/simulate_module.h
+  read/write_pan.h
   # writers of the records
   report/csv.h
   report/document.h
@@ -120,7 +120,7 @@ set(LYREFIT_PUBLIC_HEADERS
   model/string_layout.h
   model/term.h
   model/translation.h
-  read/key_points.h
+  curve/key_points.h
   # headers that all others share
   base/constants.h
   base/dual.h
@@ -131,7 +131,7 @@ set(LYREFIT_PUBLIC_HEADERS
   base/numbers.h
   base/observer.h
   base/option.h
-  read/setting_text.h
+  base/setting_text.h
   estimate/fit/effect_text.h
   base/parallel.h
   base/portable_exp.h

@@ -2,7 +2,7 @@
 #include "bounds_flag.h"
 #include "effect_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/read_module.h"
 #include "model_flag.h"
 #include "translation_flags.h"
 

@@ -1,7 +1,7 @@
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/cell/describe_cell.h"
+#include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

@@ -8,7 +8,7 @@
 #include "line_errors.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/read_module.h"
 
 namespace lyrefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/report/document.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 
 #include "command_line.h"
 #include "flags.h"
-#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
 
 namespace lyrefit {

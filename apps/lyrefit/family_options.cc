@@ -5,7 +5,7 @@
 #include "family_flags.h"
 #include "flags.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/read_module.h"
 
 namespace lyrefit {
 namespace {

@@ -5,7 +5,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/plots.h"
 

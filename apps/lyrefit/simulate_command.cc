@@ -5,7 +5,7 @@
 #include "flags.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/simulate_module.h"
+#include "lyrefit/settings/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/write_curve.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/nearest_curve.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "study_flags.h"
 

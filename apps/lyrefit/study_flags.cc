@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "pagmo_searcher.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/fit_two_junctions.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page.h"

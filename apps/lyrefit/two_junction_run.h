@@ -5,7 +5,7 @@
 
 #include "command_line.h"
 #include "flags.h"
-#include "lyrefit/estimate/family/two_junction_options.h"
+#include "lyrefit/devices/two_junction_options.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include "bindings.h"
 #include "docs.h"
 #include "frames.h"
-#include "lyrefit/estimate/cell/describe_cell.h"
+#include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"

@@ -7,7 +7,7 @@
 #include "frames.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/read/setting_text.h"
+#include "lyrefit/base/setting_text.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"

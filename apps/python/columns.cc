@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "errors.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "result.h"
 
 namespace lyrefit::python {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 // Conversion of tables (pandas frames and mappings of columns) and arrays.
 namespace lyrefit::python {

@@ -6,7 +6,7 @@
 
 #include "fit.h"
 #include "lyrefit/read/bare_curve.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "work.h"
 
 namespace lyrefit::python {

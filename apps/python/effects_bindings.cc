@@ -2,7 +2,7 @@
 #include "effects.h"
 #include "keywords.h"
 #include "lyrefit/estimate/fit/effect_text.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit::python {
 

@@ -13,7 +13,7 @@
 
 #include "curves.h"
 #include "lyrefit/read/bare_curve.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 #include "work.h"
 
 namespace lyrefit::python {

@@ -7,8 +7,8 @@
 
 #include "bindings.h"
 #include "errors.h"
-#include "lyrefit/estimate/family/fit_family.h"
-#include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/single_diodes.h"
 #include "work.h"
 

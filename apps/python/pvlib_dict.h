@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "errors.h"
-#include "lyrefit/estimate/family/pvlib_parameters.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/report/json.h"
 
 namespace lyrefit::python {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "curves.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit::python {
 

@@ -10,7 +10,7 @@
 #include "effects.h"
 #include "errors.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/estimate/family/simulate_module.h"
+#include "lyrefit/settings/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "result.h"
 #include "work.h"

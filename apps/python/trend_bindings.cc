@@ -4,7 +4,7 @@
 #include "curves.h"
 #include "docs.h"
 #include "frames.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/read_module.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"

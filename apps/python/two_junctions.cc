@@ -8,7 +8,7 @@
 #include "bindings.h"
 #include "docs.h"
 #include "errors.h"
-#include "lyrefit/estimate/family/fit_two_junctions.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"

@@ -6,7 +6,7 @@
 
 #include "curves.h"
 #include "fit.h"
-#include "lyrefit/estimate/family/two_junction_options.h"
+#include "lyrefit/devices/two_junction_options.h"
 
 namespace lyrefit::python {
 

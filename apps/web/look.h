@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/report/page.h"
 #include "request.h"
 

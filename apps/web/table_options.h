@@ -15,7 +15,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 // Option tables as a form: its description, and the reading of its texts.
 namespace lyrefit {

@@ -26,4 +26,4 @@
 #include "lyrefit/batch/result_row.h"
 #include "lyrefit/batch/sparkline.h"
 #include "lyrefit/batch/string_plan.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"

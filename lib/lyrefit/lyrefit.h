@@ -26,23 +26,23 @@
 // changed in a device over time. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
-// Further public headers: estimate/family/pvlib_parameters.h exports a device to pvlib.
-// estimate/family/read_module.h reads modules of pvlib, PVsyst and SAM, simulate_module.h beside it
+// Further public headers: model/pvlib_parameters.h exports a device to pvlib.
+// read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate_module.h beside it
 // simulates one, write_pan.h writes one for PVsyst.
-// estimate/family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
+// family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
 // curve and proves the floor of its RMSE. diagnose/reference.h compares a sweep with reference
 // sweeps of its module. study.h, of the separate library lyrefit::study, compares searches and
 // checks publications.
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/estimate/cell/describe_cell.h"
-#include "lyrefit/estimate/family/data_sheet.h"
-#include "lyrefit/estimate/family/fit_family.h"
-#include "lyrefit/estimate/family/fit_two_junctions.h"
+#include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/documents.h"

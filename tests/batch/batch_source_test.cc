@@ -1,4 +1,4 @@
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 
 #include <sys/stat.h>
 

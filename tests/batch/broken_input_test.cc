@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 #include "read_batch.h"
 
 // Malformed rows, files and bytes: each row keeps its place and gets a reason.

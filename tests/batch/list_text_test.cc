@@ -1,4 +1,4 @@
-#include "lyrefit/read/list_text.h"
+#include "lyrefit/stream/list_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

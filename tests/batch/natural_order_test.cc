@@ -1,4 +1,4 @@
-#include "lyrefit/read/natural_order.h"
+#include "lyrefit/stream/natural_order.h"
 
 #include <gtest/gtest.h>
 

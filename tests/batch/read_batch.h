@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../error_of.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/read/seen_ids.h"
+#include "lyrefit/stream/seen_ids.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit::bench {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "read/synthetic_curve.h"
+#include "curve/synthetic_curve.h"
 #include "repeats.h"
 #include "run_app.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "estimate/family/synthetic_effects.h"
+#include "family/synthetic_effects.h"
 #include "lyrefit/read/write_curve.h"
 #include "repeats.h"
 #include "run_app.h"

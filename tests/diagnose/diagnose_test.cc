@@ -13,7 +13,7 @@
 
 #include "diagnose/synthetic_diagnosis.h"
 #include "error_of.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/kernel.h"
 
 namespace lyrefit {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "diagnose/synthetic_diagnosis.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

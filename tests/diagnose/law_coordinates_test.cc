@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/model/device.h"
-#include "model/synthetic_readings.h"
+#include "effects/synthetic_readings.h"
 
 namespace lyrefit {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -16,8 +16,8 @@
 #include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/model/effects/catalogue.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 namespace {

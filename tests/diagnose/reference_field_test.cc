@@ -17,7 +17,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/diagnose/sweep_state.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 namespace {

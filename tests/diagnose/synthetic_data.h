@@ -8,7 +8,7 @@
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/diagnose/weighted_data.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "model/synthetic_curve.h"
 
 namespace lyrefit {

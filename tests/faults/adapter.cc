@@ -6,8 +6,8 @@
 
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/priors.h"
-#include "lyrefit/model/effects/catalogue.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace faults {
 namespace {

@@ -1,5 +1,5 @@
 #include "fuzz_file.h"
-#include "lyrefit/estimate/family/read_pvlib.h"
+#include "lyrefit/read/read_pvlib.h"
 
 // Reader of parameters with pvlib's names.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

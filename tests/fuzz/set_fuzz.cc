@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fuzz_file.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;

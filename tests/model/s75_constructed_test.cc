@@ -13,7 +13,7 @@
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -13,7 +13,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/search_space.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/audit.h"

@@ -7,7 +7,7 @@
 #include "lyrefit/base/descriptor.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/certify/certify_options.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "studies/named_table.h"
 

@@ -8,7 +8,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/estimate/fit/bounds.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "studies/named_table.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "lyrefit/base/distributions.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/study/summary.h"
 #include "studies/named_table.h"
 

@@ -32,7 +32,7 @@ expect(apps/lyrefit/main.cc "#include \"lyrefit/base/try.h\"" "")
 expect(apps/lyrefit/main.cc "#include \"lyrefit/read/column.h\"" "the command must not include the closed header")
 
 expect(lib/lyrefit/read/a.h "#include \"lyrefit/model/term.h\"" "module read must not include module model")
-expect(lib/lyrefit/search/a.cc "#include \"lyrefit/read/iv_curve.h\"" "module search must not include module read")
+expect(lib/lyrefit/search/a.cc "#include \"lyrefit/curve/iv_curve.h\"" "module search must not include module read")
 expect(lib/lyrefit/model/a.cc "  #  include <lyrefit/estimate/fit/fit.h>" "module model must not include module estimate/fit")
 expect(lib/lyrefit/report/a.cc "#include \"lyrefit/estimate/refine/refine.h\"" "module report must not include module estimate/refine")
 expect(lib/lyrefit/report/a.cc "#include \"lyrefit/study/report/documents.h\"" "module report must not include module study")

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "lyrefit/base/stoppable_reads.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 #include "temp_folder.h"
 

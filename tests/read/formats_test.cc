@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace lyrefit {

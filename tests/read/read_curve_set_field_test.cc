@@ -10,7 +10,7 @@
 #include <string>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 namespace {

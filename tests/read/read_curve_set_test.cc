@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "error_of.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

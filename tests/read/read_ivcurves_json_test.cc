@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "lyrefit/estimate/family/fit_family.h"
-#include "lyrefit/estimate/family/fit_individually.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/family/fit_individually.h"
 #include "repeats.h"
 #include "studies/truth.h"
 

@@ -7,7 +7,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/estimate/family/family_options.h"
+#include "lyrefit/family/family_options.h"
 
 namespace lyrefit {
 

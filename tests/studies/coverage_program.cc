@@ -1,6 +1,6 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/report/csv.h"
 #include "studies/coverage.h"
 #include "studies/programs.h"

@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "studies/coverage_options.h"
 
 namespace lyrefit {

@@ -9,7 +9,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/estimate/family/fit_two_junctions.h"
+#include "lyrefit/devices/fit_two_junctions.h"
 #include "studies/coverage.h"
 
 namespace lyrefit {

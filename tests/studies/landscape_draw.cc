@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "studies/draw.h"
 
 namespace lyrefit {

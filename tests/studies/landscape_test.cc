@@ -9,8 +9,8 @@
 #include <set>
 #include <string>
 
-#include "lyrefit/estimate/family/family_problem.h"
-#include "lyrefit/estimate/family/family_search.h"
+#include "lyrefit/family/family_problem.h"
+#include "lyrefit/family/family_search.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/reporting_units.h"

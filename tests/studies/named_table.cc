@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 

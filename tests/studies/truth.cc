@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/median.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

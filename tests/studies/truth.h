@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/family/family_report.h"
 #include "lyrefit/model/parameter.h"
 
 namespace lyrefit {

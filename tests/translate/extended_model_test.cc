@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

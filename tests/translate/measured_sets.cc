@@ -8,7 +8,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace shown {
 namespace {

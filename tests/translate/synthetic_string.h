@@ -7,7 +7,7 @@
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/model_procedures.h"
 #include "lyrefit/translate/procedures.h"

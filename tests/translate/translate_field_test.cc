@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/translate/prepare.h"
 
 namespace lyrefit {

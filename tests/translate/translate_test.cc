@@ -7,7 +7,7 @@
 
 #include "../repeats.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/iv_curve.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/device_coefficients.h"
 
 namespace shown {

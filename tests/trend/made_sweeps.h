@@ -10,7 +10,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/trend_device.h"
 #include "lyrefit/trend/trend_series.h"
 

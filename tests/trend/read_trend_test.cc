@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/estimate/family/read_pvlib.h"
+#include "lyrefit/read/read_pvlib.h"
 #include "lyrefit/trend/trend.h"
 #include "temp_folder.h"
 #include "trend/sweeps_text.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/estimate/family/read_pvlib.h"
+#include "lyrefit/read/read_pvlib.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/single_diodes.h"
 #include "temp_folder.h"

@@ -17,7 +17,7 @@
 #include "lyrefit/batch/result_columns.h"
 #include "lyrefit/batch/row_text.h"
 #include "lyrefit/batch/write_results.h"
-#include "lyrefit/read/plausibility.h"
+#include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {
 namespace {

@@ -13,7 +13,7 @@
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/campaign_summary.h"
 #include "lyrefit/batch/sample_summary.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 #include "lyrefit/report/document.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -10,8 +10,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/string_pages.h"
-#include "lyrefit/read/batch_source.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/stream/batch_source.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

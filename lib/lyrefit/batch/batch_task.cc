@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 

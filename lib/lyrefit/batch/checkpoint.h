@@ -10,7 +10,7 @@
 
 #include "lyrefit/base/append_log.h"
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace lyrefit {
 

@@ -10,7 +10,7 @@
 #include "lyrefit/batch/batch_options.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/diagnose/reference_options.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -13,8 +13,8 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/number_text.h"
-#include "lyrefit/read/row_curve.h"
+#include "lyrefit/base/number_text.h"
+#include "lyrefit/stream/row_curve.h"
 #include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/csv.h"
 

@@ -8,7 +8,7 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/scale.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

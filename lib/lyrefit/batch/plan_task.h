@@ -6,7 +6,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/string_plan.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

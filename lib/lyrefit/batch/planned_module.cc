@@ -8,8 +8,8 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/data_sheet.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/read/read_module.h"
 #include "lyrefit/read/json_text.h"
 
 namespace lyrefit {

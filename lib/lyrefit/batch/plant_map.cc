@@ -7,7 +7,7 @@
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/plant_figures.h"
 #include "lyrefit/batch/plant_text.h"
-#include "lyrefit/read/natural_order.h"
+#include "lyrefit/stream/natural_order.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

@@ -12,9 +12,9 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/planned_module.h"
 #include "lyrefit/batch/string_plan.h"
-#include "lyrefit/read/json_elements.h"
+#include "lyrefit/stream/json_elements.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/result_row.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace lyrefit {
 

@@ -10,7 +10,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/campaign_results.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/trend/trend.h"

@@ -18,7 +18,7 @@
 #include "lyrefit/certify/solved_relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/estimate/fit/order_alike.h"
-#include "lyrefit/read/check_readings.h"
+#include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -10,7 +10,7 @@
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/parameter.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

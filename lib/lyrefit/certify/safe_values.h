@@ -4,7 +4,7 @@
 
 #include "lyrefit/certify/interval.h"
 #include "lyrefit/certify/mixture.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -6,7 +6,7 @@
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/certify/mixture.h"
 #include "lyrefit/estimate/refine/problem.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

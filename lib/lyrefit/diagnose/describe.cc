@@ -10,7 +10,7 @@
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -25,9 +25,9 @@
 #include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
-#include "lyrefit/model/effects/catalogue.h"
-#include "lyrefit/read/check_readings.h"
-#include "lyrefit/read/sweep_order.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

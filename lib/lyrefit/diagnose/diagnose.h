@@ -8,8 +8,8 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -11,7 +11,7 @@
 #include "lyrefit/diagnose/plan.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

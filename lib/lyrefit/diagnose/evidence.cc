@@ -12,7 +12,7 @@
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

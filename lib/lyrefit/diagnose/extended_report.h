@@ -6,7 +6,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lyrefit/diagnose/weighted_data.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/model/reading.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

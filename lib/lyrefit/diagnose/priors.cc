@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/read/json_text.h"
 
 namespace lyrefit {

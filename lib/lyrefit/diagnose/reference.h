@@ -6,7 +6,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/reference_comparison.h"
 #include "lyrefit/diagnose/reference_options.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -11,8 +11,8 @@
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/diagnose/law_coordinates.h"
-#include "lyrefit/model/effects/catalogue.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

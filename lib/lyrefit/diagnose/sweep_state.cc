@@ -8,8 +8,8 @@
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/read/check_readings.h"
-#include "lyrefit/read/sweep_order.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

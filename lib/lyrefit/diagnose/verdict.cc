@@ -10,7 +10,7 @@
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/verdict_text.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/select.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -10,7 +10,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/parameter.h"
 #include "lyrefit/model/term.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -11,8 +11,8 @@
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/law.h"
 #include "lyrefit/model/reading.h"
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

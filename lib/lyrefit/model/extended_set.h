@@ -6,7 +6,7 @@
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/reporting_units.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -9,10 +9,10 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/law.h"
-#include "lyrefit/read/check_readings.h"
-#include "lyrefit/read/dark.h"
-#include "lyrefit/read/key_points.h"
-#include "lyrefit/read/sweep_order.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/dark.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/model/reading.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

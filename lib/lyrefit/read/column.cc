@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

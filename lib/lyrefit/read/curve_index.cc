@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_header.h"

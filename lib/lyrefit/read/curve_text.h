@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/text_encoding.h"
 

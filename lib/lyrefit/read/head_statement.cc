@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {

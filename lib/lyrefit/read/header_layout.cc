@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {

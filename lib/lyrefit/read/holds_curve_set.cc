@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"

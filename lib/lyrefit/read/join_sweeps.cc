@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "lyrefit/read/number_text.h"
-#include "lyrefit/read/sweep_order.h"
+#include "lyrefit/base/number_text.h"
+#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -13,7 +13,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_set_builder.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_head.h"
 #include "lyrefit/read/table_header.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/text_encoding.h"
 

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/join_sweeps.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

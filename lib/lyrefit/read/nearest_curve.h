@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

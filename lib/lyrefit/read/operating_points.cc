@@ -9,8 +9,8 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/column.h"
-#include "lyrefit/read/date_time.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/curve/date_time.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/table_row.h"

@@ -13,7 +13,7 @@
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/table_curve.h"

@@ -8,14 +8,14 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/current_sign.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/curve_set_builder.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/current_sign.h"
+#include "lyrefit/curve/current_sign.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/settle_conditions.h"
 
 namespace lyrefit {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/curve_text.h"
-#include "lyrefit/read/sweep_order.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/table_curve.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 

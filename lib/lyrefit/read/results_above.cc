@@ -10,7 +10,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/table_columns.h"
 

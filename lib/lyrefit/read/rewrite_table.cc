@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 

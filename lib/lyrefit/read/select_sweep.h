@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/sidecar.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

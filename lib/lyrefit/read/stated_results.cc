@@ -10,7 +10,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lyrefit/read/column.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/current_sign.h"
-#include "lyrefit/read/equal_readings.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/select_sweep.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/text_encoding.h"

@@ -4,7 +4,7 @@
 
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
 

@@ -10,7 +10,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/diagnose/reference.h"
-#include "lyrefit/estimate/family/data_sheet.h"
+#include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/report/readable.h"
 #include "lyrefit/report/record_parts.h"

@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/report/html_parts.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/record_parts.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/estimate/family/family_report.h"
+#include "lyrefit/family/family_report.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/document.h"
 #include "lyrefit/translate/checklist.h"

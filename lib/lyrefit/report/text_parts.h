@@ -6,7 +6,7 @@
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/report/document.h"
 
 // Functions shared by the reports.

@@ -9,7 +9,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/bounds.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_explain.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -16,7 +16,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/read/check_readings.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/study/best_known.h"
 #include "lyrefit/study/compare_checks.h"
 #include "lyrefit/study/compare_journal.h"

@@ -1,6 +1,6 @@
 #include "lyrefit/study/compare_run.h"
 
-#include "lyrefit/estimate/family/fit_family.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/search_space.h"

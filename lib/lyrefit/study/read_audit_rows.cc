@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/text_encoding.h"
 #include "lyrefit/study/audit_columns.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/field_inputs.h"
 
 namespace lyrefit {

@@ -12,7 +12,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/procedures.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 

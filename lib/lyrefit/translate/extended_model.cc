@@ -10,7 +10,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/model/effects/catalogue.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/reporting_units.h"

@@ -8,7 +8,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/translate/procedures.h"
 
 namespace lyrefit {

@@ -7,7 +7,7 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/field_test_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty.h"
@@ -21,7 +21,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   pass within uncertainty  the value is at or above L, a part of the interval is not
 //   fail within uncertainty  the value is below L, a part of the interval is not
 //   fail                     the interval is below L
-//   doubtful                 not scored: implausible readings (read/plausibility.h), or a power of
+//   doubtful                 not scored: implausible readings (curve/plausibility.h), or a power of
 //                            more than 1.5 times the rating (wrong units, the rating of another
 //                            device, wrong irradiance)
 //

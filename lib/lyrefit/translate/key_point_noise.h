@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty.h"
 

@@ -9,7 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -94,7 +94,7 @@ inline constexpr TranslationInput kTranslationInputs[] = {
 
 // How Isc, Voc and the maximum power are determined from points.
 enum class KeyPointMethod {
-  kInterpolated,  // read/key_points.h
+  kInterpolated,  // curve/key_points.h
   kE1036,         // ASTM E1036, annex: straight lines and a polynomial in windows
 };
 

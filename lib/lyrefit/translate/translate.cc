@@ -9,7 +9,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/read/plausibility.h"
+#include "lyrefit/curve/plausibility.h"
 #include "lyrefit/translate/extended_model.h"
 #include "lyrefit/translate/key_point_noise.h"
 #include "lyrefit/translate/prepare.h"

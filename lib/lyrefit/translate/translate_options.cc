@@ -7,9 +7,9 @@
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/family/read_module.h"
+#include "lyrefit/read/read_module.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/number_text.h"
+#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 

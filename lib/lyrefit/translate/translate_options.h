@@ -7,7 +7,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"

@@ -6,7 +6,7 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/quantile.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/loss_split.h"
 
 namespace lyrefit {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/time_model.h"
 #include "lyrefit/trend/trend_options.h"

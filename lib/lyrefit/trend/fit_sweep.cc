@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/estimate/refine/least_squares.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

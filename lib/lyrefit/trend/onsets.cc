@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/quantities.h"
 
 namespace lyrefit {

@@ -9,7 +9,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/quantile.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 
 namespace lyrefit {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/read/operating_points.h"
 #include "lyrefit/trend/trend_device.h"
 

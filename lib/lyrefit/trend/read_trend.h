@@ -9,7 +9,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/batch_source.h"
+#include "lyrefit/stream/batch_source.h"
 #include "lyrefit/trend/trend_options.h"
 #include "lyrefit/trend/trend_series.h"
 
@@ -26,7 +26,7 @@ struct TrendReadOptions {
 };
 
 // Reads sweeps of one device, in any shape of batch_source.h, each with the time of its measurement
-// under date, timestamp, time, datetime or tmst, as a text of read/date_time.h; or, in a folder tree,
+// under date, timestamp, time, datetime or tmst, as a text of curve/date_time.h; or, in a folder tree,
 // with a date in its name ("2025-03-12T10-30.csv", "module7_20250312_103000.csv"). Keeps a row of
 // numbers for each; the sweeps themselves only of the reference days, if the law is theirs (all, if
 // they are not in order of time).

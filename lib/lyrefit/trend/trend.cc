@@ -9,7 +9,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/operating_rows.h"
 #include "lyrefit/trend/quantities.h"

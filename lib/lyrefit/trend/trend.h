@@ -6,7 +6,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/trend/trend_options.h"
 #include "lyrefit/trend/trend_report.h"
 #include "lyrefit/trend/trend_series.h"

@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/trend/fit_sweep.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/estimate/family/read_pvlib.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/read/read_pvlib.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/trend/trend_report.h"
 
 namespace lyrefit {

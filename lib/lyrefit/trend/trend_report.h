@@ -12,7 +12,7 @@
 #include "lyrefit/estimate/refine/estimate.h"
 
 // Records of a trend: what changed in a device over time. Times are seconds since 1970-01-01 of the
-// clock of the logger (read/date_time.h). Unknown values are NaN.
+// clock of the logger (curve/date_time.h). Unknown values are NaN.
 namespace LYREFIT_PUBLIC lyrefit {
 
 // What the measurements are.

@@ -7,7 +7,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/trend_device.h"
 
 namespace lyrefit {

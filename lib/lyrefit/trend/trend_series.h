@@ -7,7 +7,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/trend/trend_options.h"
 #include "lyrefit/trend/trend_report.h"
 
@@ -19,7 +19,7 @@ struct TrendDevice;
 // A sweep with its time.
 struct TimedSweep {
   IvCurve curve;
-  double time_s = kUnknown;  // since 1970-01-01, see read/date_time.h
+  double time_s = kUnknown;  // since 1970-01-01, see curve/date_time.h
 };
 
 // Measurements of one device, reduced to standard conditions, in any order.

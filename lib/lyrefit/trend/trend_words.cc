@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/read/date_time.h"
+#include "lyrefit/curve/date_time.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/read/curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 namespace {

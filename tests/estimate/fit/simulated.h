@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -9,7 +9,7 @@
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "read/synthetic_curve.h"
+#include "curve/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

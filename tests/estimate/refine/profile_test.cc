@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "estimate/family/synthetic_family.h"
+#include "family/synthetic_family.h"
 #include "estimate/refine/test_curves.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/estimate/refine/family_model.h"
-#include "lyrefit/estimate/refine/joint.h"
+#include "lyrefit/family/family_model.h"
+#include "lyrefit/family/joint.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 

@@ -7,7 +7,7 @@
 
 #include "estimate/refine/test_curves.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "model/synthetic_use.h"
+#include "effects/synthetic_use.h"
 
 namespace lyrefit {
 namespace {

@@ -5,10 +5,10 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "estimate/family/synthetic_family.h"
+#include "family/synthetic_family.h"
 #include "estimate/refine/test_curves.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/estimate/refine/joint.h"
+#include "lyrefit/family/joint.h"
 #include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/estimate/refine/refine.h"
 

@@ -9,7 +9,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

@@ -1,8 +1,8 @@
 #include "lyrefit/estimate/fit/effect_text.h"
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/effects/catalogue.h"
-#include "lyrefit/read/setting_text.h"
+#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/base/setting_text.h"
 
 namespace lyrefit {
 

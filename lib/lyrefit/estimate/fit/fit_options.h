@@ -15,7 +15,7 @@
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/read/setting_text.h"
+#include "lyrefit/base/setting_text.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 

@@ -13,8 +13,8 @@
 #include "lyrefit/estimate/refine/error_terms.h"
 #include "lyrefit/estimate/refine/estimate.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/read/iv_curve.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 

@@ -14,7 +14,7 @@
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
-#include "lyrefit/read/check_readings.h"
+#include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
 

@@ -7,7 +7,7 @@
 #include "lyrefit/estimate/refine/curve_model.h"
 #include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/model/current.h"
-#include "lyrefit/read/key_points.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

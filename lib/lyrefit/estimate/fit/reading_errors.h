@@ -7,7 +7,7 @@
 #include "lyrefit/estimate/refine/active_set.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/estimate/refine/problem.h"
-#include "lyrefit/read/iv_curve.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

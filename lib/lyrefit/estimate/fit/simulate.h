@@ -14,9 +14,9 @@
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/read/curve_set.h"
-#include "lyrefit/read/iv_curve.h"
-#include "lyrefit/read/setting_text.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/base/setting_text.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/largest.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/read/find_step.h"
+#include "lyrefit/curve/find_step.h"
 
 namespace lyrefit {
 namespace {

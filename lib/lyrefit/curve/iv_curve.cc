@@ -1,0 +1,120 @@
+#include "lyrefit/curve/iv_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/base/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+Expected<void> CheckColumn(const char* name, const std::vector<double>& values, std::size_t points,
+                           bool optional) {
+  if (optional && values.empty()) return {};
+  if (values.size() != points) {
+    return Fail(fmt::format("expected {} values of {}, found {}", points, name, values.size()));
+  }
+  for (std::size_t i = 0; i < points; ++i) {
+    if (std::isfinite(values[i])) continue;
+    return Fail(fmt::format("expected a finite {} at point {}, found {}", name, i + 1, values[i]));
+  }
+  return {};
+}
+
+Expected<void> CheckConditions(const Conditions& conditions) {
+  const double temperature_C = conditions.cell_temperature_K - kZeroCelsius_K;
+  if (!(temperature_C >= -100 && temperature_C <= 200)) {
+    return Fail(fmt::format("expected a cell temperature from -100 to 200 C, found {:.6g} C",
+                            temperature_C));
+  }
+  if (!(conditions.irradiance_W_m2 >= 0 && std::isfinite(conditions.irradiance_W_m2))) {
+    return Fail(
+        fmt::format("expected an irradiance from 0 W/m2 up, found {}", conditions.irradiance_W_m2));
+  }
+  if (conditions.cells_in_series < 1) {
+    return Fail(
+        fmt::format("expected at least 1 cell in series, found {}", conditions.cells_in_series));
+  }
+  if (conditions.strings_in_parallel < 1) {
+    return Fail(fmt::format("expected at least 1 string in parallel, found {}",
+                            conditions.strings_in_parallel));
+  }
+  return {};
+}
+
+template <std::size_t N>
+bool HasAny(const std::string& word, const std::string_view (&parts)[N]) {
+  return std::any_of(std::begin(parts), std::end(parts), [&](const std::string_view part) {
+    return word.find(part) != std::string::npos;
+  });
+}
+
+}  // namespace
+
+bool IsThinFilm(const std::string& technology) {
+  constexpr std::string_view kHetero[] = {"hit", "hjt", "heterojunction"};  // wafers
+  constexpr std::string_view kThin[] = {"cdte",    "cadmium",   "cigs",  "cis", "copper indium",
+                                        "a-si",    "amorphous", "thin",  "opv", "perovskite",
+                                        "organic", "dye",       "tandem"};
+  const std::string word = LowerCase(technology);
+  return !HasAny(word, kHetero) && HasAny(word, kThin);
+}
+
+int JunctionsPerCell(const std::string& technology) {
+  constexpr std::string_view kThree[] = {"trip"};
+  constexpr std::string_view kTwo[] = {"tandem", "micromorph", "ucsi_asi", "two-junction"};
+  const std::string word = LowerCase(technology);
+  return HasAny(word, kThree) ? 3 : HasAny(word, kTwo) ? 2 : 1;
+}
+
+void TakeKeyPoints(const KeyPoints& points, IvCurve* curve) {
+  const auto add = [curve](double voltage_V, double current_A) {
+    if (std::isnan(voltage_V) || std::isnan(current_A)) return;
+    curve->voltage_V.push_back(voltage_V);
+    curve->current_A.push_back(current_A);
+  };
+  add(0, points.short_circuit_current_A);
+  add(points.max_power_voltage_V, points.max_power_current_A);
+  add(points.open_circuit_voltage_V, 0);
+  curve->key_points = points;
+}
+
+Expected<void> Validate(const IvCurve& curve) {
+  const std::size_t points = curve.size();
+  const struct {
+    const char* name;
+    const std::vector<double>& values;
+    bool optional;
+  } columns[] = {{"current", curve.current_A, false},
+                 {"voltage", curve.voltage_V, false},
+                 {"sigma", curve.sigma_A, true},
+                 {"time", curve.time_s, true},
+                 {"irradiance", curve.irradiance_W_m2, true},
+                 {"temperature", curve.temperature_C, true}};
+  for (const auto& column : columns) {
+    TRY(CheckColumn(column.name, column.values, points, column.optional));
+  }
+  if (!curve.sweep.empty() && curve.sweep.size() != points) {
+    return Fail(fmt::format("expected {} values of sweep, found {}", points, curve.sweep.size()));
+  }
+  if (points < 2) return Fail(fmt::format("expected at least two points, found {}", points));
+  const auto [low, high] = std::minmax_element(curve.voltage_V.begin(), curve.voltage_V.end());
+  if (*low == *high) {
+    return Fail(fmt::format("expected at least two different voltages, found {} V at all {} points",
+                            *low, points));
+  }
+  const auto sigma = std::find_if_not(curve.sigma_A.begin(), curve.sigma_A.end(),
+                                      [](double value) { return value > 0; });
+  if (sigma != curve.sigma_A.end()) {
+    return Fail(fmt::format("expected a positive sigma at point {}, found {}",
+                            sigma - curve.sigma_A.begin() + 1, *sigma));
+  }
+  return CheckConditions(curve.conditions);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,167 @@
+#include "lyrefit/curve/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/base/largest.h"
+#include "lyrefit/curve/key_points.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kStandard_W_m2 = 1000;
+// Lower irradiances may be a sensor's offset; currents are scaled by this value at least.
+constexpr double kLeastLight_W_m2 = 10;
+// The largest cells deliver about 20 A, and the strings of a combiner box are rarely all stated.
+constexpr double kMostOfString_A = 100;
+// Current density of all photons of AM1.5G down to 0.3 eV.
+constexpr double kMostDensity_mA_cm2 = 70;
+constexpr double kLeastOfModule_A = 0.02;
+constexpr int kCellsOfModule = 30;
+constexpr double kLeastLightOfModule_W_m2 = 100;  // excludes dusk
+// A diode of n = 1 at 1.5 V has 0.92, and irradiance that rises during the sweep increases it.
+constexpr double kMostFillFactor = 0.95;
+constexpr double kLeastFillFactor = 0.1;
+// Strong irradiance, cold cells and a bright rear side give less than twice the rating.
+constexpr double kMostOfRating = 3;
+// A wrong unit of the current (mA for A) is a factor of 1000.
+constexpr double kLeastOfRating = 1.0 / 300;
+constexpr double kLeastLightOfRating_W_m2 = 200;
+
+// Isc, or the largest current at forward voltage if the readings do not reach 0 V; 0 if none is
+// delivered.
+double DeliveredCurrent_A(const IvCurve& curve, const KeyPoints& key) {
+  constexpr double kLit = 0.1;  // of the largest current
+  double delivered_A = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (curve.voltage_V[k] >= 0) delivered_A = std::max(delivered_A, curve.current_A[k]);
+  }
+  if (std::isfinite(key.short_circuit_current_A)) delivered_A = key.short_circuit_current_A;
+  return delivered_A > kLit * LargestMagnitude(curve.current_A) ? delivered_A : 0;
+}
+
+// Irradiance as a fraction of 1000 W/m2; 1 if not stated.
+double LightOf(const IvCurve& curve) {
+  if (!curve.irradiance_known) return 1;
+  return std::max(curve.conditions.irradiance_W_m2, kLeastLight_W_m2) / kStandard_W_m2;
+}
+
+std::string AtLight(const IvCurve& curve) {
+  if (!curve.irradiance_known) return "";
+  return fmt::format(" at the stated {:.4g} W/m2", curve.conditions.irradiance_W_m2);
+}
+
+std::string TooMuchOfString(const IvCurve& curve, double isc_A) {
+  const int strings = curve.conditions.strings_in_parallel;
+  if (!(isc_A > kMostOfString_A * strings * LightOf(curve))) return "";
+  const char* light = isc_A <= kMostOfString_A * strings ? "or less light than there was" : "";
+  return fmt::format(
+      "Isc of {:.4g} A{} is more than any cell gives, with {} string{} in parallel: other units "
+      "than were read (mA?), {}",
+      isc_A, AtLight(curve), strings, strings == 1 ? "" : "s",
+      *light != '\0' ? light : "or strings in parallel that nobody stated");
+}
+
+std::string TooMuchOfArea(const IvCurve& curve, double isc_A) {
+  if (!curve.notes.area_cm2 || !(*curve.notes.area_cm2 > 0)) return "";
+  const double density_mA_cm2 =
+      1e3 * isc_A / curve.conditions.strings_in_parallel / *curve.notes.area_cm2;
+  if (!(density_mA_cm2 > kMostDensity_mA_cm2 * LightOf(curve))) return "";
+  return fmt::format(
+      "Isc of {:.4g} A from cells of {:.4g} cm2 is {:.4g} mA/cm2{}, more than sunlight gives "
+      "({:g} mA/cm2 at 1000 W/m2): other units than were read, or the area of another device",
+      isc_A, *curve.notes.area_cm2, density_mA_cm2, AtLight(curve), kMostDensity_mA_cm2);
+}
+
+std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
+  const Conditions& at = curve.conditions;
+  const bool bright = curve.irradiance_known && at.irradiance_W_m2 >= kLeastLightOfModule_W_m2;
+  if (!bright || !curve.cells_known || at.cells_in_series < kCellsOfModule || !(isc_A > 0))
+    return "";
+  if (!(isc_A < kLeastOfModule_A * at.strings_in_parallel * LightOf(curve))) return "";
+  return fmt::format(
+      "Isc of {:.4g} A{} is less than a module of {} cells gives: other units than were read "
+      "(ampere written as milliampere?), or a module in the shade",
+      isc_A, AtLight(curve), at.cells_in_series);
+}
+
+// Checks the fill factor of the readings themselves: a parabola through few readings may exceed
+// them.
+std::string OddShape(const IvCurve& curve, const KeyPoints& key) {
+  double power_W = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    power_W = std::max(power_W, curve.voltage_V[k] * curve.current_A[k]);
+  }
+  const double fill_factor = power_W / (key.short_circuit_current_A * key.open_circuit_voltage_V);
+  if (!(power_W > 0) || !std::isfinite(fill_factor)) return "";
+  if (fill_factor >= kLeastFillFactor && fill_factor <= kMostFillFactor) return "";
+  return fmt::format(
+      "the fill factor is {:.3g}, {}: are all readings of one curve, and which column is which?",
+      fill_factor,
+      fill_factor > kMostFillFactor ? "more than a diode allows"
+                                    : "of a curve with no power in it");
+}
+
+// Sun heats the cells of a module to some 90 C where air stands still behind it.
+std::string TooHotForModule(const IvCurve& curve) {
+  constexpr double kHottest_C = 95;
+  const double stated_C = curve.conditions.cell_temperature_K - kZeroCelsius_K;
+  if (curve.conditions.cells_in_series < kCellsOfModule || !(stated_C > kHottest_C)) return "";
+  return fmt::format(
+      "a cell temperature of {:.4g} C is more than sun gives a module: {:.3g} C in degrees "
+      "Fahrenheit?",
+      stated_C, (stated_C - 32) / 1.8);
+}
+
+std::optional<std::string> ImplausiblePower(const IvCurve& curve, double rated_W) {
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  if (!(rated_W > 0) || !(key.max_power_W > 0)) return std::nullopt;
+  const double ratio = key.max_power_W / rated_W;
+  if (ratio > kMostOfRating) {
+    return fmt::format(
+        "Pmax of {:.4g} W is {:.4g} times the rated power of {:.4g} W: other units than were read "
+        "(mA?), or the rating of another device",
+        key.max_power_W, ratio, rated_W);
+  }
+  const double light = curve.conditions.irradiance_W_m2 / kStandard_W_m2;
+  const bool bright =
+      curve.irradiance_known && curve.conditions.irradiance_W_m2 >= kLeastLightOfRating_W_m2;
+  if (bright && ratio < kLeastOfRating * light) {
+    return fmt::format(
+        "Pmax of {:.4g} W{} is {:.2g} times the rated power of {:.4g} W: other units than were "
+        "read, the rating of another device, or no light on it",
+        key.max_power_W, AtLight(curve), ratio, rated_W);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve) {
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const double isc_A = DeliveredCurrent_A(curve, key);
+  std::vector<ReadingFinding> findings;
+  std::string current = TooMuchOfString(curve, isc_A);
+  if (current.empty()) current = TooMuchOfArea(curve, isc_A);
+  if (current.empty()) current = TooLittleOfModule(curve, isc_A);
+  if (!current.empty()) findings.push_back({"current", current, false, {}});
+  const std::string shape = isc_A > 0 ? OddShape(curve, key) : "";
+  if (!shape.empty()) findings.push_back({"shape", shape, false, {}});
+  const std::string hot = isc_A > 0 ? TooHotForModule(curve) : "";
+  if (!hot.empty()) findings.push_back({"temperature", hot, false, {}});
+  return findings;
+}
+
+std::optional<std::string> PlausibilityProblem(const IvCurve& curve,
+                                               std::optional<double> rated_power_W) {
+  if (rated_power_W) {
+    if (auto why = ImplausiblePower(curve, *rated_power_W)) return why;
+  }
+  std::vector<ReadingFinding> findings = CheckPlausibility(curve);
+  if (findings.empty()) return std::nullopt;
+  return findings.front().sentence;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,303 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/devices/cell_parts.h"
+#include "lyrefit/report/documents.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+bool KnowsArea(const CellReport& report) { return std::isfinite(report.area_cm2); }
+
+// The doubts of all sweeps, each once.
+std::vector<std::string> DoubtsOf(const CellReport& report) {
+  std::vector<std::string> doubts;
+  for (const CellSweep& sweep : report.sweeps) {
+    const bool known = std::find(doubts.begin(), doubts.end(), sweep.doubt) != doubts.end();
+    if (!sweep.doubt.empty() && !known) doubts.push_back(sweep.doubt);
+  }
+  return doubts;
+}
+
+std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
+  if (KnowsArea(report) && sweep.doubt.empty()) {
+    return fmt::format("efficiency {} (Jsc {} mA/cm2, Voc {} V, FF {})",
+                       PercentText(sweep.efficiency), Significant(sweep.jsc_mA_cm2, 4),
+                       Significant(sweep.key.open_circuit_voltage_V, 4),
+                       PercentText(sweep.key.fill_factor));
+  }
+  return fmt::format("Pmp {} W (Isc {} A, Voc {} V, FF {})", Significant(sweep.key.max_power_W, 4),
+                     Significant(sweep.key.short_circuit_current_A, 4),
+                     Significant(sweep.key.open_circuit_voltage_V, 4),
+                     PercentText(sweep.key.fill_factor));
+}
+
+std::string HysteresisVerdict(const CellReport& report) {
+  if (report.pairs.empty()) return "";
+  const DirectionPair& pair = report.pairs.front();
+  if (pair.sense == HysteresisSense::kNone) {
+    return fmt::format(" No hysteresis: a gap of {} % of Jsc between the directions.",
+                       Significant(pair.gap_percent, 2));
+  }
+  return fmt::format(" Hysteresis, {}: index by power {}, gap {} % of Jsc{}.", ToText(pair.sense),
+                     PercentText(pair.index_power, 2), Significant(pair.gap_percent, 2),
+                     pair.cross ? " (the curves cross, which the index hides)" : "");
+}
+
+std::string LossVerdict(const CellReport& report) {
+  for (const FillFactorLosses& losses : report.losses) {
+    if (losses.sweep != report.main) continue;
+    if (!losses.missing.empty()) return " No split of the fill factor: " + losses.missing + ".";
+    const auto largest =
+        std::max_element(losses.parts.begin(), losses.parts.end(),
+                         [](const auto& a, const auto& b) { return a.loss.value < b.loss.value; });
+    return fmt::format(" The fill factor loses most by {}: {} of {}.",
+                       largest->name.substr(0, largest->name.find(':')),
+                       PercentText(largest->loss.value, 2), PercentText(losses.ideal));
+  }
+  return "";
+}
+
+Section CellHead(const CellReport& report) {
+  Section head = {fmt::format("lyrefit {}: cell {}", report.version, report.name)};
+  AddField("files", report.source, &head);
+  AddField("device",
+           fmt::format("{}, {:.4g} C, area {}", Plural(report.cells_in_series, "cell"),
+                       report.temperature_C,
+                       KnowsArea(report) ? fmt::format("{:.6g} cm2", report.area_cm2)
+                                         : std::string("not known: give --area-cm2")),
+           &head);
+  return head;
+}
+
+Section SweepSection(const CellReport& report) {
+  Section section = {"Sweeps"};
+  const bool area = KnowsArea(report);
+  const double per = area ? 1000 / report.area_cm2 : 1;
+  const double of = area ? report.area_cm2 : 1;
+  block::Table table = {
+      "lrrrrrrrrr",
+      {{"", area ? "Jsc" : "Isc", "Voc", "Vmp", area ? "Jmp" : "Imp", "Pmp", "FF", "eff.", "R(Isc)",
+        "R(Voc)"},
+       {"", area ? "mA/cm2" : "A", "V", "V", area ? "mA/cm2" : "A", area ? "mW/cm2" : "W", "%", "%",
+        area ? "ohm cm2" : "ohm", area ? "ohm cm2" : "ohm"}}};
+  for (const CellSweep& sweep : report.sweeps) {
+    if (sweep.kind != SweepKind::kLit) {
+      table.rows.push_back({sweep.name});
+      continue;
+    }
+    const KeyPoints& key = sweep.key;
+    table.rows.push_back(
+        {sweep.name, Significant(key.short_circuit_current_A * per, 5),
+         Significant(key.open_circuit_voltage_V, 5), Significant(key.max_power_voltage_V, 4),
+         Significant(key.max_power_current_A * per, 4), Significant(key.max_power_W * per, 4),
+         Significant(100 * key.fill_factor, 4), Significant(100 * sweep.efficiency, 4),
+         Significant(sweep.resistance_at_isc_ohm * of, 3),
+         Significant(sweep.resistance_at_voc_ohm * of, 3)});
+  }
+  AddTable(std::move(table), &section);
+  section.blocks.emplace_back(
+      block::Legend{"eff. = Pmp / (irradiance x area); R(Isc), R(Voc) = -dV/dI at 0 V and at Voc"});
+  return section;
+}
+
+Section PairSection(const CellReport& report, const DirectionPair& pair) {
+  Section section = {
+      fmt::format("Hysteresis at {:.4g} W/m2", report.sweeps[pair.reverse].irradiance_W_m2)};
+  block::Table table = {"lrw", {{"", "value", "definition"}}};
+  const auto add = [&](const char* name, const std::string& value, const char* definition) {
+    table.rows.push_back({name, value, definition});
+  };
+  add("index by power", PercentText(pair.index_power), "(Pmp_rev - Pmp_fwd) / Pmp_rev");
+  add("index by area", PercentText(pair.index_area),
+      "1 - A_fwd / A_rev, A below J from 0 V to Voc");
+  add("index at 0.8 Voc", PercentText(pair.index_at_80), "(J_rev - J_fwd) / J_rev, Voc of reverse");
+  add("index at 0.5 Voc", PercentText(pair.index_at_50), "the same");
+  add("gap", PercentText(pair.gap_percent / 100),
+      "rms of J_rev - J_fwd from 0 V to the larger Voc, of Jsc_rev");
+  add("noise in it", PercentText(pair.noise_percent / 100, 2), "rms that the noise of both gives");
+  add("Voc", fmt::format("{:+.3g} mV", 1000 * pair.voc_difference_V), "reverse minus forward");
+  add("Jsc", fmt::format("{:+.3g} %", 100 * pair.isc_difference),
+      "reverse minus forward, of reverse");
+  add("FF", fmt::format("{:+.3g} %", 100 * pair.ff_difference), "reverse minus forward, absolute");
+  AddTable(std::move(table), &section);
+  if (pair.sense == HysteresisSense::kNone) {
+    AddSentence("No hysteresis to speak of.", &section);
+    return section;
+  }
+  AddSentence(fmt::format("Hysteresis, {}: {} gives more power.{}", ToText(pair.sense),
+                          pair.sense == HysteresisSense::kNormal ? "reverse" : "forward",
+                          pair.cross ? " The curves cross: the index by power hides the gap." : ""),
+              &section);
+  std::string causes;
+  for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
+  AddSentence("Possible: " + causes +
+                  ". A second rate decides. Neither direction is the steady power: track it.",
+              &section);
+  return section;
+}
+
+void AddLocalIdealities(const IdealityOverLight& over, Section* section) {
+  constexpr std::size_t kShown = 8;
+  block::Table table = {"rrr", {{"from (A)", "to (A)", "local n"}}};
+  const std::size_t step = (over.local.size() + kShown - 1) / kShown;
+  for (std::size_t k = 0; k < over.local.size(); k += step) {
+    const LocalIdeality& one = over.local[k];
+    table.rows.push_back(
+        {Significant(one.low_A, 3), Significant(one.high_A, 3), Significant(one.n, 4)});
+  }
+  if (over.local.size() > 1) AddTable(std::move(table), section);
+  if (over.rises_to_low_light) {
+    AddSentence(
+        "The local n rises towards low light, as a shunt makes it: n / (1 - Voc / (Rsh Isc)). One "
+        "line through all points means little; the values at the brightest light are nearest to "
+        "the junction's.",
+        section);
+  }
+}
+
+Section IdealitySection(const CellReport& report) {
+  Section section = {"Ideality n"};
+  for (const IdealityOverLight& over : report.over_light) {
+    AddField(over.source == SweepKind::kSunsVoc ? "Suns-Voc" : "Voc over light",
+             fmt::format("n = {}: (q / k T) dVoc / dln(Isc) by least squares over {} points",
+                         RangedText(over.n), over.points.size()),
+             &section);
+    AddLocalIdealities(over, &section);
+  }
+  if (report.dark) {
+    const DarkIdeality& dark = *report.dark;
+    AddField(
+        "dark, local",
+        std::isfinite(dark.least_n)
+            ? fmt::format("smallest n {:.4g} at {:.3g} V, within 10 % from {:.3g} to {:.3g} V: "
+                          "(q / k T) / (dln J / dV)",
+                          dark.least_n, dark.at_V, dark.plateau_low_V, dark.plateau_high_V)
+            : std::string("no range of rising current above the noise"),
+        &section);
+    if (std::isfinite(dark.fitted.value)) {
+      AddField("dark, fit", "n = " + RangedText(dark.fitted), &section);
+    }
+  }
+  return section;
+}
+
+Section FitSection(const CellReport& report) {
+  Section section = {"Single-diode fits"};
+  block::Table table = {
+      "lrrrrl", {{"", "n", "Rs (ohm)", "Rsh (ohm)", "RMSE", ""}, {"", "", "", "", "% of Isc", ""}}};
+  for (const CellSweep& sweep : report.sweeps) {
+    if (!sweep.fit) continue;
+    const auto value = [&](const char* symbol) {
+      for (const Estimate& e : sweep.fit->estimates) {
+        if (e.info.symbol == symbol) return e.refined;
+      }
+      return kUnknown;
+    };
+    table.rows.push_back(
+        {sweep.name, Significant(value("n1"), 4), Significant(value("Rs"), 4),
+         Significant(value("Rsh"), 4),
+         Significant(
+             100 * sweep.fit->rmse.refined.solved_current_A / sweep.key.short_circuit_current_A, 2),
+         sweep.diode() ? "" : "n and Rs are void"});
+  }
+  if (table.rows.empty()) return section;
+  AddTable(std::move(table), &section);
+  section.blocks.emplace_back(block::Legend{
+      report.joint
+          ? "RMSE: solved-current; intervals: --json"
+          : "RMSE: solved-current; intervals: --json; Rsh of one light is a shunt or collection "
+            "that depends on voltage: a second light or the dark curve decides"});
+  return section;
+}
+
+Section StatedSection(const CellReport& report) {
+  Section section = {"What the files state"};
+  block::Table table = {"llrrr", {{"sweep", "", "stated", "computed", "difference"}}};
+  for (const CellSweep& sweep : report.sweeps) {
+    for (const StatedKeyPoint& one : sweep.stated) {
+      table.rows.push_back({sweep.name, one.name, Significant(one.stated, 5),
+                            Significant(one.found, 5),
+                            fmt::format("{:+.3f} %", 100 * (one.found / one.stated - 1))});
+    }
+  }
+  if (!table.rows.empty()) AddTable(std::move(table), &section);
+  return section;
+}
+
+}  // namespace
+
+std::string PercentText(double fraction, int digits) {
+  if (!std::isfinite(fraction)) return "-";
+  return Significant(100 * fraction, digits) + " %";
+}
+
+std::string RangedText(const Ranged& ranged, int digits) {
+  std::string value = Significant(ranged.value, digits);
+  if (!std::isfinite(ranged.low_95) || !std::isfinite(ranged.high_95)) return value;
+  return value + " (" + Range(ranged.low_95, ranged.high_95) + ")";
+}
+
+std::string CellVerdict(const CellReport& report) {
+  std::string text;
+  if (report.main == -1) text = "No lit curve that delivers power.";
+  if (report.main == -1 && report.dark && std::isfinite(report.dark->least_n)) {
+    text += fmt::format(" Smallest n of the dark curve: {}.", Significant(report.dark->least_n, 3));
+  }
+  for (const FillFactorLosses& losses : report.losses) {
+    const CellSweep& sweep = report.sweeps[losses.sweep];
+    text += (text.empty() ? "" : " ") +
+            FullSentence(fmt::format("{}: {}", sweep.name, SweepPower(report, sweep)));
+  }
+  text += HysteresisVerdict(report);
+  for (const IdealityOverLight& over : report.over_light) {
+    const char* source = over.source == SweepKind::kLit ? "over light" : "from Suns-Voc";
+    text +=
+        over.rises_to_low_light
+            ? fmt::format(" n {}: {} at the brightest light, {} at the darkest.", source,
+                          Significant(over.local.back().n, 3), Significant(over.local.front().n, 3))
+            : fmt::format(" n {} {}.", source, RangedText(over.n, 3));
+  }
+  if (report.superposition && std::isfinite(report.superposition->rms_percent)) {
+    text += report.superposition->departs
+                ? fmt::format(" Lit and dark curve do not superpose: {} % of Jsc.",
+                              Significant(report.superposition->rms_percent, 2))
+                : std::string(" Lit and dark curve superpose.");
+  }
+  return text + LossVerdict(report);
+}
+
+Document CellDocument(const CellReport& report) {
+  Document document = {Banners(report.interrupted, true, {}, DoubtsOf(report)), CellHead(report)};
+  document.verdict = CellVerdict(report);
+  std::vector<Section> sections = {{"", {block::Conclusion{document.verdict}}},
+                                   SweepSection(report)};
+  for (const DirectionPair& pair : report.pairs) sections.push_back(PairSection(report, pair));
+  sections.push_back(IdealitySection(report));
+  sections.push_back(SeriesResistanceSection(report));
+  sections.push_back(FillFactorSection(report));
+  sections.push_back(SuperpositionSection(report));
+  sections.push_back(FitSection(report));
+  sections.push_back(JointSection(report));
+  sections.push_back(StatedSection(report));
+  sections.push_back(WarningSection(report.warnings));
+  sections.push_back(ListSection("Assumptions", SentencesOf(report.assumptions)));
+  AddSections(std::move(sections), &document);
+  AddFigure(FigureBlock(report), &document.head);
+  return document;
+}
+
+std::string CellText(const CellReport& report) { return DrawText(CellDocument(report)); }
+
+std::string BriefCell(const CellReport& report) {
+  std::string text = report.name + ": " + CellVerdict(report);
+  const std::string marks = BriefMarks(report.interrupted, true, report.warnings.size());
+  if (!marks.empty() && text.back() == '.') text.pop_back();  // the marks go on with a comma
+  return text + marks + "\n";
+}
+
+}  // namespace lyrefit

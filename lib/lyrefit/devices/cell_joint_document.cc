@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/devices/cell_parts.h"
+#include "lyrefit/report/text_layout.h"
+#include "lyrefit/report/text_parts.h"
+
+namespace lyrefit {
+namespace {
+
+block::Table JointParameters(const CellReport& report, const JointEstimate& joint) {
+  block::Table table = {"lrrrll", {{"parameter", "value", "per area", "std err", "95 % interval"}}};
+  const bool area = std::isfinite(report.area_cm2);
+  for (const Estimate& e : joint.estimates) {
+    const bool resistance = e.info.unit == "ohm";
+    // A perfect shunt is a bound of its conductance.
+    const bool perfect = IsConductance(e.info.kind) && e.at_bound == BoundSide::kUpper;
+    const double value = perfect ? kInfinity : e.refined;
+    table.rows.push_back(
+        {LabelWithUnit(e.info), Significant(value, 5),
+         area && resistance ? Significant(report.PerArea(value), 4) + " ohm cm2" : "",
+         Significant(e.standard_error, 2), Range(e.low_95, e.high_95), EstimateMarks(e)});
+  }
+  return table;
+}
+
+// Rows of measurements, columns of the shared parameters.
+block::Table WhatEachAdds(const CellReport& report, const JointEstimate& joint) {
+  block::Table table = {"lr", {{"without", "readings"}}};
+  for (int i = 0; i < joint.shared; ++i) {
+    if (joint.estimates[i].fixed) continue;
+    table.alignment += "r";
+    table.heads.front().push_back(joint.estimates[i].info.symbol);
+  }
+  for (const JointMeasurement& one : joint.measurements) {
+    std::vector<std::string> row = {report.sweeps[one.sweep].name, std::to_string(one.readings)};
+    for (int i = 0; i < joint.shared; ++i) {
+      if (joint.estimates[i].fixed) continue;
+      const double times = one.without[i];
+      row.push_back(std::isfinite(times) ? Significant(times, 3) : "not known");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+block::Table JointMisfits(const CellReport& report, const JointEstimate& joint) {
+  block::Table table = {"lrrrl", {{"measurement", "together", "alone", "noise", ""}}};
+  for (const JointMeasurement& one : joint.measurements) {
+    const CellSweep& sweep = report.sweeps[one.sweep];
+    table.rows.push_back({sweep.name, Scientific(one.rms, 3),
+                          std::isfinite(one.own_rms) ? Scientific(one.own_rms, 3) : "-",
+                          Scientific(one.noise, 2), sweep.kind == SweepKind::kSunsVoc ? "V" : "A"});
+  }
+  return table;
+}
+
+}  // namespace
+
+Section JointSection(const CellReport& report) {
+  Section section = {"All measurements in one model"};
+  if (!report.joint) return section;
+  const JointEstimate& joint = *report.joint;
+  if (!joint.missing.empty()) {
+    AddSentence("No joint estimate: " + joint.missing + ".", &section);
+    return section;
+  }
+  std::string reasons;
+  for (const std::string& reason : joint.void_because) {
+    reasons += (reasons.empty() ? "" : "; ") + reason;
+  }
+  if (!reasons.empty()) {
+    AddSentence("One diode model is not behind all of them: " + reasons +
+                    ". The parameters below describe no device.",
+                &section);
+  }
+  AddField("diodes",
+           fmt::format("{} (one against two, the second of n = 2: p = {})",
+                       joint.second_diode ? "two" : "one", Significant(joint.second_diode_p, 2)),
+           &section);
+  AddTable(JointParameters(report, joint), &section);
+  AddUnidentifiable(joint.estimates, &section);
+  AddField("shunt", joint.shunt, &section);
+  AddTable(JointMisfits(report, joint), &section);
+  section.blocks.emplace_back(
+      block::Legend{"rms of the residuals, solved-current; alone: the sweep's own fit"});
+  AddTable(WhatEachAdds(report, joint), &section);
+  section.blocks.emplace_back(block::Legend{
+      "what each adds: the standard error without it in multiples of that with all; not known: the "
+      "others do not decide the parameter"});
+  if (!joint.converged) AddSentence("The joint fit did not converge.", &section);
+  return section;
+}
+
+}  // namespace lyrefit

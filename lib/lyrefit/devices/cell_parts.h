@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "lyrefit/devices/cell_report.h"
+#include "lyrefit/report/document.h"
+
+// Functions shared by the document, tables and pictures of a cell.
+namespace lyrefit {
+
+// The result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
+std::string CellVerdict(const CellReport& report);
+
+// cell_losses_document.cc: the resistances, the fill factor and its losses, superposition.
+Section SeriesResistanceSection(const CellReport& report);
+Section FillFactorSection(const CellReport& report);
+Section SuperpositionSection(const CellReport& report);
+// cell_joint_document.cc: one model for all measurements, and what each of them adds.
+Section JointSection(const CellReport& report);
+
+// "12.3 %" of a fraction; "-" for NaN.
+std::string PercentText(double fraction, int digits = 3);
+// "1.52 (1.48 .. 1.56)"; without an interval the value alone, "-" for NaN.
+std::string RangedText(const Ranged& ranged, int digits = 4);
+
+// cell_plot.cc: the picture for pages.
+block::Figure FigureBlock(const CellReport& report);
+
+}  // namespace lyrefit

@@ -1,0 +1,105 @@
+#include "lyrefit/devices/compare_directions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/devices/describe_sweep.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSteps = 1000;
+
+double IndexAt(const Line& forward, const Line& reverse, double voltage) {
+  return (reverse.At(voltage) - forward.At(voltage)) / reverse.At(voltage);
+}
+
+// Causes of a gap that one pair leaves: see the table in doi:10.1039/C4EE03664F and
+// doi:10.1021/jz500113x. A capacitance takes current on the way up only, so that reverse gives more
+// everywhere; late readings shift the curve sideways, which does nothing where it is flat.
+void NameCauses(DirectionPair* pair) {
+  constexpr double kSeen = 0.01;
+  pair->causes = {"ions or traps"};
+  if (std::fabs(pair->isc_difference) < kSeen) pair->causes.emplace_back("timing of the meter");
+  if (pair->sense == HysteresisSense::kNormal && pair->isc_difference > -kSeen) {
+    pair->causes.emplace_back("a capacitance");
+  }
+  pair->causes.emplace_back("drift of the lamp or the temperature");
+}
+
+// Last voltage of the comparison: the larger of the known Voc, or the end of a sweep below it.
+double EndOf(const Line& forward, const Line& reverse, double forward_voc, double reverse_voc) {
+  const double voc = std::fmax(forward_voc, reverse_voc);
+  return std::fmin(voc, std::min(forward.x.back(), reverse.x.back()));
+}
+
+// First voltage of the comparison; NaN if one of the sweeps begins too far above 0 V.
+double BeginOf(const Line& forward, const Line& reverse, double end) {
+  constexpr double kLatest = 0.05;
+  const double begin = std::max({0.0, forward.x.front(), reverse.x.front()});
+  return begin <= kLatest * end ? begin : kUnknown;
+}
+
+bool AreOpposite(const CellSweep& a, const CellSweep& b) {
+  constexpr double kSameLight = 0.02;
+  const double light = std::max(a.irradiance_W_m2, b.irradiance_W_m2);
+  return a.kind == SweepKind::kLit && b.kind == SweepKind::kLit && a.direction != b.direction &&
+         std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <= kSameLight * light;
+}
+
+}  // namespace
+
+DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& reverse,
+                                double least_percent) {
+  DirectionPair pair;
+  const KeyPoints &f = forward.key, &r = reverse.key;
+  const Line up = LineOf(forward), down = LineOf(reverse);
+  const double isc = r.short_circuit_current_A, voc = r.open_circuit_voltage_V;
+  pair.index_power = (r.max_power_W - f.max_power_W) / r.max_power_W;
+  const double end = EndOf(up, down, f.open_circuit_voltage_V, voc);
+  const double begin = BeginOf(up, down, end);
+  pair.index_area = 1 - up.Area(begin, f.open_circuit_voltage_V) / down.Area(begin, voc);
+  pair.index_at_80 = IndexAt(up, down, 0.8 * voc);
+  pair.index_at_50 = IndexAt(up, down, 0.5 * voc);
+  pair.voc_difference_V = voc - f.open_circuit_voltage_V;
+  pair.isc_difference = (isc - f.short_circuit_current_A) / isc;
+  pair.ff_difference = r.fill_factor - f.fill_factor;
+  double squares = 0, highest = 0, lowest = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double v = std::min(begin + (end - begin) * k / kSteps, end);
+    const double gap = (down.At(v) - up.At(v)) / isc;
+    squares += gap * gap;
+    highest = std::max(highest, gap);
+    lowest = std::min(lowest, gap);
+  }
+  pair.gap_percent = 100 * std::sqrt(squares / (kSteps + 1));
+  pair.noise_percent = 100 * std::hypot(forward.noise_A, reverse.noise_A) / isc;
+  const bool shows = pair.gap_percent >= least_percent && pair.gap_percent > 2 * pair.noise_percent;
+  if (shows) {
+    pair.sense = pair.index_power >= 0 ? HysteresisSense::kNormal : HysteresisSense::kInverted;
+  }
+  if (shows) NameCauses(&pair);
+  const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
+  pair.cross = shows && highest > seen && -lowest > seen;
+  return pair;
+}
+
+std::vector<DirectionPair> FindPairs(const std::vector<CellSweep>& sweeps, double least_percent) {
+  std::vector<DirectionPair> pairs;
+  std::vector<bool> paired(sweeps.size(), false);
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    for (std::size_t j = i + 1; j < sweeps.size() && !paired[i]; ++j) {
+      if (paired[j] || !AreOpposite(sweeps[i], sweeps[j])) continue;
+      paired[i] = paired[j] = true;
+      const bool first = sweeps[i].direction == ScanDirection::kForward;
+      const std::size_t forward = first ? i : j, reverse = first ? j : i;
+      DirectionPair pair = CompareDirections(sweeps[forward], sweeps[reverse], least_percent);
+      pair.forward = static_cast<int>(forward);
+      pair.reverse = static_cast<int>(reverse);
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,187 @@
+#include "lyrefit/devices/data_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/model/coefficients.h"
+#include "lyrefit/curve/data_sheet_values.h"
+#include "lyrefit/devices/family_of_sheet.h"
+#include "lyrefit/family/key_point_curve.h"
+#include "lyrefit/family/key_point_solver.h"
+#include "lyrefit/model/model_points.h"
+#include "lyrefit/base/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kSolvedValues = 5;  // alpha_sc is copied from the sheet, not solved for
+constexpr std::size_t kRangeOfIdeality = 2;
+constexpr double kLowestUsualIdeality = 0.5;
+constexpr double kHighestUsualIdeality = 2.5;
+
+// Adds the printed values beside the values of the fitted device.
+void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
+  const auto points = [&](double temperature_K) {
+    const TranslatedDevice at =
+        TranslateTo(fit->translation, fit->shared, kReferenceIrradiance_W_m2, temperature_K);
+    return ModelKeyPoints(at.device, at.parameters.data());
+  };
+  const KeyPoints now = points(kReferenceTemperature_K);
+  const KeyPoints warm = points(kReferenceTemperature_K + kVocStep_K);
+  const TemperatureCoefficients slopes = CoefficientsAtReference(fit->translation, fit->shared);
+  DataSheetValues given;
+  given.short_circuit_current_A = now.short_circuit_current_A;
+  given.open_circuit_voltage_V = now.open_circuit_voltage_V;
+  given.max_power_current_A = now.max_power_current_A;
+  given.max_power_voltage_V = now.max_power_voltage_V;
+  given.beta_oc_V_K = (warm.open_circuit_voltage_V - now.open_circuit_voltage_V) / kVocStep_K;
+  given.alpha_sc_A_K = slopes.alpha_sc_A_K;
+  for (const DataSheetRow& row : kDataSheetRows) {
+    fit->checks.push_back({row.name, row.unit, sheet.values.*row.value, given.*row.value});
+  }
+  for (int k = 0; k < kSolvedValues; ++k) {
+    const DataSheetCheck& check = fit->checks[k];
+    fit->largest_relative_error =
+        std::max(fit->largest_relative_error, std::fabs(check.given / check.asked - 1));
+  }
+  if (sheet.gamma_pmp_percent_K) {
+    fit->checks.push_back(
+        {"gamma_pmp", "%/K", *sheet.gamma_pmp_percent_K, slopes.gamma_pmp_percent_K});
+  }
+}
+
+// Solves again at every corner of the values' rounding intervals. Returns false if no device has
+// the values of some corner; the nearest device is then used.
+bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit) {
+  const Translation& at = fit->translation;
+  std::vector<DataSheetValues> corners = {sheet.values};
+  for (const DataSheetRow& row : kDataSheetRows) {
+    const double half = sheet.half_unit.*row.value;
+    if (half == 0) continue;
+    const std::size_t count = corners.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      corners.push_back(corners[k]);
+      corners[k].*row.value -= half;
+      corners.back().*row.value += half;
+    }
+  }
+  if (corners.size() == 1) return true;
+  std::vector<std::vector<double>> solutions = {fit->shared};
+  bool all = true;
+  for (const DataSheetValues& corner : corners) {
+    const bool possible = CheckDataSheetPoints(corner).has_value();
+    const auto solution =
+        possible ? SolveKeyPoints(corner, sheet.cells_in_series, constants) : std::nullopt;
+    all = all && solution && solution->border == Border::kNone;
+    if (solution) solutions.push_back(SharedOf(at, solution->device, corner.alpha_sc_A_K));
+  }
+  for (const int k :
+       {at.photocurrent, at.saturation_current, at.n, at.resistance_series, at.resistance_shunt}) {
+    DataSheetRange range{at.parameters[k].name, fit->shared[k], fit->shared[k]};
+    for (const std::vector<double>& shared : solutions) {
+      range.low = std::min(range.low, shared[k]);
+      range.high = std::max(range.high, shared[k]);
+    }
+    fit->ranges.push_back(range);
+  }
+  return all;
+}
+
+void WarnOfTheSolution(const KeyPointSolution& solution, DataSheetFit* fit) {
+  const DataSheetCheck& beta = fit->checks[kSolvedValues - 1];
+  const char* reason = "";
+  if (solution.border == Border::kNoSeriesResistance)
+    reason = "Rs would be negative and is set to 0";
+  if (solution.border == Border::kPerfectShunt)
+    reason = "Rsh would be negative and is set infinite";
+  if (solution.border == Border::kIdeality) reason = "no ideality of the diode gives that beta_oc";
+  if (solution.border != Border::kNone) {
+    fit->warnings.push_back(fmt::format(
+        "no physical single diode has all these values: {}; the curve at 25 C is kept, and beta_oc "
+        "comes out as {:.4g} V/K instead of {:.4g}",
+        reason, beta.given, beta.asked));
+  }
+  if (solution.solutions > 1) {
+    fit->warnings.push_back(
+        fmt::format("{} devices have all these values: the one with n closest to 1.2 was taken",
+                    solution.solutions));
+  }
+  if (solution.device.n < kLowestUsualIdeality || solution.device.n > kHighestUsualIdeality) {
+    fit->warnings.push_back(fmt::format(
+        "n = {:.3g} is far from that of any diode: is {} the number of cells in series?",
+        solution.device.n, fit->translation.spec.cells_in_series));
+  }
+}
+
+void WarnOfTheRounding(bool all_ends, DataSheetFit* fit) {
+  fit->warnings.push_back(
+      "a data sheet's five numbers determine the five parameters exactly: nothing is left to check "
+      "them, fit a measured curve for that");
+  if (!all_ends) {
+    fit->warnings.push_back(
+        "within the rounding of the data sheet there are values that no single diode has");
+  }
+  if (fit->ranges.empty()) {
+    fit->warnings.push_back(
+        "Rs and Rsh move widely with the rounding of the data sheet: state the rounding of its "
+        "values to see how far");
+    return;
+  }
+  const DataSheetRange& rs = fit->ranges[3];
+  const DataSheetRange& rsh = fit->ranges[4];
+  fit->warnings.push_back(fmt::format(
+      "the rounding of the data sheet alone moves Rs from {:.4g} to {:.4g} ohm and Rsh from {:.4g} "
+      "to {:.4g} ohm",
+      rs.low, rs.high, rsh.low, rsh.high));
+}
+
+}  // namespace
+
+Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole) {
+  const bool percent = whole != 0 && !text.empty() && text.back() == '%';
+  const std::string number = percent ? text.substr(0, text.size() - 1) : text;
+  const std::optional<double> value = ParseNumber(number);
+  if (!value || !std::isfinite(*value)) {
+    return Fail(fmt::format("expected a number{}, found '{}'",
+                            whole != 0 ? " per kelvin, or in percent such as 0.05%" : "", text));
+  }
+  const double unit = percent ? whole / 100 : 1;
+  return PrintedValue{*value * unit, HalfUnit(number) * std::fabs(unit)};
+}
+
+std::vector<double> SharedOf(const DataSheetFit& fit, const DataSheetMember& member) {
+  return SharedOf(fit.translation, DeviceOf(member), fit.shared[fit.translation.alpha_sc]);
+}
+
+Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constants) {
+  TRY(CheckDataSheet(sheet));
+  TranslationSpec spec;
+  spec.cells_in_series = sheet.cells_in_series;
+  spec.constants = constants;
+  TRY(Translation translation, MakeTranslation(spec));
+  const auto solution = SolveKeyPoints(sheet.values, sheet.cells_in_series, constants);
+  if (!solution) {
+    const auto family = FindDataSheetFamily(sheet, constants);
+    return family ? Fail(fmt::format("no single diode in {} cells has a curve through these points",
+                                     sheet.cells_in_series))
+                  : tl::unexpected<Error>(family.error());
+  }
+  DataSheetFit fit;
+  fit.translation = std::move(translation);
+  fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K);
+  AddChecks(sheet, &fit);
+  WarnOfTheSolution(*solution, &fit);
+  const bool all_corners = AddRanges(sheet, constants, &fit);
+  WarnOfTheRounding(all_corners, &fit);
+  const double n = solution->device.n;
+  const double low = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].low;
+  const double high = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].high;
+  TRY(fit.family, FamilyOfSheet(sheet, constants, solution->device, low, high));
+  return fit;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,255 @@
+#include "lyrefit/devices/describe_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lyrefit/devices/compare_stated.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/dark.h"
+#include "lyrefit/curve/sweep_order.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::size_t kFewestReadings = 5;
+
+// Number of the sweep of each reading.
+std::vector<int> SweepNumbers(const IvCurve& curve) {
+  if (!curve.sweep.empty()) return curve.sweep;
+  std::vector<int> numbers(curve.size(), 0);
+  for (const int turn : FindTurns(curve.voltage_V)) {
+    for (std::size_t k = turn; turn > 0 && k < numbers.size(); ++k) ++numbers[k];
+  }
+  return numbers;
+}
+
+// The readings from `first` to before `last`.
+IvCurve PartOf(const IvCurve& curve, std::size_t first, std::size_t last) {
+  IvCurve part = curve;
+  const auto cut = [&](auto* values) {
+    if (values->size() != curve.size()) return;
+    *values = {values->begin() + static_cast<std::ptrdiff_t>(first),
+               values->begin() + static_cast<std::ptrdiff_t>(last)};
+  };
+  cut(&part.voltage_V);
+  cut(&part.current_A);
+  cut(&part.sigma_A);
+  cut(&part.time_s);
+  cut(&part.irradiance_W_m2);
+  cut(&part.temperature_C);
+  part.sweep.clear();
+  return part;
+}
+
+// Light of the sweep: the mean of its readings where they state it.
+void TakeLight(IvCurve* curve) {
+  const std::vector<double>& light = curve->irradiance_W_m2;
+  if (light.empty()) return;
+  curve->conditions.irradiance_W_m2 = std::max(
+      0.0, std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(light.size()));
+  curve->irradiance_known = true;
+  curve->irradiance_W_m2.clear();
+}
+
+// Whether results are stated for the second sweep as well.
+bool AreOfEach(const std::vector<StatedResult>& stated) {
+  return std::any_of(stated.begin(), stated.end(), [](const auto& one) { return one.sweep > 0; });
+}
+
+// Leaves out three and more readings beyond Voc whose currents are equal within 2e-4 of Isc, at the
+// smallest current: the source's limit, where voltages and currents pile up. Returns their number.
+int LeaveOutEqualEnd(IvCurve* curve) {
+  constexpr double kEqual = 2e-4;
+  constexpr int kFewest = 3;
+  if (curve->suns_voc_A || IsDark(*curve)) return 0;
+  const KeyPoints key = FindKeyPoints(curve->voltage_V, curve->current_A);
+  const double least = *std::min_element(curve->current_A.begin(), curve->current_A.end());
+  const double reach = least + kEqual * key.short_circuit_current_A;
+  const auto at_limit = [&](std::size_t k) {
+    return curve->current_A[k] <= reach && curve->voltage_V[k] > key.open_circuit_voltage_V;
+  };
+  IvCurve kept = *curve;
+  for (auto* values :
+       {&kept.voltage_V, &kept.current_A, &kept.sigma_A, &kept.time_s, &kept.temperature_C}) {
+    if (values->size() != curve->size()) continue;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < curve->size(); ++k) {
+      if (!at_limit(k)) (*values)[count++] = (*values)[k];
+    }
+    values->resize(count);
+  }
+  const int left_out = static_cast<int>(curve->size() - kept.size());
+  if (left_out < kFewest || kept.size() < kFewestReadings) return 0;
+  *curve = std::move(kept);
+  return left_out;
+}
+
+std::string NameOf(const CellSweep& sweep) {
+  if (sweep.kind == SweepKind::kSunsVoc) return "Suns-Voc";
+  const std::string direction = ToText(sweep.direction);
+  if (sweep.kind == SweepKind::kDark) return direction + ", dark";
+  return fmt::format("{}, {:.4g} W/m2{}", direction, sweep.irradiance_W_m2,
+                     sweep.irradiance_known ? "" : " (assumed)");
+}
+
+// The first finding on the magnitude of voltage and current, the other column, sign or area; empty:
+// none, or the readings are to be taken as they are. The number of cells is no matter of these.
+std::string DoubtOf(IvCurve curve, double area_cm2) {
+  if (curve.as_is) return "";
+  if (std::isfinite(area_cm2)) curve.notes.area_cm2 = area_cm2;
+  for (const ReadingFinding& finding : CheckReadings(curve)) {
+    for (const char* const id : {"sign", "exchanged", "unit", "current"}) {
+      if (finding.id == id) return finding.sentence;
+    }
+  }
+  return "";
+}
+
+CellSweep Describe(const IvCurve& curve, double area_cm2) {
+  CellSweep sweep;
+  sweep.file = curve.source;
+  sweep.kind = curve.suns_voc_A ? SweepKind::kSunsVoc
+               : IsDark(curve)  ? SweepKind::kDark
+                                : SweepKind::kLit;
+  sweep.direction = Rises(curve.voltage_V) ? ScanDirection::kForward : ScanDirection::kReverse;
+  sweep.irradiance_W_m2 = sweep.kind == SweepKind::kDark ? 0 : curve.conditions.irradiance_W_m2;
+  sweep.irradiance_known = curve.irradiance_known || sweep.kind == SweepKind::kDark;
+  sweep.suns_voc_A = curve.suns_voc_A.value_or(kUnknown);
+  const Line line = MakeLine(curve.voltage_V, curve.current_A);
+  sweep.voltage_V = line.x;
+  sweep.current_A = line.y;
+  sweep.noise_A = NoiseFromDifferences(line.x, line.y);
+  sweep.name = NameOf(sweep);
+  const KeyPoints unknown = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
+  if (sweep.kind != SweepKind::kLit) return sweep;
+  const KeyPoints& key = sweep.key;
+  sweep.doubt = DoubtOf(curve, area_cm2);
+  if (sweep.doubt.empty()) {
+    constexpr double kSquareMetre_cm2 = 1e4;
+    sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
+    sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+  }
+  sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
+  sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);
+  sweep.least_slope_ratio = LeastSlopeRatio(line, key, sweep.noise_A);
+  return sweep;
+}
+
+void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const FitReport& fit,
+                      std::vector<std::string>* reasons) {
+  constexpr double kSShape = 0.9, kMisfit = 0.01;
+  if (!fit.usable) {
+    reasons->push_back(fit.not_usable_because);
+    return;
+  }
+  const double isc = sweep.key.short_circuit_current_A;
+  if (sweep.least_slope_ratio < kSShape) {
+    reasons->push_back(
+        sweep.least_slope_ratio < 0
+            ? std::string("the current rises with the voltage: the light or the meter changed")
+            : fmt::format("S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of "
+                          "what it was at a lower voltage",
+                          100 * sweep.least_slope_ratio));
+  }
+  if (fit.rmse.refined.solved_current_A > kMisfit * isc) {
+    reasons->push_back(fmt::format("the single diode misses the curve by {:.1f} % of Isc (rms)",
+                                   100 * fit.rmse.refined.solved_current_A / isc));
+  }
+  for (const Estimate& e : fit.estimates) {
+    if (e.info.symbol[0] == 'n' && e.refined > options.ideal_n) {
+      reasons->push_back(
+          fmt::format("n = {:.3g} of the fit is above {:.3g}: collection that depends on voltage, "
+                      "ions, a barrier or a second junction is in it",
+                      e.refined, options.ideal_n));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
+  std::vector<MeasuredSweep> found;
+  const std::vector<int> numbers = SweepNumbers(curve);
+  for (std::size_t first = 0, place = 0; first < curve.size(); ++place) {
+    std::size_t last = first;
+    while (last < curve.size() && numbers[last] == numbers[first]) ++last;
+    MeasuredSweep measured = {PartOf(curve, first, last), {}};
+    TakeLight(&measured.curve);
+    if (last - first >= kFewestReadings) {
+      const int limited = LeaveOutEqualEnd(&measured.curve);
+      measured.sweep = Describe(measured.curve, area_cm2);
+      measured.sweep.limited = limited;
+      std::vector<StatedResult> own;
+      for (const StatedResult& one : curve.stated) {
+        if (one.sweep == static_cast<int>(place)) own.push_back(one);
+      }
+      const bool one_value_for_all = place == 0 && last < curve.size() && !AreOfEach(curve.stated);
+      if (!one_value_for_all) measured.sweep.stated = CompareStated(own, measured.sweep, area_cm2);
+      found.push_back(std::move(measured));
+    }
+    first = last;
+  }
+  return found;
+}
+
+double ResistanceAtIsc(const Line& line, const KeyPoints& key) {
+  const auto [first, last] = NearZero(line.x, key.open_circuit_voltage_V / 10);
+  const double slope = Regress(line.x, line.y, first, last).slope;
+  return slope < 0 ? -1 / slope : kUnknown;
+}
+
+double ResistanceAtVoc(const Line& line, const KeyPoints& key) {
+  const auto [first, last] = NearZero(line.y, key.short_circuit_current_A / 10);
+  const double slope = Regress(line.y, line.x, first, last).slope;
+  return slope < 0 ? -slope : kUnknown;
+}
+
+double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A) {
+  constexpr std::size_t kReadings = 5;
+  constexpr double kFrom = 0.3, kTo = 1.1, kErrors = 5, kWindow = 0.08;
+  const double voc = key.open_circuit_voltage_V;
+  double ratio = 1, steepest = 0, its_error = 0;
+  for (std::size_t k = 0; k + kReadings <= line.x.size(); ++k) {
+    std::size_t last = k + kReadings;
+    while (last < line.x.size() && line.x[last] - line.x[k] <= kWindow * voc) ++last;
+    const Regression fit = Regress(line.x, line.y, k, last);
+    if (!(fit.mean_x >= kFrom * voc && fit.mean_x <= kTo * voc)) continue;
+    double xx = 0;
+    for (std::size_t i = k; i < last; ++i) xx += std::pow(line.x[i] - fit.mean_x, 2);
+    const double slope = -fit.slope;
+    const double error = std::max(noise_A / std::sqrt(xx), fit.slope_error);
+    if (slope < steepest && steepest - slope > kErrors * std::hypot(error, its_error)) {
+      ratio = std::min(ratio, slope / steepest);
+    }
+    if (slope <= steepest) continue;
+    steepest = slope;
+    its_error = error;
+  }
+  return ratio;
+}
+
+void FitCellSweep(const CellOptions& options, const Observer& observer, MeasuredSweep* measured) {
+  CellSweep& sweep = measured->sweep;
+  if (sweep.kind == SweepKind::kSunsVoc) return;
+  FitOptions how;
+  how.constants = options.constants;
+  how.random_baseline = false;
+  how.threads = options.threads;
+  how.bounds.overrides["n"] = {1, options.largest_n};
+  if (sweep.kind == SweepKind::kDark) how.fixed["Iph"] = 0;
+  auto fit = Fit(measured->curve, how, observer);
+  if (!fit) {
+    sweep.no_fit_because = fit.error().message;
+    return;
+  }
+  VoidWhereNoDiode(options, sweep, *fit, &sweep.void_because);
+  sweep.fit = std::move(*fit);
+}
+
+}  // namespace lyrefit

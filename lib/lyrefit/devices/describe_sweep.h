@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/base/observer.h"
+#include "lyrefit/devices/cell_options.h"
+#include "lyrefit/devices/cell_report.h"
+#include "lyrefit/devices/line.h"
+#include "lyrefit/curve/iv_curve.h"
+
+namespace lyrefit {
+
+// The readings of a sweep as a line.
+inline Line LineOf(const CellSweep& sweep) { return {sweep.voltage_V, sweep.current_A}; }
+
+// A monotone stretch of a measured curve, and its figures without a fit.
+struct MeasuredSweep {
+  IvCurve curve;  // of this sweep alone
+  CellSweep sweep;
+};
+
+// The sweeps of a curve: by their numbers, else by the turns of the voltage. A stretch of fewer
+// than five readings is left out. `area_cm2` may be NaN.
+std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2);
+
+// Resistances -dV/dI at 0 V and at Voc. The first is from the line of least squares through the
+// readings with |V| <= Voc / 10, the second from that through the readings with |I| <= Isc / 10;
+// each through at least the three nearest readings. NaN if the current does not fall there.
+double ResistanceAtIsc(const Line& line, const KeyPoints& key);
+double ResistanceAtVoc(const Line& line, const KeyPoints& key);
+
+// See CellSweep::least_slope_ratio. Slopes are of the readings within 8 % of Voc, at least five; a
+// ratio counts if both slopes differ by five times the error of their difference, by `noise_A` or by
+// the scatter around the line.
+double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A);
+
+// Fits the single-diode model to a sweep. In the dark, the photocurrent is fixed at 0.
+void FitCellSweep(const CellOptions& options, const Observer& observer, MeasuredSweep* measured);
+
+}  // namespace lyrefit

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/stream/cells.h"
+#include "lyrefit/curve/dark.h"
+#include "lyrefit/curve/key_points.h"
+
+namespace lyrefit {
+namespace {
+
+// Short-circuit current at one sun of the brightest lit curve whose light is stated.
+std::optional<double> CurrentAtOneSun(const CurveSet& cell) {
+  constexpr double kSun_W_m2 = 1000;
+  double brightest = 0;
+  std::optional<double> isc;
+  for (const IvCurve& curve : cell.curves) {
+    const double light = curve.conditions.irradiance_W_m2;
+    if (curve.suns_voc_A || IsDark(curve) || !curve.irradiance_known || !(light > brightest)) {
+      continue;
+    }
+    const double found = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
+    if (!(found > 0)) continue;
+    brightest = light;
+    isc = found * kSun_W_m2 / light;
+  }
+  return isc;
+}
+
+// The curves of the cell that `options.column` names, lit and dark, in a file of several cells.
+// nullopt: it names none.
+std::optional<CurveSet> NamedCell(const std::string& file, ReadOptions options) {
+  const std::string wanted = std::move(options.column);
+  options.column.clear();
+  auto set = ReadMeasurement(file, options);
+  if (!set || !HoldsSeveralCells(*set, UnstatedDark::kDark)) return std::nullopt;
+  std::vector<CellCurves> cells = SplitIntoCells(*set);
+  const auto found = std::find_if(cells.begin(), cells.end(),
+                                  [&](const CellCurves& cell) { return cell.name == wanted; });
+  if (found == cells.end()) return std::nullopt;
+  set->name += " " + found->name;
+  set->curves = std::move(found->curves);
+  set->rejected.clear();
+  return std::move(*set);
+}
+
+Expected<CurveSet> ReadFile(const std::string& file, const ReadOptions& options) {
+  if (!options.column.empty()) {
+    if (auto cell = NamedCell(file, options)) return std::move(*cell);
+  }
+  return ReadMeasurement(file, options);
+}
+
+void Append(CurveSet more, CurveSet* all) {
+  all->name += (all->name.empty() ? "" : " + ") + more.name;
+  all->source += (all->source.empty() ? "" : ", ") + more.source;
+  for (IvCurve& curve : more.curves) all->curves.push_back(std::move(curve));
+  for (RejectedCurve& bad : more.rejected) all->rejected.push_back(std::move(bad));
+  for (Assumption& one : more.assumptions) all->assumptions.push_back(std::move(one));
+}
+
+}  // namespace
+
+Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options) {
+  CurveSet all;
+  std::vector<std::string> later;
+  for (const std::string& file : files) {
+    auto set = ReadFile(file, options);
+    if (set) {
+      Append(std::move(*set), &all);
+    } else {
+      later.push_back(file);
+    }
+  }
+  ReadOptions with_isc = options;
+  if (!with_isc.isc_A) with_isc.isc_A = CurrentAtOneSun(all);
+  for (const std::string& file : later) {
+    TRY(CurveSet set, ReadFile(file, with_isc));
+    Append(std::move(set), &all);
+  }
+  for (IvCurve& curve : all.curves) {
+    if (options.area_cm2) curve.notes.area_cm2 = options.area_cm2;
+  }
+  return all;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,189 @@
+#include "lyrefit/devices/series_resistance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/devices/describe_sweep.h"
+#include "lyrefit/devices/ideality_over_light.h"
+
+namespace lyrefit {
+namespace {
+
+// Voltage at which `isc_A` (0 in the dark) minus the current is `lost_A`, linear in the logarithm
+// of that difference between readings; NaN if there is none.
+double VoltageAt(const CellSweep& sweep, double isc_A, double lost_A) {
+  for (std::size_t k = 1; k < sweep.voltage_V.size(); ++k) {
+    const double below = isc_A - sweep.current_A[k - 1], above = isc_A - sweep.current_A[k];
+    if (!(below > 0 && below <= lost_A && above > lost_A)) continue;
+    const double part = std::log(lost_A / below) / std::log(above / below);
+    return sweep.voltage_V[k - 1] + part * (sweep.voltage_V[k] - sweep.voltage_V[k - 1]);
+  }
+  return kUnknown;
+}
+
+// The reading of the largest power: as good as the power point for a resistance, and measured.
+struct PowerReading {
+  double voltage_V = kUnknown;
+  double current_A = kUnknown;
+};
+
+PowerReading PowerReadingOf(const CellSweep& sweep) {
+  PowerReading best = {0, 0};
+  for (std::size_t k = 0; k < sweep.voltage_V.size(); ++k) {
+    const double power = sweep.voltage_V[k] * sweep.current_A[k];
+    if (power > best.voltage_V * best.current_A) best = {sweep.voltage_V[k], sweep.current_A[k]};
+  }
+  return best;
+}
+
+// |dI/dV| between the readings around a voltage; 0 outside them.
+double SlopeAt(const CellSweep& sweep, double voltage_V) {
+  for (std::size_t k = 1; k < sweep.voltage_V.size(); ++k) {
+    const double below = sweep.voltage_V[k - 1], above = sweep.voltage_V[k];
+    if (voltage_V < below || voltage_V > above) continue;
+    return std::fabs((sweep.current_A[k] - sweep.current_A[k - 1]) / (above - below));
+  }
+  return 0;
+}
+
+// Sets the interval of a value with this standard error. A resistance whose whole interval lies
+// below 0 is void: `because` says what is in it instead.
+void SetNoise(double error, const char* because, SeriesResistance* found) {
+  constexpr double kNormal95 = 1.959964;
+  const double value = found->ohm.value, reach = kNormal95 * std::fabs(error);
+  found->ohm.low_95 = value - reach;
+  found->ohm.high_95 = value + reach;
+  if (!(found->ohm.high_95 < 0)) return;
+  found->ohm = {};
+  found->missing = fmt::format("void: {:.3g} ohm, below 0 as no resistance is; {}", value, because);
+}
+
+}  // namespace
+
+Ranged FittedValue(const CellSweep& sweep, const std::string& symbol) {
+  if (!sweep.fit) return {};
+  const auto& estimates =
+      sweep.fit->under_errors.empty() ? sweep.fit->estimates : sweep.fit->under_errors;
+  for (const Estimate& e : estimates) {
+    if (e.info.symbol == symbol) return {e.refined, e.low_95, e.high_95};
+  }
+  return {};
+}
+
+SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& darker) {
+  SeriesResistance found;
+  found.method = fmt::format("two lights, {:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2,
+                             darker.irradiance_W_m2);
+  found.note =
+      "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's reading of most power";
+  const double isc1 = brighter.key.short_circuit_current_A;
+  const double isc2 = darker.key.short_circuit_current_A;
+  const PowerReading at = PowerReadingOf(brighter);
+  const double v2 = VoltageAt(darker, isc2, isc1 - at.current_A);
+  found.ohm.value = (v2 - at.voltage_V) / (isc1 - isc2);
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing = "the curve at less light does not reach this current: measure it further";
+    return found;
+  }
+  // Four currents, each with its noise, decide where V2 is read.
+  const double noise = std::sqrt(2.0) * std::hypot(brighter.noise_A, darker.noise_A);
+  SetNoise(noise / SlopeAt(darker, v2) / (isc1 - isc2),
+           "a light that is not as stated, or a cell that changed between the curves", &found);
+  return found;
+}
+
+SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double dark_rs_ohm) {
+  SeriesResistance found;
+  const bool own = std::isfinite(dark_rs_ohm);
+  found.method = own ? "lit against dark, Rs of the dark fit" : "lit against dark, equal Rs";
+  found.note = own ? "(V_dark(Isc - Imp) - Vmp - (Isc - Imp) Rs_dark) / Imp"
+                   : "(V_dark(Isc - Imp) - Vmp) / Isc";
+  const PowerReading at = PowerReadingOf(lit);
+  const double isc = lit.key.short_circuit_current_A, imp = at.current_A;
+  const double dark_V = VoltageAt(dark, 0, isc - imp), v = dark_V - at.voltage_V;
+  found.ohm.value = own ? (v - (isc - imp) * dark_rs_ohm) / imp : v / isc;
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing = "the dark curve does not reach the current Isc - Imp: measure it further";
+    return found;
+  }
+  const double noise = std::hypot(std::sqrt(2.0) * lit.noise_A, dark.noise_A);
+  SetNoise(noise / SlopeAt(dark, dark_V) / (own ? imp : isc),
+           "the dark current in the light is larger: the curves do not superpose", &found);
+  return found;
+}
+
+SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& points,
+                           SweepKind source) {
+  constexpr double kStep = 1e-3;
+  SeriesResistance found;
+  found.method = source == SweepKind::kSunsVoc ? "Suns-Voc against lit"
+                                               : "Voc of the light series against lit";
+  found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
+  const PowerReading at = PowerReadingOf(lit);
+  const double isc = lit.key.short_circuit_current_A, light = isc - at.current_A;
+  const double voc = VocAt(points, light);
+  found.ohm.value = (voc - at.voltage_V) / at.current_A;
+  if (!std::isfinite(found.ohm.value)) {
+    found.missing =
+        fmt::format("needs a Voc at {:.2g} % of the light of the lit curve", 100 * light / isc);
+    return found;
+  }
+  const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);
+  if (slope > 0) {
+    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / at.current_A,
+             "a shunt, collection or an n that changes with the light is in it", &found);
+  }
+  return found;
+}
+
+SeriesResistance RsFromSlope(const CellSweep& lit) {
+  SeriesResistance found;
+  found.method = "slope at Voc";
+  found.note = "-dV/dI at Voc: an upper limit, n k T / (q Isc) of the junction is in it";
+  found.ohm.value = lit.resistance_at_voc_ohm;
+  if (!std::isfinite(found.ohm.value)) found.missing = "the curve does not pass Voc";
+  return found;
+}
+
+SeriesResistance RsOfFit(const CellSweep& lit) {
+  SeriesResistance found;
+  found.method = "single-diode fit, " + lit.name;
+  found.ohm = FittedValue(lit, "Rs");
+  found.note = "95 % interval of the fit";
+  if (!lit.fit) {
+    found.missing = lit.no_fit_because.empty() ? "no fit was requested" : lit.no_fit_because;
+  } else if (!lit.diode()) {
+    found.ohm = {};
+    found.missing = "void: see the warnings";
+  }
+  return found;
+}
+
+double PseudoFillFactorOf(double isc_A, const std::vector<VocPoint>& points) {
+  const double voc = VocAt(points, isc_A);
+  if (points.size() < 2 || !std::isfinite(voc)) return kUnknown;
+  double best = kUnknown;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    // Between two points ln(light) is linear in V, and V (Isc - light) is concave.
+    const double rate = std::log(points[k].light_A / points[k - 1].light_A) /
+                        (points[k].voc_V - points[k - 1].voc_V);
+    const auto light = [&](double v) {
+      return points[k - 1].light_A * std::exp(rate * (v - points[k - 1].voc_V));
+    };
+    double low = points[k - 1].voc_V, high = std::min(points[k].voc_V, voc);
+    if (!(low < high)) continue;
+    for (int i = 0; i < 100; ++i) {
+      const double v = (low + high) / 2;
+      (isc_A - light(v) * (1 + rate * v) > 0 ? low : high) = v;
+    }
+    const double power = low * (isc_A - light(low));
+    if (!(power <= best)) best = power;
+  }
+  // A maximum at the first point lies outside the points.
+  const double first = points.front().voc_V * (isc_A - points.front().light_A);
+  return best > first ? best / (isc_A * voc) : kUnknown;
+}
+
+}  // namespace lyrefit

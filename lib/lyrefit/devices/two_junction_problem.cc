@@ -1,0 +1,273 @@
+#include "lyrefit/devices/two_junction_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lyrefit/base/numbers.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/base/number_text.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr double kMostKelvinApart = 1;
+constexpr double kLeastIdeality = 0.5;
+constexpr double kMostIdeality = 6;
+constexpr double kLeastSaturation = 1e-80;  // of the largest current
+constexpr double kMostSaturation = 0.1;     // of the largest current
+constexpr double kMostPhotocurrent = 3;     // of the largest short-circuit current at full light
+constexpr double kMostExcess = 2;
+constexpr double kMostSeries = 0.5;   // of Voc / Isc
+constexpr double kLeastShunt = 0.05;  // of Voc / Isc
+constexpr double kNear = 1e-12;       // relative difference of equal lights
+
+bool Same(double a, double b) { return std::fabs(a - b) <= kNear * std::fabs(a); }
+
+Expected<StatedLight> LightOf(const IvCurve& curve, const TwoJunctionOptions& options) {
+  StatedLight light;
+  light.top = curve.notes.light_top.value_or(kUnknown);
+  light.bottom = curve.notes.light_bottom.value_or(kUnknown);
+  const auto stated = options.lights.find(curve.name);
+  if (stated != options.lights.end()) light = stated->second;
+  for (const double share : {light.top, light.bottom}) {
+    if (std::isnan(share) || (share >= 0 && std::isfinite(share))) continue;
+    return Fail(
+        fmt::format("curve {}: expected a light of at least 0, found {:g}", curve.name, share));
+  }
+  if (light.top == 0 && light.bottom == 0) {
+    return Fail("curve " + curve.name + ": at least one junction must be lit");
+  }
+  return light;
+}
+
+Expected<void> CheckCurves(const CurveSet& set, const TwoJunctionOptions& options) {
+  if (set.curves.empty()) return Fail("expected at least one curve");
+  const double first_K = set.curves.front().conditions.cell_temperature_K;
+  for (const IvCurve& curve : set.curves) {
+    TRY(Validate(curve));
+    const double kelvin = curve.conditions.cell_temperature_K;
+    if (std::fabs(kelvin - first_K) > kMostKelvinApart) {
+      return Fail(fmt::format(
+          "two junctions are fitted to curves of one temperature: {} has "
+          "{:.4g} C, {} has {:.4g} C",
+          set.curves.front().name, first_K - kZeroCelsius_K, curve.name, kelvin - kZeroCelsius_K));
+    }
+  }
+  for (const auto& [id, light] : options.lights) {
+    const bool there = std::any_of(set.curves.begin(), set.curves.end(),
+                                   [id = id](const IvCurve& curve) { return curve.name == id; });
+    if (there) continue;
+    std::string names;
+    for (const IvCurve& curve : set.curves) names += (names.empty() ? "" : ", ") + curve.name;
+    return Fail(fmt::format("light: there is no curve {}, expected one of {}", id, names));
+  }
+  return {};
+}
+
+Expected<void> AddCurves(const CurveSet& set, const TwoJunctionOptions& options,
+                         PreparedTwoJunctions* prepared) {
+  bool any = false;
+  for (const IvCurve& curve : set.curves) {
+    TRY(const StatedLight light, LightOf(curve, options));
+    any = any || !std::isnan(light.top) || !std::isnan(light.bottom);
+    prepared->light.push_back(light);
+    const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
+    if (!(points.short_circuit_current_A > 0)) {
+      return Fail("curve " + curve.name +
+                  ": two junctions are fitted to lit curves that pass short circuit");
+    }
+    prepared->isc_A.push_back(points.short_circuit_current_A);
+    const double highest = *std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
+    const double voc =
+        std::isnan(points.open_circuit_voltage_V) ? highest : points.open_circuit_voltage_V;
+    prepared->voc_V = std::max(prepared->voc_V, voc);
+    prepared->problem.curves.push_back({curve.voltage_V, curve.current_A, {}});
+    prepared->readings += static_cast<int>(curve.size());
+  }
+  // One curve is its own reference.
+  if (!any || set.curves.size() == 1) prepared->light.front() = {1, 1};
+  return {};
+}
+
+// Whether the exchange of both junctions leaves the curves as they are: the shares of their lights
+// are in one ratio everywhere.
+bool AreInterchangeable(const std::vector<StatedLight>& lights) {
+  double ratio = kUnknown;
+  for (const StatedLight& light : lights) {
+    if (std::isnan(light.top) && std::isnan(light.bottom)) continue;
+    const double own = light.bottom / light.top;
+    if (!std::isfinite(own) || (!std::isnan(ratio) && !Same(own, ratio))) return false;
+    ratio = own;
+  }
+  return true;
+}
+
+void AddParameter(ParameterInfo info, double lower, double upper, TwoJunctionProblem* problem) {
+  problem->parameters.push_back(std::move(info));
+  problem->lower.push_back(lower);
+  problem->upper.push_back(upper);
+}
+
+// Largest short-circuit current of the curves that state the light of junction `j`, at full light.
+double FullCurrent(const PreparedTwoJunctions& prepared, int j) {
+  double largest = 0;
+  for (std::size_t c = 0; c < prepared.light.size(); ++c) {
+    const double share = j == 0 ? prepared.light[c].top : prepared.light[c].bottom;
+    if (share > 0) largest = std::max(largest, prepared.isc_A[c] / share);
+  }
+  return largest;
+}
+
+Expected<void> AddShared(PreparedTwoJunctions* prepared) {
+  TwoJunctionProblem* const problem = &prepared->problem;
+  const double current = problem->current_scale_A;
+  const double resistance = prepared->voc_V / current;
+  const double infinite = kInfinity;
+  const std::vector<ParameterInfo> infos = TwoJunctionInfos();
+  for (int i = 0; i < kTwoJunctionParameters; ++i) {
+    const ParameterInfo& info = infos[i];
+    if (info.kind == ParameterKind::kPhotocurrent) {
+      const int j = i == JunctionPhotocurrent(0) ? 0 : 1;
+      if (problem->ordered && j == 1) {
+        AddParameter({"x2", "photocurrent_excess_2", "",
+                      "excess of the photocurrent of junction 2: Iph2 = Iph1 (1 + x2)",
+                      ParameterKind::kPlain, 0.1},
+                     0, kMostExcess, problem);
+        continue;
+      }
+      const double full = FullCurrent(*prepared, j);
+      if (!(full > 0)) {
+        return Fail(
+            fmt::format("no curve states the light of junction {}: state it for the curve "
+                        "that is the reference, {}=1:1",
+                        j + 1, "CURVE"));
+      }
+      AddParameter(info, 0, kMostPhotocurrent * full, problem);
+    } else if (info.kind == ParameterKind::kSaturation) {
+      AddParameter(info, kLeastSaturation * current, kMostSaturation * current, problem);
+    } else if (info.kind == ParameterKind::kIdeality) {
+      AddParameter(info, kLeastIdeality, kMostIdeality, problem);
+    } else if (info.kind == ParameterKind::kShunt) {
+      AddParameter(info, kLeastShunt * resistance, infinite, problem);
+    } else {
+      AddParameter(info, 0, kMostSeries * resistance, problem);
+    }
+  }
+  return {};
+}
+
+// Positions of the photocurrents; those of unknown lights become parameters of their own.
+void AddLights(const CurveSet& set, PreparedTwoJunctions* prepared) {
+  TwoJunctionProblem* const problem = &prepared->problem;
+  for (std::size_t c = 0; c < set.curves.size(); ++c) {
+    for (int j = 0; j < 2; ++j) {
+      const double share = j == 0 ? prepared->light[c].top : prepared->light[c].bottom;
+      JunctionLight& light = problem->curves[c].light[j];
+      light = {JunctionPhotocurrent(j), share};
+      if (!std::isnan(share)) continue;
+      light = {static_cast<int>(problem->parameters.size()), 1};
+      ParameterInfo info = TwoJunctionInfos()[JunctionPhotocurrent(j)];
+      const std::string& id = set.curves[c].name;
+      info.symbol += "[" + id + "]";
+      info.name += "[" + id + "]";
+      info.doc += " in curve " + id;
+      AddParameter(std::move(info), 0, kMostPhotocurrent * prepared->isc_A[c], problem);
+    }
+  }
+}
+
+Expected<int> IndexOf(const TwoJunctionProblem& problem, const std::string& name) {
+  if (const auto found = FindParameter(problem.parameters, name)) return *found;
+  std::string symbols;
+  for (const ParameterInfo& info : problem.parameters) {
+    symbols += (symbols.empty() ? "" : ", ") + info.symbol;
+  }
+  return Fail(fmt::format("the model has no parameter {}: expected one of {}", name, symbols));
+}
+
+Expected<void> ApplyRanges(const TwoJunctionOptions& options, TwoJunctionProblem* problem) {
+  for (const auto& [name, range] : options.bounds) {
+    TRY(const int i, IndexOf(*problem, name));
+    if (!(range.first <= range.second) || !std::isfinite(range.first)) {
+      return Fail(fmt::format("bound {}: expected LOWER:UPPER in order, found {:g}:{:g}", name,
+                              range.first, range.second));
+    }
+    problem->lower[i] = range.first;
+    problem->upper[i] = range.second;
+  }
+  for (const auto& [name, value] : options.fixed) {
+    TRY(const int i, IndexOf(*problem, name));
+    problem->lower[i] = problem->upper[i] = value;
+  }
+  for (std::size_t i = 0; i < problem->parameters.size(); ++i) {
+    const ParameterInfo& info = problem->parameters[i];
+    const bool positive = info.kind == ParameterKind::kSaturation ||
+                          info.kind == ParameterKind::kIdeality ||
+                          info.kind == ParameterKind::kShunt;
+    if (positive ? problem->lower[i] > 0 : problem->lower[i] >= 0) continue;
+    return Fail(fmt::format("{}: expected a value {}, found {:g}", info.symbol,
+                            positive ? "above 0" : "of at least 0", problem->lower[i]));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::pair<std::string, StatedLight>> ReadStatedLight(const std::string& text) {
+  const auto misread = [&] {
+    return Fail("expected CURVE=TOP:BOTTOM such as red=1:0.9 or red=1:?, found '" + text + "'");
+  };
+  const std::size_t equals = text.rfind('='), colon = text.rfind(':');
+  if (equals == std::string::npos || equals == 0 || colon == std::string::npos || colon < equals) {
+    return misread();
+  }
+  StatedLight light;
+  double* const shares[] = {&light.top, &light.bottom};
+  const std::string parts[] = {text.substr(equals + 1, colon - equals - 1), text.substr(colon + 1)};
+  for (int j = 0; j < 2; ++j) {
+    if (parts[j] == "?") continue;
+    const std::optional<double> share = ParseNumber(parts[j]);
+    if (!share) return misread();
+    *shares[j] = *share;
+  }
+  return std::pair(text.substr(0, equals), light);
+}
+
+std::string StatedLightText(const std::string& curve, const StatedLight& light) {
+  const auto share = [](double value) {
+    return std::isnan(value) ? std::string("?") : fmt::format("{:g}", value);
+  };
+  return fmt::format("{}={}:{}", curve, share(light.top), share(light.bottom));
+}
+
+Expected<PreparedTwoJunctions> PrepareTwoJunctions(const CurveSet& set,
+                                                   const TwoJunctionOptions& options) {
+  TRY(CheckCurves(set, options));
+  PreparedTwoJunctions prepared;
+  TRY(AddCurves(set, options, &prepared));
+  TwoJunctionProblem& problem = prepared.problem;
+  problem.thermal_voltage_V =
+      ThermalVoltage(set.curves.front().conditions.cell_temperature_K, options.constants);
+  problem.current_scale_A = *std::max_element(prepared.isc_A.begin(), prepared.isc_A.end());
+  problem.voltage_scale_V = 0.5 * prepared.voc_V;
+  problem.ordered = AreInterchangeable(prepared.light);
+  TRY(AddShared(&prepared));
+  AddLights(set, &prepared);
+  TRY(ApplyRanges(options, &problem));
+  for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
+    prepared.free_parameters += problem.lower[i] < problem.upper[i] ? 1 : 0;
+  }
+  if (prepared.readings <= prepared.free_parameters) {
+    return Fail(
+        fmt::format("{} readings fix {} parameters without a remainder: measure more "
+                    "points, or hold parameters with --fix",
+                    prepared.readings, prepared.free_parameters));
+  }
+  return prepared;
+}
+
+}  // namespace lyrefit

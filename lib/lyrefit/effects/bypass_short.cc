@@ -1,0 +1,26 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect BypassShort() {
+  Effect e;
+  e.id = "bypass_short";
+  e.title = "a shorted bypass diode";
+  e.where = Where::kDevice;
+  e.equation = "a substring gives no voltage: fewer cells than stated";
+  e.reference = "IEC TS 62446-3:2017, Annex C";
+  e.sentence = "a bypass diode leads all current around its substring";
+  e.needs = "a curve of a module of known cells, bypass diodes and temperature";
+  e.acts = "at open circuit: the share of a substring is missing";
+  e.confused_with = {"temperature_or_cells"};
+  e.separate_by = "open-circuit voltage in the dark of the junction box, substring by substring";
+  e.action = "open the junction box and test the bypass diodes";
+  e.fact_sheet = "PVFS 1-15";
+  e.is_wiring = true;
+  e.found_by = FoundBy::kValues;
+  e.why_not = NeedsModule;
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,41 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect DistributedRs() {
+  Effect e;
+  e.id = "distributed_rs";
+  e.title = "series resistance spread over the cell";
+  e.where = Where::kDevice;
+  e.equation = "two half cells, I = (F(Va) + F(Vb)) / 2, Vb = Va + R F(Vb) / 2";
+  e.reference =
+      "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
+      "IEEE Trans. Electron Devices 33, 391";
+  e.sentence =
+      "the current from far parts of the cell passes a resistance of its own: a sheet, a "
+      "broken finger";
+  e.needs = "little noise near the knee, or several irradiances";
+  e.acts = "from the knee to open circuit";
+  e.confused_with = {"rs_current", "back_contact", "transient"};
+  e.separate_by = "curves at several irradiances";
+  e.action =
+      "re-torque the connectors, or contact the cell anew, and measure again; then look for "
+      "interrupted fingers in "
+      "an electroluminescence image";
+  e.parameters = {Parameter("Rlat", "resistance_lateral", "between the halves of the cells")
+                      .Unit("ohm")
+                      .Between(0, 2)
+                      .Usual(0.1)
+                      .CurrentPower(-1)
+                      .CellsPower(1)};
+  e.cell = [](const auto* p, auto* cell) {
+    cell->parallel_halves = true;
+    cell->lateral = p[0];
+  };
+  e.why_not = NeedsLight;
+  e.probes = [](const DataTraits&) { return Strengths({0.02, 0.1}); };
+  return e;
+}
+
+}  // namespace lyrefit

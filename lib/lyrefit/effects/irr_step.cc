@@ -1,0 +1,45 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect IrradianceStep() {
+  Effect e;
+  e.id = "irr_step";
+  e.title = "step of the irradiance";
+  e.where = Where::kSweep;
+  e.equation = "Iph -> Iph (1 + s) after x0";
+  e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
+  e.sentence = "the light jumped while the curve was taken: a cloud edge, a lamp";
+  e.needs = "one sweep; times or a reference cell confirm it";
+  e.acts = "from one reading on, in the order of time";
+  e.confused_with = {"shading", "transient", "capacitance", "drift"};
+  e.separate_by =
+      "repeat the sweep: a cloud does not come back at the same voltage; a reference cell beside "
+      "the module";
+  e.action = "repeat the sweep under steady light with a reference cell beside the module";
+  e.parameters = {
+      Parameter("s", "relative_step", "jump of the light")
+          .Between(-0.8, 0.8)
+          .AboveLower()
+          .BelowUpper()
+          .Usual(0.05),
+      Parameter("x0", "step_time", "when, -1/2 .. 1/2 over the measurement")
+          .Between(-0.5, 0.5)
+          .Searched(),
+  };
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    const auto changed = conditions->irradiance * (1.0 + p[0]);
+    conditions->irradiance = Choose(ValueOf(p[1]) < reading.x, changed, conditions->irradiance);
+  };
+  e.momentary = true;
+  e.why_not = NeedsOneLitCondition;
+  e.probes = [](const DataTraits& traits) {
+    std::vector<Probe> probes;
+    for (const double x : traits.step_times) probes.push_back({0.01, x});
+    return probes;
+  };
+  return e;
+}
+
+}  // namespace lyrefit

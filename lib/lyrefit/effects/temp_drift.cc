@@ -1,0 +1,33 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect TemperatureDrift() {
+  Effect e;
+  e.id = "temp_drift";
+  e.title = "drift of the cell temperature";
+  e.where = Where::kSweep;
+  e.equation = "T -> T + r x, x = -1/2 .. 1/2 over the measurement";
+  e.reference = "IEC 60904-1:2020 (temperature stable during the sweep)";
+  e.sentence = "the cells warmed or cooled while the curve was taken";
+  e.needs = "a sweep up and down";
+  e.acts = "near open circuit, in the order of time";
+  e.confused_with = {"drift", "timing_skew", "capacitance"};
+  e.separate_by = "a sweep up and down; a shorter sweep";
+  e.action = "repeat the sweep faster, after the module has settled in the light";
+  e.parameters = {Parameter("r", "temperature_change", "warming over the measurement")
+                      .Unit("K")
+                      .Between(-10, 10)
+                      .AboveLower()
+                      .BelowUpper()
+                      .Usual(0.5)};
+  e.conditions = [](const auto* p, const auto& reading, auto* conditions) {
+    conditions->temperature_K = conditions->temperature_K + p[0] * reading.x;
+  };
+  e.why_not = NeedsOneLitCondition;
+  e.probes = [](const DataTraits&) { return Strengths({1}); };
+  return e;
+}
+
+}  // namespace lyrefit

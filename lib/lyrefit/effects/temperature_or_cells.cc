@@ -1,0 +1,26 @@
+#include "lyrefit/effects/catalogue_entries.h"
+#include "lyrefit/effects/needs.h"
+
+namespace lyrefit {
+
+Effect TemperatureOrCells() {
+  Effect e;
+  e.id = "temperature_or_cells";
+  e.title = "temperature or number of cells not as stated";
+  e.where = Where::kConditions;
+  e.equation = "n Ns T is one product: n below 1 is impossible";
+  e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
+  e.sentence =
+      "no junction has an ideality below 1: the temperature or the number of cells in series is "
+      "not what was stated";
+  e.needs = "any curve";
+  e.acts = "everywhere near open circuit";
+  e.confused_with = {"temp_offset"};
+  e.separate_by = "count the cells; a thermometer on the cell";
+  e.action = "count the cells, and read the temperature at the back of a cell";
+  e.found_by = FoundBy::kValues;
+  e.why_not = [](const DataTraits&) -> WhyNot { return {}; };
+  return e;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,215 @@
+#include "lyrefit/family/family_held_out.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/median.h"
+#include "lyrefit/base/observer.h"
+#include "lyrefit/base/parallel.h"
+#include "lyrefit/family/family_judge.h"
+#include "lyrefit/family/family_search.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/model/model_points.h"
+
+namespace lyrefit {
+namespace {
+
+// One curve (a position in the set) and its prediction error.
+struct Tested {
+  int curve = 0;
+  double points = 0;
+  RmsePair rmse;
+};
+
+bool CanBeTested(const JointCurve& curve) {
+  return std::isfinite(curve.irradiance_sd) && std::isfinite(curve.temperature_sd_K);
+}
+
+std::vector<Tested> Predict(const FamilyProblem& family, const FamilyOptions& options,
+                            const Translation& translation, const std::vector<double>& shared,
+                            const std::vector<int>& curves) {
+  std::vector<int> known;
+  for (const int c : curves) {
+    if (CanBeTested(family.curves.members[c].joint)) known.push_back(c);
+  }
+  JointProblem problem = JointProblemOn(family, options, known);
+  problem.translation = translation;
+  const JointPoint point{shared, std::vector<JointLocal>(known.size(), {0, 0})};
+  std::vector<Tested> tested;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    tested.push_back({known[k], static_cast<double>(problem.curves[k].voltage_V.size()),
+                      CurveRmse(problem, point, static_cast<int>(k))});
+  }
+  return tested;
+}
+
+// Pmp of curves that `refit` did not see, with the interval of a measurement.
+std::vector<std::pair<int, Interval>> PredictPower(const FamilyProblem& family,
+                                                   const JointProblem& problem,
+                                                   const JointEnd& refit,
+                                                   const std::vector<int>& curves) {
+  const double degrees = JointDegrees(problem, family.free_parameters, 0);
+  const double variance = refit.squares / degrees;
+  const double t = StudentT95(static_cast<int>(degrees));
+  const JointSpread spread = FindJointSpread(problem, refit, variance);
+  std::vector<std::pair<int, Interval>> predicted;
+  for (const int c : curves) {
+    const JointCurve& curve = family.curves.members[c].joint;
+    const auto power = [&](const std::vector<double>& shared) {
+      const TranslatedDevice at = TranslateTo(
+          problem.translation, shared, curve.irradiance_W_m2 + shared[problem.irradiance_offset()],
+          curve.temperature_K + shared[problem.temperature_offset()]);
+      return ModelKeyPoints(at.device, at.parameters.data()).max_power_W;
+    };
+    const Interval model =
+        DerivedInterval(spread, refit.active, problem.shared(), t, refit.point.shared, power);
+    const double own = std::sqrt(variance) / problem.key_point_scale_A *
+                       curve.key_points->error[kPmpRow] * std::fabs(model.value);
+    predicted.push_back(
+        {c, SymmetricInterval(model.value, std::hypot(model.standard_error, own), t)});
+  }
+  return predicted;
+}
+
+HeldOut Summarise(const std::vector<Tested>& tested, const CurveSet& set) {
+  HeldOut result;
+  result.curves = static_cast<int>(tested.size());
+  if (tested.empty()) return result;
+  double measured = 0, solved = 0, points = 0;
+  std::vector<double> rmse;
+  result.largest_rmse_A = -1;
+  for (const Tested& one : tested) {
+    measured += one.points * one.rmse.measured_current_A * one.rmse.measured_current_A;
+    solved += one.points * one.rmse.solved_current_A * one.rmse.solved_current_A;
+    points += one.points;
+    rmse.push_back(one.rmse.solved_current_A);
+    if (one.rmse.solved_current_A <= result.largest_rmse_A) continue;
+    result.largest_rmse_A = one.rmse.solved_current_A;
+    result.largest_id = set.curves[one.curve].name;
+  }
+  result.rmse = {std::sqrt(measured / points), std::sqrt(solved / points)};
+  result.median_rmse_A = UpperMedian(rmse);
+  result.curve_rmse_A = std::move(rmse);
+  return result;
+}
+
+// `shared` includes both sensor errors at its end.
+HeldOut TestOn(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
+               const std::vector<double>& shared, const std::vector<int>& curves) {
+  HeldOut result = Summarise(Predict(family, options, family.translation, shared, curves), set);
+  result.how = fmt::format("{} curves that were not fitted", result.curves);
+  return result;
+}
+
+// Parameters from another source include no sensor errors, which are therefore 0.
+Against TestAgainst(const CurveSet& set, const FamilyProblem& family, const FamilyOptions& options,
+                    const NamedParameters& elsewhere, const std::vector<int>& curves) {
+  std::vector<double> shared = elsewhere.shared;
+  shared.insert(shared.end(), {0, 0});  // both sensor errors
+  const bool pvsyst = elsewhere.translation.spec.law == TranslationLaw::kPvsyst;
+  Against against{elsewhere.name, pvsyst ? "PVsyst" : "De Soto", {}};
+  against.result = Summarise(Predict(family, options, elsewhere.translation, shared, curves), set);
+  return against;
+}
+
+// Cross-validation: leaves whole curves out in turn, refits the others from the joint optimum and
+// tests on the curves left out. None if the observer stopped it.
+std::optional<HeldOut> TestByFolds(const CurveSet& set, const FamilyProblem& family,
+                                   const FamilyOptions& options, const JointProblem& problem,
+                                   const JointEnd& end, const Observer& observer,
+                                   std::vector<std::pair<int, Interval>>* power_W) {
+  const std::vector<int>& fitted = family.curves.fitted;
+  const int folds = std::min(options.folds, static_cast<int>(fitted.size()));
+  std::vector<std::vector<Tested>> parts(folds);
+  std::vector<std::vector<std::pair<int, Interval>>> powers(folds);
+  const ProgressReporter progress(observer, "held out", folds);
+  ParallelFor(folds, options.threads, [&](int f) {
+    if (progress.Stopped()) return;
+    std::vector<int> kept, left;
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+      (static_cast<int>(k) % folds == f ? left : kept).push_back(fitted[k]);
+    }
+    JointProblem rest = JointProblemOn(family, options, kept);
+    rest.noise_A = problem.noise_A;
+    const JointPoint start{end.point.shared, std::vector<JointLocal>(kept.size(), {0, 0})};
+    JointOptions quick;
+    quick.function_tolerance = 1e-10;
+    quick.stop = progress.stop();
+    const JointEnd refit = RefineJointly(rest, start, quick);
+    parts[f] = Predict(family, options, family.translation, refit.point.shared, left);
+    if (family.curves.key_points) powers[f] = PredictPower(family, rest, refit, left);
+    progress.Step();
+  });
+  if (progress.Stopped()) return {};
+  std::vector<Tested> tested;
+  for (const auto& part : parts) tested.insert(tested.end(), part.begin(), part.end());
+  for (const auto& part : powers) power_W->insert(power_W->end(), part.begin(), part.end());
+  HeldOut result = Summarise(tested, set);
+  result.how = fmt::format("{} folds of whole curves", folds);
+  return result;
+}
+
+// Median RMSE of the individual fits of the curves: the floor.
+double IndividualMedian(const std::vector<FamilyCurve>& rows, const std::vector<int>& curves) {
+  std::vector<double> rmse;
+  for (const int c : curves) {
+    const double one = rows[c].individual_rmse.solved_current_A;
+    if (std::isfinite(one)) rmse.push_back(one);
+  }
+  return UpperMedian(std::move(rmse));
+}
+
+}  // namespace
+
+Expected<void> CheckAgainst(const FamilyProblem& family, const FamilyOptions& options) {
+  const int cells = family.translation.spec.cells_in_series;
+  for (const NamedParameters& other : options.against) {
+    const int found = other.translation.spec.cells_in_series;
+    if (!other.cells_stated || found == cells) continue;
+    return Fail(fmt::format("expected the cells_in_series of the set, {}, found {}", cells, found),
+                other.name);
+  }
+  return {};
+}
+
+std::optional<FamilyTests> TestFamily(const PreparedFamily& prepared, const RefinedFamily& refined,
+                                      const std::vector<FamilyCurve>& curves,
+                                      const Observer& observer) {
+  const CurveSet& set = prepared.set;
+  const FamilyOptions& options = prepared.options;
+  const FamilyProblem& family = refined.family;
+  const FamilyMembers& members = family.curves;
+  const std::vector<int>& tested = members.held_out.empty() ? members.fitted : members.held_out;
+  const std::vector<double>& shared = refined.end.point.shared;
+  FamilyTests tests;
+  HeldOut held_out;
+  if (!members.held_out.empty()) {
+    held_out = TestOn(set, family, options, shared, tested);
+    if (members.key_points) {
+      tests.held_out_power_W = PredictPower(family, refined.problem, refined.end, tested);
+    }
+  } else if (options.folds > 0 && members.fitted.size() >= 4) {
+    std::optional<HeldOut> folds = TestByFolds(set, family, options, refined.problem, refined.end,
+                                               observer, &tests.held_out_power_W);
+    if (!folds) return {};
+    held_out = std::move(*folds);
+  }
+  if (held_out.curves > 0) {
+    held_out.median_individual_rmse_A = IndividualMedian(curves, tested);
+    tests.held_out = held_out;
+  }
+  for (const NamedParameters& other : options.against) {
+    tests.against.push_back(TestAgainst(set, family, options, other, tested));
+  }
+  if (tests.against.empty() || tests.held_out) return tests;
+  tests.in_sample = TestOn(set, family, options, shared, tested);
+  tests.in_sample->how = "the curves that were fitted";
+  tests.in_sample->median_individual_rmse_A = IndividualMedian(curves, tested);
+  return tests;
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,238 @@
+#include "lyrefit/family/family_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "lyrefit/base/observer.h"
+#include "lyrefit/model/coefficients.h"
+#include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/refine/intervals.h"
+#include "lyrefit/estimate/refine/other_optima.h"
+#include "lyrefit/model/extended_set.h"
+#include "lyrefit/model/model_points.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr IntervalRules kRules = {
+    /*thorough=*/false, /*judge_open_ends=*/false, /*judge_absent_diodes=*/false,
+    "only a lower limit is known",
+    "the data do not fix it: nothing shows it, or another parameter takes its place"};
+
+KeyPoints AtReference(const Translation& translation, const std::vector<double>& shared) {
+  if (translation.extended) {
+    return ModelKeyPoints(UnderConditions(*translation.extended, 1, kReferenceTemperature_K),
+                          ExtendedParameters(translation, shared.data()).data());
+  }
+  const TranslatedDevice at =
+      TranslateTo(translation, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);
+  return ModelKeyPoints(at.device, at.parameters.data());
+}
+
+// A joint fit that is being judged, in reporting units.
+struct Judged {
+  const ReportedFit& fit;
+  const FamilyOptions& options;
+  double variance = 0;  // of the noise, at weight 1
+  double t = 2;         // Student's, for 95 %
+  JointSpread spread;
+  std::vector<FitPoint> local_optima;  // other optima that the data allow
+};
+
+// Other optima of a fit with effects whose sum of squares rises by less than t^2 variances, in
+// reporting units.
+std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const ProgressReporter& progress) {
+  progress.Begin("other optima", 0);
+  JointOptions how;
+  how.stop = progress.stop();
+  const EffectSpan effects = SpanOf(fit.family.translation);
+  const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, 0);
+  const double t = StudentT95(static_cast<int>(degrees));
+  const double rise = t * t * (fit.end.squares / degrees);
+  const double highest =
+      (fit.end.squares + fit.end.prior_squares + rise) / fit.internal.shape().points;
+  std::vector<FitPoint> local_optima = FindOtherOptima(
+      fit.internal, effects, fit.internal.Pack(fit.end.point), {}, {highest, HowToRefine(how)});
+  for (FitPoint& other : local_optima) other.p = Reported(effects, std::move(other.p));
+  return local_optima;
+}
+
+Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
+                const ProgressReporter& progress) {
+  Judged judged{fit, options, 0, 2, {}, {}};
+  if (options.intervals && fit.family.translation.extended) {
+    judged.local_optima = FindMoreOptima(fit, progress);
+  }
+  const double noise_A = fit.problem.noise_A;
+  const JointSpread known = FindJointSpread(fit.problem, fit.model, fit.best, noise_A * noise_A);
+  const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, known.local_degrees);
+  judged.variance = fit.end.squares / degrees;
+  judged.t = StudentT95(static_cast<int>(degrees));
+  judged.spread = FindJointSpread(fit.problem, fit.model, fit.best, judged.variance);
+  return judged;
+}
+
+std::vector<Estimate> EstimatesOf(const Judged& judged, const std::vector<double>& searched) {
+  const FamilyProblem& family = judged.fit.family;
+  const Translation& at = family.translation;
+  std::vector<Estimate> estimates;
+  estimates.reserve(at.size());
+  for (int i = 0; i < at.size(); ++i) {
+    Estimate e;
+    e.info = at.parameters[i];
+    e.bounds = ReportedBounds(SpanOf(at), family.bounds[i], judged.fit.end.point.shared, i);
+    e.fixed = !std::isnan(family.fixed[i]);
+    e.searched = searched.empty() ? kUnknown : searched[i];
+    e.refined = judged.fit.best.p[i];
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
+IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& searched,
+                           const ProgressReporter& progress) {
+  JointOptions how;
+  how.stop = progress.stop();
+  IntervalProblem problem;
+  problem.estimates = EstimatesOf(judged, searched);
+  problem.active = judged.fit.best.active;
+  problem.effects = SpanOf(judged.fit.family.translation);
+  problem.last = judged.options.intervals ? IntervalStep::kProfile : IntervalStep::kErrors;
+  problem.rules = kRules;
+  problem.threads = judged.options.threads;
+  problem.spread = judged.spread;
+  problem.t.assign(problem.estimates.size(), judged.t);
+  problem.further = {"dG", "dT"};
+  problem.variance = judged.variance;
+  problem.several_optima = !judged.local_optima.empty();
+  problem.profile = [&](ProfileQuery query) {
+    query.local_optima = judged.local_optima;
+    return FindProfileSide(judged.fit.model, judged.fit.best, query, HowToRefine(how));
+  };
+  return FindIntervals(std::move(problem), progress);
+}
+
+Interval Derived(const Judged& judged, const std::vector<double>& refined,
+                 const std::function<double(const std::vector<double>&)>& value) {
+  return DerivedInterval(judged.spread, judged.fit.end.active, judged.fit.family.translation.size(),
+                         judged.t, refined, value);
+}
+
+// Coefficients of the short-circuit current, the open-circuit voltage and the maximum power.
+std::vector<Coefficient> Coefficients(const Judged& judged, const std::vector<double>& refined) {
+  const auto derived = [&](double TemperatureCoefficients::*field) {
+    return Derived(judged, refined, [&, field](const std::vector<double>& shared) {
+      return CoefficientsAtReference(judged.fit.family.translation, shared).*field;
+    });
+  };
+  return {{"alpha_isc", "A/K", derived(&TemperatureCoefficients::alpha_sc_A_K)},
+          {"beta_voc", "V/K", derived(&TemperatureCoefficients::beta_oc_V_K)},
+          {"gamma_pmp", "%/K", derived(&TemperatureCoefficients::gamma_pmp_percent_K)}};
+}
+
+void DescribeSensors(const Judged& judged, JudgedFamily* family) {
+  const JointProblem& problem = judged.fit.problem;
+  const auto error = [&](int i) {
+    return SymmetricInterval(judged.fit.best.p[i], judged.spread.standard_error[i], judged.t);
+  };
+  if (judged.options.irradiance_offset) {
+    family->irradiance_offset_W_m2 = error(problem.irradiance_offset());
+  }
+  if (judged.options.temperature_offset) {
+    family->temperature_offset_K = error(problem.temperature_offset());
+  }
+}
+
+std::vector<CurveOffsets> OffsetsOf(const Judged& judged) {
+  const std::vector<JointCurve>& curves = judged.fit.problem.curves;
+  std::vector<CurveOffsets> offsets(curves.size());
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const JointLocal& local = judged.fit.end.point.local[k];
+    const JointLocal& error = judged.spread.local_errors[k];
+    const double irradiance = curves[k].irradiance_W_m2;
+    if (curves[k].irradiance_sd > 0) {
+      offsets[k].irradiance_W_m2 =
+          SymmetricInterval(local[0] * irradiance, error[0] * irradiance, judged.t);
+    }
+    if (curves[k].temperature_sd_K > 0) {
+      offsets[k].temperature_K = SymmetricInterval(local[1], error[1], judged.t);
+    }
+  }
+  return offsets;
+}
+
+}  // namespace
+
+Interval DerivedInterval(const Spread& spread, const std::vector<bool>& active, int size, double t,
+                         const std::vector<double>& shared,
+                         const std::function<double(const std::vector<double>&)>& value) {
+  constexpr double kOpen = 1e-3;  // smaller relative changes are rounding errors
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(spread.covariance.rows());
+  for (int i = 0; i < size; ++i) {
+    if (active[i]) continue;
+    // The step is a thousandth of the standard error, or of the undetermined direction.
+    const bool open = std::isnan(spread.standard_error[i]);
+    const double error = open ? spread.open.row(i).norm() : spread.standard_error[i];
+    const double step = std::max(1e-3 * error, 1e-5 * std::fabs(shared[i]));
+    if (!(step > 0)) continue;
+    std::vector<double> up = shared, down = shared;
+    up[i] += step;
+    down[i] -= step;
+    gradient[i] = (value(up) - value(down)) / (up[i] - down[i]);
+  }
+  const double now = value(shared);
+  for (Eigen::Index k = 0; k < spread.open.cols(); ++k) {
+    const Eigen::VectorXd parts = gradient.cwiseProduct(spread.open.col(k));
+    const double least = std::max(parts.cwiseAbs().sum(), std::fabs(now));
+    if (std::fabs(parts.sum()) > kOpen * least) return SymmetricInterval(now, kUnknown, t);
+  }
+  const double variance = gradient.dot(spread.covariance * gradient);
+  return SymmetricInterval(now, std::sqrt(std::max(variance, 0.0)), t);
+}
+
+Interval SymmetricInterval(double value, double standard_error, double t, ParameterKind kind,
+                           const ParameterBounds& bounds) {
+  const ParameterRange range = SymmetricRange(kind, value, standard_error, t, bounds);
+  return {value, standard_error, range.low, range.high};
+}
+
+double JointDegrees(const JointProblem& problem, int free_parameters, double local_degrees) {
+  double points = 0;
+  for (const JointCurve& curve : problem.curves) points += curve.residuals();
+  return std::max(points - free_parameters - local_degrees, 1.0);
+}
+
+ReportedFit::ReportedFit(const FamilyProblem& of_family, const JointProblem& of_problem,
+                         const JointEnd& of_end)
+    : family(of_family),
+      problem(of_problem),
+      end(of_end),
+      internal(problem),
+      model(internal, SpanOf(family.translation)),
+      best(PackedEnd(problem, end)) {
+  best.p = ReportedShared(family.translation, std::move(best.p));
+}
+
+JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
+                      const std::vector<double>& searched, const ProgressReporter& progress) {
+  const Translation& at = fit.family.translation;
+  const std::vector<double>& shared = fit.best.p;
+  JudgedEnd family;
+  family.refined.assign(shared.begin(), shared.begin() + at.size());
+  family.refined = InternalShared(at, std::move(family.refined));
+  const Judged judged = SpreadOf(fit, options, progress);
+  family.noise_A = std::sqrt(judged.variance);
+  if (options.intervals) progress.Begin("intervals", 0);
+  IntervalReport intervals = IntervalsOf(judged, ReportedShared(at, searched), progress);
+  family.estimates = std::move(intervals.estimates);
+  family.correlations = std::move(intervals.correlations);
+  if (options.intervals) family.coefficients = Coefficients(judged, family.refined);
+  DescribeSensors(judged, &family);
+  family.reference = AtReference(at, family.refined);
+  family.offsets = OffsetsOf(judged);
+  return family;
+}
+
+}  // namespace lyrefit

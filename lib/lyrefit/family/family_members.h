@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lyrefit/family/family_options.h"
+#include "lyrefit/family/family_report.h"
+#include "lyrefit/family/joint.h"
+
+namespace lyrefit {
+
+// Role and data of one curve in a family fit.
+struct FamilyMember {
+  CurveRole role = CurveRole::kFitted;
+  std::string reason;
+  JointCurve joint;  // conditions as stated, or guessed if not stated
+  double short_circuit_current_A = kUnknown;
+  bool irradiance_known = true;
+  bool temperature_known = true;
+  bool IsDark() const { return joint.irradiance_W_m2 <= 0; }
+};
+
+struct FamilyMembers {
+  std::vector<FamilyMember> members;  // one for each curve of the set
+  std::vector<int> fitted;            // positions in the set
+  std::vector<int> held_out;
+  double reference_current_A = 0;  // Isc at 1000 W/m2, estimated from the curves
+  bool key_points = false;         // the residuals are those of key points
+  bool stated_errors = false;      // every curve states sigma_A, which sets the weights
+  std::vector<std::string> notes;  // assumptions that had to be made
+};
+
+// Conditions of every curve, as stated or, if not stated, as guessed.
+std::vector<Conditions> ConditionsOf(const FamilyMembers& members);
+
+// Sets the weights of all points. kAuto sets equal weights until SettleWeights selects them.
+void WeighMembers(FamilyWeights weights, FamilyMembers* members);
+
+// Selects the curves of a family fit. Errors: fewer than two light curves (with effects, dark
+// curves count if there is a light one); duplicate ids, or ids to leave out that the set lacks;
+// unusable curves.
+Expected<FamilyMembers> MakeFamilyMembers(const CurveSet& set, const FamilyOptions& options);
+
+}  // namespace lyrefit

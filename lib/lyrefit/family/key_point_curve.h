@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/family/key_point_solver.h"
+#include "lyrefit/model/translation.h"
+
+namespace lyrefit {
+
+// Bisects to a sign change of f between a and b, to the last bit.
+template <class F>
+double SignChange(const F& f, double a, double b) {
+  const bool positive = f(a) > 0;
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (a + b);
+    if (middle == a || middle == b) break;
+    ((f(middle) > 0) == positive ? a : b) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
+// The curve through the three points for given n and Rs. `diode_A` is Is exp(Voc / (n Ns Vt)),
+// since Is itself may underflow a double.
+struct KeyPointCurve {
+  double n;
+  double rs;
+  double photocurrent;
+  double diode_A;
+  double conductance;
+  double slope_error;  // residual of dP/dV = 0 at the maximum power point, in A
+};
+
+// Values of a data sheet, with the thermal voltage of the module.
+struct KeyPointSheet {
+  const DataSheetValues& values;
+  double thermal_V;  // Ns k T / q of the module
+  ConstantSet constants;
+};
+
+// The curve through Isc, Voc and (Vmp, Imp).
+KeyPointCurve CurveThrough(const KeyPointSheet& sheet, double n, double rs);
+
+// Upper bound of Rs. Beyond it the junction voltages of the points change their order.
+double LargestResistance(const KeyPointSheet& sheet);
+
+// The curve for n whose power is largest at (Vmp, Imp). None if that requires a negative Rs, 1/Rsh
+// or Is.
+std::optional<KeyPointCurve> PhysicalCurve(const KeyPointSheet& sheet, double n);
+
+// Converts a curve to device parameters. Is is 0 if it underflows a double.
+ReferenceDevice ToDevice(const KeyPointSheet& sheet, const KeyPointCurve& c);
+
+// A device as shared parameters of De Soto's law with silicon's band gap; Rsh is infinite without a
+// shunt.
+std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha);
+
+}  // namespace lyrefit

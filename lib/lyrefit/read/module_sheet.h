@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lyrefit/base/public.h"
+#include "lyrefit/devices/data_sheet.h"
+
+namespace LYREFIT_PUBLIC lyrefit {
+
+// The data sheet of a module as a file of another program repeats it.
+struct ModuleSheet {
+  std::string name;        // manufacturer and model; empty: not stated
+  std::string technology;  // as the file names it: "mtSiMono", "Mono-c-Si"
+  DataSheet sheet;         // values that are not stated are NaN; rounded as their digits say
+  std::optional<double> rated_power_W;
+};
+
+}  // namespace lyrefit

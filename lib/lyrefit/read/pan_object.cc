@@ -1,0 +1,160 @@
+#include "lyrefit/read/pan_object.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "lyrefit/base/try.h"
+#include "lyrefit/base/number_text.h"
+#include "lyrefit/read/table_lines.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr std::string_view kObject = "PVObject_";
+constexpr std::string_view kEnd = "End of ";
+
+bool BeginsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+// An open block. "End of ..." names it by its type or by its name.
+struct PanBlock {
+  std::string name;  // "Commercial" of PVObject_Commercial=pvCommercial
+  std::string type;  // "pvCommercial"
+  std::string text;  // of the line that opened it
+  int line = 0;
+};
+
+// The block that a line opens; nullopt if it opens none.
+std::optional<PanBlock> Opened(std::string_view key, std::string_view value) {
+  const std::size_t comma = key.find(", ");  // Remarks, Count=5; OperPoints, list of=3 tOperPoint
+  const bool profile = value.size() > 8 && value.substr(value.size() - 7) == "Profile";
+  if (BeginsWith(key, kObject)) {
+    key.remove_prefix(kObject.size());
+  } else if (comma != std::string_view::npos) {
+    key = key.substr(0, comma);
+  } else if (!profile || value[0] != 'T') {  // IAMProfile=TCubicProfile
+    return std::nullopt;
+  }
+  return PanBlock{std::string(key), std::string(value), {}, 0};
+}
+
+// Name in "End of PVObject pvModule", "End of List OperPoints", "End of Remarks=...".
+std::string_view EndName(std::string_view line) {
+  line.remove_prefix(kEnd.size());
+  for (const std::string_view word : {"PVObject", "List"}) {
+    if (BeginsWith(line, word)) line.remove_prefix(word.size());
+  }
+  while (!line.empty() && (line[0] == ' ' || line[0] == '_' || line[0] == '=')) {
+    line.remove_prefix(1);
+  }
+  return TrimBlanks(line.substr(0, line.find('=')));
+}
+
+// Closes the innermost block of this name and those inside it. The end of a block whose beginning
+// was not recognised closes nothing.
+void Close(std::string_view name, std::vector<PanBlock>* open) {
+  for (std::size_t k = open->size(); k-- > 0;) {
+    const PanBlock& block = (*open)[k];
+    if (name != block.type && (block.name.empty() || name != block.name)) continue;
+    open->resize(k);
+    return;
+  }
+}
+
+bool IsOfModule(const std::vector<PanBlock>& open) {
+  return open.size() == 1 ||
+         (open.size() == 2 && (open[1].type == "pvCommercial" || open[1].name == "Commercial"));
+}
+
+}  // namespace
+
+const PanEntry* PanObject::Find(const std::string& key) const {
+  const auto found = entries_.find(LowerCase(key));
+  return found == entries_.end() ? nullptr : &found->second;
+}
+
+std::string PanObject::Text(const std::string& key) const {
+  const PanEntry* const entry = Find(key);
+  return entry == nullptr ? std::string() : entry->value;
+}
+
+tl::unexpected<Error> PanObject::Refuse(const PanEntry& entry, const std::string& expected) const {
+  return Fail(fmt::format("expected {} in {}, found {}", expected, entry.key, Quoted(entry.value)),
+              path_, entry.line, entry.column);
+}
+
+Expected<std::optional<double>> PanObject::Number(const PanNumber& number) const {
+  const PanEntry* const entry = Find(number.key);
+  if (entry == nullptr) return std::nullopt;
+  const std::optional<double> value = ParseNumber(entry->value);
+  const bool high = value && (number.above_least ? *value > number.least : *value >= number.least);
+  if (high && std::isfinite(*value) && *value <= number.most) return value;
+  std::string range;
+  if (std::isfinite(number.most)) {
+    range = fmt::format(", {:g} to {:g},", number.least, number.most);
+  } else if (std::isfinite(number.least)) {
+    range = fmt::format(" {} {:g}", number.above_least ? "above" : "of at least", number.least);
+  }
+  return Refuse(*entry, number.what + range);
+}
+
+Expected<double> PanObject::Required(const PanNumber& number) const {
+  TRY(const std::optional<double> value, Number(number));
+  if (value) return *value;
+  return Fail(fmt::format("the module ends without {}: expected {}", number.key, number.what),
+              path_, last_line_, 1);
+}
+
+bool IsPan(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text.compare(first, kObject.size(), kObject) == 0;
+}
+
+Expected<PanObject> ParsePan(const std::string& text, const std::string& path) {
+  PanObject module;
+  module.path_ = path;
+  std::vector<PanBlock> open;
+  LineReader reader(text);
+  for (std::string_view whole; reader.Next(&whole);) {
+    const std::string_view line = TrimBlanks(whole);
+    const auto margin = static_cast<std::size_t>(line.data() - whole.data());
+    if (BeginsWith(line, kEnd)) {
+      Close(EndName(line), &open);
+      module.last_line_ = reader.number();
+      if (open.empty()) return module;
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view key = TrimBlanks(line.substr(0, equals));
+    const std::string_view value = TrimBlanks(line.substr(equals + 1));
+    const int column = static_cast<int>(margin + line.find_first_not_of(" \t", equals + 1)) + 1;
+    if (open.empty() && (key != kObject || value != "pvModule")) {
+      return Fail(fmt::format("expected a module, PVObject_=pvModule, found {}", Quoted(line)),
+                  path, reader.number(), static_cast<int>(margin) + 1);
+    }
+    if (auto block = Opened(key, value)) {
+      open.push_back({block->name, block->type, std::string(line), reader.number()});
+    } else if (IsOfModule(open)) {
+      PanEntry entry = {std::string(key), std::string(value), reader.number(),
+                        value.empty() ? static_cast<int>(margin + equals) + 2 : column};
+      const auto [before, is_new] = module.entries_.emplace(LowerCase(key), entry);
+      const bool of_both = open.size() == 2 || key == "Flags" || key == "Comment";
+      if (!is_new && !of_both) {
+        return Fail(
+            fmt::format("the module has {} twice: here and in line {}", key, before->second.line),
+            path, entry.line, static_cast<int>(margin) + 1);
+      }
+    }
+  }
+  if (open.empty()) return Fail("expected a module, PVObject_=pvModule, found nothing", path);
+  return Fail(fmt::format("the file ends within the block {} of line {}: expected \"End of ...\"",
+                          Quoted(open.back().text), open.back().line),
+              path, reader.number(), 1);
+}
+
+}  // namespace lyrefit

@@ -1,0 +1,304 @@
+#include "lyrefit/curve/check_readings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "error_of.h"
+#include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/left_temperature.h"
+#include "synthetic_curve.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+// Scales the voltages so that the open-circuit voltage is `voc_V`.
+void ScaleVoc(double voc_V, IvCurve* curve) {
+  const double factor =
+      voc_V / FindKeyPoints(curve->voltage_V, curve->current_A).open_circuit_voltage_V;
+  for (double& voltage : curve->voltage_V) voltage *= factor;
+}
+
+TEST(CheckReadingsTest, SoundCurvesHaveNoFindings) {
+  EXPECT_THAT(CheckReadings(SyntheticModule()), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticModule(1, 1, 0.5)), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticCell()), IsEmpty());
+  EXPECT_THAT(CheckReadings(SyntheticCell(0)), IsEmpty());  // dark
+}
+
+TEST(CheckReadingsTest, LightThatIsNotStatedIsDoubted) {
+  for (const double stated : {0.0, 5.0}) {
+    IvCurve curve = SyntheticModule();
+    curve.conditions.irradiance_W_m2 = stated;
+    const auto findings = CheckReadings(curve);
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].id, "light");
+    EXPECT_FALSE(findings[0].refuse);
+    EXPECT_THAT(findings[0].sentence, HasSubstr("W/m2 are stated, but the device delivers"));
+    EXPECT_THAT(findings[0].sentence, HasSubstr("--irradiance-Wm2"));
+  }
+  IvCurve dim = SyntheticCell(0.01);  // 1.5 mA at 10 W/m2
+  dim.conditions.irradiance_W_m2 = 10;
+  IvCurve dark = SyntheticCell(0);
+  dark.conditions.irradiance_W_m2 = 0;
+  EXPECT_THAT(CheckReadings(dim), IsEmpty());
+  EXPECT_THAT(CheckReadings(dark), IsEmpty());
+}
+
+TEST(CheckReadingsTest, ATemperatureOfTheHeadThatIsNotUsedIsADoubt) {
+  IvCurve curve = SyntheticModule();
+  curve.temperature_known = false;
+  curve.assumptions = {LeftTemperature("line 3 'Temp1 47.3'")};
+  const auto findings = CheckReadings(curve);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].id, "head");
+  EXPECT_FALSE(findings[0].refuse);
+  EXPECT_THAT(findings[0].sentence, HasSubstr("line 3 'Temp1 47.3' speaks of a temperature"));
+  curve.temperature_known = true;
+  EXPECT_THAT(CheckReadings(curve), IsEmpty());
+}
+
+TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
+  const struct {
+    const char* what;
+    const char* id;
+    bool refuse;
+    std::vector<const char*> says;
+    std::function<void(IvCurve*)> spoil;
+  } kCases[] = {
+      {"Keithley's overflow",
+       "overflow",
+       true,
+       {"reading 6 ", "9.91e+37 A", "--skip-missing"},
+       [](IvCurve* c) { c->current_A[5] = 9.91e37; }},
+      {"two overflows",
+       "overflow",
+       true,
+       {"of reading 3 and of 1 more", "1e+308 V"},
+       [](IvCurve* c) { c->voltage_V[2] = c->voltage_V[9] = 1e308; }},
+      {"all zero",
+       "nothing",
+       true,
+       {"all 100 currents are 0", "?"},
+       [](IvCurve* c) { c->current_A.assign(100, 0); }},
+      {"all equal",
+       "nothing",
+       true,
+       {"all 100 currents are 0.5 A", "limit"},
+       [](IvCurve* c) { c->current_A.assign(100, 0.5); }},
+      {"below any instrument",
+       "nothing",
+       true,
+       {"less than any instrument", "unit"},
+       [](IvCurve* c) {
+         for (double& i : c->current_A) i *= 1e-70;
+       }},
+      {"voltage of the wrong sign",
+       "sign",
+       true,
+       {"at -39 V", "wrong sign"},
+       [](IvCurve* c) {
+         for (double& v : c->voltage_V) v = -v;
+       }},
+      {"milliampere",
+       "unit",
+       true,
+       {"A and the file names no unit: milliampere?", "--current-unit mA"},
+       [](IvCurve* c) {
+         for (double& i : c->current_A) i *= 1e3;
+         c->current_unit_known = false;
+       }},
+      {"millivolt",
+       "unit",
+       true,
+       {"3.9e+04 V", "millivolt?", "--voltage-unit mV"},
+       [](IvCurve* c) {
+         for (double& v : c->voltage_V) v *= 1e3;
+         c->voltage_unit_known = false;
+       }},
+      {"nothing delivers so much",
+       "unit",
+       true,
+       {"is the unit"},
+       [](IvCurve* c) {
+         for (double& i : c->current_A) i *= 1e5;
+       }},
+      {"columns exchanged, no units",
+       "exchanged",
+       true,
+       {"columns are exchanged", "--voltage-column"},
+       [](IvCurve* c) {
+         std::swap(c->voltage_V, c->current_A);
+         c->current_unit_known = c->voltage_unit_known = c->cells_known = false;
+         c->conditions.cells_in_series = 1;
+       }},
+      {"columns exchanged, cells known",
+       "exchanged",
+       true,
+       {"columns are exchanged"},
+       [](IvCurve* c) { std::swap(c->voltage_V, c->current_A); }},
+      {"columns exchanged, units named",
+       "exchanged",
+       false,
+       {"columns are exchanged"},
+       [](IvCurve* c) {
+         std::swap(c->voltage_V, c->current_A);
+         c->cells_known = false;
+         c->conditions.cells_in_series = 1;
+       }},
+      {"too many cells",
+       "cells",
+       true,
+       {"for each of 600 stated cells", "give --cells 60?"},
+       [](IvCurve* c) { c->conditions.cells_in_series = 600; }},
+      {"too few cells",
+       "cells",
+       true,
+       {" V for each of 10 stated cells", "give --cells 60?"},
+       [](IvCurve* c) { c->conditions.cells_in_series = 10; }},
+      {"cells not stated",
+       "cells",
+       false,
+       {"some 60 cells in series?", "--cells"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = false;
+       }},
+      {"one stated cell with the voltage of two junctions",
+       "cells",
+       true,
+       {"1.73", "cells in series forgotten (--cells 3)", "tandem", "wide band gap"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         ScaleVoc(1.73, c);
+       }},
+      {"cells not stated, and the voltage of two junctions",
+       "cells",
+       false,
+       {"some 3 cells in series, or", "tandem", "(--cells)"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = false;
+         ScaleVoc(1.73, c);
+       }},
+      {"cells not stated, and a sweep that ends before open circuit",
+       "cells",
+       false,
+       {"the curve goes to", "--cells"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = false;
+         while (c->current_A.back() < 0.3 * c->current_A.front()) {
+           c->current_A.pop_back();
+           c->voltage_V.pop_back();
+         }
+       }},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.what);
+    IvCurve curve = SyntheticModule();
+    c.spoil(&curve);
+    const auto findings = CheckReadings(curve);
+    ASSERT_FALSE(findings.empty());
+    EXPECT_EQ(findings[0].id, c.id);
+    EXPECT_EQ(findings[0].refuse, c.refuse);
+    for (const char* text : c.says) EXPECT_THAT(findings[0].sentence, HasSubstr(text));
+  }
+}
+
+TEST(CheckReadingsTest, OverflowsAreNamedByTheirReadings) {
+  IvCurve curve = SyntheticModule();
+  for (const int k : {3, 17}) curve.current_A[k] = 1e38;
+  const auto findings = CheckReadings(curve);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_THAT(findings[0].points, ElementsAre(3, 17));
+}
+
+TEST(CheckReadingsTest, ACellInDimLightMayHaveLittleVoltage) {
+  IvCurve curve = SyntheticCell(1e-5);
+  for (double& voltage : curve.voltage_V) voltage /= 4;
+  curve.conditions.irradiance_W_m2 = 10;
+  EXPECT_THAT(CheckReadings(curve), IsEmpty());
+}
+
+TEST(CheckReadingsTest, ManyAmperesAreTakenWhereTheUnitIsNamedOrStringsShareThem) {
+  IvCurve curve = SyntheticModule();
+  for (double& current : curve.current_A) current *= 100;
+  ASSERT_EQ(CheckReadings(curve).size(), 1U);
+  EXPECT_EQ(CheckReadings(curve)[0].id, "current");
+  EXPECT_FALSE(CheckReadings(curve)[0].refuse) << "taken, with a doubt";
+  curve.current_unit_known = false;
+  EXPECT_THAT(CheckReadings(curve), Not(IsEmpty()));
+  curve.conditions.strings_in_parallel = 40;
+  EXPECT_THAT(CheckReadings(curve), IsEmpty());
+}
+
+TEST(CheckReadingsTest, CoarseInstrumentsHaveNoLimit) {
+  for (const double step : {0.01, 0.02, 0.1, 0.2}) {
+    SCOPED_TRACE(step);
+    IvCurve curve = SyntheticModule();
+    for (double& current : curve.current_A) current = std::round(current / step) * step;
+    EXPECT_THAT(CheckReadings(curve), IsEmpty());
+    for (double& voltage : curve.voltage_V) voltage = std::round(voltage / 0.8) * 0.8;
+    EXPECT_THAT(CheckReadings(curve), IsEmpty());
+  }
+}
+
+TEST(JudgeReadingsTest, RefusesWithTheFileAndTheWayOut) {
+  IvCurve curve = SyntheticModule();
+  curve.source = "roof.csv";
+  curve.conditions.cells_in_series = 600;
+  const auto judged = JudgeReadings(curve);
+  ASSERT_FALSE(judged);
+  EXPECT_EQ(judged.error().file, "roof.csv");
+  EXPECT_THAT(judged.error().message, HasSubstr("--as-is"));
+}
+
+TEST(JudgeReadingsTest, AsIsTurnsARefusalIntoADoubt) {
+  IvCurve curve = SyntheticModule();
+  curve.conditions.cells_in_series = 600;
+  EXPECT_FALSE(JudgeReadings(curve));
+  curve.as_is = true;
+  const auto judged = JudgeReadings(curve);
+  ASSERT_TRUE(judged);
+  EXPECT_THAT(*judged, ElementsAre(HasSubstr("600 stated cells")));
+}
+
+TEST(JudgeReadingsTest, OverflowsAndDeadChannelsAreNeverTaken) {
+  IvCurve overflow = SyntheticModule();
+  overflow.as_is = true;
+  IvCurve dead = overflow;
+  overflow.current_A[5] = 1e308;
+  dead.current_A.assign(100, 0);
+  for (const IvCurve& curve : {overflow, dead}) {
+    const auto judged = JudgeReadings(curve);
+    ASSERT_FALSE(judged);
+    EXPECT_THAT(judged.error().message, Not(HasSubstr("--as-is")));
+  }
+}
+
+TEST(JudgeReadingsTest, ADoubtAboutManyCurvesIsSaidOnce) {
+  std::vector<IvCurve> curves(4, SyntheticModule());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    curves[c].name = std::to_string(c);
+    curves[c].cells_known = c == 0;
+    if (c > 0) curves[c].conditions.cells_in_series = 1;
+  }
+  const auto judged = JudgeReadings(curves);
+  ASSERT_TRUE(judged);
+  EXPECT_THAT(*judged,
+              ElementsAre(::testing::AllOf(HasSubstr("curve 1: Voc"), HasSubstr("for 2 more"))));
+  curves[3].current_A.assign(100, 0);
+  EXPECT_THAT(MessageOf(JudgeReadings(curves)), HasSubstr("curve 3: all 100 currents are 0"));
+}
+
+}  // namespace
+}  // namespace lyrefit

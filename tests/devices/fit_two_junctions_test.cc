@@ -1,0 +1,167 @@
+#include "lyrefit/devices/fit_two_junctions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lyrefit/base/random.h"
+#include "lyrefit/model/two_junctions.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<double> kTandemTruth = {0.0195, 1e-14, 1.4, 3000, 0.0202, 3e-10, 1.2, 1500, 2.0};
+
+IvCurve TandemCurve(const std::string& name, double top, double bottom) {
+  IvCurve curve;
+  curve.name = name;
+  curve.conditions.cells_in_series = 2;
+  curve.notes.light_top = top;
+  curve.notes.light_bottom = bottom;
+  std::vector<double> p = kTandemTruth;
+  p[JunctionPhotocurrent(0)] *= top;
+  p[JunctionPhotocurrent(1)] *= bottom;
+  const double thermal_V = ThermalVoltage(curve.conditions.cell_temperature_K);
+  const double voc = TwoJunctionVoltage(thermal_V, p.data(), 0);
+  for (int k = 0; k < 40; ++k) {
+    curve.voltage_V.push_back(-0.1 + (1.02 * voc + 0.1) * k / 39);
+    curve.current_A.push_back(TwoJunctionCurrent(thermal_V, p.data(), curve.voltage_V.back()));
+  }
+  return curve;
+}
+
+// The set with independent noise of 0.1 % of its currents.
+CurveSet Noisy(CurveSet set) {
+  RandomStream random(1);
+  for (IvCurve& curve : set.curves) {
+    for (double& current : curve.current_A) current += 2e-5 * random.Normal();
+  }
+  return set;
+}
+
+CurveSet TandemSet() {
+  CurveSet set;
+  set.name = "tandem";
+  set.curves = {TandemCurve("white", 1, 1), TandemCurve("red", 0.9, 1.1),
+                TandemCurve("blue", 1.1, 0.9)};
+  return set;
+}
+
+const Estimate& At(const TwoJunctionReport& report, const std::string& symbol) {
+  for (const Estimate& e : report.estimates) {
+    if (e.info.symbol == symbol) return e;
+  }
+  ADD_FAILURE() << symbol;
+  return report.estimates.front();
+}
+
+std::string WhyNot(const CurveSet& set, const TwoJunctionOptions& options = {}) {
+  const auto report = FitTwoJunctions(set, options);
+  return report ? "" : report.error().message;
+}
+
+TEST(FitTwoJunctions, FindsTheTandemOfExactCurves) {
+  CurveSet set = TandemSet();
+  set.curves.push_back(TandemCurve("top alone", 1, 0));
+  const auto report = FitTwoJunctions(set);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_LT(report->refined_rmse_A, 1e-12);
+  EXPECT_GT(report->searched_rmse_A, report->refined_rmse_A);
+  for (int i = 0; i < kTwoJunctionParameters; ++i) {
+    EXPECT_NEAR(report->estimates[i].refined / kTandemTruth[i], 1, 1e-5)
+        << report->estimates[i].info.symbol;
+  }
+  EXPECT_EQ(report->curves[0].limiting, 1);
+  EXPECT_EQ(report->curves[2].limiting, 2);
+}
+
+TEST(FitTwoJunctions, SpectraDecideWhatOneCurveLeavesOpen) {
+  CurveSet set = Noisy(TandemSet());
+  const auto many = FitTwoJunctions(set);
+  ASSERT_TRUE(many);
+  EXPECT_FALSE(many->interchangeable);
+  for (const char* symbol : {"Iph1", "n1", "Rsh1", "Iph2", "n2", "Rsh2", "Rs"}) {
+    const Estimate& e = At(*many, symbol);
+    const double truth = kTandemTruth[&e - many->estimates.data()];
+    EXPECT_TRUE(e.identifiable) << symbol << " " << e.reason;
+    // Within four standard deviations: of seven intervals of 95 %, one may miss.
+    EXPECT_LE(2 * e.low_95 - e.refined, truth) << symbol;
+    EXPECT_GE(2 * e.high_95 - e.refined, truth) << symbol;
+  }
+  set.curves.resize(1);
+  const auto one = FitTwoJunctions(set);
+  ASSERT_TRUE(one);
+  EXPECT_TRUE(one->interchangeable);
+  for (const char* symbol : {"x2", "Is1", "Rsh2"}) {
+    EXPECT_FALSE(At(*one, symbol).identifiable) << symbol;
+    EXPECT_FALSE(At(*one, symbol).reason.empty()) << symbol;
+  }
+  ASSERT_FALSE(one->decided_by.empty());
+  EXPECT_THAT(one->decided_by.front(), HasSubstr("second spectrum"));
+}
+
+TEST(FitTwoJunctions, AnUnknownLightIsAPhotocurrentOfItsCurve) {
+  CurveSet set = TandemSet();
+  set.curves.pop_back();
+  TwoJunctionOptions options;
+  options.intervals = Intervals::kNone;
+  options.lights["red"] = {0.9, kUnknown};
+  const auto report = FitTwoJunctions(set, options);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_FALSE(report->interchangeable);
+  EXPECT_LT(report->refined_rmse_A, 1e-7);
+  EXPECT_EQ(report->estimates.size(), 10U);
+  EXPECT_EQ(report->estimates.back().info.symbol, "Iph2[red]");
+}
+
+TEST(FitTwoJunctions, ThreadsChangeNothing) {
+  CurveSet set = Noisy(TandemSet());
+  set.curves.resize(2);
+  TwoJunctionOptions options;
+  std::vector<double> ends[2];
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    const auto report = FitTwoJunctions(set, options);
+    ASSERT_TRUE(report);
+    for (const Estimate& e : report->estimates) {
+      for (const double value : {e.refined, e.low_95, e.high_95}) {
+        ends[threads - 1].push_back(value);
+      }
+    }
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
+TEST(FitTwoJunctions, RefusesWhatItCannotUse) {
+  EXPECT_THAT(WhyNot({}), HasSubstr("at least one curve"));
+  TwoJunctionOptions options;
+  options.lights["green"] = {1, 1};
+  EXPECT_THAT(WhyNot(TandemSet(), options), HasSubstr("there is no curve green"));
+  options.lights = {{"red", {-1, 1}}};
+  EXPECT_THAT(WhyNot(TandemSet(), options), HasSubstr("a light of at least 0"));
+  options.lights = {{"red", {0, 0}}};
+  EXPECT_THAT(WhyNot(TandemSet(), options), HasSubstr("must be lit"));
+  options.lights.clear();
+  options.fixed["n3"] = 1;
+  EXPECT_THAT(WhyNot(TandemSet(), options), HasSubstr("no parameter n3"));
+  CurveSet warm = TandemSet();
+  warm.curves[1].conditions.cell_temperature_K += 20;
+  EXPECT_THAT(WhyNot(warm), HasSubstr("one temperature"));
+}
+
+TEST(StatedLight, IsReadAsItIsWritten) {
+  for (const char* text : {"red=1:0.9", "a=b=0:1", "red=1:?"}) {
+    const auto light = ReadStatedLight(text);
+    ASSERT_TRUE(light) << text;
+    EXPECT_EQ(StatedLightText(light->first, light->second), text);
+  }
+  for (const char* text : {"red", "=1:1", "red=1", "red=1:x"}) {
+    EXPECT_FALSE(ReadStatedLight(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,0 +1,180 @@
+// The functions behind DescribeCell, on curves whose answer is known.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lyrefit/base/constants.h"
+#include "lyrefit/devices/compare_directions.h"
+#include "lyrefit/devices/compare_stated.h"
+#include "lyrefit/devices/describe_sweep.h"
+#include "lyrefit/devices/fill_factor_losses.h"
+#include "lyrefit/devices/ideality_over_light.h"
+#include "lyrefit/devices/series_resistance.h"
+#include "made_cell.h"
+
+namespace lyrefit {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Not;
+
+CellSweep SweepOf(const std::vector<double>& p, double light = 1000, bool down = false) {
+  return FindSweeps(CellSweepOf(p, light, down), 0.25).front().sweep;
+}
+
+TEST(Directions, EqualSweepsHaveNoHysteresis) {
+  const DirectionPair pair =
+      CompareDirections(SweepOf(kCellTruth), SweepOf(kCellTruth, 1000, true), 0.5);
+  EXPECT_NEAR(pair.gap_percent, 0, 1e-9);
+  EXPECT_EQ(pair.sense, HysteresisSense::kNone);
+  EXPECT_TRUE(pair.causes.empty());
+}
+
+TEST(Directions, SenseIsThatOfThePower) {
+  std::vector<double> worse = kCellTruth;
+  worse[3] = 20;
+  const CellSweep good = SweepOf(kCellTruth), bad = SweepOf(worse, 1000, true);
+  const DirectionPair inverted = CompareDirections(good, bad, 0.5);
+  EXPECT_EQ(inverted.sense, HysteresisSense::kInverted);
+  EXPECT_LT(inverted.index_power, 0);
+  EXPECT_LT(inverted.index_at_80, 0);
+  EXPECT_THAT(inverted.causes, Not(Contains("a capacitance")));
+  const DirectionPair normal = CompareDirections(bad, good, 0.5);
+  EXPECT_EQ(normal.sense, HysteresisSense::kNormal);
+  EXPECT_THAT(normal.causes, Contains("a capacitance"));
+}
+
+TEST(Directions, CurvesThatCrossAreSaidToCross) {
+  // More current and less voltage: nearly the same power.
+  std::vector<double> other = kCellTruth;
+  other[0] *= 1.04;
+  other[1] *= 3;
+  const DirectionPair pair =
+      CompareDirections(SweepOf(kCellTruth), SweepOf(other, 1000, true), 0.5);
+  EXPECT_TRUE(pair.cross);
+  EXPECT_GT(pair.gap_percent, 3);
+  EXPECT_LT(std::fabs(pair.index_power), 0.02);
+}
+
+TEST(Idealities, AreThoseOfADiodeWithoutAShunt) {
+  const double thermal = ThermalVoltage(298.15);
+  std::vector<VocPoint> points;
+  for (const double light : {1e-3, 3e-3, 1e-2}) {
+    points.push_back({light, 1.7 * thermal * std::log(light / 1e-12)});
+  }
+  const auto found = FindIdealityOverLight(points, thermal);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->n.value, 1.7, 1e-12);
+  EXPECT_NEAR(found->n.high_95 - found->n.low_95, 0, 1e-9);
+  EXPECT_NEAR(found->local[0].n, 1.7, 1e-12);
+  EXPECT_FALSE(found->rises_to_low_light);
+  EXPECT_FALSE(FindIdealityOverLight({points[0]}, thermal));
+  EXPECT_TRUE(std::isnan(FindIdealityOverLight({points[0], points[1]}, thermal)->n.low_95));
+}
+
+TEST(Idealities, RiseToLowLightWithAShunt) {
+  std::vector<double> shunted = kCellTruth;
+  shunted[4] = 1000;
+  std::vector<CellSweep> sweeps;
+  for (const double light : {1000.0, 300.0, 100.0, 30.0}) sweeps.push_back(SweepOf(shunted, light));
+  const auto found = FindIdealityOverLight(PointsOfLights(sweeps), ThermalVoltage(298.15));
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->rises_to_low_light);
+  EXPECT_NEAR(found->junction_n(), 1.4 / (1 - 0.85 / (1000 * 3e-3)), 0.05);
+}
+
+TEST(Idealities, OfADarkCurveAreFoundBesideItsShunt) {
+  std::vector<double> p = kCellTruth;
+  p[3] = 0.1;  // nothing but the diode above the shunt
+  const DarkIdeality dark = FindDarkIdeality(SweepOf(p, 0), ThermalVoltage(298.15), 1);
+  EXPECT_NEAR(dark.least_n, 1.4, 0.02);
+  EXPECT_GT(dark.at_V, 0.4);
+}
+
+TEST(SeriesResistances, FromTwoLightsIsExactForADiode) {
+  std::vector<double> p = kCellTruth;
+  p[4] = 1e9;  // a shunt shifts Isc by Isc Rs / Rsh, which the method takes for the photocurrent
+  const SeriesResistance found = RsFromTwoLights(SweepOf(p), SweepOf(p, 300));
+  EXPECT_NEAR(found.ohm.value, p[3], 0.02);
+  EXPECT_LE(found.ohm.low_95, found.ohm.value);
+}
+
+TEST(SeriesResistances, SayWhatTheyMiss) {
+  CellSweep shorter = SweepOf(kCellTruth, 300);
+  shorter.voltage_V.resize(60);
+  shorter.current_A.resize(60);
+  const SeriesResistance found = RsFromTwoLights(SweepOf(kCellTruth), shorter);
+  EXPECT_TRUE(std::isnan(found.ohm.value));
+  EXPECT_NE(found.missing, "");
+  const SeriesResistance voc = RsFromVoc(SweepOf(kCellTruth), {}, SweepKind::kSunsVoc);
+  EXPECT_NE(voc.missing, "");
+}
+
+TEST(FillFactors, ThroughEndsKeepThem) {
+  const double thermal = ThermalVoltage(298.15);
+  const double ideal = FillFactorOf({0.035, 0.7, thermal});
+  EXPECT_NEAR(ideal, GreenFillFactor(0.7, thermal), 2e-4);
+  EXPECT_LT(FillFactorOf({0.035, 0.7, 1.5 * thermal}), ideal);
+  const double shunted = FillFactorOf({0.035, 0.7, thermal, 0, 1e-3});
+  EXPECT_LT(shunted, ideal);
+  EXPECT_LT(FillFactorOf({0.035, 0.7, thermal, 1, 1e-3}), shunted);
+  // A shunt that takes more than Isc leaves no diode.
+  EXPECT_TRUE(std::isnan(FillFactorOf({0.035, 0.7, thermal, 0, 1})));
+}
+
+TEST(FillFactors, LossesAtShortCircuitAreNamedByTheSplitOfAllLights) {
+  const auto name = [](double collection_part, const char* void_because = "") {
+    JointEstimate joint;
+    joint.collection_part = collection_part;
+    if (*void_because != '\0') joint.void_because.emplace_back(void_because);
+    std::vector<FillFactorLosses> losses(1);
+    losses[0].parts = {{"recombination", {}}, {"shunt or collection", {}}};
+    NameShuntLosses(joint, &losses);
+    EXPECT_EQ(losses[0].parts[0].name, "recombination");
+    return losses[0].parts[1].name;
+  };
+  EXPECT_EQ(name(0.98), "collection that depends on voltage: 98 % goes with the light");
+  EXPECT_EQ(name(1), "collection that depends on voltage");
+  EXPECT_EQ(name(0.4), "collection and shunt: 40 % goes with the light");
+  EXPECT_EQ(name(0), "shunt");
+  EXPECT_EQ(name(kUnknown), "shunt or collection");
+  EXPECT_EQ(name(0.98, "another device"), "shunt or collection");
+}
+
+TEST(FillFactors, OfVocOverLightAreThoseOfTheDiode) {
+  const double thermal = ThermalVoltage(298.15);
+  std::vector<VocPoint> points;
+  for (double suns = 1e-3; suns < 2; suns *= 2) {
+    points.push_back({0.035 * suns, thermal * std::log1p(suns * std::expm1(0.7 / thermal))});
+  }
+  EXPECT_NEAR(PseudoFillFactorOf(0.035, points), FillFactorOf({0.035, 0.7, thermal}), 1e-6);
+  EXPECT_TRUE(std::isnan(PseudoFillFactorOf(0.35, points)));
+  // Only points near Voc: the power point is not among them.
+  points.erase(points.begin(), points.end() - 3);
+  EXPECT_TRUE(std::isnan(PseudoFillFactorOf(0.035, points)));
+}
+
+TEST(StatedKeyPoints, ADensityNeedsAnArea) {
+  CellSweep sweep;
+  sweep.key.short_circuit_current_A = 5.5e-3;
+  const std::vector<StatedResult> stated = {{0, "J_sc", 22.1, "line 2"},
+                                            {0, "I_sc", 5.51, "line 3"}};
+  const auto with = CompareStated(stated, sweep, 0.25);
+  ASSERT_EQ(with.size(), 2U);
+  EXPECT_NEAR(with[0].found, 22, 1e-9);
+  EXPECT_NEAR(with[1].found, 5.5, 1e-9);
+  const auto without = CompareStated(stated, sweep, kUnknown);
+  ASSERT_EQ(without.size(), 1U);
+  EXPECT_EQ(without[0].name, "I_sc");
+}
+
+TEST(Slopes, AreTakenNearTheAxes) {
+  std::vector<double> p = kCellTruth;
+  p[3] = 1e-3;
+  const CellSweep sweep = SweepOf(p);
+  EXPECT_NEAR(sweep.resistance_at_isc_ohm, p[4], 0.02 * p[4]);
+  EXPECT_GT(sweep.resistance_at_voc_ohm, p[2] * ThermalVoltage(298.15) / p[0]);
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,6 +1,7 @@
 #include "batch_request.h"
 #include "bounds_flag.h"
 #include "effect_text.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/read_module.h"
 #include "model_flag.h"

@@ -1,5 +1,7 @@
 #include "bounds_flag.h"
 
+#include "lyrefit/settings/bounds_file.h"
+
 namespace lyrefit {
 
 Expected<BoundsSpec> FlaggedBounds(const std::string& name, const std::string& curve_file) {

@@ -1,5 +1,7 @@
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/read/read_cell.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/report/csv.h"

@@ -1,6 +1,7 @@
 #include "bounds_flag.h"
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"

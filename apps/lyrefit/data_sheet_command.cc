@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "flags.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/data_sheet.h"

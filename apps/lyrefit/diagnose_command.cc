@@ -7,6 +7,8 @@
 #include "diagnose_request.h"
 #include "effect_text.h"
 #include "interrupt.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "interrupt.h"
+#include "lyrefit/family/family_documents.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_individually.h"
 #include "lyrefit/model/pvlib_parameters.h"

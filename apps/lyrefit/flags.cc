@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/diagnose.h"

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "flags.h"
+#include "lyrefit/settings/read_string_layout.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/settings/simulate_module.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/nearest_curve.h"

@@ -3,6 +3,7 @@
 
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"

@@ -4,6 +4,7 @@
 
 #include "flags.h"
 #include "interrupt.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/read_module.h"
 #include "lyrefit/curve/date_time.h"

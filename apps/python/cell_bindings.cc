@@ -3,6 +3,8 @@
 #include "bindings.h"
 #include "docs.h"
 #include "frames.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/read/read_cell.h"
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"

@@ -5,6 +5,8 @@
 #include "curves.h"
 #include "docs.h"
 #include "frames.h"
+#include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/base/setting_text.h"

@@ -5,6 +5,7 @@
 #include "errors.h"
 #include "frames.h"
 #include "keywords.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/report/csv.h"

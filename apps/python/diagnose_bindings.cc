@@ -5,6 +5,7 @@
 #include "effects.h"
 #include "fit.h"
 #include "frames.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/csv.h"

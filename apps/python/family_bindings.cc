@@ -7,6 +7,7 @@
 #include "effects.h"
 #include "errors.h"
 #include "frames.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_individually.h"
 #include "lyrefit/model/pvlib_parameters.h"

@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "fit.h"
 #include "fit_row.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "errors.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/report/json.h"
 

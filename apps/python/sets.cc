@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "work.h"
 

@@ -9,6 +9,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "errors.h"
+#include "lyrefit/settings/read_string_layout.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/settings/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"

@@ -4,6 +4,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "frames.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"

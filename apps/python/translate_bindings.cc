@@ -6,6 +6,7 @@
 #include "docs.h"
 #include "effects.h"
 #include "frames.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"

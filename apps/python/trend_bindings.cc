@@ -4,6 +4,7 @@
 #include "curves.h"
 #include "docs.h"
 #include "frames.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/read/read_module.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"

@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "docs.h"
 #include "errors.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "look.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/read/read_curve.h"

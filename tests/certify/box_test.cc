@@ -6,6 +6,7 @@
 
 #include "certify/made.h"
 #include "error_of.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "sample_certificate.h"
 

@@ -9,6 +9,8 @@
 #include "sample_certificate.h"
 #include "temp_folder.h"
 
+#include "lyrefit/certify/certificate_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -9,6 +9,8 @@
 #include "json_keys.h"
 #include "sample_certificate.h"
 
+#include "lyrefit/certify/certificate_documents.h"
+
 namespace lyrefit {
 namespace {
 

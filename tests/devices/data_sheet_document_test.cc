@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "sample_data_sheet.h"
 

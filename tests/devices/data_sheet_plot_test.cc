@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/plots.h"
 #include "sample_data_sheet.h"
 #include "temp_folder.h"

@@ -9,6 +9,9 @@
 #include "json_keys.h"
 #include "sample_data_sheet.h"
 
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/family/family_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/documents.h"

@@ -7,6 +7,8 @@
 #include "golden.h"
 #include "sample_diagnosis.h"
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -6,6 +6,8 @@
 #include "sample_diagnosis.h"
 #include "temp_folder.h"
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -9,6 +9,8 @@
 #include "sample_diagnosis.h"
 #include "sample_reference.h"
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "../repeats.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
 #include "sample_reference.h"
 

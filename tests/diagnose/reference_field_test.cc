@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "../repeats.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/diagnose/reference.h"

@@ -5,6 +5,8 @@
 #include "golden.h"
 #include "sample_family.h"
 
+#include "lyrefit/family/family_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/report/documents.h"
 #include "synthetic_family.h"

@@ -6,6 +6,8 @@
 #include "sample_family.h"
 #include "temp_folder.h"
 
+#include "lyrefit/family/family_documents.h"
+
 namespace lyrefit {
 namespace {
 

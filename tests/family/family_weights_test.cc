@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/report/documents.h"
 #include "quick.h"

@@ -8,6 +8,8 @@
 #include "json_keys.h"
 #include "sample_family.h"
 
+#include "lyrefit/family/family_documents.h"
+
 namespace lyrefit {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/priors.h"
 #include "lyrefit/effects/catalogue.h"

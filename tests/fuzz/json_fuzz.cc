@@ -1,6 +1,8 @@
 #include "fuzz_file.h"
 #include "lyrefit/curve/curve_set.h"
 
+#include "lyrefit/read/read_curve_set.h"
+
 // Reader of curves in JSON formats other than ivcurves.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;

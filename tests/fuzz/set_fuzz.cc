@@ -6,6 +6,8 @@
 #include "fuzz_file.h"
 #include "lyrefit/curve/curve_set.h"
 
+#include "lyrefit/read/read_curve_set.h"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lyrefit;
   const std::string all = Bytes(data, size);

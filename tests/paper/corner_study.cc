@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/floor.h"

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"

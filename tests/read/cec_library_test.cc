@@ -7,6 +7,7 @@
 
 #include "error_of.h"
 #include "model/synthetic_translation.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/read_module.h"
 #include "lyrefit/report/json.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"

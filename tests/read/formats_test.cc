@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve.h"

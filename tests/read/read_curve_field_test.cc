@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
 

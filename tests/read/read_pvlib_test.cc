@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/synthetic_translation.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/report/json.h"

@@ -1,3 +1,7 @@
+#include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/read/spreadsheet_text.h"
 

@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "sample_certificate.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
 #include "sample_diagnosis.h"

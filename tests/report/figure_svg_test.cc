@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
 #include "sample_diagnosis.h"

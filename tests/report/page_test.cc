@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page_shell.h"

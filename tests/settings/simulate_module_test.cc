@@ -5,6 +5,7 @@
 
 #include "error_of.h"
 #include "read/pan_text.h"
+#include "lyrefit/settings/read_effect_use.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/read/read_pan.h"
 #include "lyrefit/model/current.h"

@@ -10,6 +10,8 @@
 #include "synthetic_readings.h"
 #include "temp_folder.h"
 
+#include "lyrefit/settings/read_string_layout.h"
+
 namespace lyrefit {
 namespace {
 

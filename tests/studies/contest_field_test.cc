@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_individually.h"
 #include "repeats.h"

@@ -1,3 +1,5 @@
+#include "lyrefit/family/family_documents.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/fit_family.h"

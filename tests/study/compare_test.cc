@@ -1,3 +1,4 @@
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/compare.h"
 #include "lyrefit/estimate/fit/fit.h"
 

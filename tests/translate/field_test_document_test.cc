@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/translate/translation_parts.h"
 #include "sample_field_test.h"
 
 namespace lyrefit {

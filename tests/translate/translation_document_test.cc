@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

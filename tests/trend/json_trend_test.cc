@@ -4,6 +4,7 @@
 #include <set>
 
 #include "json_keys.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/json.h"
 #include "sample_trend.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/csv.h"
 #include "sample_trend.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/plots.h"
 #include "sample_trend.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "error_of.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "../json_keys.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/report/json.h"

@@ -16,6 +16,8 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
+struct TextReaders;
+
 // An option whose value differs from its default, for the echo in reports.
 struct OptionEcho {
   std::string name;           // as in flags and JSON
@@ -26,9 +28,11 @@ struct OptionEcho {
 // A field that is set from text: an enumeration, a list, a map or a file's content.
 template <class Options>
 struct OptionText {
-  // Parses a text into the options. An error is a sentence without the option's name. Null: the
+  // Parses a text into the options. `readers` reads what needs a file or a catalogue
+  // (estimate/fit/text_readers.h). An error is a sentence without the option's name. Null: the
   // option can be set in code only.
-  Expected<void> (*read)(const std::string& text, Options* options) = nullptr;
+  Expected<void> (*read)(const std::string& text, Options* options,
+                         const TextReaders& readers) = nullptr;
   // Formats the field as text: one text, or one for each element if `many`.
   std::vector<std::string> (*write)(const Options& options) = nullptr;
   std::string (*allowed)() = nullptr;  // list of values for --help, "sd, dd, td"; null: the doc
@@ -258,7 +262,7 @@ constexpr auto EnumOption() {
   using Target = std::decay_t<decltype(Along<First, Rest...>(std::declval<Options&>()))>;
   using E = typename WithoutOptional<Target>::Type;
   return OptionText<Options>{
-      [](const std::string& text, Options* options) -> Expected<void> {
+      [](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
         const std::optional<E> value = FromText<E>(text);
         if (!value) return Fail("expected one of " + AllTexts<E>() + ", found '" + text + "'");
         Along<First, Rest...>(*options) = *value;
@@ -292,7 +296,7 @@ constexpr auto EnumListOption() {
   using Target = std::decay_t<decltype(Along<First, Rest...>(std::declval<Options&>()))>;
   using E = typename Target::value_type;
   return OptionText<Options>{
-      [](const std::string& text, Options* options) -> Expected<void> {
+      [](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
         const Expected<std::vector<std::string>> names = SplitList(text);
         if (!names) return tl::unexpected<Error>(names.error());
         Target values;

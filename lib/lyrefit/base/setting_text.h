@@ -23,7 +23,7 @@ std::string RangeText(const std::string& name, const std::pair<double, double>& 
 template <auto Read, auto Text, auto First, auto... Rest>
 constexpr auto MapOption() {
   using Options = ClassOf<First>;
-  return OptionText<Options>{[](const std::string& text, Options* options) -> Expected<void> {
+  return OptionText<Options>{[](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
                                const auto named = Read(text);
                                if (!named) return tl::unexpected<Error>(named.error());
                                Along<First, Rest...>(*options)[named->first] = named->second;

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/row_cause.h"
 #include "lyrefit/diagnose/diagnose.h"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/row_cause.h"
 #include "lyrefit/report/documents.h"

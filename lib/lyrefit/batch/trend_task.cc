@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/campaign_results.h"

@@ -1,3 +1,5 @@
+#include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
@@ -54,6 +56,25 @@ Figure CertificateFigure(const Certificate& certificate) {
 
 Expected<void> PlotCertificate(const Certificate& certificate, const std::string& path) {
   return DrawFigure(CertificateFigure(certificate), path);
+}
+
+block::Figure FigureBlock(const Certificate& certificate) {
+  block::Figure shown;
+  if (certificate.floor.dual_A.empty()) return shown;
+  shown.caption =
+      "The proof of the floor: what a diode of each ideality could still gain. Nothing lies above "
+      "zero, and zero is reached only at the diodes of the floor.";
+  shown.figure = CertificateFigure(certificate);
+  block::Table table = {"rrr", {{"diode", "n", "cosine of dual vector and column"}}};
+  table.caption = "The diodes of the floor.";
+  std::vector<double> n;
+  for (const FloorDiode& diode : certificate.floor.diodes) n.push_back(diode.n);
+  const std::vector<double> cosines = DualCosines(certificate, n);
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    table.rows.push_back({std::to_string(i + 1), Significant(n[i], 8), Significant(cosines[i], 2)});
+  }
+  shown.readings = std::move(table);
+  return shown;
 }
 
 }  // namespace lyrefit

@@ -1,5 +1,7 @@
 #include "lyrefit/report/json_parts.h"
 
+#include "lyrefit/certify/certificate_documents.h"
+
 namespace lyrefit {
 
 void to_json(Json& j, const FloorDiode& diode) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/curve/data_sheet.h"
 
 namespace lyrefit {
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/cell_fields.h"
 #include "lyrefit/report/csv.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/report/plots.h"

@@ -9,7 +9,6 @@
 #include "lyrefit/devices/cell_options.h"
 #include "lyrefit/devices/cell_report.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/read/read_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -20,10 +19,5 @@ namespace LYREFIT_PUBLIC lyrefit {
 // its range.
 Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& options = {},
                                   const Observer& observer = {});
-
-// ReadMeasurement() of several files of one cell. A Suns-Voc trace in suns needs the short-circuit
-// current at one sun: where `options` have none, it is that of the brightest lit curve, over its
-// irradiance.
-Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOptions& options = {});
 
 }  // namespace lyrefit

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_parts.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/plots.h"

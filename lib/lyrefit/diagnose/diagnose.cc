@@ -346,7 +346,8 @@ void MarkInterrupted(Diagnosis* diagnosis) {
 
 }  // namespace
 
-Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options) {
+Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options,
+                    const TextReaders&) {
   const std::optional<Model> model = FromText<Model>(text);
   if (!model || *model == Model::kTripleDiode) {
     return Fail("expected sd or dd, found '" + text + "'");
@@ -355,7 +356,8 @@ Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options) 
   return {};
 }
 
-Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options) {
+Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options,
+                    const TextReaders&) {
   options->effects.clear();
   if (text.empty()) return {};
   TRY(options->effects, SplitList(text));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

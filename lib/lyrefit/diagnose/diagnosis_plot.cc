@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

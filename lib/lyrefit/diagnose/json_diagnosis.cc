@@ -1,3 +1,4 @@
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/report/json_parts.h"
 

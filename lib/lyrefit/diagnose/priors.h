@@ -52,7 +52,7 @@ template <auto Member>
 constexpr auto PriorsOption() {
   using Options = ClassOf<Member>;
   return OptionText<Options>{
-      [](const std::string& text, Options* options) -> Expected<void> {
+      [](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
         Expected<CausePriors> priors = PriorsNamed(text);
         if (!priors) return tl::unexpected<Error>(priors.error());
         options->*Member = std::move(*priors);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/documents.h"

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/report/csv.h"
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/family/family_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -1,3 +1,5 @@
+#include "lyrefit/family/family_documents.h"
+#include "lyrefit/family/family_parts.h"
 #include "lyrefit/report/plots.h"
 
 #include <fmt/format.h>
@@ -268,6 +270,29 @@ Figure FamilyFigure(const FamilyReport& report, const CurveSet& set) {
 Expected<void> PlotFamily(const FamilyReport& report, const CurveSet& set, const std::string& path,
                           PlotPoints points) {
   return DrawFigure(FamilyFigure(report, set), path, points);
+}
+
+block::Figure FigureBlock(const FamilyReport& report, const CurveSet& set) {
+  block::Figure shown;
+  if (report.curves.empty() || set.curves.empty()) return shown;
+  shown.caption = fmt::format(
+      "Measured points and model of up to twelve curves spread over the irradiances; beside them, "
+      "over irradiance, {}. The colour is the cell temperature.",
+      report.key_points ? "the errors of Pmp and Voc under each condition"
+                        : "the RMSE of each curve and its mean residual");
+  shown.figure = FamilyFigure(report, set);
+  block::Table table = {"lrrrrr",
+                        {{"curve", "irradiance (W/m2)", "temperature (C)", "points",
+                          "solved-current RMSE (A)", "mean residual (A)"}}};
+  table.caption = "The curves.";
+  for (const FamilyCurve& curve : report.curves) {
+    table.rows.push_back({curve.id, Significant(curve.irradiance_W_m2, 4),
+                          Significant(curve.temperature_C, 4), std::to_string(curve.points),
+                          Scientific(curve.rmse.solved_current_A, 3),
+                          Significant(curve.mean_residual_A, 3)});
+  }
+  shown.readings = std::move(table);
+  return shown;
 }
 
 }  // namespace lyrefit

@@ -10,7 +10,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_effects.h"
-#include "lyrefit/read/pan_technology.h"
+#include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/default_values.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/curve/data_sheet.h"
 #include "lyrefit/family/key_point_solver.h"
 #include "lyrefit/model/translation.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/curve/data_sheet.h"
 
 namespace lyrefit {
 

@@ -20,6 +20,15 @@ struct NamedValue {
   double value;      // infinite for an absent shunt
 };
 
+// Shared parameters of a device from another source.
+struct NamedParameters {
+  std::string name;  // file name without its folder
+  Translation translation;
+  std::vector<double> shared;         // in the translation's order
+  bool cells_stated = true;           // if false, the device counts as one cell, with equal curves
+  std::vector<std::string> warnings;  // sentences on what the source states and does not agree
+};
+
 // Returns the shared parameters of a family under the names and in the units of pvlib-python. These
 // are the keywords of calcparams_desoto or calcparams_cec, with cells_in_series, or of
 // calcparams_pvsyst, with d2mutau and NsVbi if the translation has them. pvlib's equations then give the same curves. pvlib

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"
@@ -63,14 +63,6 @@ bool TextHoldsCurveSet(const DecodedText& text, const std::string& path,
   if (!document) return false;
   return *document ? JsonHoldsSet(**document, path, options)
                    : TableHoldsSet(RewriteTable(text).text, path, options);
-}
-
-CurveSet SetOfOne(IvCurve curve) {
-  CurveSet set;
-  set.name = curve.name;
-  set.source = curve.source;
-  set.curves.push_back(std::move(curve));
-  return set;
 }
 
 }  // namespace lyrefit

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lyrefit/base/public.h"
-#include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/curve/data_sheet.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"

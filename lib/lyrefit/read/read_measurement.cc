@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/curve_text.h"

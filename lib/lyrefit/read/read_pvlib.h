@@ -5,18 +5,9 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/translation.h"
+#include "lyrefit/model/pvlib_parameters.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
-
-// Shared parameters of a device from another source.
-struct NamedParameters {
-  std::string name;  // file name without its folder
-  Translation translation;
-  std::vector<double> shared;         // in the translation's order
-  bool cells_stated = true;           // if false, the device counts as one cell, with equal curves
-  std::vector<std::string> warnings;  // sentences on what the source states and does not agree
-};
 
 // Reads parameters for pvlib's calcparams_desoto, calcparams_cec or calcparams_pvsyst, the inverse
 // of PvlibParameters and CecRow. Adjust, in percent, of calcparams_cec and of a CEC row changes

@@ -9,7 +9,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/model/coefficients.h"
-#include "lyrefit/read/pan_technology.h"
+#include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/model_points.h"
 

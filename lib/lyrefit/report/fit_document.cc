@@ -5,7 +5,7 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

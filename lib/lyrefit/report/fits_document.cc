@@ -4,7 +4,7 @@
 
 #include "lyrefit/base/version.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -5,16 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/certify/certify.h"
-#include "lyrefit/diagnose/diagnosis.h"
-#include "lyrefit/diagnose/reference.h"
-#include "lyrefit/devices/cell_report.h"
-#include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/family/family_report.h"
-#include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/translate/translation_report.h"
 
 // Records as the text of a JSON file. Keys have a fixed order, numbers have enough digits to read
 // back to the same bits, and unknown or infinite values are null. Every wall-clock time has a key
@@ -26,8 +17,6 @@
 // `high_95`, ... Its key is its name. A parameter of an effect has the key EFFECT.SYMBOL and a
 // member `effect`.
 namespace LYREFIT_PUBLIC lyrefit {
-
-struct TrendReport;
 
 // How many readings of the curve a report repeats under `data`.
 enum class JsonPoints {
@@ -51,54 +40,5 @@ std::string JsonReport(const FitReport& report, JsonPoints points = JsonPoints::
 
 // An array of the objects of JsonReport, each with its "file"; {"file", "error"} for a failed fit.
 std::string FitsJson(const std::vector<FittedFile>& fits, JsonPoints points = JsonPoints::kAll);
-
-// Every RMSE is a pair with the keys measured_current_A and solved_current_A.
-std::string FamilyJson(const FamilyReport& report);
-
-// Parameters and curves of a fit of two junctions. Every RMSE is a pair; its measured current is
-// null. The light of a curve that is not stated is null.
-std::string TwoJunctionJson(const TwoJunctionReport& report);
-
-// A certificate with the data to verify the floor at its Rs without lyrefit. With
-//   v[k] = voltage_V[k] + resistance_series current_A[k],      y = floor.dual_A,
-// no component of the model has a positive product with y: sum y <= 0, -sum y v <= 0, and -sum y
-// (exp(v / nNsVth) - 1) <= 0 for nNsVth = n module_thermal_voltage_V and every n in the range. Then
-// sum current_A y - sum y^2 / 2 <= N RMSE^2 / 2 for every mixture, with equality to rounding for
-// the floor.
-std::string CertificateJson(const Certificate& certificate);
-
-// A laboratory cell. `main`, `sweep`, `lit`, `dark`, `forward` and `reverse` are indices into
-// `sweeps`. Parameters of a fit have the interval to believe, and `covariance` is in their order.
-std::string CellJson(const CellReport& report);
-
-// The fitted parameters, and each check: the stated value beside that of the device.
-std::string DataSheetJson(const DataSheetFit& fit);
-
-// The parameters of the device `name` in pvlib's form: the function's name and its keywords, for
-// the call function(1000, 25, **parameters), and the device's row in SAM's library of modules, or
-// the reason why it has none. cells_in_series is a separate member (calcparams_pvsyst takes it as
-// well); d2mutau and NsVbi belong to pvlib's bishop88 functions.
-std::string PvlibJson(const std::string& name, TranslationLaw law,
-                      const std::vector<NamedValue>& keywords, const Expected<CecModule>& cec);
-
-// A diagnosis, which refers to points by index into `points`. Several diagnoses form an array.
-std::string DiagnosisJson(const Diagnosis& diagnosis);
-std::string DiagnosisJson(const std::vector<Diagnosis>& diagnoses);
-
-// Only the causes, for scripts that score many diagnoses: {"name": [["cause", "equivalent", ...],
-// ...]} with an empty list where no cause was found. `names` has one name for each diagnosis.
-std::string AnswersJson(const std::vector<std::string>& names,
-                        const std::vector<Diagnosis>& diagnoses);
-
-// The comparison and the diagnosis of its remainder.
-std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
-std::string OutlierSweepsJson(const OutlierSweeps& outlier);
-
-// Uncertainties are in the units of their values; expanded ones have k = 2. `points` holds the
-// curves.
-std::string TranslationJson(const TranslationReport& report);
-
-// Quantities with their days, the loss by part, onsets.
-std::string TrendJson(const TrendReport& report);
 
 }  // namespace lyrefit

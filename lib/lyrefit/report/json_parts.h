@@ -83,7 +83,4 @@ Json SetLawJson(const std::vector<EffectUse>& with, const CurveSet& set,
 // json_fit.cc
 Json FitJson(const FitReport& report, JsonPoints points);
 
-// json_diagnosis.cc
-void to_json(Json& j, const Diagnosis& diagnosis);
-
 }  // namespace lyrefit

@@ -1,3 +1,5 @@
+#include "lyrefit/settings/simulate_from.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/read/json_text.h"

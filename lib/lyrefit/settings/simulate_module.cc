@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "lyrefit/settings/simulate_from.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/settings/law_of_report.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/bounds.h"

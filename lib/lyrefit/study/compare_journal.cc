@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/base/version.h"
 
 namespace lyrefit {

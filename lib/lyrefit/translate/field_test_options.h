@@ -37,7 +37,7 @@ inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
     {"rated-W", "W", "rated Pmax of one module at 1000 W/m2 and 25 C", &FieldTestOptions::rated_W},
     {"tolerance", "-L,+H", "of the rating, in % or as -0W,+5W",
      OptionText<FieldTestOptions>{
-         [](const std::string& text, FieldTestOptions* options) -> Expected<void> {
+         [](const std::string& text, FieldTestOptions* options, const TextReaders&) -> Expected<void> {
            const Expected<PowerTolerance> tolerance = ReadTolerance(text);
            if (!tolerance) return tl::unexpected<Error>(tolerance.error());
            options->tolerance = *tolerance;

@@ -13,7 +13,8 @@
 
 namespace lyrefit {
 
-Expected<void> ReadTarget(const std::string& text, TranslateOptions* options) {
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options,
+                    const TextReaders&) {
   constexpr double kLowest_W_m2 = 1, kHighest_W_m2 = 2000, kColdest_C = -60, kHottest_C = 150;
   if (LowerCase(TrimBlanks(text)) == "stc") {
     options->target = TranslationTarget();

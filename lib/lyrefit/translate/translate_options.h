@@ -47,7 +47,8 @@ constexpr OptionNest<TranslateOptions> NestedOptions() {
 }
 
 // "1000,25" or "STC": irradiance in W/m2 and cell temperature in C.
-Expected<void> ReadTarget(const std::string& text, TranslateOptions* options);
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options,
+                    const TextReaders&);
 std::vector<std::string> TargetTexts(const TranslateOptions& options);
 
 inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/figure_parts.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/report/fit_parts.h"
+#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/field_inputs.h"

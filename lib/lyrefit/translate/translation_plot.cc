@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/report/record_parts.h"
+#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/translate/translation_report.h"
 
 namespace lyrefit {

@@ -1,3 +1,4 @@
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_parts.h"

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/trend/trend_report.h"

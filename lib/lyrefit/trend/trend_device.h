@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/read_pvlib.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/trend/trend_report.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimate/fit/simulated.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/read/read_curve.h"
 #include "temp_folder.h"
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/curve/curve_set.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "error_of.h"
+#include "lyrefit/settings/error_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/read/read_curve.h"
 #include "repeats.h"

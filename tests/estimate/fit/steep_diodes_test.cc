@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/term.h"
 #include "lyrefit/read/read_curve.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/read/read_curve.h"
 

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/json_text.h"
 #include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
@@ -120,6 +117,10 @@ std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve&
 
 }  // namespace
 
+Expected<void> CheckBoundsTable(const BoundsSpec::Table& table) {
+  return CheckTable(table, MakeDevice(Model::kTripleDiode, {}), true);
+}
+
 Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const Device& device,
                                                   const IvCurve& curve) {
   std::vector<ParameterBounds> bounds;
@@ -147,30 +148,6 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
     if (range != nullptr) bounds[i] = Linear(range->first, range->second);
   }
   return bounds;
-}
-
-Expected<BoundsSpec> ReadBoundsFile(const std::string& path) {
-  constexpr std::uintmax_t kLargestFile = 1U << 20;
-  TRY(const auto text, ReadTextFile(path, kLargestFile));
-  const auto json = ParseJson(text, path);
-  if (!json) return tl::unexpected(json.error());
-  if (!json->is_object() || json->empty()) {
-    return Fail(R"(expected bounds as an object like {"Iph":[0,2],"n":[1,2]})", path, 1, 1);
-  }
-  BoundsSpec spec;
-  spec.name = path;
-  const JsonFields fields(*json, text, path);
-  for (const auto& [key, value] : json->items()) {
-    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
-      return fields.Refuse(key, "[lower, upper], two numbers,");
-    }
-    spec.table[key] = {value[0].get<double>(), value[1].get<double>()};
-  }
-  Conditions any;
-  if (auto checked = CheckTable(spec.table, MakeDevice(Model::kTripleDiode, any), true); !checked) {
-    return Fail(checked.error().message, path);
-  }
-  return spec;
 }
 
 }  // namespace lyrefit

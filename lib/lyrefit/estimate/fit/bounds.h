@@ -35,13 +35,8 @@ struct BoundsSpec {
 Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const Device& device,
                                                   const IvCurve& curve);
 
-// Reads a bounds file: {"Iph":[0,2],"Is":[0,5e-5],"n":[1,2],"Rs":[0,0.36],"Rsh":[0,1000]}. Ampere
-// and ohm of the whole device, n per cell. Errors carry file, line and column.
-Expected<BoundsSpec> ReadBoundsFile(const std::string& path);
-
-// Bounds by name: "physical", "wide", the path of a bounds file, or "paper" or "literature". The
-// last two are read from bounds-NAME.json beside the file of the curve (or in its folder). Errors
-// without a file begin with "bounds".
-Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file);
+// Whether a table may bound the parameters of some model: names of the triple diode, finite numbers
+// in order, none negative. The error names the entry.
+Expected<void> CheckBoundsTable(const BoundsSpec::Table& table);
 
 }  // namespace lyrefit

@@ -6,20 +6,18 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/estimate/fit/text_readers.h"
 #include "lyrefit/model/device_effects.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
-
-// Parses "shading:d=0.3,w=0.2:0.4" into an effect of the catalogue and the values or ranges of its
-// parameters. DescribeUse() is the inverse.
-Expected<EffectUse> ReadEffectUse(const std::string& text);
 
 // Option for a list of effects, one flag per effect: see base/option.h.
 template <auto First, auto... Rest>
 constexpr auto EffectsOption() {
   using Options = ClassOf<First>;
-  return OptionText<Options>{[](const std::string& text, Options* options) -> Expected<void> {
-                               Expected<EffectUse> use = ReadEffectUse(text);
+  return OptionText<Options>{[](const std::string& text, Options* options,
+                                const TextReaders& readers) -> Expected<void> {
+                               Expected<EffectUse> use = readers.effect(text);
                                if (!use) return tl::unexpected<Error>(use.error());
                                Along<First, Rest...>(*options).push_back(std::move(*use));
                                return {};

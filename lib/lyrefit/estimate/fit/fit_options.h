@@ -159,7 +159,7 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
     {"threads", "N", "0: all cores; never changes a result", &FitOptions::threads, 0, kMostThreads,
      OptionTrait::kQuiet | OptionTrait::kNoEcho},
     {"kernel", "NAME", "instruction set of the heavy loops; never changes a result",
-     OptionText<FitOptions>{[](const std::string& text, FitOptions* options) -> Expected<void> {
+     OptionText<FitOptions>{[](const std::string& text, FitOptions* options, const TextReaders&) -> Expected<void> {
                               const Expected<const Kernel*> kernel = KernelNamed(text);
                               if (!kernel) return tl::unexpected<Error>(kernel.error());
                               options->kernel = *kernel;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/json_parts.h"
 #include "lyrefit/study/report/compare_parts.h"
 #include "lyrefit/study/report/problem_json.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/problem_ranks.h"

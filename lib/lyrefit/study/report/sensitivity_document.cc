@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/study/report/compare_parts.h"

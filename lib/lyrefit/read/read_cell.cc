@@ -1,12 +1,14 @@
+#include "lyrefit/read/read_cell.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/devices/describe_cell.h"
-#include "lyrefit/stream/cells.h"
+#include "lyrefit/curve/cells.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

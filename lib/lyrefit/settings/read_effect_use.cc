@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/effect_text.h"
+#include "lyrefit/settings/read_effect_use.h"
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"

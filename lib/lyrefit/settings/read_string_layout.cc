@@ -1,4 +1,4 @@
-#include "lyrefit/model/string_layout.h"
+#include "lyrefit/settings/read_string_layout.h"
 
 #include <fmt/format.h>
 

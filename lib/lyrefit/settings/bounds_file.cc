@@ -1,9 +1,13 @@
+#include "lyrefit/settings/bounds_file.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/read/json_text.h"
 
 namespace lyrefit {
 namespace {
@@ -34,6 +38,29 @@ Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string&
 }
 
 }  // namespace
+
+Expected<BoundsSpec> ReadBoundsFile(const std::string& path) {
+  constexpr std::uintmax_t kLargestFile = 1U << 20;
+  TRY(const auto text, ReadTextFile(path, kLargestFile));
+  const auto json = ParseJson(text, path);
+  if (!json) return tl::unexpected(json.error());
+  if (!json->is_object() || json->empty()) {
+    return Fail(R"(expected bounds as an object like {"Iph":[0,2],"n":[1,2]})", path, 1, 1);
+  }
+  BoundsSpec spec;
+  spec.name = path;
+  const JsonFields fields(*json, text, path);
+  for (const auto& [key, value] : json->items()) {
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number()) {
+      return fields.Refuse(key, "[lower, upper], two numbers,");
+    }
+    spec.table[key] = {value[0].get<double>(), value[1].get<double>()};
+  }
+  if (auto checked = CheckBoundsTable(spec.table); !checked) {
+    return Fail(checked.error().message, path);
+  }
+  return spec;
+}
 
 Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file) {
   if (name == "physical" || name == "wide") {

@@ -1,4 +1,4 @@
-#include "lyrefit/read/pan_technology.h"
+#include "lyrefit/model/pan_technology.h"
 
 #include "lyrefit/base/number_text.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/error_spec.h"
+#include "lyrefit/settings/error_file.h"
 
 #include <fmt/format.h>
 

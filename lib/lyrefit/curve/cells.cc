@@ -1,4 +1,4 @@
-#include "lyrefit/stream/cells.h"
+#include "lyrefit/curve/cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/report/document.h"
+
+// Functions shared by the documents, tables and pictures of fits, and by those of other records that
+// show the same things.
+namespace lyrefit {
+
+// fits_document.cc: parameters of the largest model; smaller models have the first of them.
+std::vector<ParameterInfo> LargestModel(const std::vector<FittedFile>& fits);
+
+// Final value and standard error of the parameter with this symbol.
+std::pair<double, double> ValueAndError(const FitReport& report, const ParameterInfo& info);
+
+// fit_verdicts.cc: conclusions of one or two sentences.
+std::string ResidualVerdict(const ResidualStatistics& residuals);
+std::string FitVerdict(const FitReport& report);
+// What residuals hold, for the middle of a sentence.
+std::string LeftWords(const ResidualStatistics& residuals);
+// A part of Isc such as ", 0.10 % of Isc"; empty if Isc is unknown.
+std::string PartOfIsc(double rmse_A, double isc_A);
+
+// fit_figure_block.cc: the picture of a fit for pages, with a caption and a table of its numbers. A
+// figure without panels if there is nothing to draw.
+block::Figure FigureBlock(const FitReport& report);
+
+// Digits of tables of readings.
+constexpr int kReadingDigits = 6;
+constexpr int kResidualDigits = 3;
+// Indices of the readings that a table shows; the caption states where the others are.
+std::vector<std::size_t> RowsShown(const std::vector<double>& voltage_V,
+                                   const std::vector<double>& current_A, std::string* caption);
+
+}  // namespace lyrefit

@@ -1,42 +1,52 @@
-# Test of the module order. A module includes only modules that it is allowed to. The command includes only installed
-# headers. The shared library exports exactly the installed headers. No two headers define types of one name, because a
-# linker would then keep one destructor for both.
+# Test of the module order. A module includes only modules that it links, directly or through others (lib/modules.cmake). The
+# command includes only installed headers, and these include only each other. No two headers define types of one name,
+# because a linker would then keep one destructor for both.
 #   cmake -DROOT=<folder with lib/ and apps/> -P CheckLayers.cmake
 # Lists every violation and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
 
-# folder -> the modules of lib/lyrefit, or their folders, that its files may include, besides itself
-set(ALLOWED_base)
-set(ALLOWED_read base)
-set(ALLOWED_model base read)
-set(ALLOWED_model/effects base read model)  # independent of fitting
-set(ALLOWED_search base)  # independent of photovoltaics
-set(ALLOWED_estimate/refine base read model)
-set(ALLOWED_estimate/fit base read model model/effects search estimate/refine)
-set(ALLOWED_estimate/family base read model model/effects search estimate/refine estimate/fit)
-set(ALLOWED_estimate/cell base read model estimate/refine estimate/fit)
-set(ALLOWED_certify base read model estimate/refine estimate/fit)
-set(ALLOWED_diagnose base read model model/effects search estimate certify)
-set(ALLOWED_translate base read model model/effects estimate/fit estimate/family diagnose)
-set(ALLOWED_trend base read model estimate)
-# Computes nothing.
-set(ALLOWED_report base read model search estimate/fit estimate/family estimate/cell certify diagnose translate
-    trend)
-# A separate library with its own writers in study/report. The core's writers do not depend on it.
-set(ALLOWED_study base read model model/effects search estimate certify report)
-# A separate library for many curves, their rows and their page.
-set(ALLOWED_batch base read model model/effects estimate/fit estimate/family estimate/cell certify diagnose
-    translate trend report)
-set(FOLDERS base read model model/effects search estimate/refine estimate/fit estimate/family estimate/cell certify
-    diagnose translate trend report study batch)
-# A folder that is named in FOLDERS, or the module: that of "study/report/plots.h" is study.
-set(IN_FOLDER "^lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")
+# The table of modules: ALLOWED_<folder> holds the folders that its files may include, besides its own.
+set(FOLDERS)
+function(lyrefit_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 M "ARITHMETIC" "FOLDER" "LINK;WITH")
+  if(NOT M_FOLDER)
+    set(M_FOLDER ${name})
+  endif()
+  set(allowed)
+  foreach(link IN LISTS M_LINK)
+    if(NOT DEFINED FOLDER_OF_${link})
+      message(FATAL_ERROR "module ${name} links ${link}, which is not before it")
+    endif()
+    list(APPEND allowed ${FOLDER_OF_${link}} ${ALLOWED_${FOLDER_OF_${link}}})
+  endforeach()
+  list(REMOVE_DUPLICATES allowed)
+  list(APPEND FOLDERS ${M_FOLDER})
+  set(FOLDERS ${FOLDERS} PARENT_SCOPE)
+  set(FOLDER_OF_${name} ${M_FOLDER} PARENT_SCOPE)
+  set(ALLOWED_${M_FOLDER} ${allowed} PARENT_SCOPE)
+endfunction()
+include("${ROOT}/lib/modules.cmake")
+# A folder of FOLDERS, or the module: that of "study/report/plots.h" is study.
+set(IN_FOLDER "^lyrefit/(estimate/[^/]+|[^/]+)/")
 
-set(PUBLIC)  # the installed headers
-if(EXISTS "${ROOT}/cmake/LyrefitInstall.cmake")
-  file(STRINGS "${ROOT}/cmake/LyrefitInstall.cmake" PUBLIC REGEX "^  [a-z_/]+\\.h\\)?$")
-  list(TRANSFORM PUBLIC REPLACE "[ )]" "")
-endif()
+# Whether a header of lib/lyrefit is public: it says so (base/public.h).
+function(is_public header)
+  get_property(known GLOBAL PROPERTY PUBLIC_${header} SET)
+  if(NOT known)
+    set(shown)
+    if(EXISTS "${ROOT}/lib/lyrefit/${header}")
+      file(STRINGS "${ROOT}/lib/lyrefit/${header}" shown REGEX "^#define LYREFIT_PUBLIC |^namespace LYREFIT_PUBLIC ")
+    endif()
+    if(shown OR header MATCHES "^[a-z_]+\\.h$|\\.inc$")
+      set(shown ON)
+    else()
+      set(shown OFF)
+    endif()
+    set_property(GLOBAL PROPERTY PUBLIC_${header} ${shown})
+  endif()
+  get_property(shown GLOBAL PROPERTY PUBLIC_${header})
+  set(IS_PUBLIC ${shown} PARENT_SCOPE)
+endfunction()
 
 set(BROKEN 0)
 macro(complain text)
@@ -50,24 +60,32 @@ function(check_own_include module quoted)
     complain("includes \"${quoted}\"; inside lib/ includes start with \"lyrefit/\"")
   elseif(quoted MATCHES "${IN_FOLDER}")
     set(other "${CMAKE_MATCH_1}")
-    string(REGEX REPLACE "/.*" "" whole "${other}")
-    if(whole STREQUAL "model")  # the terms do not know the effects
-      set(whole "${other}")
-    endif()
-    if(NOT other STREQUAL module AND NOT other IN_LIST ALLOWED_${module} AND NOT whole IN_LIST ALLOWED_${module})
+    if(NOT other STREQUAL module AND NOT other IN_LIST ALLOWED_${module})
       complain("module ${module} must not include module ${other} (\"${quoted}\")")
     endif()
+    check_public_include("${quoted}")
   else()
     complain("module ${module} must not include \"${quoted}\", which includes every module")
   endif()
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-# Checks an include in apps/. Allowed are the headers listed in LyrefitInstall.cmake, and base/try.h for its macro.
+# Checks an include in apps/ and in public headers: public headers, and base/try.h in apps for its macro.
 function(check_public_include header)
-  if(header MATCHES "^lyrefit/(.+)$" AND PUBLIC AND NOT header STREQUAL "lyrefit/base/try.h"
-     AND NOT CMAKE_MATCH_1 IN_LIST PUBLIC)
-    complain("the command must not include the closed header \"${header}\"")
+  set(who)
+  if(FILE MATCHES "^apps/" AND NOT header STREQUAL "lyrefit/base/try.h")
+    set(who "the command")
+  elseif(FILE MATCHES "^lib/lyrefit/(.+\\.h)$")
+    is_public("${CMAKE_MATCH_1}")
+    if(IS_PUBLIC)
+      set(who "a public header")
+    endif()
+  endif()
+  if(who AND header MATCHES "^lyrefit/(.+)$")
+    is_public("${CMAKE_MATCH_1}")
+    if(NOT IS_PUBLIC)
+      complain("${who} must not include the closed header \"${header}\"")
+    endif()
   endif()
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
@@ -92,7 +110,7 @@ function(check_file module)
     elseif(header MATCHES "^CLI/")
       complain("the library must build without the app's dependencies (<${header}>)")
     endif()
-    if(FILE STREQUAL "lib/lyrefit/lyrefit.h" AND header MATCHES "^lyrefit/(study|batch)[/.]")
+    if(FILE MATCHES "^lib/lyrefit/(lyrefit|core)\\.h$" AND header MATCHES "^lyrefit/(study|batch)[/.]")
       complain("the core knows nothing of the studies and of batches (\"${header}\")")
     endif()
     if(module IN_LIST FOLDERS AND (mark STREQUAL "\"" OR header MATCHES "^lyrefit/"))
@@ -124,40 +142,22 @@ function(check_types)
   set(BROKEN ${BROKEN} PARENT_SCOPE)
 endfunction()
 
-# Checks that the public headers, and no others, open their namespace with LYREFIT_PUBLIC, which exports their
-# declarations from the shared library.
-function(check_shown)
-  string(REGEX REPLACE "^lib/lyrefit/" "" header "${FILE}")
-  file(STRINGS "${ROOT}/${FILE}" opened REGEX "^namespace .*lyrefit {")
-  foreach(line IN LISTS opened)
-    if(header IN_LIST PUBLIC AND NOT line MATCHES "LYREFIT_PUBLIC")
-      complain("is public: its namespace opens with `namespace LYREFIT_PUBLIC lyrefit {`")
-    elseif(NOT header IN_LIST PUBLIC AND line MATCHES "LYREFIT_PUBLIC")
-      complain("is closed: LYREFIT_PUBLIC is for the headers that are installed")
-    endif()
-  endforeach()
-  set(BROKEN ${BROKEN} PARENT_SCOPE)
-endfunction()
-
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/lib/*.h" "${ROOT}/lib/*.cc"
      "${ROOT}/apps/*.h" "${ROOT}/apps/*.cc")
 foreach(FILE IN LISTS files)
   if(FILE MATCHES "[.]h$")
     check_types()
   endif()
-  if(PUBLIC AND FILE MATCHES "^lib/")
-    check_shown()
-  endif()
   if(FILE MATCHES "^apps/")
     check_file(apps)
-  elseif(FILE MATCHES "^lib/lyrefit/(model/effects|estimate/[^/]+|[^/]+)/")
+  elseif(FILE MATCHES "^lib/lyrefit/(estimate/[^/]+|[^/]+)/")
     set(module "${CMAKE_MATCH_1}")
     if(NOT module IN_LIST FOLDERS)
       complain("lib/lyrefit/${module} is no module of the library")
     endif()
     check_file(${module})
   else()
-    check_file(top)  # lyrefit.h, study.h and batch.h, which include every module
+    check_file(top)  # lyrefit.h, core.h, study.h and batch.h, which include every module
   endif()
 endforeach()
 

@@ -3,181 +3,28 @@
 include(CMakePackageConfigHelpers)
 set(LYREFIT_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/lyrefit")
 
-# Headers in these lists are public; all others are internal and may change at any time. A header that a public header
-# includes must be listed too. The test `package` compiles each one alone from the installed tree, which lacks the
-# internal headers.
-set(LYREFIT_PUBLIC_HEADERS
-  # public headers
-  lyrefit.h
-  certify/certify.h
-  diagnose/diagnose.h
-  diagnose/reference.h
-  effects/catalogue.h
-  devices/compare_directions.h
-  devices/fill_factor_losses.h
-  devices/ideality_over_light.h
-  devices/series_resistance.h
-  devices/superposition.h
-  devices/joint_estimate.h
-  devices/describe_cell.h
-  model/coefficients.h
-  devices/data_sheet.h
-  devices/data_sheet_family.h
-  family/fit_family.h
-  family/fit_individually.h
-  devices/fit_two_junctions.h
-  model/pvlib_parameters.h
-  estimate/fit/fit.h
-  certify/floor.h
-  estimate/fit/fit_files.h
-  estimate/fit/simulate.h
-  model/kernel.h
-  search/search.h
-  trend/read_trend.h
-  trend/trend.h
-  trend/trend_series.h
-  translate/procedures.h
-  translate/translate.h
-  translate/uncertainty.h
-  # options of these functions
-  certify/certify_options.h
-  diagnose/diagnose_options.h
-  diagnose/priors.h
-  diagnose/reference_options.h
-  devices/cell_options.h
-  family/family_options.h
-  devices/two_junction_options.h
-  estimate/fit/bounds.h
-  estimate/fit/error_spec.h
-  estimate/fit/fit_options.h
-  search/search_options.h
-  translate/checklist_options.h
-  translate/device_coefficients.h
-  translate/field_notes.h
-  translate/field_test_options.h
-  translate/translate_options.h
-  translate/uncertainty_options.h
-  trend/trend_options.h
-  # records that these functions return
-  curve/curve_set.h
-  curve/iv_curve.h
-  diagnose/diagnosis.h
-  diagnose/reference_comparison.h
-  diagnose/plan.h
-  devices/cell_report.h
-  family/family_report.h
-  devices/two_junction_report.h
-  estimate/fit/fit_report.h
-  estimate/refine/error_terms.h
-  estimate/refine/estimate.h
-  search/search_summary.h
-  translate/checklist.h
-  translate/field_test.h
-  translate/translation_report.h
-  trend/trend_report.h
-  # readers, and the writer of curves
-  curve/assumption.h
-  read/bare_curve.h
-  stream/batch_source.h
-  curve/check_readings.h
-  read/condition_options.h
-  read/curve_files.h
-  curve/date_time.h
-  read/nearest_curve.h
-  base/number_text.h
-  read/read_curve.h
-  read/spreadsheet_text.h
-  read/write_curve.h
-  read/module_sheet.h
-  read/read_module.h
-  read/read_pvlib.h
-  settings/simulate_module.h
-  read/write_pan.h
-  # writers of the records
-  report/csv.h
-  report/document.h
-  report/documents.h
-  report/figure.h
-  report/json.h
-  report/page.h
-  report/plots.h
-  report/readable.h
-  report/text_layout.h
-  # laws, and the headers for a user's own effect
-  model/curve_shape.h
-  model/device.h
-  model/effect.h
-  model/device_effects.h
-  model/law.h
-  model/pack.h
-  model/pack.inc
-  model/parameter.h
-  model/two_junctions.h
-  model/plain_stage.h
-  model/reading.h
-  model/single_diodes.h
-  model/solve.h
-  model/string_layout.h
-  model/term.h
-  model/translation.h
-  curve/key_points.h
-  # headers that all others share
-  base/constants.h
-  base/dual.h
-  base/enum_text.h
-  base/error.h
-  base/file.h
-  base/former_names.h
-  base/numbers.h
-  base/observer.h
-  base/option.h
-  base/setting_text.h
-  estimate/fit/effect_text.h
-  base/parallel.h
-  base/portable_exp.h
-  base/public.h
-  base/random.h
-  base/seconds.h
-  base/stoppable_reads.h
-  base/version.h)
-set(LYREFIT_STUDY_PUBLIC_HEADERS
-  study.h
-  study/audit.h
-  study/audit_options.h
-  study/audit_report.h
-  study/compare.h
-  study/compare_options.h
-  study/comparison.h
-  study/algorithms.h
-  study/rank_tests.h
-  study/read_audit_rows.h
-  study/report/audit_csv.h
-  study/report/audit_json.h
-  study/report/compare_csv.h
-  study/report/compare_json.h
-  study/report/compare_plot.h
-  study/report/documents.h)
-set(LYREFIT_BATCH_PUBLIC_HEADERS
-  batch.h
-  batch/batch.h
-  batch/batch_options.h
-  batch/batch_task.h
-  batch/campaign_summary.h
-  batch/pack.h
-  batch/history.h
-  batch/plan_task.h
-  batch/pixel_options.h
-  batch/plant_page.h
-  batch/result_row.h
-  batch/sample_summary.h
-  batch/sparkline.h
-  batch/string_plan.h
-  batch/string_pages.h)
-foreach(header IN LISTS LYREFIT_PUBLIC_HEADERS LYREFIT_STUDY_PUBLIC_HEADERS LYREFIT_BATCH_PUBLIC_HEADERS)
-  get_filename_component(folder "lyrefit/${header}" DIRECTORY)
-  install(FILES "${PROJECT_SOURCE_DIR}/lib/lyrefit/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}"
-          COMPONENT dev)
+# The public headers of all modules, which the modules name (lib/CMakeLists.txt), and those that include them. A header that
+# a public header includes must be public too. The test `package` compiles each one alone from the installed tree, which
+# lacks the internal headers. Component `core` has those of the core alone.
+set(LYREFIT_PUBLIC_HEADERS "${PROJECT_SOURCE_DIR}/lib/lyrefit/lyrefit.h" "${PROJECT_SOURCE_DIR}/lib/lyrefit/study.h"
+                           "${PROJECT_SOURCE_DIR}/lib/lyrefit/batch.h")
+set(LYREFIT_CORE_HEADERS "${PROJECT_SOURCE_DIR}/lib/lyrefit/core.h")
+foreach(module IN LISTS LYREFIT_MODULES)
+  get_property(headers GLOBAL PROPERTY LYREFIT_HEADERS_${module})
+  if(module IN_LIST LYREFIT_CORE)
+    list(APPEND LYREFIT_CORE_HEADERS ${headers})
+  else()
+    list(APPEND LYREFIT_PUBLIC_HEADERS ${headers})
+  endif()
 endforeach()
+foreach(part core whole)
+  add_library(lyrefit_${part}_headers INTERFACE)
+endforeach()
+target_sources(lyrefit_core_headers INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib" FILES ${LYREFIT_CORE_HEADERS})
+list(APPEND LYREFIT_PUBLIC_HEADERS ${LYREFIT_CORE_HEADERS})
+target_sources(lyrefit_whole_headers INTERFACE FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/lib" FILES ${LYREFIT_PUBLIC_HEADERS})
+install(TARGETS lyrefit_whole_headers FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
+install(TARGETS lyrefit_core_headers FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT core EXCLUDE_FROM_ALL)
 
 # Components of packages: `runtime` is the shared library, `dev` the files for compiling, `command` the program on the
 # shared library (LyrefitPackages.cmake). `cmake --install` without a component installs the library type that

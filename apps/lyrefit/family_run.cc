@@ -1,9 +1,5 @@
 #include "family_run.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
 #include "interrupt.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/read/read_curve_set.h"
@@ -102,24 +98,6 @@ Expected<int> RunFamily(const VerbLine& verb, const CurveFlags& flagged, const F
   TRY(Write(verb, report, set, flags, output));
   if (report.interrupted) return kExitInterrupted;
   return report.usable ? kExitFine : kExitNotUsable;
-}
-
-Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
-  if (flags.index || !HoldsCurveSet(flags.file, flags.reading)) return found;
-  const Expected<CurveSet> set = ReadCurveSet(flags.file, flags.reading);
-  if (!set || set->curves.size() < 2) return found;
-  std::error_code error;
-  const bool folder = std::filesystem::is_directory(flags.file, error);
-  ReadOptions first = flags.reading;
-  first.column = "1";
-  const char* how = "choose one with --curve INDEX";
-  if (ReadCurve(flags.file, first)) how = "choose one with --column NAME|N (see --list-columns)";
-  if (folder) how = "give one of its files";
-  return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
-                      "desoto|pvsyst|free|auto if they are of one device, or each by itself with "
-                      "lyrefit batch",
-                      set->curves.size(), how),
-          flags.file};
 }
 
 }  // namespace lyrefit

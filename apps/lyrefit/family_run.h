@@ -10,7 +10,4 @@ namespace lyrefit {
 Expected<int> RunFamily(const VerbLine& verb, const CurveFlags& flagged, const FamilyFlags& flags,
                         const FamilyOptions& options, const ReportFlags& output);
 
-// Error if no single curve could be read: `found`, or that the file has many curves.
-Error WhyNotOneCurve(const CurveFlags& flags, const Error& found);
-
 }  // namespace lyrefit

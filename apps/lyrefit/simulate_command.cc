@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "flags.h"
-#include "lyrefit/settings/read_string_layout.h"
+#include "lyrefit/simulate/read_string_layout.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/settings/simulate_module.h"
+#include "lyrefit/simulate/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/write_curve.h"

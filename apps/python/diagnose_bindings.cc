@@ -11,6 +11,7 @@
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/simulate/text_readers.h"
 #include "sets.h"
 #include "work.h"
 
@@ -115,7 +116,7 @@ void ReadEffects(py::handle value, DiagnoseAsked* asked) {
       continue;
     }
     DiagnoseOptions named;
-    const Expected<void> read = ReadEffectIds(TextOf("effects", member), &named);
+    const Expected<void> read = ReadEffectIds(TextOf("effects", member), &named, AllTextReaders());
     if (!read) Raise({"effects: " + read.error().ToString(), {}});
     for (const std::string& id : named.effects) asked->options.effects.push_back(id);
   }

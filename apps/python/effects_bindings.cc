@@ -1,7 +1,7 @@
 #include "bindings.h"
 #include "effects.h"
 #include "keywords.h"
-#include "lyrefit/settings/read_effect_use.h"
+#include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/estimate/fit/effect_text.h"
 #include "lyrefit/effects/catalogue.h"
 

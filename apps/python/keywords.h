@@ -12,6 +12,7 @@
 
 #include "errors.h"
 #include "lyrefit/base/option.h"
+#include "lyrefit/simulate/text_readers.h"
 
 // Keyword arguments from the option tables: the command's --memory-rate is memory_rate here, with
 // the same range and error messages.
@@ -61,7 +62,7 @@ void SetField(const OptionRow<Options>& row, py::handle value, Options* options)
     if constexpr (std::is_same_v<Field, OptionText<Options>>) {
       const std::vector<std::string> texts = TextsOf(keyword, value);
       const auto read = [&](const std::string& text) {
-        const Expected<void> done = field.read(text, options);
+        const Expected<void> done = field.read(text, options, AllTextReaders());
         if (!done) Raise({keyword + ": " + done.error().ToString(), {}});
       };
       if (field.many) {

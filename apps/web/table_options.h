@@ -16,6 +16,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/simulate/text_readers.h"
 
 // Option tables as a form: its description, and the reading of its texts.
 namespace lyrefit {
@@ -101,7 +102,7 @@ Expected<void> ReadField(const OptionRow<Options>& row, const std::string& text,
         using Field = std::decay_t<decltype(field)>;
         if constexpr (std::is_same_v<Field, OptionText<Options>>) {
           if (field.read == nullptr) return Fail("can be set in code alone");
-          return field.read(text, options);
+          return field.read(text, options, AllTextReaders());
         } else if constexpr (std::is_same_v<Field, OptionSwitch<Options>>) {
           field.set(options, text == "yes");
           return {};

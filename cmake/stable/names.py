@@ -124,7 +124,7 @@ def command_flags(command, root):
     entries.update(flags_of_help("lyrefit", head))
     for verb in re.findall(r"^  ([a-z]+) {2,}\S", head, flags=re.MULTILINE):
         entries.update(flags_of_help(verb, said(verb, "--help")))
-    codes = (pathlib.Path(root) / "apps/lyrefit/output.h").read_text(encoding="utf-8")
+    codes = (pathlib.Path(root) / "apps/lyrefit/line/output.h").read_text(encoding="utf-8")
     for name, code in re.findall(r"constexpr int kExit(\w+) = (\d+);", codes):
         entries[f"exit code {code}"] = Entry("exact", name)
     return entries

@@ -27,27 +27,38 @@
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // Further public headers: model/pvlib_parameters.h exports a device to pvlib.
-// read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate_module.h beside it
-// simulates one, write_pan.h writes one for PVsyst.
+// read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate/simulate_module.h
+// simulates one, read/write_pan.h writes one for PVsyst.
 // family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
 // curve and proves the floor of its RMSE. diagnose/reference.h compares a sweep with reference
 // sweeps of its module. study.h, of the separate library lyrefit::study, compares searches and
 // checks publications.
 
+#include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/diagnose/diagnose.h"
-#include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/family/fit_family.h"
+#include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/fit_two_junctions.h"
+#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/effects/catalogue.h"
+#include "lyrefit/family/family_documents.h"
+#include "lyrefit/family/fit_family.h"
+#include "lyrefit/read/read_cell.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/settings/bounds_file.h"
+#include "lyrefit/settings/error_file.h"
+#include "lyrefit/simulate/simulate_from.h"
 #include "lyrefit/translate/translate.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"
+#include "lyrefit/trend/trend_documents.h"

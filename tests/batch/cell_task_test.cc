@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "../error_of.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 #include "strings.h"
 
 namespace lyrefit {

@@ -1,6 +1,6 @@
 #include "fuzz_file.h"
 #include "lyrefit/read/read_module.h"
-#include "lyrefit/settings/simulate_module.h"
+#include "lyrefit/simulate/simulate_module.h"
 
 // Readers of modules of PVsyst and SAM.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

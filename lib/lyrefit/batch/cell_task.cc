@@ -9,7 +9,7 @@
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/batch/samples.h"
 #include "lyrefit/devices/describe_cell.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/devices/cell_fields.h"
 #include "lyrefit/report/documents.h"

@@ -8,7 +8,7 @@
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/pixel_state.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 
 namespace lyrefit {
 namespace {

@@ -10,6 +10,7 @@
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -60,8 +61,6 @@ struct ModelCertificate {
   bool certified = false;   // the gap is at most kCertifiedGap, or within rounding
   std::int64_t solved = 0;  // convex problems in addition to the floor's; 0: the floor proves it
 };
-// Largest (rmse - lower bound) / rmse that counts as a proof.
-constexpr double kCertifiedGap = 1e-9;
 constexpr double kCertifiedRounding = 1e-14;  // x largest current: RMSEs closer than this are equal
 
 // Result of Certify(): proved lower bounds of the RMSE of one curve.

@@ -16,7 +16,7 @@
 #include "lyrefit/devices/joint_estimate.h"
 #include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/devices/superposition.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 
 namespace lyrefit {
 namespace {

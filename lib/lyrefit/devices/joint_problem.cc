@@ -18,11 +18,11 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kLeastSaturation = 1e-80;  // of the largest current
-constexpr double kMostSaturation = 0.1;     // of the largest current
-constexpr double kMostPhotocurrent = 3;     // of Isc
-constexpr double kMostSeries = 0.5;         // of Voc / Isc
-constexpr double kLeastShunt = 0.01;        // of Voc / Isc
+constexpr double kLeastCellSaturation = 1e-80;  // of the largest current
+constexpr double kMostCellSaturation = 0.1;     // of the largest current
+constexpr double kMostCellPhotocurrent = 3;     // of Isc
+constexpr double kMostCellSeries = 0.5;         // of Voc / Isc
+constexpr double kLeastCellShunt = 0.01;        // of Voc / Isc
 constexpr double kSecondIdeality = 2;       // recombination in the depletion region
 constexpr double kLeastFactor = 0.2;        // of the lights of a Suns-Voc trace
 constexpr double kMostFactor = 5;
@@ -46,17 +46,17 @@ void AddShared(const CellOptions& options, JointCell* cell) {
     const bool second = i == IdealityIndex(1);
     switch (info.kind) {
       case ParameterKind::kSaturation:
-        Add(info, kLeastSaturation * cell->isc_A, kMostSaturation * cell->isc_A, &problem);
+        Add(info, kLeastCellSaturation * cell->isc_A, kMostCellSaturation * cell->isc_A, &problem);
         break;
       case ParameterKind::kIdeality:
         Add(info, second ? kSecondIdeality : 1, second ? kSecondIdeality : options.largest_n,
             &problem);
         break;
       case ParameterKind::kSeries:
-        Add(info, 0, kMostSeries * ohm, &problem);
+        Add(info, 0, kMostCellSeries * ohm, &problem);
         break;
       default:
-        Add(info, kLeastShunt * ohm, kInfinity, &problem);
+        Add(info, kLeastCellShunt * ohm, kInfinity, &problem);
     }
   }
   Add({"c", "collection_slope", "1/V", "part of the photocurrent lost per volt of the junction",
@@ -78,7 +78,7 @@ void AddCurve(const CellSweep& sweep, JointCell* cell) {
     block.light = static_cast<int>(problem.parameters.size());
     Add({"Iph[" + sweep.name + "]", "photocurrent[" + sweep.name + "]", "A",
          "photocurrent of this curve", ParameterKind::kPhotocurrent},
-        0, kMostPhotocurrent * sweep.key.short_circuit_current_A, &problem);
+        0, kMostCellPhotocurrent * sweep.key.short_circuit_current_A, &problem);
   }
   cell->noise.push_back(sweep.noise_A);
   cell->least_error.push_back(LeastError(block.voltage_V.size(), sweep.noise_A, cell->isc_A));

@@ -8,7 +8,7 @@ namespace lyrefit {
 namespace {
 
 // Sides of the box; the photocurrents of single curves follow.
-enum Side { kCurrent1, kCurrent2, kShare, kIdeality1, kIdeality2, kSeries, kShunt1, kShunt2 };
+enum Side { kCurrent1, kCurrent2, kShare, kIdeality1, kIdeality2, kSeriesPart, kShunt1, kShunt2 };
 constexpr int kSides = 8;
 
 constexpr double kLeastCurrent = 0.95;  // photocurrents, in parts of the smallest possible ones
@@ -96,7 +96,7 @@ std::vector<double> ParametersAt(const PreparedTwoJunctions& prepared, const dou
     set(static_cast<int>(i), x[kSides + static_cast<int>(i) - kTwoJunctionParameters] *
                                  LeastPhotocurrent(prepared, static_cast<int>(i)));
   }
-  set(kTwoJunctionSeries, x[kSeries] * resistance);
+  set(kTwoJunctionSeries, x[kSeriesPart] * resistance);
   for (int j = 0; j < 2; ++j) {
     set(JunctionIdeality(j), x[kIdeality1 + j]);
     set(JunctionShunt(j), resistance * std::exp(x[kShunt1 + j]));
@@ -141,7 +141,7 @@ std::vector<std::vector<double>> TwoJunctionStarts(const PreparedTwoJunctions& p
         x[kShare] = share;
         x[kIdeality1] = ideality[0];
         x[kIdeality2] = ideality[1];
-        x[kSeries] = 0.01;
+        x[kSeriesPart] = 0.01;
         x[kShunt1] = x[kShunt2] = 6;
         starts.push_back(std::move(x));
       }

@@ -20,7 +20,7 @@ namespace {
 constexpr double kSameTemperature_K = 5;  // too small a range to fit temperature coefficients
 constexpr double kSameIrradiance = 1.5;   // ratio; a smaller one does not determine the shunt law
 
-struct Spread {
+struct ValueRange {
   double low = HUGE_VAL;
   double high = 0;
   void Add(double value) {
@@ -31,8 +31,8 @@ struct Spread {
 
 // Ranges over the fitted curves.
 struct Spreads {
-  Spread irradiance;
-  Spread temperature;
+  ValueRange irradiance;
+  ValueRange temperature;
 };
 
 using Reasons = std::map<int, std::string>;  // parameter index -> reason why it is fixed
@@ -159,7 +159,7 @@ double MeasuredTempco_A(const CurveSet& set, const FamilyMembers& curves) {
 }
 
 Reasons FixUnidentifiable(const CurveSet& set, const FamilyOptions& options,
-                          const Spread& temperature, FamilyProblem* family) {
+                          const ValueRange& temperature, FamilyProblem* family) {
   Reasons reasons;
   const auto fix = [&](int i, double value, const std::string& why) {
     FixAt(i, value, family);
@@ -249,7 +249,7 @@ Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spr
                                 FamilyProblem* family) {
   const int offsets = family->translation.size();
   if (options.irradiance_offset) {
-    const Spread& irradiance = spreads.irradiance;
+    const ValueRange& irradiance = spreads.irradiance;
     if (!(irradiance.high >= kSameIrradiance * irradiance.low)) {
       return Fail(
           "irradiance-offset: curves under one irradiance cannot tell a sensor's error from the "
@@ -261,7 +261,7 @@ Expected<void> FreeSensorErrors(const FamilyOptions& options, const Spreads& spr
     family->fixed[offsets] = kUnknown;
   }
   if (options.temperature_offset) {
-    const Spread& temperature = spreads.temperature;
+    const ValueRange& temperature = spreads.temperature;
     if (!(temperature.high - temperature.low >= kSameTemperature_K)) {
       return Fail(
           "temperature-offset: curves at one temperature cannot tell a sensor's error from n and "

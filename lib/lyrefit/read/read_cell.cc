@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve_set.h"

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/read/json_text.h"
 
 namespace lyrefit {

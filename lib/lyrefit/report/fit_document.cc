@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/fit_parts.h"

@@ -8,7 +8,7 @@
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/stream/batch_input.h"
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/stream/line_scanner.h"
 #include "lyrefit/stream/row_names.h"

@@ -1,3 +1,4 @@
+// Optimised fully: rows are parsed character by character.
 #include "lyrefit/stream/row_curve.h"
 
 #include <fmt/format.h>

@@ -225,11 +225,13 @@ class Settling {
 
 }  // namespace
 
-Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients) {
+Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients,
+                         const TextReaders&) {
   return ReadPerKelvin(text, &coefficients->alpha_A_K, &coefficients->alpha_percent_K);
 }
 
-Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients) {
+Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients,
+                         const TextReaders&) {
   return ReadPerKelvin(text, &coefficients->beta_V_K, &coefficients->beta_percent_K);
 }
 

@@ -30,8 +30,10 @@ struct StatedCoefficients {
 };
 
 // Read one coefficient: "-0.3%" is in percent per kelvin, "-0.12" in A/K or V/K.
-Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients);
-Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients);
+Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients,
+                         const TextReaders&);
+Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients,
+                         const TextReaders&);
 std::vector<std::string> AlphaTexts(const StatedCoefficients& coefficients);
 std::vector<std::string> BetaTexts(const StatedCoefficients& coefficients);
 

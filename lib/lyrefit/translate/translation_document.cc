@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/translate/translation_parts.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/translate/translation_parts.h"

@@ -43,6 +43,9 @@ struct RmseTable {
   RmsePair refined;  // best end of all starts
 };
 
+// Largest (rmse - lower bound) / rmse that counts as a proof.
+constexpr double kCertifiedGap = 1e-9;
+
 // Lowest RMSE (unweighted) of any number of diodes in parallel, with n, Rs, Iph and Rsh within the
 // bounds of the fit (see certify/certify.h).
 struct FloorReport {

@@ -11,7 +11,7 @@ struct EffectUse;
 struct ErrorSpec;
 
 // Functions that read the texts of options which need more than the core: a file or the catalogue of
-// effects. OptionText::read receives them; settings/text_readers.h has those of the library.
+// effects. OptionText::read receives them; simulate/text_readers.h has those of the library.
 struct TextReaders {
   // "shading:d=0.3,w=0.2:0.4". Errors: no such effect, a malformed text.
   Expected<EffectUse> (*effect)(const std::string& text);

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/settings/simulate_from.h"
+#include "lyrefit/simulate/simulate_from.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "temp_folder.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/settings/read_effect_use.h"
+#include "lyrefit/effects/read_effect_use.h"
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/curve/cells.h"
+#include "lyrefit/read/cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "bounds_flag.h"
-#include "family_flags.h"
-#include "family_run.h"
+#include "fit_forms.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/certify/floor.h"
 #include "lyrefit/estimate/fit/fit_files.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -15,7 +16,6 @@
 #include "lyrefit/report/plots.h"
 #include "model_flag.h"
 #include "output.h"
-#include "two_junction_run.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -37,18 +37,32 @@ constexpr char kFitFooter[] =
     "fit\n"
     "is not usable.";
 
+// Error if no single curve could be read: `found`, or that the file has many curves.
+Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
+  if (flags.index || !HoldsCurveSet(flags.file, flags.reading)) return found;
+  const Expected<CurveSet> set = ReadCurveSet(flags.file, flags.reading);
+  if (!set || set->curves.size() < 2) return found;
+  std::error_code error;
+  const bool folder = std::filesystem::is_directory(flags.file, error);
+  ReadOptions first = flags.reading;
+  first.column = "1";
+  const char* how = "choose one with --curve INDEX";
+  if (ReadCurve(flags.file, first)) how = "choose one with --column NAME|N (see --list-columns)";
+  if (folder) how = "give one of its files";
+  return {fmt::format("this is a set of {} curves: {}, or fit all of them with --family "
+                      "desoto|pvsyst|free|auto if they are of one device, or each by itself with "
+                      "lyrefit batch",
+                      set->curves.size(), how),
+          flags.file};
+}
+
+// The arguments and the forms whose flags were declared.
 struct FitRequest {
-  std::vector<std::string> files;
-  CurveFlags curve;  // of one file, or of each file
-  bool auto_model = false;
-  std::string bounds = "physical";  // value of --bounds
-  FitOptions options;
-  FamilyFlags family;
-  JunctionFlags junctions;
-  ReportFlags output;
+  FitArguments fit;
+  std::vector<std::unique_ptr<FitForm>> forms = FitForms();
 };
 
-void AddModelFlags(VerbLine* verb, FitRequest* fit) {
+void AddModelFlags(VerbLine* verb, FitArguments* fit) {
   AddModelFlag(verb, &fit->options.model, &fit->auto_model);
   AddNamedFlags(verb, kFitOptionTable, {"objective", "constants"}, &fit->options);
   AddBoundsFlag(verb, "Model", &fit->bounds);
@@ -56,7 +70,8 @@ void AddModelFlags(VerbLine* verb, FitRequest* fit) {
   AddTableFlags(verb, kFitOptionTable, &fit->options, "Model");
 }
 
-void DeclareFit(VerbLine* verb, FitRequest* fit) {
+void DeclareFit(VerbLine* verb, FitRequest* request) {
+  FitArguments* const fit = &request->fit;
   verb->AddOption("CURVE", &fit->files,
                   "table (CSV, text, most instruments' files) or JSON, a folder, or - for standard "
                   "input; several: a line each")
@@ -67,22 +82,9 @@ void DeclareFit(VerbLine* verb, FitRequest* fit) {
   AddTableFlags(verb, kFitOptionTable, &fit->options, "Search");
   AddTableFlags(verb, kSearchOptionTable, &fit->options.search);
   AddTableFlags(verb, kFitOptionTable, &fit->options);
-  AddFamilyFlags(verb, &fit->family, &fit->output);
-  AddJunctionFlags(verb, &fit->junctions);
+  for (const auto& form : request->forms) form->Declare(verb, &fit->output);
   AddReportFlags(verb, "report", "", "fit", &fit->output);
   AddFullSwitches(verb, &fit->output);
-}
-
-// Sets options that depend on other flags, and rejects contradictions.
-Expected<void> Settle(const VerbLine& verb, FitRequest* fit) {
-  FitOptions& options = fit->options;
-  if (options.with.empty()) return {};
-  options.force_effects = verb.Forced();
-  const SearchOptions usual = FitOptions::SearchBesideShapes();
-  if (!verb.Given("--population")) options.search.population = usual.population;
-  if (!verb.Given("--iterations")) options.search.iterations = usual.iterations;
-  if (!fit->auto_model) return {};
-  return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
 }
 
 // A curve and the options of its fit.
@@ -91,7 +93,7 @@ struct FitJob {
   FitOptions options;
 };
 
-Expected<FitJob> ReadJob(const FitRequest& fit, const std::string& file) {
+Expected<FitJob> ReadJob(const FitArguments& fit, const std::string& file) {
   FitOptions options = fit.options;
   TRY(options.bounds, FlaggedBounds(fit.bounds, file));
   for (const auto& [name, range] : fit.options.bounds.overrides) {
@@ -104,11 +106,11 @@ Expected<FitJob> ReadJob(const FitRequest& fit, const std::string& file) {
   return FitJob{std::move(*curve), std::move(options)};
 }
 
-Expected<FitReport> Run(const FitRequest& fit, const FitJob& job, const Observer& observer) {
-  return FitWithFloor(job.curve, job.options, fit.auto_model, observer);
+Expected<FitReport> Run(const FitArguments& fit, const FitJob& job, const Observer& observer) {
+  return FitOneCurve(job.curve, job.options, fit.auto_model, observer);
 }
 
-Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
+Expected<void> Write(const VerbLine& verb, const FitArguments& fit,
                      const std::vector<FittedFile>& fits) {
   const ReportFlags& output = fit.output;
   const bool one = fit.files.size() == 1;
@@ -135,20 +137,7 @@ Expected<void> Write(const VerbLine& verb, const FitRequest& fit,
   });
 }
 
-Expected<int> RunFamilyFit(const VerbLine& verb, FitRequest* fit) {
-  if (fit->auto_model) {
-    return Fail("--model auto is for one curve: --family auto chooses among laws and diodes");
-  }
-  if (fit->files.size() > 1) {
-    return Fail("--family takes one set of curves: put the files into a folder");
-  }
-  fit->curve.file = fit->files.front();
-  TRY(Settle(verb, fit));
-  TRY(const FamilyOptions options, FamilyOptionsFromFlags(verb, fit->family, fit->options));
-  return RunFamily(verb, fit->curve, fit->family, options, fit->output);
-}
-
-Expected<int> RunOne(const VerbLine& verb, const FitRequest& fit) {
+Expected<int> RunOne(const VerbLine& verb, const FitArguments& fit) {
   TRY(const FitJob job, ReadJob(fit, fit.files.front()));
   const InterruptGuard guard;
   TRY(FitReport report, Run(fit, job, TerminalObserver()));
@@ -160,7 +149,7 @@ Expected<int> RunOne(const VerbLine& verb, const FitRequest& fit) {
 }
 
 // A failed file does not stop the others.
-Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
+Expected<int> RunMany(const VerbLine& verb, const FitArguments& fit) {
   for (const char* flag : {"--plot", "--curve"}) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is for one CURVE");
   }
@@ -188,20 +177,30 @@ Expected<int> RunMany(const VerbLine& verb, const FitRequest& fit) {
   return interrupted ? kExitInterrupted : exit_code;
 }
 
-Expected<int> RunFit(VerbLine& verb, FitRequest& fit) {
+Expected<int> RunFit(VerbLine& verb, FitRequest& request) {
+  FitArguments& fit = request.fit;
   if (fit.curve.list_columns) return PrintColumns(fit.files, fit.curve.reading);
-  TRY(CheckJunctionFlags(verb, fit.junctions));
-  if (fit.junctions.junctions == 2) {
-    return RunTwoJunctions(verb, fit.files, fit.curve, fit.junctions, fit.options, fit.output);
+  for (auto form = request.forms.rbegin(); form != request.forms.rend(); ++form) {
+    TRY(const bool asked, (*form)->IsAsked(verb));
+    if (asked) return (*form)->Run(verb, &fit);
   }
-  TRY(CheckFamilyFlags(verb, fit.family));
-  if (fit.family.family) return RunFamilyFit(verb, &fit);
-  TRY(Settle(verb, &fit));
+  TRY(SettleFitFlags(verb, &fit));
   TRY(verb.CheckFiles());
   return fit.files.size() == 1 ? RunOne(verb, fit) : RunMany(verb, fit);
 }
 
 }  // namespace
+
+Expected<void> SettleFitFlags(const VerbLine& verb, FitArguments* fit) {
+  FitOptions& options = fit->options;
+  if (options.with.empty()) return {};
+  options.force_effects = verb.Forced();
+  const SearchOptions usual = FitOptions::SearchBesideShapes();
+  if (!verb.Given("--population")) options.search.population = usual.population;
+  if (!verb.Given("--iterations")) options.search.iterations = usual.iterations;
+  if (!fit->auto_model) return {};
+  return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
+}
 
 const Verb kFitVerb = {"fit", "Fit diode-model parameters to a measured I-V curve", kFitFooter,
                        "the report as text, --json, --csv, --plot and --html",

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "lyrefit/estimate/fit/text_readers.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
@@ -22,6 +23,9 @@
 #include "output.h"
 
 namespace lyrefit {
+
+// What reads the texts of options that need a file or the catalogue of effects (fit_forms.h).
+const TextReaders& ProgramTextReaders();
 
 // Help text of a row: "doc: texts allowed [lower, upper] (default value)". `defaults` holds the
 // values before parsing. Very wide ranges are left out.
@@ -72,7 +76,7 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
     using Field = std::decay_t<decltype(field)>;
     if constexpr (std::is_same_v<Field, OptionText<Options>>) {
       const auto read = [options, read = field.read](const std::string& text) {
-        return read(text, options);
+        return read(text, options, ProgramTextReaders());
       };
       Flag flag =
           field.many ? verb->AddListReader(name, read, help) : verb->AddReader(name, read, help);

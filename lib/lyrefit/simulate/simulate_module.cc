@@ -1,14 +1,14 @@
-#include "lyrefit/settings/simulate_module.h"
+#include "lyrefit/simulate/simulate_module.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <optional>
 
-#include "lyrefit/settings/simulate_from.h"
+#include "lyrefit/simulate/simulate_from.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/settings/law_of_report.h"
+#include "lyrefit/simulate/law_of_report.h"
 #include "lyrefit/read/read_module.h"
 
 namespace lyrefit {

@@ -5,7 +5,6 @@
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/plots.h"

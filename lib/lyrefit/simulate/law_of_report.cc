@@ -1,4 +1,4 @@
-#include "lyrefit/settings/law_of_report.h"
+#include "lyrefit/simulate/law_of_report.h"
 
 #include <nlohmann/json.hpp>
 

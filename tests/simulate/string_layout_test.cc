@@ -10,7 +10,7 @@
 #include "synthetic_readings.h"
 #include "temp_folder.h"
 
-#include "lyrefit/settings/read_string_layout.h"
+#include "lyrefit/simulate/read_string_layout.h"
 
 namespace lyrefit {
 namespace {

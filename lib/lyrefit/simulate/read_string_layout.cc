@@ -1,4 +1,4 @@
-#include "lyrefit/settings/read_string_layout.h"
+#include "lyrefit/simulate/read_string_layout.h"
 
 #include <fmt/format.h>
 

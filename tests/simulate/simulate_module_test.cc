@@ -1,11 +1,11 @@
-#include "lyrefit/settings/simulate_module.h"
+#include "lyrefit/simulate/simulate_module.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "error_of.h"
 #include "read/pan_text.h"
-#include "lyrefit/settings/read_effect_use.h"
+#include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/read/read_pan.h"
 #include "lyrefit/model/current.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/settings/simulate_from.h"
+#include "lyrefit/simulate/simulate_from.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "lyrefit/settings/text_readers.h"
+#include "lyrefit/simulate/text_readers.h"
 
 #include "lyrefit/settings/error_file.h"
-#include "lyrefit/settings/read_effect_use.h"
+#include "lyrefit/effects/read_effect_use.h"
 
 namespace lyrefit {
 

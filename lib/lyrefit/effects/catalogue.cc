@@ -1,7 +1,5 @@
 #include "lyrefit/effects/catalogue.h"
 
-#include <cmath>
-
 #include "lyrefit/effects/catalogue_entries.h"
 
 namespace lyrefit {
@@ -15,13 +13,6 @@ const std::vector<Effect>& Entries() {
 }
 
 }  // namespace
-
-double EffectParameter::ReportedFactor(const double* p, const ReadingScale& scale) const {
-  double result = factor * std::pow(scale.current_A, current) * std::pow(scale.cells, cells) *
-                  std::pow(scale.rate_V_per_s, rate);
-  if (convert != nullptr) result *= convert(p, scale);
-  return result;
-}
 
 const std::vector<const Effect*>& Catalogue() {
   static const std::vector<const Effect*> catalogue = [] {

@@ -5,6 +5,9 @@
 
 namespace lyrefit {
 
+// None of the options of this test needs a file or a catalogue.
+struct TextReaders {};
+
 enum class Colour { kRed, kBlue };
 template <>
 struct EnumTable<Colour> {
@@ -65,6 +68,8 @@ std::vector<std::string> Echoes(const Paint& paint) {
   return texts;
 }
 
+constexpr TextReaders kNoReaders{};
+
 const OptionText<Paint>& TextOf(const std::string& name) {
   for (const OptionRow<Paint>& row : kPaintTable) {
     if (row.name == name) return std::get<OptionText<Paint>>(row.field);
@@ -109,18 +114,18 @@ TEST(OptionTable, RefusesNumbersOutsideTheirRangeWhereTheLibraryIsHeldToIt) {
 
 TEST(OptionTable, ReadsTextsAndSaysWhatItWouldHaveTaken) {
   Paint paint;
-  EXPECT_TRUE(TextOf("colour").read("blue", &paint));
+  EXPECT_TRUE(TextOf("colour").read("blue", &paint, kNoReaders));
   EXPECT_EQ(paint.colour, Colour::kBlue);
-  EXPECT_TRUE(TextOf("edge").read("blue", &paint));
+  EXPECT_TRUE(TextOf("edge").read("blue", &paint, kNoReaders));
   EXPECT_EQ(paint.edge, Colour::kBlue);
-  EXPECT_TRUE(TextOf("stripes").read("blue,red", &paint));
+  EXPECT_TRUE(TextOf("stripes").read("blue,red", &paint, kNoReaders));
   EXPECT_EQ(paint.stripes.size(), 2U);
   EXPECT_EQ(TextOf("colour").allowed(), "red, blue");
-  EXPECT_EQ(TextOf("colour").read("green", &paint).error().message,
+  EXPECT_EQ(TextOf("colour").read("green", &paint, kNoReaders).error().message,
             "expected one of red, blue, found 'green'");
-  EXPECT_EQ(TextOf("stripes").read("red,green", &paint).error().message,
+  EXPECT_EQ(TextOf("stripes").read("red,green", &paint, kNoReaders).error().message,
             "expected a list of red, blue, found 'green'");
-  EXPECT_EQ(TextOf("stripes").read("red,", &paint).error().message,
+  EXPECT_EQ(TextOf("stripes").read("red,", &paint, kNoReaders).error().message,
             "expected a list such as a,b,c, found 'red,'");
 }
 

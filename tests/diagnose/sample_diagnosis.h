@@ -6,7 +6,7 @@
 
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/model/kernel.h"
-#include "sample_report.h"
+#include "report/sample_report.h"
 
 // Diagnoses written by hand, without running the library.
 namespace lyrefit {

@@ -9,11 +9,11 @@ TEST(FamilyOptionTable, ReadsPercentWithAndWithoutTheirSign) {
   FamilyOptions options;
   for (const char* text : {"2", "2%", "2 %"}) {
     options.irradiance_accuracy = 0;
-    ASSERT_TRUE(ReadIrradianceAccuracy(text, &options)) << text;
+    ASSERT_TRUE(ReadIrradianceAccuracy(text, &options, {})) << text;
     EXPECT_EQ(options.irradiance_accuracy, 0.02) << text;
   }
   for (const char* text : {"", "%", "-1", "51", "nan", "two"}) {
-    const auto read = ReadIrradianceAccuracy(text, &options);
+    const auto read = ReadIrradianceAccuracy(text, &options, {});
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().message,
               std::string("expected percent from 0 to 50, such as 2 or 2%, found '") + text + "'");
@@ -22,8 +22,8 @@ TEST(FamilyOptionTable, ReadsPercentWithAndWithoutTheirSign) {
 
 TEST(FamilyOptionTable, TakesCurvesOneByOneAndInLists) {
   FamilyOptions options;
-  ASSERT_TRUE(ReadLeaveOut("17,18", &options));
-  ASSERT_TRUE(ReadLeaveOut("3", &options));
+  ASSERT_TRUE(ReadLeaveOut("17,18", &options, {}));
+  ASSERT_TRUE(ReadLeaveOut("3", &options, {}));
   EXPECT_EQ(options.leave_out, (std::vector<std::string>{"17", "18", "3"}));
 }
 

@@ -13,26 +13,26 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kBoltzmann_J_K = 1.380649e-23;
-constexpr double kCharge_C = 1.602176634e-19;
+constexpr double kPvlibBoltzmann_J_K = 1.380649e-23;
+constexpr double kPvlibCharge_C = 1.602176634e-19;
 
-using Module = std::map<std::string, double>;
+using PvlibModule = std::map<std::string, double>;
 
-Module ToMap(const std::vector<NamedValue>& values) {
-  Module module;
+PvlibModule ToMap(const std::vector<NamedValue>& values) {
+  PvlibModule module;
   for (const NamedValue& value : values) module[value.name] = value.value;
   return module;
 }
 
-struct FiveParameters {
+struct PvlibArguments {
   double photocurrent, saturation_current, resistance_series, resistance_shunt, nNsVth;
   double d2mutau = 0;
   double NsVbi = std::numeric_limits<double>::infinity();
 };
 
 // pvlib's calcparams_desoto and, with Adjust, calcparams_cec.
-FiveParameters CalcparamsDesoto(const Module& m, double g, double temp_cell) {
-  const double k_eV = kBoltzmann_J_K / kCharge_C;
+PvlibArguments CalcparamsDesoto(const PvlibModule& m, double g, double temp_cell) {
+  const double k_eV = kPvlibBoltzmann_J_K / kPvlibCharge_C;
   const double tref = m.at("temp_ref") + 273.15;
   const double t = temp_cell + 273.15;
   const double gap = m.at("EgRef") * (1 + m.at("dEgdT") * (t - tref));
@@ -42,19 +42,19 @@ FiveParameters CalcparamsDesoto(const Module& m, double g, double temp_cell) {
           m.at("R_s"), m.at("R_sh_ref") * m.at("irrad_ref") / g, m.at("a_ref") * t / tref};
 }
 
-FiveParameters CalcparamsPvsyst(const Module& m, double g, double temp_cell) {
+PvlibArguments CalcparamsPvsyst(const PvlibModule& m, double g, double temp_cell) {
   const double tref = m.at("temp_ref") + 273.15;
   const double t = temp_cell + 273.15;
   const double gamma = m.at("gamma_ref") + m.at("mu_gamma") * (t - tref);
   const double fade = std::exp(-m.at("R_sh_exp"));
   const double base = std::max(0.0, (m.at("R_sh_ref") - m.at("R_sh_0") * fade) / (1.0 - fade));
-  FiveParameters p = {
+  PvlibArguments p = {
       g / m.at("irrad_ref") * (m.at("I_L_ref") + m.at("alpha_sc") * (t - tref)),
       m.at("I_o_ref") * std::pow(t / tref, 3) *
-          std::exp(kCharge_C * m.at("EgRef") / (kBoltzmann_J_K * gamma) * (1 / tref - 1 / t)),
+          std::exp(kPvlibCharge_C * m.at("EgRef") / (kPvlibBoltzmann_J_K * gamma) * (1 / tref - 1 / t)),
       m.at("R_s"),
       base + (m.at("R_sh_0") - base) * std::exp(-m.at("R_sh_exp") * g / m.at("irrad_ref")),
-      gamma * kBoltzmann_J_K / kCharge_C * m.at("cells_in_series") * t};
+      gamma * kPvlibBoltzmann_J_K / kPvlibCharge_C * m.at("cells_in_series") * t};
   if (m.count("d2mutau") > 0) {
     p.d2mutau = m.at("d2mutau");
     p.NsVbi = m.at("NsVbi");
@@ -64,7 +64,7 @@ FiveParameters CalcparamsPvsyst(const Module& m, double g, double temp_cell) {
 
 // The single-diode equation at voltage v by bisection on the diode voltage, which rises with the
 // terminal voltage.
-double Current(const FiveParameters& p, double v) {
+double Current(const PvlibArguments& p, double v) {
   const auto current = [&](double vd) {
     return p.photocurrent - p.saturation_current * std::expm1(vd / p.nNsVth) -
            vd / p.resistance_shunt - p.photocurrent * p.d2mutau / (p.NsVbi - vd);
@@ -80,11 +80,11 @@ double Current(const FiveParameters& p, double v) {
 
 template <class Calcparams>
 void ExpectTheSameCurves(const Translation& translation, const std::vector<double>& shared,
-                         const Module& module, const Calcparams& calcparams, double voc) {
+                         const PvlibModule& module, const Calcparams& calcparams, double voc) {
   for (double g = 100; g <= 1100; g += 200) {
     for (double t = 0; t <= 70; t += 14) {
       const TranslatedDevice ours = TranslateTo(translation, shared, g, t + 273.15);
-      const FiveParameters theirs = calcparams(module, g, t);
+      const PvlibArguments theirs = calcparams(module, g, t);
       for (int k = 0; k <= 10; ++k) {
         const double v = 0.1 * k * voc;
         EXPECT_NEAR(SolveOperatingPoint(ours.device, ours.parameters.data(), v).current_A,
@@ -102,7 +102,7 @@ TEST(PvlibParameters, OfDeSotoGiveTheSameCurvesInPvlibsEquations) {
     const Translation translation = *MakeTranslation(spec);
     const auto values = PvlibParameters(translation, kSilicon);
     ASSERT_TRUE(values.has_value());
-    const Module module = ToMap(*values);
+    const PvlibModule module = ToMap(*values);
     EXPECT_EQ(module.size(), 11U);
     EXPECT_EQ(module.at("cells_in_series"), 60);
     EXPECT_EQ(module.at("temp_ref"), 25);
@@ -119,7 +119,7 @@ TEST(PvlibParameters, OfPvsystGiveTheSameCurvesInPvlibsEquations) {
       if (recombination) shared.insert(shared.end(), {1.6, 0.9 * 106});
       const auto values = PvlibParameters(translation, shared);
       ASSERT_TRUE(values.has_value());
-      const Module module = ToMap(*values);
+      const PvlibModule module = ToMap(*values);
       EXPECT_EQ(module.size(), recombination ? 15U : 13U);
       ExpectTheSameCurves(translation, shared, module, CalcparamsPvsyst, 82);
     }
@@ -133,18 +133,18 @@ TEST(CecRow, GivesTheSameCurvesInPvlibsEquationsAndTheKeyPointsOfTheModel) {
   EXPECT_EQ(row->name, "A module");
   EXPECT_EQ(row->technology, "Mono-c-Si");
   EXPECT_EQ(row->values.front().name, "N_s");
-  Module module = ToMap(row->values);
+  PvlibModule module = ToMap(row->values);
   EXPECT_EQ(module.at("Adjust"), 0);
   module["EgRef"] = 1.121;
   module["dEgdT"] = -0.0002677;
   module["temp_ref"] = 25;
   module["irrad_ref"] = 1000;
   ExpectTheSameCurves(translation, kSilicon, module, CalcparamsDesoto, 37);
-  const FiveParameters at = CalcparamsDesoto(module, 1000, 25);
+  const PvlibArguments at = CalcparamsDesoto(module, 1000, 25);
   EXPECT_NEAR(module.at("I_sc_ref"), Current(at, 0), 1e-9);
   EXPECT_NEAR(Current(at, module.at("V_oc_ref")), 0, 1e-9);
   EXPECT_NEAR(Current(at, module.at("V_mp_ref")), module.at("I_mp_ref"), 1e-9);
-  const FiveParameters hot = CalcparamsDesoto(module, 1000, 26);
+  const PvlibArguments hot = CalcparamsDesoto(module, 1000, 26);
   EXPECT_NEAR(Current(hot, module.at("V_oc_ref") + module.at("beta_oc")), 0, 2e-3);
   EXPECT_LT(module.at("beta_oc"), 0);
   EXPECT_GT(module.at("gamma_r"), -0.6);

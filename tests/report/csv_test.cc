@@ -11,11 +11,11 @@
 #include <algorithm>
 
 #include "golden.h"
-#include "sample_certificate.h"
-#include "sample_data_sheet.h"
-#include "sample_family.h"
+#include "certify/sample_certificate.h"
+#include "devices/sample_data_sheet.h"
+#include "family/sample_family.h"
 #include "sample_fits.h"
-#include "sample_reference.h"
+#include "diagnose/sample_reference.h"
 
 namespace lyrefit {
 namespace {

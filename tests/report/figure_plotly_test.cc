@@ -8,8 +8,8 @@
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
-#include "sample_diagnosis.h"
-#include "sample_family.h"
+#include "diagnose/sample_diagnosis.h"
+#include "family/sample_family.h"
 #include "sample_report.h"
 
 namespace lyrefit {

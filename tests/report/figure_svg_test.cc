@@ -4,7 +4,7 @@
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
-#include "sample_diagnosis.h"
+#include "diagnose/sample_diagnosis.h"
 #include "sample_report.h"
 #include "well_formed.h"
 

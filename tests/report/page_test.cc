@@ -12,11 +12,11 @@
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page_shell.h"
-#include "sample_certificate.h"
-#include "sample_diagnosis.h"
+#include "certify/sample_certificate.h"
+#include "diagnose/sample_diagnosis.h"
 #include "sample_document.h"
-#include "sample_family.h"
-#include "sample_reference.h"
+#include "family/sample_family.h"
+#include "diagnose/sample_reference.h"
 #include "sample_report.h"
 
 namespace lyrefit {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "synthetic_readings.h"
+#include "effects/synthetic_readings.h"
 #include "temp_folder.h"
 
 #include "lyrefit/simulate/read_string_layout.h"

@@ -1,5 +1,7 @@
 #include "lyrefit/translate/device_coefficients.h"
 
+#include "lyrefit/estimate/fit/text_readers.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,15 +17,15 @@ using ::testing::HasSubstr;
 
 TEST(Coefficients, AreAbsoluteOrInPercent) {
   StatedCoefficients c;
-  ASSERT_TRUE(ReadAlpha("0.05%", &c));
+  ASSERT_TRUE(ReadAlpha("0.05%", &c, {}));
   EXPECT_DOUBLE_EQ(*c.alpha_percent_K, 0.05);
-  ASSERT_TRUE(ReadAlpha("0.004", &c));
+  ASSERT_TRUE(ReadAlpha("0.004", &c, {}));
   EXPECT_FALSE(c.alpha_percent_K);
   EXPECT_DOUBLE_EQ(*c.alpha_A_K, 0.004);
-  ASSERT_TRUE(ReadBeta("-0.31%", &c));
+  ASSERT_TRUE(ReadBeta("-0.31%", &c, {}));
   EXPECT_EQ(BetaTexts(c), std::vector<std::string>{"-0.31%"});
   for (const char* text : {"", "%", "a%", "nan", "inf%", "-0.3 %/K"}) {
-    EXPECT_FALSE(ReadBeta(text, &c)) << text;
+    EXPECT_FALSE(ReadBeta(text, &c, {})) << text;
   }
 }
 

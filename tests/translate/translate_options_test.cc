@@ -13,14 +13,14 @@ using ::testing::HasSubstr;
 TEST(ReadTarget, TakesWhatPeopleWrite) {
   TranslateOptions options;
   for (const char* text : {"800,45", " 800 , 45", "8e2,45.0"}) {
-    ASSERT_TRUE(ReadTarget(text, &options)) << text;
+    ASSERT_TRUE(ReadTarget(text, &options, {})) << text;
     EXPECT_EQ(options.target.irradiance_W_m2, 800) << text;
     EXPECT_EQ(options.target.temperature_C, 45) << text;
   }
-  ASSERT_TRUE(ReadTarget("stc", &options));
+  ASSERT_TRUE(ReadTarget("stc", &options, {}));
   EXPECT_EQ(options.target.irradiance_W_m2, 1000);
   EXPECT_EQ(options.target.temperature_C, 25);
-  ASSERT_TRUE(ReadTarget("1000,-10", &options));
+  ASSERT_TRUE(ReadTarget("1000,-10", &options, {}));
   EXPECT_EQ(options.target.temperature_C, -10);
 }
 
@@ -28,7 +28,7 @@ TEST(ReadTarget, RefusesWhatIsNoPlace) {
   TranslateOptions options;
   for (const char* text : {"", "1000", "1000,", ",25", "1000;25", "1000,25,3", "hot", "nan,25",
                            "0,25", "-5,25", "1e9,25", "1000,nan", "1000,400", "1000,-200"}) {
-    const auto read = ReadTarget(text, &options);
+    const auto read = ReadTarget(text, &options, {});
     ASSERT_FALSE(read) << text;
     EXPECT_THAT(read.error().message, HasSubstr("expected")) << text;
   }

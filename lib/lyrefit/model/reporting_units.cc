@@ -8,6 +8,13 @@
 
 namespace lyrefit {
 
+double EffectParameter::ReportedFactor(const double* p, const ReadingScale& scale) const {
+  double result = factor * std::pow(scale.current_A, current) * std::pow(scale.cells, cells) *
+                  std::pow(scale.rate_V_per_s, rate);
+  if (convert != nullptr) result *= convert(p, scale);
+  return result;
+}
+
 double InternalValue(const Effect& effect, int k, double value, std::vector<double> p,
                      const ReadingScale& scale) {
   const EffectParameter& info = effect.parameters[k];

@@ -29,7 +29,7 @@ IvCurve Repeated(const IvCurve& curve, int times) {
   return repeated;
 }
 
-FitReport FitOf(const IvCurve& curve, FitOptions options = {}) {
+FitReport FitDistinct(const IvCurve& curve, FitOptions options = {}) {
   options.random_baseline = false;
   auto report = Fit(curve, options);
   EXPECT_TRUE(report) << report.error().ToString();
@@ -50,7 +50,7 @@ TEST(DistinctReadings, ExactCopiesAreCountedAndNothingElse) {
 
 TEST(DistinctReadings, CopiesChangeNoStandardErrorAndNoInterval) {
   const IvCurve once = ModuleCurve(Model::kSingleDiode, kSingleTruth, 4e-3, 3);
-  const FitReport one = FitOf(once), many = FitOf(Repeated(once, 25));
+  const FitReport one = FitDistinct(once), many = FitDistinct(Repeated(once, 25));
   EXPECT_EQ(many.curve.size(), 25 * once.size());
   EXPECT_EQ(many.criteria.points, static_cast<int>(once.size()));
   EXPECT_NEAR(many.rmse.refined.solved_current_A, one.rmse.refined.solved_current_A, 1e-12);
@@ -74,7 +74,7 @@ TEST(DistinctReadings, RepeatedMeasurementsCountEachTime) {
   IvCurve once = ModuleCurve(Model::kSingleDiode, kSingleTruth, 4e-3, 2, 40);
   FitOptions options;
   options.intervals = Intervals::kSymmetric;
-  const FitReport one = FitOf(once, options), all = FitOf(many, options);
+  const FitReport one = FitDistinct(once, options), all = FitDistinct(many, options);
   EXPECT_EQ(all.criteria.points, 1000);
   const double ratio = one.estimates[2].standard_error / all.estimates[2].standard_error;
   EXPECT_GT(ratio, 3.5);
@@ -92,7 +92,7 @@ TEST(DistinctReadings, AsManyParametersAsReadingsHaveNoErrors) {
     FitOptions options;
   } kCases[] = {{spaced(5), single}, {Repeated(spaced(5), 3), single}, {spaced(7), twin}};
   for (const auto& [curve, options] : kCases) {
-    const FitReport report = FitOf(curve, options);
+    const FitReport report = FitDistinct(curve, options);
     EXPECT_THAT(report.no_intervals_because, HasSubstr("different readings fix"));
     for (const Estimate& e : report.estimates) {
       EXPECT_TRUE(std::isnan(e.standard_error)) << e.info.symbol;
@@ -102,7 +102,7 @@ TEST(DistinctReadings, AsManyParametersAsReadingsHaveNoErrors) {
       EXPECT_THAT(e.reason, HasSubstr("different readings fix"));
     }
   }
-  const FitReport enough = FitOf(spaced(6));
+  const FitReport enough = FitDistinct(spaced(6));
   EXPECT_EQ(enough.no_intervals_because, "");
   EXPECT_THAT(MessageOf(Fit(Repeated(spaced(5), 3), twin)), HasSubstr("5 different points"));
 }

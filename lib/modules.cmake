@@ -2,8 +2,8 @@
 # may include, and links, the modules after LINK and those that these link. The build (CMakeLists.txt beside this file) and
 # the test of include directions (cmake/CheckLayers.cmake) read this table; cmake/ceilings.txt bounds its sizes.
 #   lyrefit_module(NAME [FOLDER folder] [LINK module...] [WITH library...] [ARITHMETIC])
-# WITH: libraries by others. ARITHMETIC: all of the module is optimised fully; of the others only the sources that say so in
-# their first line (`// Optimised fully: ...`).
+# WITH: libraries by others. ARITHMETIC: all of the module is optimized fully; of the others only the sources that say so in
+# their first line (`// Optimized fully: ...`).
 
 # The core: a curve goes in, parameters of a diode model with their uncertainties come out.
 lyrefit_module(base WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog Threads::Threads)

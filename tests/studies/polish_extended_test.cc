@@ -10,7 +10,7 @@
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/effects/catalogue.h"
-#include "module_with.h"
+#include "effects/module_with.h"
 #include "repeats.h"
 #include "studies/landscape.h"
 

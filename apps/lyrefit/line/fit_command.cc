@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bounds_flag.h"
-#include "fit_forms.h"
+#include "fit_kinds.h"
 #include "flags.h"
 #include "interrupt.h"
 #include "lyrefit/base/try.h"
@@ -56,10 +56,10 @@ Error WhyNotOneCurve(const CurveFlags& flags, const Error& found) {
           flags.file};
 }
 
-// The arguments and the forms whose flags were declared.
+// The arguments and the kinds of fit whose flags were declared.
 struct FitRequest {
   FitArguments fit;
-  std::vector<std::unique_ptr<FitForm>> forms = FitForms();
+  std::vector<std::unique_ptr<FitKind>> kinds = FitKinds();
 };
 
 void AddModelFlags(VerbLine* verb, FitArguments* fit) {
@@ -82,7 +82,7 @@ void DeclareFit(VerbLine* verb, FitRequest* request) {
   AddTableFlags(verb, kFitOptionTable, &fit->options, "Search");
   AddTableFlags(verb, kSearchOptionTable, &fit->options.search);
   AddTableFlags(verb, kFitOptionTable, &fit->options);
-  for (const auto& form : request->forms) form->Declare(verb, &fit->output);
+  for (const auto& kind : request->kinds) kind->Declare(verb, &fit->output);
   AddReportFlags(verb, "report", "", "fit", &fit->output);
   AddFullSwitches(verb, &fit->output);
 }
@@ -180,9 +180,9 @@ Expected<int> RunMany(const VerbLine& verb, const FitArguments& fit) {
 Expected<int> RunFit(VerbLine& verb, FitRequest& request) {
   FitArguments& fit = request.fit;
   if (fit.curve.list_columns) return PrintColumns(fit.files, fit.curve.reading);
-  for (auto form = request.forms.rbegin(); form != request.forms.rend(); ++form) {
-    TRY(const bool asked, (*form)->IsAsked(verb));
-    if (asked) return (*form)->Run(verb, &fit);
+  for (auto kind = request.kinds.rbegin(); kind != request.kinds.rend(); ++kind) {
+    TRY(const bool asked, (*kind)->IsAsked(verb));
+    if (asked) return (*kind)->Run(verb, &fit);
   }
   TRY(SettleFitFlags(verb, &fit));
   TRY(verb.CheckFiles());

@@ -1,4 +1,4 @@
-// Optimised fully: its matrices are those of every estimate.
+// Optimized fully: its matrices are those of every estimate.
 #include "lyrefit/base/dense.h"
 
 #include <Eigen/Cholesky>

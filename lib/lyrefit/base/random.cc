@@ -1,4 +1,4 @@
-// Optimised fully: it is called for every number drawn.
+// Optimized fully: it is called for every number drawn.
 #include "lyrefit/base/random.h"
 
 #include <cmath>

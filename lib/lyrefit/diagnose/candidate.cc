@@ -1,4 +1,4 @@
-// Optimised fully: it runs once for each candidate.
+// Optimized fully: it runs once for each candidate.
 #include "lyrefit/diagnose/candidate.h"
 
 #include <glog/logging.h>

@@ -1,4 +1,4 @@
-// Optimised fully: rows are parsed character by character.
+// Optimized fully: rows are parsed character by character.
 #include "lyrefit/stream/list_text.h"
 
 #include <charconv>

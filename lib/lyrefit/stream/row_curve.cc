@@ -1,4 +1,4 @@
-// Optimised fully: rows are parsed character by character.
+// Optimized fully: rows are parsed character by character.
 #include "lyrefit/stream/row_curve.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Optimised fully: rows are parsed character by character.
+// Optimized fully: rows are parsed character by character.
 #include "lyrefit/stream/row_names.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Optimised fully: it runs once for each sweep of years.
+// Optimized fully: it runs once for each sweep of years.
 #include "lyrefit/trend/trend_device.h"
 
 #include <algorithm>

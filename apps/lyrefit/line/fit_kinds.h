@@ -20,20 +20,20 @@ struct FitArguments {
   ReportFlags output;
 };
 
-// A form of the verb besides curves fitted one by one: a set of curves, two junctions.
-class FitForm {
+// A kind of fit besides curves fitted one by one: a set of curves, two junctions.
+class FitKind {
  public:
-  virtual ~FitForm() = default;
-  // Declares the form's own flags, some for outputs.
+  virtual ~FitKind() = default;
+  // Declares its own flags, some for outputs.
   virtual void Declare(VerbLine* verb, ReportFlags* output) = 0;
-  // Whether the flags ask for this form. Errors: flags that contradict each other.
+  // Whether the flags ask for it. Errors: flags that contradict each other.
   virtual Expected<bool> IsAsked(const VerbLine& verb) const = 0;
   // Fits and writes the results; returns the exit code.
   virtual Expected<int> Run(const VerbLine& verb, FitArguments* fit) const = 0;
 };
 
-// The forms of this program, in the order of --help. The program of a first fit has none.
-std::vector<std::unique_ptr<FitForm>> FitForms();
+// The kinds of fit of this program, in the order of --help. The program of a first fit has none.
+std::vector<std::unique_ptr<FitKind>> FitKinds();
 
 // Sets options that depend on other flags, and rejects contradictions.
 Expected<void> SettleFitFlags(const VerbLine& verb, FitArguments* fit);

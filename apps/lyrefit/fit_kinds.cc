@@ -1,4 +1,4 @@
-#include "fit_forms.h"
+#include "fit_kinds.h"
 
 #include "family_flags.h"
 #include "family_run.h"
@@ -11,7 +11,7 @@ namespace lyrefit {
 namespace {
 
 // A set of curves of one device.
-class FamilyForm : public FitForm {
+class FamilyFit : public FitKind {
  public:
   void Declare(VerbLine* verb, ReportFlags* output) override {
     AddFamilyFlags(verb, &flags_, output);
@@ -38,7 +38,7 @@ class FamilyForm : public FitForm {
 };
 
 // Two junctions in series.
-class JunctionForm : public FitForm {
+class JunctionFit : public FitKind {
  public:
   void Declare(VerbLine* verb, ReportFlags* /*output*/) override {
     AddJunctionFlags(verb, &flags_);
@@ -57,11 +57,11 @@ class JunctionForm : public FitForm {
 
 }  // namespace
 
-std::vector<std::unique_ptr<FitForm>> FitForms() {
-  std::vector<std::unique_ptr<FitForm>> forms;
-  forms.push_back(std::make_unique<FamilyForm>());
-  forms.push_back(std::make_unique<JunctionForm>());
-  return forms;
+std::vector<std::unique_ptr<FitKind>> FitKinds() {
+  std::vector<std::unique_ptr<FitKind>> kinds;
+  kinds.push_back(std::make_unique<FamilyFit>());
+  kinds.push_back(std::make_unique<JunctionFit>());
+  return kinds;
 }
 
 Expected<FitReport> FitOneCurve(const IvCurve& curve, const FitOptions& options, bool auto_model,

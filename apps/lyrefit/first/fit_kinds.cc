@@ -1,4 +1,4 @@
-#include "fit_forms.h"
+#include "fit_kinds.h"
 
 #include "lyrefit/settings/error_file.h"
 
@@ -12,7 +12,7 @@ Expected<EffectUse> RefuseEffect(const std::string& /*text*/) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<FitForm>> FitForms() { return {}; }
+std::vector<std::unique_ptr<FitKind>> FitKinds() { return {}; }
 
 Expected<FitReport> FitOneCurve(const IvCurve& curve, const FitOptions& options, bool auto_model,
                                 const Observer& observer) {

@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 # The table of modules: ALLOWED_<folder> holds the folders that its files may include, besides its own.
 set(FOLDERS)
 function(lyrefit_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "ARITHMETIC" "FOLDER" "LINK;WITH")
+  cmake_parse_arguments(PARSE_ARGV 1 M "ARITHMETIC;TEXT" "FOLDER" "LINK;WITH")
   if(NOT M_FOLDER)
     set(M_FOLDER ${name})
   endif()

@@ -1,6 +1,10 @@
 # Flags of every target. -ffp-contract=off forbids contraction of a * b + c: equal seeds must give equal bits with and
 # without fused multiply-add.
 add_compile_options(-Wall -Wextra -Wshadow -ffp-contract=off)
+# GCC collects its garbage less often: a tenth to a quarter of the time to compile, for a few hundred megabytes.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options("SHELL:--param ggc-min-expand=400" "SHELL:--param ggc-min-heapsize=2000000")
+endif()
 # Equal sources give equal bytes in any folder: assertions name files relative to the project.
 add_compile_options("$<$<CONFIG:Release>:-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=>")
 if(LYREFIT_SANITIZE)

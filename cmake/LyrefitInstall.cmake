@@ -45,6 +45,12 @@ foreach(kind static shared)
           DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT dev ${by_default})
 endforeach()
 
+# The core alone: an archive, its headers and the files of find_package. It is laid down on request.
+install(TARGETS lyrefit_core_static EXPORT lyrefit-core ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        COMPONENT core EXCLUDE_FROM_ALL)
+install(EXPORT lyrefit-core NAMESPACE lyrefit:: FILE lyrefit-core-targets.cmake
+        DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT core EXCLUDE_FROM_ALL)
+
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/lyrefit-config.cmake.in"
                               "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
                               INSTALL_DESTINATION ${LYREFIT_PACKAGE_DIR})
@@ -54,6 +60,8 @@ install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake"
               "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindLibCsv.cmake"
         DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT dev)
+install(FILES "${PROJECT_BINARY_DIR}/lyrefit-config.cmake" "${PROJECT_BINARY_DIR}/lyrefit-config-version.cmake"
+        DESTINATION ${LYREFIT_PACKAGE_DIR} COMPONENT core EXCLUDE_FROM_ALL)
 # Requires.private is omitted, because pkg-config would then require the dependencies' files even for the shared
 # library. The file of pkg-config states its prefix relative to itself, so that an installed tree may be moved.
 file(RELATIVE_PATH LYREFIT_PREFIX_FROM_PC "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")

@@ -1,14 +1,25 @@
 #!/usr/bin/env bash
-# Sets the machine up, builds lyrefit and its Python module with their tests and runs every test. With
-# LYREFIT_FIELD_DATA=FOLDER in the environment the tests on field measurements run as well.
+# Sets the machine up, builds lyrefit and its Python module and runs the tests of every module, of the command, of the
+# Python module and of the README. With LYREFIT_FIELD_DATA=FOLDER in the environment the tests on field measurements run
+# as well.
+#   cmake/check.sh --all         also those of pages in a browser, of the site, of engines, packages, fuzzed readers, rates
+#                                and of the publication
 #   cmake/check.sh --nightly     instead the tests that learn rates and those on field measurements, at full size
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 field_data=${LYREFIT_FIELD_DATA:+$(realpath -- "$LYREFIT_FIELD_DATA")}
 
-InstallPackages build test peers pages python reference site packages engines slurm
+all=OFF
+case ${1:-} in
+  "") InstallPackages build test python ;;
+  --all | --nightly)
+    all=ON
+    InstallPackages build test peers pages python reference site packages engines slurm
+    ;;
+  *) Die "usage: cmake/check.sh [--all | --nightly]" ;;
+esac
 cd -- "$LYREFIT_ROOT"
-Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_FIELD_DATA="$field_data"
+Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_ALL_TESTS=$all -DLYREFIT_BUILD_PYTHON=ON -DLYREFIT_FIELD_DATA="$field_data"
 Build build
 if [[ ${1:-} == --nightly ]]; then
   LYREFIT_NIGHTLY=1 RunTests build --label-regex '^(nightly|field)$'

@@ -15,7 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 CORE = "core"
-KEYWORDS = {"FOLDER", "LINK", "WITH", "ARITHMETIC"}
+KEYWORDS = {"FOLDER", "LINK", "WITH", "ARITHMETIC", "TEXT"}
 
 
 def modules(root):

@@ -39,6 +39,28 @@ run(${WORK}/consumer/study ${DATA})
 run(${WORK}/consumer/batch ${DATA}/../plant/strings.csv ${WORK}/results)
 run(${WORK}/consumer/across ${WORK}/none)
 
+# The core alone: what it is laid down with, what it links, what is in it.
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/core_prefix --config ${CONFIG} --component core)
+run(${CMAKE_COMMAND} -S ${HERE}/core -B ${WORK}/core -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/core_prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${CONFIG})
+run(${CMAKE_COMMAND} --build ${WORK}/core --config ${CONFIG})
+run(${WORK}/core/core)
+execute_process(COMMAND ${NM} -C ${WORK}/core_prefix/${LIBDIR}/liblyrefit_core.a OUTPUT_VARIABLE symbols ERROR_QUIET
+                COMMAND_ERROR_IS_FATAL ANY)
+foreach(foreign "nlohmann" " csv_" " deflate" " inflate" "lyrefit::ReadCurve" "lyrefit::DrawPage" "lyrefit::DrawText")
+  if(symbols MATCHES "${foreign}")
+    message(FATAL_ERROR "the archive of the core has ${foreign}")
+  endif()
+endforeach()
+if(NOT symbols MATCHES "lyrefit::Fit\\(")
+  message(FATAL_ERROR "the archive of the core has no lyrefit::Fit")
+endif()
+file(SIZE ${WORK}/core_prefix/${LIBDIR}/liblyrefit_core.a core_size)
+file(SIZE ${PREFIX}/${LIBDIR}/liblyrefit.a whole_size)
+file(SIZE ${WORK}/core/core core_program)
+file(SIZE ${WORK}/consumer/consumer whole_program)
+message(STATUS "bytes: archive of the core ${core_size}, of the whole ${whole_size}; a program of the core ${core_program}, of the whole ${whole_program}")
+
 # pkg-config: once compiled, linked with the shared library and with the archive.
 find_program(PKG_CONFIG NAMES pkgconf pkg-config)
 function(flags out)
@@ -84,12 +106,13 @@ run(${CMAKE_COMMAND} -DLIBRARY=${PREFIX}/${LIBDIR}/liblyrefit.so -DHEADERS=${PRE
     -P ${HERE}/symbols.cmake)
 
 # A part of another project. Its own file is compiled, and linked by the line that its build has for it, for which the
-# archive of this build takes the place of the one it would make.
+# archives of this build take the place of those it would make.
 if(GENERATOR STREQUAL "Ninja")
   set(within ${WORK}/within)
   run(${CMAKE_COMMAND} -S ${HERE}/within -B ${within} -G Ninja -DLYREFIT=${SOURCE} -DCMAKE_CXX_COMPILER=${COMPILER})
   run(${CMAKE_COMMAND} --build ${within} --target within_main)
-  file(COPY "${BUILD}/lib/liblyrefit.a" DESTINATION "${within}/lyrefit/lib")
+  file(GLOB archives "${BUILD}/lib/liblyrefit_*.a")
+  file(COPY ${archives} DESTINATION "${within}/lyrefit/lib")
   execute_process(COMMAND ninja -C ${within} -t commands within OUTPUT_VARIABLE commands COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "[^\n]*-o within [^\n]*" link "${commands}")
   run(sh -c "${link}" WORKING_DIRECTORY ${within})

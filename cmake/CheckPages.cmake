@@ -1,5 +1,5 @@
-# Test of the names in backticks on the pages README.md of the modules and their folders. Every file named must exist. Every word with an
-# underscore must be a file's name without its ending, or occur in the sources.
+# Test of the names in backticks on the pages README.md of the modules and their folders, and on those of the decisions. Every file
+# named must exist. Every word with an underscore must be a file's name without its ending, or occur in the sources.
 #   cmake -DROOT=<folder with lib/, apps/ and tests/> -P CheckPages.cmake
 # Lists every name that does not exist and fails if there is one.
 cmake_minimum_required(VERSION 3.25)
@@ -20,7 +20,7 @@ endforeach()
 set(FOREIGN ivtools.utils.astm_e1036)
 
 set(STALE "")
-file(GLOB PAGES "${ROOT}/lib/lyrefit/*/README.md" "${ROOT}/lib/lyrefit/*/*/README.md")
+file(GLOB PAGES "${ROOT}/lib/lyrefit/*/README.md" "${ROOT}/lib/lyrefit/*/*/README.md" "${ROOT}/lib/decisions/*.md")
 foreach(page IN LISTS PAGES)
   file(READ "${page}" text)
   string(REPLACE ";" " " text "${text}")

@@ -27,8 +27,8 @@ NAMES = {
     ".github/CHANGELOG.md": "changelog",
     ".github/CONTRIBUTING.md": "contributing",
 }
-MOVED = (("apps/lyrefit/verbs/", "verbs/"), ("lib/lyrefit/", "modules/"), (".github/", "project/"), ("apps/", "project/"),
-         ("cmake/", "project/"))
+MOVED = (("apps/lyrefit/verbs/", "verbs/"), ("lib/lyrefit/", "modules/"), ("lib/decisions/", "decisions/"), (".github/", "project/"),
+         ("apps/", "project/"), ("cmake/", "project/"))
 # What a bare name is the title of, on these pages: a module, a verb and a function may have the same.
 KINDS = (("modules/.+", "module of the library"), ("tests/.+/index", "tests"), ("start", "start"))
 SECTION = re.compile(r"^<!-- section: (\S+)#(\S+) -->$", re.M)

@@ -203,8 +203,11 @@ Expected<int> RunFit(VerbLine& verb, FitRequest& fit) {
 
 }  // namespace
 
-const Verb kFitVerb = {"fit", "Fit diode-model parameters to a measured I-V curve", kFitFooter,
+const Verb kFitVerb = {"fit",
+                       "Fit diode-model parameters to a measured I-V curve",
+                       kFitFooter,
                        "the report as text, --json, --csv, --plot and --html",
-                       Declare<FitRequest, DeclareFit, RunFit>};
+                       Declare<FitRequest, DeclareFit, RunFit>,
+                       VerbKind::kPromised};
 
 }  // namespace lyrefit

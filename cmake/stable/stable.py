@@ -66,7 +66,7 @@ def differences(version, now):
     return broken, changed
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["check", "record"])
     parser.add_argument("--version", required=True)
@@ -74,7 +74,7 @@ def main():
     parser.add_argument("--command", type=pathlib.Path)
     parser.add_argument("--package", type=pathlib.Path)
     parser.add_argument("--doxygen", default=shutil.which("doxygen"))
-    given = parser.parse_args()
+    given = parser.parse_args(arguments)
     if not given.doxygen:
         sys.exit("doxygen is not there")
     now = current(given)

@@ -153,32 +153,39 @@ class Promised(unittest.TestCase):
                 self.assertEqual(schema.get("x-stability"), "experimental", file.name)
 
     def test_an_open_record_is_of_this_version(self):
-        version = re.search(r"^project\(lyrefit VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), flags=re.MULTILINE).group(1)
+        lists = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        version = re.search(r"^project\(lyrefit VERSION (\S+)", lists, flags=re.MULTILINE).group(1)
         for file in stable.RECORDS.glob("*/open.txt"):
             self.assertEqual(file.parent.name, version)
 
     def test_a_list_that_is_not_understood_is_refused(self):
-        for text in ("fit\n", "  except a\n", "verb fit\nverb fit\n", "header a\n  includes b\n", "verb fit\n    \n  drop a\n"):
+        for text in ("fit\n", "  except a\n", "verb fit\nverb fit\n", "header a\n  includes b\n", "verb fit\n  drop a\n"):
             self.assertRaises(ValueError, promise.read, text)
 
     def test_parts_that_are_experimental_are_left_out(self):
-        parts = promise.read("# a list\nheader lyrefit/a.h\n  except lyrefit::A::b\n  except lyrefit::Read\n\nschema fit.json\n"
-                             "  except plan\nverb fit\n  except --light\npython fit\n  except light\npython One\n")
+        parts = promise.read(
+            "# a list\nheader lyrefit/a.h\n  except lyrefit::A::b\n  except lyrefit::Read\n\nschema fit.json\n  except plan\n"
+            "verb fit\n  except --light\npython fit\n  except light\npython One\n")
         entry = comparison.Entry("exact")
-        self.assertEqual(list(promise.of_headers(dict.fromkeys(
-            ["lyrefit::A", "lyrefit::A::b", "lyrefit::A::bc", "lyrefit::Read(int)", "lyrefit::Reader"], entry), parts["header"])),
-            ["lyrefit::A", "lyrefit::A::bc", "lyrefit::Reader"])
-        self.assertEqual(list(promise.of_schemas(dict.fromkeys(
-            ["fit", "fit.a", "fit.plan", "fit.plan.a", "fit.plan = b", "fit.planned", "cell", "cell.a"], entry), parts["schema"])),
-            ["fit", "fit.a", "fit.planned"])
-        self.assertEqual(list(promise.of_flags(dict.fromkeys(
-            ["exit code 0", "fit", "fit --model sd", "fit(--light)", "fit(--lights)", "cell", "cell(--json)"], entry), parts["verb"])),
-            ["exit code 0", "fit", "fit --model sd", "fit(--lights)"])
-        names_of = {"One": comparison.Entry("exact", "class Result"), "Two": comparison.Entry("exact", "class Result"),
-                    "fit": comparison.Entry("output", "Two | One"), "fit(light)": comparison.Entry("input", "str"),
-                    "fit(model)": comparison.Entry("input", "list[int | str] | Two | str"), "Two.a": entry, "cell": entry}
-        kept = promise.of_python(names_of, parts["python"])
-        self.assertEqual({name: kept[name].type for name in kept},
+
+        def kept(select, kind, *found):
+            return list(select(dict.fromkeys(found, entry), parts[kind]))
+
+        self.assertEqual(kept(promise.of_headers, "header", "lyrefit::A", "lyrefit::A::b", "lyrefit::A::bc",
+                              "lyrefit::Read(int)", "lyrefit::Reader"),
+                         ["lyrefit::A", "lyrefit::A::bc", "lyrefit::Reader"])
+        self.assertEqual(kept(promise.of_schemas, "schema", "fit", "fit.a", "fit.plan", "fit.plan.a", "fit.plan = b",
+                              "fit.planned", "cell", "cell.a"),
+                         ["fit", "fit.a", "fit.planned"])
+        self.assertEqual(kept(promise.of_flags, "verb", "exit code 0", "fit", "fit --model sd", "fit(--light)",
+                              "fit(--lights)", "cell", "cell(--json)"),
+                         ["exit code 0", "fit", "fit --model sd", "fit(--lights)"])
+        found = promise.of_python({
+            "One": comparison.Entry("exact", "class Result"), "Two": comparison.Entry("exact", "class Result"),
+            "fit": comparison.Entry("output", "Two | One"), "fit(light)": comparison.Entry("input", "str"),
+            "fit(model)": comparison.Entry("input", "list[int | str] | Two | str"), "Two.a": entry, "cell": entry,
+        }, parts["python"])
+        self.assertEqual({name: found[name].type for name in found},
                          {"One": "class Result", "fit": "One", "fit(model)": "list[int | str] | str"})
 
 

@@ -97,10 +97,11 @@ class Surface(unittest.TestCase):
         for name, thing in things.items():
             head = re.split(r"\n *(?:Parameters|Returns)\n", inspect.getdoc(thing))[0]
             self.assertEqual(f"E{note}." in head, name not in promised["python"], name)
-        for verb, keywords in _lyrefit._keywords.items():
+        for verb in _lyrefit._keywords:
             if verb in promised["python"]:
                 left_out = promised["python"][verb].left_out
-                entries = dict(re.findall(r"^(\w+) : (.*(?:\n    .*)*)", inspect.getdoc(getattr(lyrefit, verb)), re.MULTILINE))
+                doc = inspect.getdoc(getattr(lyrefit, verb))
+                entries = dict(re.findall(r"^(\w+) : (.*(?:\n    .*)*)", doc, re.MULTILINE))
                 said = {name for name, text in entries.items() if f"e{note}" in " ".join(text.split())}
                 self.assertEqual(said, left_out, verb)
         listed = help_of("")

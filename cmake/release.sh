@@ -14,6 +14,7 @@ if [[ ${1:-} != --try ]]; then
   [[ -z $(git status --porcelain) ]] || Die "the checkout has changes that are not committed"
   [[ $(git tag --points-at HEAD) == *"v$version"* ]] || Die "this commit has no tag v$version, which CMakeLists.txt declares"
 fi
+[[ ! -e data/stable/$version/open.txt ]] || Die "the record of $version is open: data/stable/README.md says how it is closed"
 grep -q "^## \[$version\]" .github/CHANGELOG.md || Die ".github/CHANGELOG.md has no part for $version"
 
 InstallPackages build python release

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Whether this version keeps what the last release promised (data/stable): builds the command and the Python module in
-# build/ and compares their names with the record.
-#   cmake/stable.sh --record     writes the record of the version in CMakeLists.txt, for a release
+# Whether this version keeps what the last record promises (data/stable): builds the command and the Python module in
+# build/ and compares their promised names with the record.
+#   cmake/stable.sh --record     writes the record of the version in CMakeLists.txt, new or open
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 cd -- "$LYREFIT_ROOT"

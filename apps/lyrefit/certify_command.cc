@@ -74,8 +74,11 @@ Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
 
 }  // namespace
 
-const Verb kCertifyVerb = {"certify", "Prove how low the RMSE of a curve can go", kCertifyFooter,
+const Verb kCertifyVerb = {"certify",
+                           "Prove how low the RMSE of a curve can go",
+                           kCertifyFooter,
                            "the certificate as text, --json, --csv, --plot and --html",
-                           Declare<CertifyRequest, DeclareCertify, RunCertify>};
+                           Declare<CertifyRequest, DeclareCertify, RunCertify>,
+                           VerbKind::kPromised};
 
 }  // namespace lyrefit

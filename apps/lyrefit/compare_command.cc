@@ -53,8 +53,11 @@ Expected<int> RunCompare(VerbLine& verb, CompareRequest& request) {
 }  // namespace
 
 const Verb kCompareVerb = {
-    "compare", "Compare search algorithms, pure and polished, over many runs", kCompareFooter,
+    "compare",
+    "Compare search algorithms, pure and polished, over many runs",
+    kCompareFooter,
     "its tables as text, --json, --csv, --plot, --convergence-plot and --html",
-    Declare<CompareRequest, DeclareCompare, RunCompare>};
+    Declare<CompareRequest, DeclareCompare, RunCompare>,
+    VerbKind::kPromised};
 
 }  // namespace lyrefit

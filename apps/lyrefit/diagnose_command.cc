@@ -206,9 +206,11 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
 
 }  // namespace
 
-const Verb kDiagnoseVerb = {
-    "diagnose", "Say what a diode model gets wrong in a measurement, and why", kDiagnoseFooter,
-    "the diagnosis as text, --json, --csv, --plot and --html",
-    Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>};
+const Verb kDiagnoseVerb = {"diagnose",
+                            "Say what a diode model gets wrong in a measurement, and why",
+                            kDiagnoseFooter,
+                            "the diagnosis as text, --json, --csv, --plot and --html",
+                            Declare<DiagnoseRequest, DeclareDiagnose, RunDiagnose>,
+                            VerbKind::kPromised};
 
 }  // namespace lyrefit

@@ -168,8 +168,11 @@ Expected<int> RunSimulate(VerbLine& verb, SimulateRequest& request) {
 
 }  // namespace
 
-const Verb kSimulateVerb = {"simulate", "Write the curve of a device, with noise if wanted",
-                            kSimulateFooter, "the curve alone, as a table: --out FILE.csv",
-                            Declare<SimulateRequest, DeclareSimulate, RunSimulate>};
+const Verb kSimulateVerb = {"simulate",
+                            "Write the curve of a device, with noise if wanted",
+                            kSimulateFooter,
+                            "the curve alone, as a table: --out FILE.csv",
+                            Declare<SimulateRequest, DeclareSimulate, RunSimulate>,
+                            VerbKind::kPromised};
 
 }  // namespace lyrefit

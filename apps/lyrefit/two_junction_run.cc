@@ -53,7 +53,8 @@ void AddJunctionFlags(VerbLine* verb, JunctionFlags* flags) {
                   "junctions in series, of one diode and a light each: 2 is a tandem, fitted to "
                   "all CURVEs together (default 1)")
       .Between(1, 2)
-      .Group("Model");
+      .Group("Model")
+      .Experimental();
   AddTableFlags(verb, kTwoJunctionOptionTable, &flags->options);
 }
 

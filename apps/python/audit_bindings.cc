@@ -68,7 +68,8 @@ std::vector<KeywordNote> AuditNotes() {
 }  // namespace
 
 void BindAudit(py::module_* module) {
-  py::class_<AuditResult, Result>(*module, "AuditResult", "What audit() found.")
+  py::class_<AuditResult, Result>(
+      *module, "AuditResult", "What audit() found. Experimental: may change in a minor version.")
       .def(
           "frame", [](const AuditResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame: a row for each row of the audit (--csv).");

@@ -130,7 +130,8 @@ std::vector<KeywordNote> CellNotes() {
 }  // namespace
 
 void BindCell(py::module_* module) {
-  py::class_<CellResult, Result>(*module, "CellResult", "What cell() found.")
+  py::class_<CellResult, Result>(*module, "CellResult",
+                                 "What cell() found. Experimental: may change in a minor version.")
       .def(
           "frame", [](const CellResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame with a row a sweep (--csv).");

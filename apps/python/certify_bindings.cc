@@ -121,7 +121,8 @@ void BindCertify(py::module_* module) {
           "frame", [](const CertifyResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame: a row for the floor and for each model "
           "(--csv).");
-  DefineVerb(module, {"certify", "curve, current=None", kCertifyDoc, kCertifyEnd, CertifyNotes()},
+  DefineVerb(module,
+             {"certify", "curve, current=None", kCertifyDoc, kCertifyEnd, CertifyNotes(), true},
              &CertifyOne, py::arg("curve"), py::arg("current") = py::none());
 }
 

@@ -149,7 +149,7 @@ void BindCurve(py::module_* module) {
            "frame($self)\n--\n\nThe readings as a pandas.DataFrame, a row a reading.");
   std::vector<KeywordNote> notes;
   AppendCurveNotes(&notes);
-  DefineVerb(module, {"read_curve", "path", kReadCurveDoc, kReadCurveEnd, notes}, &ReadOne,
+  DefineVerb(module, {"read_curve", "path", kReadCurveDoc, kReadCurveEnd, notes, true}, &ReadOne,
              py::arg("path"));
   Note(module, {"Curve", "voltage, current=None", "", "", notes});
 }

@@ -147,7 +147,9 @@ constexpr char kDataSheetEnd[] =
 }  // namespace
 
 void BindDataSheet(py::module_* module) {
-  py::class_<DataSheetResult, Result>(*module, "DataSheetResult", "What fit_datasheet() found.")
+  py::class_<DataSheetResult, Result>(
+      *module, "DataSheetResult",
+      "What fit_datasheet() found. Experimental: may change in a minor version.")
       .def_property_readonly("parameters", &SheetParameters,
                              "dict of str to float: at 1000 W/m2 and 25 C, pvlib's names.")
       .def_property_readonly(

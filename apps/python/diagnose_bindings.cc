@@ -220,7 +220,7 @@ constexpr char kDiagnoseDoc[] =
     "effects : list of str or Effect, optional\n"
     "    Those to try; all that the data can show unless said.\n"
     "own_effects : list of Effect, optional\n"
-    "    Tried beside the catalogue's.\n"
+    "    Tried beside the catalogue's; experimental: may change in a minor version.\n"
     "progress : callable, optional\n"
     "    Called with a :class:`Progress` ten times a second; False ends the work.\n";
 
@@ -272,7 +272,7 @@ void BindDiagnose(py::module_* module) {
           "frame", [](const OutlierSweepsResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame with a row a sweep, the oddest first (--csv).");
   DefineVerb(module,
-             {"diagnose", "curve, current=None", kDiagnoseDoc, kDiagnoseEnd, DiagnoseNotes()},
+             {"diagnose", "curve, current=None", kDiagnoseDoc, kDiagnoseEnd, DiagnoseNotes(), true},
              &DiagnoseOne, py::arg("curve"), py::arg("current") = py::none());
 }
 

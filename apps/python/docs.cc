@@ -6,6 +6,7 @@ namespace lyrefit::python {
 namespace {
 
 constexpr std::size_t kWidth = 88;
+constexpr char kExperimental[] = "\n\nExperimental: may change in a minor version.";
 
 // Wraps a text into lines, each indented by four.
 std::string Wrapped(const std::string& text) {
@@ -47,7 +48,9 @@ std::string DocOf(const VerbText& verb) {
   std::string doc = verb.name + "(" + verb.arguments;
   if (!verb.keywords.empty()) doc += ", *";
   for (const KeywordNote& note : verb.keywords) doc += ", " + note.name + "=" + note.usual;
-  doc += ")\n--\n\n" + verb.head;
+  std::string head = verb.head;
+  if (!verb.promised) head.insert(head.find("\n\n"), kExperimental);
+  doc += ")\n--\n\n" + head;
   for (const KeywordNote& note : verb.keywords) {
     if (!note.doc.empty()) doc += EntryOf(note);
   }

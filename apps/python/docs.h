@@ -18,6 +18,7 @@ struct VerbText {
   std::string head;       // its purpose and its arguments, in numpydoc format
   std::string end;        // its return value and exceptions
   std::vector<KeywordNote> keywords;
+  bool promised = false;  // within a major version (data/stable); false: experimental
 };
 
 // Keeps the first of several notes with the same name, since tables share options.

@@ -17,6 +17,7 @@ constexpr char kEffectDoc[] =
     "       series_derivatives=None, probes=None, title=None, equation='', sentence='', needs='',\n"
     "       acts='', separate_by='', action='', reference='')\n--\n\n"
     "An effect of your own: what the diode model lacks, as functions of arrays.\n\n"
+    "Experimental: may change in a minor version.\n\n"
     "It is fitted, simulated and diagnosed like those of the catalogue: ``fit(curve,\n"
     "with_=[effect])``, ``simulate(..., with_=[(effect, {'k': 0.02})])``, ``diagnose(curve,\n"
     "own_effects=[effect])``. Fits with it use one thread; the same call gives the same digits.\n\n"

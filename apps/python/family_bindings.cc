@@ -267,7 +267,7 @@ void BindFamily(py::module_* module) {
           "fit_frame", [](const FamilyResult& result) { return FrameOfCsv(result.record().csv()); },
           "fit_frame($self)\n--\n\n"
           "A pandas.DataFrame with the parameters of each curve's own fit, a row a curve (--csv).");
-  DefineVerb(module, {"fit_family", "curves", kFitFamilyDoc, kFitFamilyEnd, FamilyNotes()},
+  DefineVerb(module, {"fit_family", "curves", kFitFamilyDoc, kFitFamilyEnd, FamilyNotes(), true},
              &FitOneFamily, py::arg("curves"));
 }
 

@@ -127,7 +127,7 @@ constexpr char kFitEnd[] =
     "    A mapping with the keys of the command's JSON; `parameters` has the answer under pvlib's\n"
     "    names, `frame()` a row, `text` the report.\n"
     "TwoJunctionResult\n"
-    "    The same of a tandem (junctions=2), without `frame()`.\n\n"
+    "    The same of a tandem (junctions=2), without `frame()`; experimental.\n\n"
     "Raises\n------\n"
     "lyrefit.Error\n"
     "    An unusable curve, options outside their ranges, impossible bounds, fewer points than\n"
@@ -231,7 +231,7 @@ void BindFit(py::module_* module) {
           "Curve: what was fitted.")
       .def_property_readonly(
           "usable", [](const FitResult& result) { return result.report().usable; }, "bool");
-  DefineVerb(module, {"fit", "curve, current=None", kFitDoc, kFitEnd, FitNotes()}, &FitOne,
+  DefineVerb(module, {"fit", "curve, current=None", kFitDoc, kFitEnd, FitNotes(), true}, &FitOne,
              py::arg("curve"), py::arg("current") = py::none());
 }
 

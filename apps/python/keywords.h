@@ -204,6 +204,7 @@ void AppendNotes(const Table& table, const Options& defaults, std::vector<Keywor
     if (row.lower > -1e300 && row.upper < 1e12 && !row.Is(OptionTrait::kUnchecked)) {
       note.doc += " [" + NumberText(row.lower) + ", " + NumberText(row.upper) + "]";
     }
+    if (row.Is(OptionTrait::kExperimental)) note.doc += std::string("; ") + kExperimentalNote;
     notes->push_back(std::move(note));
   }
 }

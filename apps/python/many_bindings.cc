@@ -64,6 +64,7 @@ constexpr char kFitManyEnd[] =
 
 constexpr char kFitResultsDoc[] =
     "The fits of many curves, in their order: a sequence of FitResult, also by id.\n\n"
+    "Experimental: may change in a minor version.\n\n"
     "Asking for a curve that was not fitted raises the lyrefit.Error that its row tells.\n";
 
 class FitResults {

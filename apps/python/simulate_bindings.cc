@@ -230,10 +230,10 @@ std::vector<KeywordNote> SimulateNotes() {
 }  // namespace
 
 void BindSimulate(py::module_* module) {
-  DefineVerb(
-      module,
-      {"simulate", "parameters=None, voltage=None", kSimulateDoc, kSimulateEnd, SimulateNotes()},
-      &SimulateOne, py::arg("parameters") = py::none(), py::arg("voltage") = py::none());
+  DefineVerb(module,
+             {"simulate", "parameters=None, voltage=None", kSimulateDoc, kSimulateEnd,
+              SimulateNotes(), true},
+             &SimulateOne, py::arg("parameters") = py::none(), py::arg("voltage") = py::none());
   DefineVerb(module, {"rmse", "curve, parameters", kRmseDoc, kRmseEnd, RmseNotes()}, &RmseOfOne,
              py::arg("curve"), py::arg("parameters"));
 }

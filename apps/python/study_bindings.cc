@@ -327,8 +327,8 @@ void BindStudy(py::module_* module) {
       .def(
           "run_frame", [](const CompareResult& r) { return FrameOfCsv(r.record().csv()); },
           "run_frame($self)\n--\n\nA pandas.DataFrame with a row a run (--csv).");
-  DefineVerb(module, {"compare", "curves", kCompareDoc, kCompareEnd, CompareNotes()}, &CompareAll,
-             py::arg("curves"));
+  DefineVerb(module, {"compare", "curves", kCompareDoc, kCompareEnd, CompareNotes(), true},
+             &CompareAll, py::arg("curves"));
 }
 
 }  // namespace lyrefit::python

@@ -172,7 +172,9 @@ std::vector<KeywordNote> TranslateNotes() {
 }  // namespace
 
 void BindTranslate(py::module_* module) {
-  py::class_<TranslateResult, Result>(*module, "TranslateResult", "What translate() found.")
+  py::class_<TranslateResult, Result>(
+      *module, "TranslateResult",
+      "What translate() found. Experimental: may change in a minor version.")
       .def_property_readonly(
           "recommended", &RecommendedOf,
           "dict or None: the result of the procedure to go by, of those under 'results'.")

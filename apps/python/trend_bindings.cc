@@ -115,7 +115,8 @@ std::vector<KeywordNote> TrendNotes() {
 }  // namespace
 
 void BindTrend(py::module_* module) {
-  py::class_<TrendResult, Result>(*module, "TrendResult", "What trend() found.")
+  py::class_<TrendResult, Result>(
+      *module, "TrendResult", "What trend() found. Experimental: may change in a minor version.")
       .def(
           "frame", [](const TrendResult& r) { return FrameOfCsv(r.record().csv()); },
           "frame($self)\n--\n\nA pandas.DataFrame with a row a day (--csv).");

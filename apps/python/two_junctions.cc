@@ -100,8 +100,10 @@ JunctionKeywords ReadJunctionKeywords(Keywords* keywords) {
 }
 
 void AppendJunctionNotes(std::vector<KeywordNote>* notes) {
-  notes->push_back({"junctions", "int", "1", "Two junctions",
-                    "junctions in series; 2 is a tandem, fitted to all curves together"});
+  notes->push_back(
+      {"junctions", "int", "1", "Two junctions",
+       std::string("junctions in series; 2 is a tandem, fitted to all curves together; ") +
+           kExperimentalNote});
   AppendNotes(OwnRows(), TwoJunctionOptions(), notes);
 }
 
@@ -118,8 +120,9 @@ py::object FitTandem(py::handle curves, py::handle current, const CurveKeywords&
 }
 
 void BindTwoJunctions(py::module_* module) {
-  py::class_<TwoJunctionResult, Result>(*module, "TwoJunctionResult",
-                                        "What fit() with junctions=2 found.")
+  py::class_<TwoJunctionResult, Result>(
+      *module, "TwoJunctionResult",
+      "What fit() with junctions=2 found. Experimental: may change in a minor version.")
       .def_property_readonly("parameters", &TandemParameters,
                              "dict of str to float: the answer, under the names of the JSON.")
       .def_property_readonly(

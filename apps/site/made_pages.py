@@ -13,8 +13,9 @@ def said(command, *arguments):
 
 def verbs(command):
     """Names of the verbs, each with its line."""
-    listed = said(command, "--help").split("Subcommands:\n")[1].split("\n\n")[0]
-    return dict(re.findall(r"^  (\w+) +(.*)$", listed, re.M))
+    listed = said(command, "--help").split("Subcommands:\n")[1].split("\nAbout lyrefit:\n")[0]
+    promised, experimental = (re.findall(r"^  (\w+) +(.*)$", part, re.M) for part in listed.split("\nExperimental, "))
+    return dict(promised) | {verb: f"{line} (experimental)" for verb, line in experimental}
 
 
 def cell(text):

@@ -1,6 +1,7 @@
-"""Every field of the JSON records, read from their schemas: SCHEMA:PATH with its type.
+"""Every field of the JSON records, read from their schemas: SCHEMA.PATH with its type.
 
-`*` stands for any key, `[]` for every element. Of a field with listed values each value is an entry of its own.
+`*` stands for any key, `[]` for every element. Of a field with listed values each value is an entry of its own. A record
+inside another one is an entry whose type is its schema.
 """
 
 import json
@@ -33,6 +34,9 @@ def _walk(schema, path, always, file, files, entries, open_references=()):
     reference = schema.get("$ref")
     if reference and (reference, file) in open_references:
         return  # it holds itself: its fields stand at the outer one
+    if reference in files and "." in path:  # a whole record: its fields stand there
+        entries[path] = Entry("output", reference, frozenset(["always"] if always else []))
+        return
     if reference:
         open_references = (*open_references, (reference, file))
     schema, file = _resolved(schema, file, files)

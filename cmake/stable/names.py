@@ -49,10 +49,17 @@ def _function(node, name, entries, method=False):
     _arguments(node, name, entries, method)
 
 
-def python_names(text, prefix="", classes_alone=False):
-    """The entries of a stub or a module: public functions with their arguments, classes with their members."""
+def python_names(text, prefix="", classes_alone=False, promised=None):
+    """The entries of a stub or a module: public functions with their arguments, classes with their members.
+
+    Where the names that are promised are given, overloads that return another class are left out.
+    """
     entries = {}
-    for node in ast.parse(text).body:
+    body = ast.parse(text).body
+    classes = {node.name for node in body if isinstance(node, ast.ClassDef)}
+    for node in body:
+        if promised is not None and isinstance(node, ast.FunctionDef) and _type(node.returns) in classes - set(promised):
+            continue
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_") and not classes_alone:
             _function(node, prefix + node.name, entries)
         if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
@@ -75,10 +82,10 @@ def python_names(text, prefix="", classes_alone=False):
     return entries
 
 
-def python_package(folder):
+def python_package(folder, promised=None):
     """The entries of the package in a folder: the compiled module by its stub, and the modules beside it."""
     folder = pathlib.Path(folder)
-    entries = python_names((folder / "_lyrefit.pyi").read_text(encoding="utf-8"))
+    entries = python_names((folder / "_lyrefit.pyi").read_text(encoding="utf-8"), promised=promised)
     entries.update(python_names((folder / "__init__.py").read_text(encoding="utf-8"), classes_alone=True))
     for module in ("pvlib", "searches"):
         entries.update(python_names((folder / f"{module}.py").read_text(encoding="utf-8"), f"{module}."))

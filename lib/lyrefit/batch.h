@@ -1,3 +1,4 @@
+// Experimental: may change in a minor version (data/stable).
 #pragma once
 
 // Public header of lyrefit::batch, a library for many curves. OpenBatch reads the curves one by one

@@ -26,6 +26,9 @@
 // changed in a device over time. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
+// What of this is promised within a major version, and what is experimental, is listed in
+// data/stable/promised.txt; an experimental header says so in its first line.
+//
 // Further public headers: model/pvlib_parameters.h exports a device to pvlib.
 // read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate/simulate_module.h
 // simulates one, read/write_pan.h writes one for PVsyst.

@@ -1,3 +1,4 @@
+// Experimental: may change in a minor version (data/stable).
 #pragma once
 
 // Public header of lyrefit::study, a library on top of lyrefit::lyrefit that evaluates repeated

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""The comparison with the last release's record, on small records and small sources (cmake/stable)."""
+"""What is promised and what is experimental, and the comparison with the last record on small ones (cmake/stable)."""
 
+import contextlib
+import io
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -14,6 +17,7 @@ import comparison
 import declarations
 import json_fields
 import names
+import promise
 import reported
 import stable
 
@@ -73,6 +77,155 @@ class Comparison(unittest.TestCase):
         self.assertEqual(comparison.read(comparison.written(entries)), entries)
 
 
+LISTED = promise.promised()
+EXPERIMENTAL = "// Experimental: may change in a minor version (data/stable)."
+
+
+def installed():
+    """The headers that CMake installs, as they are included."""
+    lists = (ROOT / "cmake" / "LyrefitInstall.cmake").read_text(encoding="utf-8")
+    found = re.findall(r"^  ([\w/]+\.(?:h|inc))\)?$", lists, flags=re.MULTILINE)
+    return {f"lyrefit/{header}" for header in found}
+
+
+def included(header):
+    text = (ROOT / "lib" / header).read_text(encoding="utf-8")
+    return set(re.findall(r'^#include "(lyrefit/[^"]+)"', text, flags=re.MULTILINE))
+
+
+def comments_of(header, name):
+    """The comments beside and above each declaration of a name in a header."""
+    lines = (ROOT / "lib" / header).read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines):
+        code, _, beside = line.partition("//")
+        if re.search(rf"^(  )?\S.* {name}( =.*)?;|^\S.* {name}\(|^struct {name} ", code):
+            above = number
+            while lines[above - 1].lstrip().startswith("//"):
+                above -= 1
+            yield " ".join([*lines[above:number], beside])
+
+
+def experimental_fields(schema, path=""):
+    """The paths of the fields of a schema that say that they are experimental."""
+    for name, field in schema.get("properties", {}).items():
+        if "x-stability" in field:
+            yield path + name
+        yield from experimental_fields(field, f"{path}{name}.")
+    if isinstance(schema.get("items"), dict):
+        yield from experimental_fields(schema["items"], path.removesuffix(".") + "[].")
+
+
+class Promised(unittest.TestCase):
+    def test_exactly_the_headers_that_are_not_promised_say_so(self):
+        headers = installed()
+        self.assertGreater(len(headers), 100)
+        self.assertEqual(set(LISTED["header"]) - headers, set(), "not installed")
+        for header in headers:
+            begin = (ROOT / "lib" / header).read_text(encoding="utf-8").partition("\n")[0]
+            self.assertEqual(begin == EXPERIMENTAL, header not in LISTED["header"], header)
+
+    def test_promised_headers_include_promised_headers_alone(self):
+        for header, part in LISTED["header"].items():
+            others = included(header) - LISTED["header"].keys()
+            if "*" not in part.includes:
+                self.assertEqual(others, set(part.includes), f"{header}: see promised.txt")
+            self.assertTrue(all(part.includes.values()), header)
+
+    def test_what_is_experimental_in_a_promised_header_says_so(self):
+        for header, part in LISTED["header"].items():
+            for name in part.left_out:
+                comments = list(comments_of(header, name.rpartition("::")[2]))
+                self.assertTrue(comments, f"{header} has no {name}")
+                for comment in comments:
+                    self.assertIn("xperimental", comment, f"{header}: {name}")
+
+    def test_exactly_the_schemas_and_fields_that_are_not_promised_say_so(self):
+        files = set((ROOT / "data" / "schema").glob("*.json"))
+        self.assertEqual(LISTED["schema"].keys() - {file.name for file in files}, set())
+        for file in files:
+            schema = json.loads(file.read_text(encoding="utf-8"))
+            if file.name == "common.json":  # describes no record
+                self.assertNotIn("x-stability", file.read_text(encoding="utf-8"))
+            elif file.name in LISTED["schema"]:
+                self.assertNotIn("x-stability", schema, file.name)
+                self.assertEqual(set(experimental_fields(schema)), LISTED["schema"][file.name].left_out, file.name)
+            else:
+                self.assertEqual(schema.get("x-stability"), "experimental", file.name)
+
+    def test_an_open_record_is_of_this_version(self):
+        lists = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+        version = re.search(r"^project\(lyrefit VERSION (\S+)", lists, flags=re.MULTILINE).group(1)
+        for file in stable.RECORDS.glob("*/open.txt"):
+            self.assertEqual(file.parent.name, version)
+
+    def test_a_list_that_is_not_understood_is_refused(self):
+        for text in ("fit\n", "  except a\n", "verb fit\nverb fit\n", "header a\n  includes b\n", "verb fit\n  drop a\n"):
+            self.assertRaises(ValueError, promise.read, text)
+
+    def test_parts_that_are_experimental_are_left_out(self):
+        parts = promise.read(
+            "# a list\nheader lyrefit/a.h\n  except lyrefit::A::b\n  except lyrefit::Read\n\nschema fit.json\n  except plan\n"
+            "verb fit\n  except --light\npython fit\n  except light\npython One\n")
+        entry = comparison.Entry("exact")
+
+        def kept(select, kind, *found):
+            return list(select(dict.fromkeys(found, entry), parts[kind]))
+
+        self.assertEqual(kept(promise.of_headers, "header", "lyrefit::A", "lyrefit::A::b", "lyrefit::A::bc",
+                              "lyrefit::Read(int)", "lyrefit::Reader"),
+                         ["lyrefit::A", "lyrefit::A::bc", "lyrefit::Reader"])
+        self.assertEqual(kept(promise.of_schemas, "schema", "fit", "fit.a", "fit.plan", "fit.plan.a", "fit.plan = b",
+                              "fit.planned", "cell", "cell.a"),
+                         ["fit", "fit.a", "fit.planned"])
+        self.assertEqual(kept(promise.of_flags, "verb", "exit code 0", "fit", "fit --model sd", "fit(--light)",
+                              "fit(--lights)", "cell", "cell(--json)"),
+                         ["exit code 0", "fit", "fit --model sd", "fit(--lights)"])
+        found = promise.of_python({
+            "One": comparison.Entry("exact", "class Result"), "Two": comparison.Entry("exact", "class Result"),
+            "fit": comparison.Entry("output", "Two | One"), "fit(light)": comparison.Entry("input", "str"),
+            "fit(model)": comparison.Entry("input", "list[int | str] | Two | str"), "Two.a": entry, "cell": entry,
+        }, parts["python"])
+        self.assertEqual({name: found[name].type for name in found},
+                         {"One": "class Result", "fit": "One", "fit(model)": "list[int | str] | str"})
+
+
+class Records(unittest.TestCase):
+    """Recording in a folder of its own."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.was = stable.ROOT, stable.RECORDS, stable.current
+        stable.ROOT = pathlib.Path(self.folder.name)
+        stable.RECORDS = stable.ROOT
+        self.given = ["--build", self.folder.name, "--doxygen", "doxygen"]
+
+    def tearDown(self):
+        stable.ROOT, stable.RECORDS, stable.current = self.was
+        self.folder.cleanup()
+
+    def run_with(self, what, version, record):
+        """Whether it goes well, and what it says where it does not."""
+        stable.current = lambda given: {"flags.txt": comparison.read(record)}
+        try:
+            with contextlib.redirect_stdout(io.StringIO()):
+                stable.main([what, "--version", version, *self.given])
+        except SystemExit as refused:
+            return str(refused)
+        return ""
+
+    def test_an_open_record_is_compared_and_may_be_written_anew_and_a_closed_one_may_not(self):
+        both, one = "fit\texact\tverb\t\nman\texact\tverb\t\n", "fit\texact\tverb\t\n"
+        self.assertEqual(self.run_with("record", "1.0.0", both), "")
+        self.assertIn("it is open", self.run_with("check", "1.0.0", one))
+        self.assertEqual(self.run_with("record", "1.0.0", one), "")
+        self.assertEqual(self.run_with("check", "1.0.0", one), "")
+        stable.mark("1.0.0").unlink()
+        self.assertEqual(self.run_with("record", "1.0.0", both), "the record of 1.0.0 is closed")
+        self.assertEqual(self.run_with("check", "1.0.0", both), "")
+        self.assertEqual(self.run_with("record", "1.1.0", both), "")
+        self.assertIn("raise the major version", self.run_with("record", "1.2.0", one))
+
+
 class Sources(unittest.TestCase):
     def test_python(self):
         entries = names.python_names(
@@ -108,6 +261,21 @@ class Sources(unittest.TestCase):
         self.assertIn("fit.model = dd", found)
         self.assertIn("fit.nodes[].next", found)
         self.assertNotIn("common", found)
+
+    def test_overloads_that_return_what_is_experimental_are_left_out(self):
+        stub = ("class One: ...\nclass Two: ...\n@overload\ndef fit(curve: list, *, junctions: Literal[2]) -> Two: ...\n"
+                "@overload\ndef fit(curve: str) -> One: ...\ndef name() -> str: ...\n")
+        found = names.python_names(stub, promised={"One", "fit", "name"})
+        self.assertEqual({name: entry.type for name, entry in found.items() if "." not in name},
+                         {"One": "class ", "Two": "class ", "fit": "One", "fit(curve)": "str", "name": "str"})
+
+    def test_a_record_inside_another_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "a.json").write_text('{"required": ["b"], "properties": {"b": {"$ref": "b.json"}}}')
+            (pathlib.Path(folder) / "b.json").write_text('{"properties": {"c": {"type": "string"}}}')
+            found = json_fields.fields(folder)
+        self.assertEqual(found["a.b"], comparison.Entry("output", "b.json", frozenset(["always"])))
+        self.assertEqual(sorted(found), ["a", "a.b", "b", "b.c"])
 
     def test_flags(self):
         entries = names.flags_of_help(

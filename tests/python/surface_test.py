@@ -13,15 +13,26 @@ import tempfile
 import unittest
 
 import lyrefit
+import lyrefit.pvlib
+import lyrefit.searches
 from helpers import ROOT
 from lyrefit import _lyrefit
+
+sys.path.insert(0, str(ROOT / "cmake" / "stable"))
+import promise
 
 PACKAGE = pathlib.Path(lyrefit.__file__).parent
 STUB = ast.parse((PACKAGE / "_lyrefit.pyi").read_text())
 
 
 def help_of(verb):
-    return subprocess.run([os.environ["LYREFIT_COMMAND"], verb, "--help"], capture_output=True, text=True).stdout
+    return subprocess.run([os.environ["LYREFIT_COMMAND"], *verb.split(), "--help"], capture_output=True, text=True).stdout
+
+
+def help_by_flag(text):
+    """What a help says of each flag and argument."""
+    blocks = re.split(r"^  (?=\S)", text, flags=re.MULTILINE)[1:]
+    return {re.split(r"[ ,]", block)[0]: " ".join(block.split("\n\n")[0].split()) for block in blocks}
 
 
 def flags_of(text):
@@ -77,6 +88,33 @@ class Surface(unittest.TestCase):
             name = flag[2:].replace("-", "_")
             if name not in files:
                 self.assertIn(other.get(name, name), known, flag)
+
+    def test_exactly_what_is_not_promised_says_that_it_is_experimental(self):
+        """The list in data/stable, against docstrings and --help."""
+        note, promised = "xperimental: may change in a minor version", promise.promised()
+        modules = {"pvlib": lyrefit.pvlib, "searches": lyrefit.searches}
+        things = {name: getattr(lyrefit, name) for name in lyrefit.__all__ if name != "__version__"} | modules
+        for name, thing in things.items():
+            head = re.split(r"\n *(?:Parameters|Returns)\n", inspect.getdoc(thing))[0]
+            self.assertEqual(f"E{note}." in head, name not in promised["python"], name)
+        for verb in _lyrefit._keywords:
+            if verb in promised["python"]:
+                left_out = promised["python"][verb].left_out
+                doc = inspect.getdoc(getattr(lyrefit, verb))
+                entries = dict(re.findall(r"^(\w+) : (.*(?:\n    .*)*)", doc, re.MULTILINE))
+                said = {name for name, text in entries.items() if f"e{note}" in " ".join(text.split())}
+                self.assertEqual(said, left_out, verb)
+        listed = help_of("")
+        verbs = re.findall(r"^  ([a-z]+) {2,}", listed, flags=re.MULTILINE)
+        listed = listed.split("\nExperimental, ")[1].split("\n\n")[0]
+        experimental = re.findall(r"^  ([a-z]+) {2,}", listed, flags=re.MULTILINE)
+        self.assertEqual(set(verbs) - set(experimental), promised["verb"].keys() - {"lyrefit"})
+        for verb in verbs:
+            text = help_of(verb)
+            self.assertEqual(f"(e{note})" in text.split("Usage:")[0], verb in experimental, verb)
+            if verb not in experimental:
+                said = {flag for flag, line in help_by_flag(text).items() if f"e{note}" in line}
+                self.assertEqual(said, promised["verb"][verb].left_out, verb)
 
     def test_docstrings(self):
         for verb in ("fit", "fit_many", "simulate", "read_curve"):

@@ -87,20 +87,20 @@ const Verb kHelpVerb = {"help",
                         kHelpFooter,
                         "help alone",
                         Declare<AboutRequest, DeclareHelp, RunHelp>,
-                        false};
+                        VerbKind::kAbout};
 
 const Verb kCompletionVerb = {"completion",
                               "Print a script that completes verbs and flags in a shell",
                               kCompletionFooter,
                               "the script alone",
                               Declare<AboutRequest, DeclareCompletion, RunCompletion>,
-                              false};
+                              VerbKind::kAbout};
 
 const Verb kManVerb = {"man",
                        "Print the manual page",
                        kManFooter,
                        "roff alone",
                        Declare<AboutRequest, DeclareMan, RunMan>,
-                       false};
+                       VerbKind::kAbout};
 
 }  // namespace lyrefit

@@ -15,6 +15,15 @@ namespace {
 
 constexpr char kOutput[] = "Output";  // heading of the output files in --help
 constexpr char kAbout[] = "About lyrefit";
+constexpr char kExperimental[] = "Experimental, may change in a minor version";
+
+// Below the purpose of an experimental verb its own --help says what it is.
+class HelpFormat : public CLI::Formatter {
+  std::string make_description(const CLI::App* app) const override {
+    const std::string text = Formatter::make_description(app);
+    return app->get_group() == kExperimental ? text + "(" + kExperimentalNote + ")\n" : text;
+  }
+};
 
 // The parser's error, in own words where CLI11's message is not sufficient.
 Error CommandLineError(const CLI::ParseError& error) {
@@ -88,6 +97,11 @@ Flag& Flag::Required() {
 
 Flag& Flag::Excludes(const std::string& other) {
   impl_->option->excludes(other);
+  return *this;
+}
+
+Flag& Flag::Experimental() {
+  impl_->option->description(impl_->option->get_description() + "; " + kExperimentalNote);
   return *this;
 }
 
@@ -288,6 +302,7 @@ const CommandLine& VerbLine::line() const { return *impl_->line; }
 CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Impl>()) {
   CLI::App& app = impl_->app;
   app.set_version_flag("--version", std::string("lyrefit ") + Version());
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(footer);
   app.require_subcommand(1);
   app.fallthrough();
@@ -302,7 +317,8 @@ void CommandLine::Add(const Verb& verb) {
   made->verb = &verb;
   made->app = impl_->app.add_subcommand(verb.name, verb.line);
   made->app->footer(verb.footer);
-  if (!verb.work) made->app->group(kAbout);
+  if (verb.kind == VerbKind::kExperimental) made->app->group(kExperimental);
+  if (verb.kind == VerbKind::kAbout) made->app->group(kAbout);
   impl_->verbs.push_back(std::make_unique<VerbLine>(std::move(made)));
   VerbLine* const line = impl_->verbs.back().get();
   line->impl_->run = verb.declare(line);
@@ -356,7 +372,7 @@ std::vector<VerbText> CommandLine::Verbs() const {
   std::vector<VerbText> verbs;
   for (const std::unique_ptr<VerbLine>& verb : impl_->verbs) {
     const Verb& data = *verb->impl_->verb;
-    verbs.push_back({data.name, data.line, data.footer, data.work, verb->Texts()});
+    verbs.push_back({data.name, data.line, data.footer, data.kind, verb->Texts()});
   }
   return verbs;
 }

@@ -16,6 +16,13 @@ namespace lyrefit {
 class CommandLine;
 class VerbLine;
 
+// Whether a verb is promised within a major version (data/stable).
+enum class VerbKind {
+  kExperimental,  // works on measurements, and may change in a minor version
+  kPromised,      // works on measurements
+  kAbout,         // is about lyrefit itself, and promised
+};
+
 // A verb, as data.
 struct Verb {
   const char* name;
@@ -25,7 +32,7 @@ struct Verb {
   // Declares its flags. The returned function does the work with their values and returns the exit
   // code.
   std::function<Expected<int>()> (*declare)(VerbLine* line);
-  bool work = true;  // on measurements; false: about lyrefit itself
+  VerbKind kind = VerbKind::kExperimental;
 };
 
 // `Verb::declare` for a verb whose flags fill its own `Request`.
@@ -65,6 +72,8 @@ class Flag {
   Flag& Draws();
   // The value is an output folder. The run checks it itself.
   Flag& WritesFolder();
+  // The flag is not promised within a major version (data/stable); --help says so.
+  Flag& Experimental();
   // Allowed texts, for completion: "sd, dd, td".
   Flag& OneOf(const std::string& texts);
   // Allowed values, both ends included.
@@ -93,7 +102,7 @@ struct VerbText {
   std::string name;
   std::string line;
   std::string footer;
-  bool work = true;  // works on measurements; false: about lyrefit itself
+  VerbKind kind = VerbKind::kExperimental;
   std::vector<FlagText> flags;
 };
 

@@ -202,8 +202,11 @@ Expected<void> SettleFitFlags(const VerbLine& verb, FitArguments* fit) {
   return Fail("--model auto chooses among diodes alone: say which --model stands beside --with");
 }
 
-const Verb kFitVerb = {"fit", "Fit diode-model parameters to a measured I-V curve", kFitFooter,
+const Verb kFitVerb = {"fit",
+                       "Fit diode-model parameters to a measured I-V curve",
+                       kFitFooter,
                        "the report as text, --json, --csv, --plot and --html",
-                       Declare<FitRequest, DeclareFit, RunFit>};
+                       Declare<FitRequest, DeclareFit, RunFit>,
+                       VerbKind::kPromised};
 
 }  // namespace lyrefit

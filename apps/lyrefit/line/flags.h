@@ -107,6 +107,7 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
     }
   };
   Flag flag = std::visit(declare, row.field);
+  if (row.Is(OptionTrait::kExperimental)) flag.Experimental();
   return group.empty() ? flag : flag.Group(group);
 }
 

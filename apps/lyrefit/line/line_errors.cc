@@ -54,7 +54,7 @@ Error NoSuchVerb(const std::string& word, const std::vector<const Verb*>& verbs)
   std::size_t nearest = 3;  // words that differ by more than two letters are not suggested
   for (const Verb* verb : verbs) {
     const std::string name = verb->name;
-    if (verb->work) all += (all.empty() ? "" : ", ") + name;
+    if (verb->kind != VerbKind::kAbout) all += (all.empty() ? "" : ", ") + name;
     const bool begun = word.size() >= 2 && name.rfind(word, 0) == 0;
     const std::size_t distance = begun ? 0 : Distance(word, name);
     if (distance >= std::min(nearest, name.size())) continue;

@@ -1,4 +1,5 @@
 #include "about.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
 
 namespace lyrefit {
@@ -41,6 +42,7 @@ std::vector<std::string> GroupsOf(const VerbText& verb) {
 
 std::string VerbSection(const VerbText& verb) {
   std::string text = ".SH LYREFIT " + Roff(verb.name) + "\n" + Roff(verb.line) + ".\n";
+  if (verb.kind == VerbKind::kExperimental) text += "(" + Roff(kExperimentalNote) + ")\n";
   for (const std::string& group : GroupsOf(verb)) {
     text += ".SS " + Roff(group) + "\n";
     for (const FlagText& flag : verb.flags) {

@@ -1,5 +1,7 @@
 """Functions under the names, arguments and answers of pvlib-python's, computed by lyrefit.
 
+Experimental: may change in a minor version.
+
 >>> from lyrefit.pvlib import singlediode, fit_desoto_sandia
 
 in the place of ``pvlib.pvsystem.singlediode`` and ``pvlib.ivtools.sdm.fit_desoto_sandia``; pvlib need

@@ -1,5 +1,7 @@
 """Well-known searches in NumPy, to stand beside the library's own in :func:`lyrefit.compare`.
 
+Experimental: may change in a minor version.
+
 >>> from lyrefit import searches
 >>> lyrefit.compare("data/rtc_france", algorithms=["mlo", "de", searches.cma_es, searches.grey_wolf])
 

@@ -56,14 +56,18 @@ struct OptionNest {
   void (*echo)(const Options& options, const Options& defaults, std::vector<OptionEcho>* echoes);
 };
 
+// What help says of options and verbs that are not promised within a major version (data/stable).
+inline constexpr char kExperimentalNote[] = "experimental: may change in a minor version";
+
 // Special treatment of a row.
 enum class OptionTrait : unsigned {
   kNone = 0,
-  kNoFlag = 1,     // no flag, or a flag that a command declares itself
-  kNoEcho = 2,     // not echoed: it never changes a result, or reports state it already
-  kQuiet = 4,      // the range applies to the flag only; --help does not print it
-  kUnchecked = 8,  // ValidateOptions skips the row: the code that uses the option checks it
-  kNoDefault = 16  // --help prints no default
+  kNoFlag = 1,        // no flag, or a flag that a command declares itself
+  kNoEcho = 2,        // not echoed: it never changes a result, or reports state it already
+  kQuiet = 4,         // the range applies to the flag only; --help does not print it
+  kUnchecked = 8,     // ValidateOptions skips the row: the code that uses the option checks it
+  kNoDefault = 16,    // --help prints no default
+  kExperimental = 32  // may change in a minor version (data/stable); --help and docstrings say so
 };
 constexpr OptionTrait operator|(OptionTrait a, OptionTrait b) {
   return static_cast<OptionTrait>(static_cast<unsigned>(a) | static_cast<unsigned>(b));

@@ -1,3 +1,4 @@
+// Experimental: may change in a minor version (data/stable).
 #pragma once
 
 #include <map>
@@ -44,7 +45,8 @@ inline constexpr OptionRow<TwoJunctionOptions> kTwoJunctionOptionTable[] = {
     {"light", "CURVE=TOP:BOTTOM",
      "light of both junctions in a curve as shares of the reference spectrum, red=1:0.9; ? where "
      "it is unknown; once for each curve",
-     MapOption<ReadStatedLight, StatedLightText, &TwoJunctionOptions::lights>()},
+     MapOption<ReadStatedLight, StatedLightText, &TwoJunctionOptions::lights>(),
+     OptionTrait::kExperimental},
     {"bound", "P=LOWER:UPPER", "range of one parameter, Rs=0:0.5; once for each",
      RangesOption<&TwoJunctionOptions::bounds>(), OptionTrait::kNoFlag},
     {"fix", "P=VALUE", "holds a parameter, n2=2; once for each",

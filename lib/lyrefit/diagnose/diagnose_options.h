@@ -1,3 +1,4 @@
+// Experimental: may change in a minor version (data/stable).
 #pragma once
 
 #include <cstdint>
@@ -100,7 +101,7 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
     {"held-out", "", "do not measure the gain on readings that were not fitted",
      &DiagnoseOptions::held_out},
     {"plan", "", "simulate which further measurement tells the first cause from what looks like it",
-     &DiagnoseOptions::plan},
+     &DiagnoseOptions::plan, OptionTrait::kExperimental},
     {"extend", "", "search and polish the extended model", &DiagnoseOptions::extend,
      OptionTrait::kNoFlag | OptionTrait::kNoEcho},
     {"threads", "N", "0: all cores; never changes a result", &DiagnoseOptions::threads, 0,

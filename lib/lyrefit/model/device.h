@@ -53,7 +53,7 @@ struct Device {
   int resistance_series = -1;           // position of Rs
   double module_thermal_voltage_V = 0;  // Ns Vt
   // Effects beside the diodes, and the measurement in which they act (device_effects.h). Their
-  // parameters are the last ones. Null: no effects.
+  // parameters are the last ones. Null: no effects. Experimental, as its type is.
   std::shared_ptr<const DeviceEffects> effects;
 
   // Number of parameters.

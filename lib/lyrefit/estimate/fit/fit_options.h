@@ -66,7 +66,7 @@ struct FitOptions {
   std::map<std::string, double> fixed;  // symbol or name -> value: "n2" -> 2
   // Effects in addition to the diodes (FindEffect, or effects of your own). They are searched,
   // polished and reported like the diode parameters; see model/device_effects.h. The objective must
-  // then be the solved current.
+  // then be the solved current. Experimental, as its type is.
   std::vector<EffectUse> with;
   bool force_effects = false;  // also effects that the data cannot show
   SearchOptions search;
@@ -90,7 +90,7 @@ struct FitOptions {
   double loss_scale = 3;                      // k of the robust losses, in noise units
   Intervals intervals = Intervals::kProfile;  // kProfile: only where a symmetric one is invalid
   int threads = 0;                            // 0: all cores; never changes a result
-  const Kernel* kernel = nullptr;             // nullptr: the fastest
+  const Kernel* kernel = nullptr;             // nullptr: the fastest; experimental
 
   // Search options for a model with effects. The population is small, because the shape of the
   // curve and the local optima of the polish give better starts.

@@ -22,6 +22,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // One law of many curves (extended_set.h), and the curve of the set to simulate. Where the
 // conditions in SimulateOptions differ from those of the measured curve, they replace them.
+// Experimental.
 struct SharedLaw {
   Law law;  // law of the whole set
   double reference_K = 298.15;
@@ -34,7 +35,7 @@ struct SimulateOptions {
   Model model = Model::kSingleDiode;
   // Junctions in series; 2: a tandem of two unlike junctions with one diode each
   // (model/two_junctions.h), without effects or a layout. Its photocurrents are those in the light
-  // to be simulated.
+  // to be simulated. Experimental.
   int junctions = 1;
   std::map<std::string, double> parameters;  // by symbol or name, n per cell
   Conditions conditions;
@@ -45,15 +46,18 @@ struct SimulateOptions {
   // strength, must be given; the others default to the effect's usual values. Effects act as in
   // `taken`, a measurement with the order and times of its readings. Without voltages, the readings
   // of `taken` are simulated. Without `taken`, effects act as in the simulated sweep itself.
+  // Experimental, as their type is.
   std::vector<EffectUse> with;
   std::optional<IvCurve> taken;
   // Replaces `taken`. `parameters` are then those at the reference, including alpha and EgRef.
+  // Experimental.
   std::optional<SharedLaw> shared;
   // PVsyst's recombination loss in the i-layer of thin films, with the parameters d2mutau and NsVbi
   // (V). Not beside effects or a layout.
   bool recombination = false;
   bool force_effects = false;  // also effects that the readings cannot show
   // Layout of unlike cells (model/string_layout.h); none: all cells have the parameters above.
+  // Experimental.
   std::shared_ptr<const StringLayout> layout;
   // Independent Gaussian noise of every current; the variances of the two parts add.
   double noise_A = 0;              // standard deviation, constant part
@@ -67,7 +71,7 @@ inline constexpr OptionRow<SimulateOptions> kSimulateOptionTable[] = {
     {"model", "NAME", "number of diodes", EnumOption<&SimulateOptions::model>()},
     {"junctions", "N",
      "junctions in series with a light each; 2: a tandem, Iph1, Is1, n1, Rsh1, Iph2, ... and Rs",
-     &SimulateOptions::junctions, 1, 2},
+     &SimulateOptions::junctions, 1, 2, OptionTrait::kExperimental},
     {"set", "P=VALUE", "value of one parameter, Iph=0.76; once for each",
      AssignmentsOption<&SimulateOptions::parameters>()},
     {"constants", "NAME", "values of k and q", EnumOption<&SimulateOptions::constants>()},

@@ -1,3 +1,4 @@
+// Experimental: may change in a minor version (data/stable).
 #pragma once
 
 #include <string>

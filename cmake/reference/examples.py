@@ -23,8 +23,11 @@ from header_comments import COMMENT, is_code, shown_as_it_stands
 
 
 def public_headers(root):
-    text = (root / "cmake/LyrefitInstall.cmake").read_text(encoding="utf-8")
-    return [root / "lib/lyrefit" / name for name in re.findall(r"^  ([a-z_/]+\.h)\)?$", text, re.M)]
+    """The headers that are installed: those that say that they are public (base/public.h), and those that include them."""
+    lib = root / "lib/lyrefit"
+    headers = [file for file in sorted(lib.rglob("*.h"))
+               if file.parent == lib or "namespace LYREFIT_PUBLIC " in file.read_text(encoding="utf-8")]
+    return [*headers, lib / "base/public.h"]
 
 
 def of_header(text):

@@ -82,10 +82,12 @@ EXPERIMENTAL = "// Experimental: may change in a minor version (data/stable)."
 
 
 def installed():
-    """The headers that CMake installs, as they are included."""
-    lists = (ROOT / "cmake" / "LyrefitInstall.cmake").read_text(encoding="utf-8")
-    found = re.findall(r"^  ([\w/]+\.(?:h|inc))\)?$", lists, flags=re.MULTILINE)
-    return {f"lyrefit/{header}" for header in found}
+    """The headers that CMake installs, as they are included: those that say that they are public."""
+    lib = ROOT / "lib"
+    found = {file for file in (lib / "lyrefit").rglob("*.h")
+             if re.search(r"^#define LYREFIT_PUBLIC |^namespace LYREFIT_PUBLIC ", file.read_text(encoding="utf-8"), re.MULTILINE)}
+    found.update((lib / "lyrefit").glob("*.h"), (lib / "lyrefit").rglob("*.inc"))
+    return {str(file.relative_to(lib)) for file in found}
 
 
 def included(header):

@@ -1,9 +1,9 @@
 #include "batch_request.h"
 #include "bounds_flag.h"
 #include "effect_text.h"
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/read_module.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "model_flag.h"
 #include "translation_flags.h"
 
@@ -214,8 +214,10 @@ void AddSharedTaskFlags(VerbLine* verb, BatchRequest* request) {
   const auto read_noise = [request](const std::string& text) -> Expected<void> {
     const auto* const fit = FindRow(kFitOptionTable, "noise");
     const auto* const diagnose = FindRow(kDiagnoseOptionTable, "noise");
-    TRY(std::get<OptionText<FitOptions>>(fit->field).read(text, &request->fit, ProgramTextReaders()));
-    return std::get<OptionText<DiagnoseOptions>>(diagnose->field).read(text, &request->diagnose, ProgramTextReaders());
+    TRY(std::get<OptionText<FitOptions>>(fit->field)
+            .read(text, &request->fit, ProgramTextReaders()));
+    return std::get<OptionText<DiagnoseOptions>>(diagnose->field)
+        .read(text, &request->diagnose, ProgramTextReaders());
   };
   verb->AddReader("--noise", read_noise,
                   "errors of the readings: white, field, or a JSON file with their sizes (default "

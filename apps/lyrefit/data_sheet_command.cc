@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "flags.h"
-#include "lyrefit/devices/device_documents.h"
-#include "lyrefit/family/family_documents.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/read_module.h"
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

@@ -2,8 +2,8 @@
 
 #include "diagnose_request.h"
 #include "interrupt.h"
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

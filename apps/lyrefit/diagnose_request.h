@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "flags.h"
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/documents.h"
 

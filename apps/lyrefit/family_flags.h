@@ -6,8 +6,8 @@
 
 #include "command_line.h"
 #include "flags.h"
-#include "lyrefit/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/family/fit_family.h"
 
 namespace lyrefit {
 

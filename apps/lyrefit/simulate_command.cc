@@ -3,13 +3,13 @@
 #include <filesystem>
 
 #include "flags.h"
-#include "lyrefit/simulate/read_string_layout.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/simulate/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/write_curve.h"
+#include "lyrefit/simulate/read_string_layout.h"
+#include "lyrefit/simulate/simulate_module.h"
 #include "output.h"
 #include "verbs.h"
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/nearest_curve.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "study_flags.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 #include "pagmo_searcher.h"
 
 namespace lyrefit {

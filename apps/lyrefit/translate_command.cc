@@ -3,7 +3,6 @@
 
 #include "flags.h"
 #include "interrupt.h"
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
@@ -11,6 +10,7 @@
 #include "lyrefit/report/page.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/translate/translate.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "progress_text.h"
 #include "translation_flags.h"
 #include "verbs.h"

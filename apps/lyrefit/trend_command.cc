@@ -4,10 +4,9 @@
 
 #include "flags.h"
 #include "interrupt.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/read_module.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/read/read_module.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
@@ -15,6 +14,7 @@
 #include "lyrefit/report/plots.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "verbs.h"
 
 namespace lyrefit {

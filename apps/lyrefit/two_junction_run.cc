@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "interrupt.h"
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/fit_two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

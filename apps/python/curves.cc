@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "fit.h"
-#include "lyrefit/read/bare_curve.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/bare_curve.h"
 #include "work.h"
 
 namespace lyrefit::python {

@@ -8,9 +8,9 @@
 
 #include "columns.h"
 #include "keywords.h"
-#include "lyrefit/read/condition_options.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/read/condition_options.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace lyrefit::python {

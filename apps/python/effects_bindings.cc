@@ -1,9 +1,9 @@
 #include "bindings.h"
 #include "effects.h"
 #include "keywords.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/estimate/fit/effect_text.h"
-#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit::python {
 

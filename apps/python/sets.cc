@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "work.h"
 
 namespace lyrefit::python {

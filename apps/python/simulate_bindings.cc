@@ -9,10 +9,10 @@
 #include "docs.h"
 #include "effects.h"
 #include "errors.h"
-#include "lyrefit/simulate/read_string_layout.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/simulate/simulate_module.h"
 #include "lyrefit/estimate/fit/simulate.h"
+#include "lyrefit/simulate/read_string_layout.h"
+#include "lyrefit/simulate/simulate_module.h"
 #include "result.h"
 #include "work.h"
 

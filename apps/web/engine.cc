@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "look.h"
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"

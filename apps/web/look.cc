@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/figure.h"
 
 namespace lyrefit {

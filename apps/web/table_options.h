@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/base/option.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/option.h"
 #include "lyrefit/simulate/text_readers.h"
 
 // Option tables as a form: its description, and the reading of its texts.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 
 namespace lyrefit::bench {
 namespace {

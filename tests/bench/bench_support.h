@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit::bench {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "benchmarks.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_individually.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit::bench {
 namespace {

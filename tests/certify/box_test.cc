@@ -6,12 +6,12 @@
 
 #include "certify/made.h"
 #include "error_of.h"
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/certify/as_diodes.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "repeats.h"
 
 namespace lyrefit {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/kernel.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "lyrefit/model/device.h"
 #include "effects/synthetic_readings.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 namespace {

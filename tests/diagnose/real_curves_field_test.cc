@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "../repeats.h"
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "../repeats.h"
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/diagnose/sweep_state.h"
-#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

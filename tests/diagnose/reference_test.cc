@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string>
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/sweep_state.h"
-#include "lyrefit/curve/key_points.h"
 #include "model/synthetic_curve.h"
 
 namespace lyrefit {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "effects/synthetic_readings.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/model/effect.h"
-#include "effects/synthetic_readings.h"
 
 namespace lyrefit {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "lyrefit/effects/catalogue.h"
 #include "effects/synthetic_readings.h"
+#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "catalogue_walk.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

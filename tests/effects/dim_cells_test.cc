@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "lyrefit/effects/dim_places.h"
 #include "effects/brute_module.h"
+#include "lyrefit/effects/dim_places.h"
 
 namespace lyrefit {
 namespace {

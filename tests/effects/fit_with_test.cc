@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/effects/catalogue.h"
 #include "module_with.h"
 #include "repeats.h"
 

@@ -6,10 +6,10 @@
 #include <ostream>
 #include <string>
 
+#include "effects/synthetic_readings.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/law.h"
-#include "effects/synthetic_readings.h"
 #include "repeats.h"
 
 namespace lyrefit {

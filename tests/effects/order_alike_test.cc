@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/synthetic_use.h"
 #include "estimate/refine/test_curves.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "effects/synthetic_use.h"
 
 namespace lyrefit {
 namespace {

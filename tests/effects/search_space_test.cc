@@ -6,9 +6,9 @@
 #include <map>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/effects/catalogue.h"
 #include "module_with.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "lyrefit/model/device_effects.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/model/device_effects.h"
 
 namespace lyrefit {
 

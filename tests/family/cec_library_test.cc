@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "error_of.h"
-#include "model/synthetic_translation.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/read_module.h"
 #include "lyrefit/report/json.h"
+#include "model/synthetic_translation.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/median.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "repeats.h"
 
 namespace lyrefit {

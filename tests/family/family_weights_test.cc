@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/family/family_documents.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/documents.h"
 #include "quick.h"
 #include "repeats.h"

@@ -10,9 +10,9 @@
 
 #include "error_of.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/family/family_warnings.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 #include "repeats.h"

@@ -7,11 +7,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "model/synthetic_translation.h"
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/current.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/report/json.h"
+#include "model/synthetic_translation.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "effects/synthetic_use.h"
 #include "family/synthetic_family.h"
 #include "lyrefit/model/extended_set.h"
-#include "effects/synthetic_use.h"
 
 namespace lyrefit {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/joint.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/priors.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace faults {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "effects/synthetic_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/reporting_units.h"
-#include "effects/synthetic_use.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "effects/synthetic_readings.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/translation.h"
-#include "effects/synthetic_readings.h"
 
 namespace lyrefit {
 namespace {

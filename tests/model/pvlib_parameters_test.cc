@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "model/synthetic_translation.h"
 #include "lyrefit/model/current.h"
+#include "model/synthetic_translation.h"
 
 namespace lyrefit {
 namespace {
@@ -51,7 +51,8 @@ PvlibArguments CalcparamsPvsyst(const PvlibModule& m, double g, double temp_cell
   PvlibArguments p = {
       g / m.at("irrad_ref") * (m.at("I_L_ref") + m.at("alpha_sc") * (t - tref)),
       m.at("I_o_ref") * std::pow(t / tref, 3) *
-          std::exp(kPvlibCharge_C * m.at("EgRef") / (kPvlibBoltzmann_J_K * gamma) * (1 / tref - 1 / t)),
+          std::exp(kPvlibCharge_C * m.at("EgRef") / (kPvlibBoltzmann_J_K * gamma) *
+                   (1 / tref - 1 / t)),
       m.at("R_s"),
       base + (m.at("R_sh_0") - base) * std::exp(-m.at("R_sh_exp") * g / m.at("irrad_ref")),
       gamma * kPvlibBoltzmann_J_K / kPvlibCharge_C * m.at("cells_in_series") * t};

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/synthetic_use.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/model/kernel.h"
-#include "effects/synthetic_use.h"
 
 namespace lyrefit {
 namespace {

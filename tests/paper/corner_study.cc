@@ -3,12 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/compare.h"
 

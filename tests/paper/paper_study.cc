@@ -8,15 +8,15 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lyrefit/read/read_curve_set.h"
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/search_space.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/algorithms.h"
 #include "lyrefit/study/audit.h"
 #include "lyrefit/study/compare.h"

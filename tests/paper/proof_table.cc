@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <map>
 
-#include "lyrefit/settings/bounds_file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/floor.h"
 #include "lyrefit/estimate/fit/bounds.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "studies/named_table.h"
 
 namespace lyrefit {

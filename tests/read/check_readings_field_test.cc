@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/find_step.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <thread>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

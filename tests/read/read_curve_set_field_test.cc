@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "error_of.h"
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

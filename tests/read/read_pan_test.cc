@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "read/pan_text.h"
-#include "lyrefit/read/read_module.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/read/read_module.h"
+#include "read/pan_text.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "model/synthetic_translation.h"
-#include "lyrefit/read/read_module.h"
 #include "lyrefit/model/current.h"
+#include "lyrefit/read/read_module.h"
+#include "model/synthetic_translation.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

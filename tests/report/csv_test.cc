@@ -1,8 +1,8 @@
+#include "lyrefit/report/csv.h"
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/report/csv.h"
 #include "lyrefit/read/spreadsheet_text.h"
 
 #include <gmock/gmock.h>
@@ -10,12 +10,12 @@
 
 #include <algorithm>
 
-#include "golden.h"
 #include "certify/sample_certificate.h"
 #include "devices/sample_data_sheet.h"
-#include "family/sample_family.h"
-#include "sample_fits.h"
 #include "diagnose/sample_reference.h"
+#include "family/sample_family.h"
+#include "golden.h"
+#include "sample_fits.h"
 
 namespace lyrefit {
 namespace {

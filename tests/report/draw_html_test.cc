@@ -1,18 +1,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "certify/sample_certificate.h"
+#include "devices/sample_data_sheet.h"
+#include "diagnose/sample_diagnosis.h"
+#include "diagnose/sample_reference.h"
+#include "family/sample_family.h"
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
-#include "certify/sample_certificate.h"
-#include "devices/sample_data_sheet.h"
-#include "diagnose/sample_diagnosis.h"
 #include "sample_document.h"
-#include "family/sample_family.h"
-#include "diagnose/sample_reference.h"
 #include "sample_report.h"
 #include "well_formed.h"
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "diagnose/sample_diagnosis.h"
+#include "family/sample_family.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
-#include "diagnose/sample_diagnosis.h"
-#include "family/sample_family.h"
 #include "sample_report.h"
 
 namespace lyrefit {

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagnose/sample_diagnosis.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/figure_html.h"
 #include "lyrefit/report/plots.h"
-#include "diagnose/sample_diagnosis.h"
 #include "sample_report.h"
 #include "well_formed.h"
 

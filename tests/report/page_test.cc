@@ -6,17 +6,17 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "certify/sample_certificate.h"
+#include "diagnose/sample_diagnosis.h"
+#include "diagnose/sample_reference.h"
+#include "family/sample_family.h"
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page_shell.h"
-#include "certify/sample_certificate.h"
-#include "diagnose/sample_diagnosis.h"
 #include "sample_document.h"
-#include "family/sample_family.h"
-#include "diagnose/sample_reference.h"
 #include "sample_report.h"
 
 namespace lyrefit {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/simulate/simulate_from.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/simulate.h"
+#include "lyrefit/simulate/simulate_from.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "read/pan_text.h"
-#include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/read/read_pan.h"
+#include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/model/current.h"
+#include "lyrefit/read/read_pan.h"
+#include "read/pan_text.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

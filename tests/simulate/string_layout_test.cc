@@ -39,7 +39,8 @@ constexpr char kTwoStrings[] =
                                                 {"count": 1, "light": 0.4, "leak_S": 0.05}]}]]})";
 
 TEST(StringLayoutTest, ReadsWhatItsHeaderShows) {
-  std::ifstream header(std::string(LYREFIT_DATA_DIR) + "/../lib/lyrefit/simulate/read_string_layout.h");
+  std::ifstream header(std::string(LYREFIT_DATA_DIR) +
+                       "/../lib/lyrefit/simulate/read_string_layout.h");
   std::string shown;
   for (std::string line; std::getline(header, line);) {
     if (line.rfind("//   ", 0) == 0) shown += line.substr(5) + '\n';

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/family/fit_family.h"
 #include "lyrefit/family/fit_individually.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "repeats.h"
 #include "studies/truth.h"
 

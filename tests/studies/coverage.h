@@ -7,9 +7,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/observer.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/model/parameter.h"
-#include "lyrefit/curve/curve_set.h"
 #include "studies/coverage_options.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/model/translation.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/model/translation.h"
 #include "studies/coverage_options.h"
 
 namespace lyrefit {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/family/family_options.h"
-#include "lyrefit/estimate/fit/bounds.h"
-#include "lyrefit/model/device_effects.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/estimate/fit/bounds.h"
+#include "lyrefit/family/family_options.h"
+#include "lyrefit/model/device_effects.h"
 #include "lyrefit/study/compare_options.h"
 
 namespace lyrefit {

@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
+#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/reporting_units.h"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "effects/module_with.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
-#include "lyrefit/effects/catalogue.h"
-#include "effects/module_with.h"
 #include "repeats.h"
 #include "studies/landscape.h"
 

@@ -8,9 +8,9 @@
 #include <map>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/study/audit.h"

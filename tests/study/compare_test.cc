@@ -1,6 +1,6 @@
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/compare.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/settings/bounds_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/reference.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/compare.h"
 
 #include <gmock/gmock.h>

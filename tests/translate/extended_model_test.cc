@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/fit/fit.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/translation.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/model/translation.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace shown {
 namespace {

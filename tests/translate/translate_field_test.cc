@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/translate/prepare.h"
 
 namespace lyrefit {

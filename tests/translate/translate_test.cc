@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "../repeats.h"
-#include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/fit/simulate.h"
 #include "synthetic_string.h"
 
 namespace lyrefit {

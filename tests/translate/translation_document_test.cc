@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <sstream>
 
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "sample_translation.h"
 
 namespace lyrefit {

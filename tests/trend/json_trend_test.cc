@@ -4,8 +4,8 @@
 #include <set>
 
 #include "json_keys.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "sample_trend.h"
 
 namespace lyrefit {

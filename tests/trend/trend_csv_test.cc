@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/csv.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "sample_trend.h"
 
 namespace lyrefit {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/read/read_pvlib.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/single_diodes.h"
+#include "lyrefit/read/read_pvlib.h"
 #include "temp_folder.h"
 #include "trend/made_sweeps.h"
 

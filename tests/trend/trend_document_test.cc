@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/report/page.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "sample_trend.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "sample_trend.h"
 
 namespace lyrefit {

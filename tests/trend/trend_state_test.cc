@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "error_of.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "temp_folder.h"
 #include "trend/sweeps_text.h"
 

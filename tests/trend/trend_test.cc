@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "repeats.h"
 #include "trend/made_sweeps.h"
 

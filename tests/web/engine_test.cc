@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "../json_keys.h"
-#include "lyrefit/diagnose/diagnosis_documents.h"
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/json.h"
 #include "repeats.h"
 #include "temp_folder.h"

@@ -9,7 +9,8 @@ std::vector<const Verb*> ProgramVerbs() {
 }
 
 const char kLeftOut[] =
-    "This program was built for a first fit: it has the verb fit, for curves one by one. All verbs, in\n"
+    "This program was built for a first fit: it has the verb fit, for curves one by one. All "
+    "verbs, in\n"
     "the folder of the sources:  cmake --build build  (then build/apps/lyrefit/lyrefit)\n";
 
 }  // namespace lyrefit

@@ -17,7 +17,8 @@ std::vector<std::unique_ptr<FitKind>> FitKinds() { return {}; }
 Expected<FitReport> FitOneCurve(const IvCurve& curve, const FitOptions& options, bool auto_model,
                                 const Observer& observer) {
   if (options.floor) {
-    return Fail("--floor: this program was built for a first fit, without proofs; build all of lyrefit");
+    return Fail(
+        "--floor: this program was built for a first fit, without proofs; build all of lyrefit");
   }
   return auto_model ? FitAuto(curve, options, observer) : Fit(curve, options, observer);
 }

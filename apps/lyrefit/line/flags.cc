@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/file.h"
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/plots.h"
 
 namespace lyrefit {

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "command_line.h"
-#include "lyrefit/estimate/fit/text_readers.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
-#include "lyrefit/read/condition_options.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/estimate/fit/text_readers.h"
+#include "lyrefit/read/condition_options.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/report/figure.h"
 #include "lyrefit/report/json.h"

@@ -24,20 +24,21 @@ std::string RangeText(const std::string& name, const std::pair<double, double>& 
 template <auto Read, auto Text, auto First, auto... Rest>
 constexpr auto MapOption() {
   using Options = ClassOf<First>;
-  return OptionText<Options>{[](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
-                               const auto named = Read(text);
-                               if (!named) return tl::unexpected<Error>(named.error());
-                               Along<First, Rest...>(*options)[named->first] = named->second;
-                               return {};
-                             },
-                             [](const Options& options) {
-                               std::vector<std::string> texts;
-                               for (const auto& [name, value] : Along<First, Rest...>(options)) {
-                                 texts.push_back(Text(name, value));
-                               }
-                               return texts;
-                             },
-                             nullptr, true};
+  return OptionText<Options>{
+      [](const std::string& text, Options* options, const TextReaders&) -> Expected<void> {
+        const auto named = Read(text);
+        if (!named) return tl::unexpected<Error>(named.error());
+        Along<First, Rest...>(*options)[named->first] = named->second;
+        return {};
+      },
+      [](const Options& options) {
+        std::vector<std::string> texts;
+        for (const auto& [name, value] : Along<First, Rest...>(options)) {
+          texts.push_back(Text(name, value));
+        }
+        return texts;
+      },
+      nullptr, true};
 }
 
 // Option NAME=VALUE, repeated for each entry.

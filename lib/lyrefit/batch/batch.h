@@ -14,8 +14,8 @@
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/campaign_summary.h"
 #include "lyrefit/batch/sample_summary.h"
-#include "lyrefit/stream/batch_source.h"
 #include "lyrefit/report/document.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

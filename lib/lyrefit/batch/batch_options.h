@@ -11,8 +11,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/batch/string_pages.h"
-#include "lyrefit/stream/batch_source.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

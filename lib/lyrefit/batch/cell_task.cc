@@ -4,14 +4,14 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/batch/samples.h"
-#include "lyrefit/devices/describe_cell.h"
-#include "lyrefit/read/cells.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/devices/cell_fields.h"
+#include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 

@@ -2,10 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/row_cause.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/row_cause.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/translate/translate.h"
+#include "lyrefit/translate/translation_documents.h"
 
 namespace lyrefit {
 namespace {

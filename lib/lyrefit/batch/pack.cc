@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "lyrefit/base/new_file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/base/number_text.h"
-#include "lyrefit/stream/row_curve.h"
 #include "lyrefit/read/write_curve.h"
 #include "lyrefit/report/csv.h"
+#include "lyrefit/stream/row_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/batch/pixel_options.h"
-#include "lyrefit/devices/cell_report.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/devices/cell_report.h"
 
 namespace lyrefit {
 

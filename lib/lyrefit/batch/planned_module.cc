@@ -9,8 +9,8 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/read/read_module.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/read/read_module.h"
 
 namespace lyrefit {
 namespace {

@@ -7,8 +7,8 @@
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/plant_figures.h"
 #include "lyrefit/batch/plant_text.h"
-#include "lyrefit/stream/natural_order.h"
 #include "lyrefit/report/text_layout.h"
+#include "lyrefit/stream/natural_order.h"
 
 namespace lyrefit {
 namespace {

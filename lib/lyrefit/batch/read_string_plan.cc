@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/planned_module.h"
 #include "lyrefit/batch/string_plan.h"
-#include "lyrefit/stream/json_elements.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_lines.h"
+#include "lyrefit/stream/json_elements.h"
 
 namespace lyrefit {
 namespace {

@@ -10,8 +10,8 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/batch/sparkline.h"
-#include "lyrefit/stream/batch_input.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/stream/batch_input.h"
 
 namespace lyrefit {
 namespace {

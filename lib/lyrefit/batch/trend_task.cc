@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/campaign_results.h"
@@ -15,6 +14,7 @@
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json.h"
 #include "lyrefit/trend/trend.h"
+#include "lyrefit/trend/trend_documents.h"
 
 namespace lyrefit {
 namespace {

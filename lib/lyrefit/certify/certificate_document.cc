@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "lyrefit/certify/certificate_documents.h"
+#include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/steep_diodes.h"
 #include "lyrefit/model/term.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

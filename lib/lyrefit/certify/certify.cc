@@ -17,8 +17,8 @@
 #include "lyrefit/certify/safe_values.h"
 #include "lyrefit/certify/solved_relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
-#include "lyrefit/estimate/fit/order_alike.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/estimate/fit/order_alike.h"
 
 namespace lyrefit {
 namespace {

@@ -9,9 +9,9 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
-#include "lyrefit/model/device.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

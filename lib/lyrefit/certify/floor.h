@@ -7,11 +7,11 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/certify/certify_options.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/parameter.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -5,8 +5,8 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/certify/certify_options.h"
 #include "lyrefit/certify/mixture.h"
-#include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/estimate/refine/problem.h"
 
 namespace lyrefit {
 

@@ -7,13 +7,13 @@
 #include <map>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/left_temperature.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/plausibility.h"
 
 namespace lyrefit {

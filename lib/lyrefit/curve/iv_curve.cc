@@ -7,8 +7,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {

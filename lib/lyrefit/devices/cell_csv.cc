@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/cell_fields.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/csv.h"
 
 namespace lyrefit {

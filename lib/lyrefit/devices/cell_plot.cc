@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/devices/cell_parts.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 

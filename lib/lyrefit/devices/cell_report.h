@@ -9,10 +9,10 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/estimate/refine/estimate.h"
 #include "lyrefit/curve/assumption.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/estimate/refine/estimate.h"
 
 // Records of the description of one laboratory cell. Voltages are in V of the whole device,
 // currents in A and generator sign, resistances in ohm. An unknown value is NaN. Fractions are

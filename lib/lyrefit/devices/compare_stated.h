@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/devices/cell_report.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/devices/cell_report.h"
 
 namespace lyrefit {
 

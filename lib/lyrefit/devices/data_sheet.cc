@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/devices/family_of_sheet.h"
 #include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/family/key_point_solver.h"
+#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <utility>
 
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/devices/data_sheet_parts.h"
+#include "lyrefit/devices/device_documents.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

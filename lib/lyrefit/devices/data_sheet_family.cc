@@ -7,9 +7,9 @@
 #include <cstddef>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/devices/family_of_sheet.h"
+#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/data_sheet.h"
+#include "lyrefit/devices/data_sheet_parts.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/devices/data_sheet_parts.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {

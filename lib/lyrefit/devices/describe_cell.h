@@ -7,9 +7,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/devices/cell_options.h"
 #include "lyrefit/devices/cell_report.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

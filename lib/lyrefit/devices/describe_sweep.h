@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/devices/cell_options.h"
 #include "lyrefit/devices/cell_report.h"
 #include "lyrefit/devices/line.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

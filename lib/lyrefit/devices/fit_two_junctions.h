@@ -6,10 +6,10 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/devices/two_junction_options.h"
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/estimate/fit/fit_options.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "lyrefit/devices/cell_model.h"
 #include "lyrefit/devices/cell_options.h"
 #include "lyrefit/devices/cell_report.h"
-#include "lyrefit/devices/cell_model.h"
 #include "lyrefit/estimate/refine/error_model.h"
 #include "lyrefit/estimate/refine/spread.h"
 

@@ -1,5 +1,5 @@
-#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {

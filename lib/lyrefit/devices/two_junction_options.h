@@ -10,8 +10,8 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/base/setting_text.h"
+#include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/search/search_options.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

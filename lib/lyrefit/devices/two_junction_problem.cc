@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/devices/two_junction_options.h"
-#include "lyrefit/devices/two_junction_model.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/devices/two_junction_model.h"
+#include "lyrefit/devices/two_junction_options.h"
 
 namespace lyrefit {
 

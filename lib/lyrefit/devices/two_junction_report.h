@@ -8,10 +8,10 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/devices/two_junction_options.h"
-#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/devices/two_junction_options.h"
+#include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/search/search_summary.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

@@ -9,8 +9,8 @@
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/diagnose/known_effects.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {

@@ -9,8 +9,8 @@
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict_text.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {

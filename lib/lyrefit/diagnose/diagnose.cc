@@ -9,6 +9,8 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/decision_constants.h"
@@ -23,11 +25,9 @@
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/diagnose/verdict.h"
 #include "lyrefit/diagnose/verdict_text.h"
+#include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
-#include "lyrefit/effects/catalogue.h"
-#include "lyrefit/curve/check_readings.h"
-#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {
@@ -347,7 +347,7 @@ void MarkInterrupted(Diagnosis* diagnosis) {
 }  // namespace
 
 Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options,
-                    const TextReaders&) {
+                             const TextReaders&) {
   const std::optional<Model> model = FromText<Model>(text);
   if (!model || *model == Model::kTripleDiode) {
     return Fail("expected sd or dd, found '" + text + "'");
@@ -357,7 +357,7 @@ Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options,
 }
 
 Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options,
-                    const TextReaders&) {
+                             const TextReaders&) {
   options->effects.clear();
   if (text.empty()) return {};
   TRY(options->effects, SplitList(text));

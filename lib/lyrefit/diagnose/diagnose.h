@@ -7,10 +7,10 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/diagnose_options.h"
-#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/read/read_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {

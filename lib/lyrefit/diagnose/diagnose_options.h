@@ -57,10 +57,8 @@ inline DiagnoseOptions LaboratoryOptions() {
 
 // Parse and print option values for the table below: the base model, ids of effects, ids of own
 // effects. Errors: any other base than sd or dd; a malformed list.
-Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options,
-                    const TextReaders&);
-Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options,
-                    const TextReaders&);
+Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options, const TextReaders&);
+Expected<void> ReadEffectIds(const std::string& text, DiagnoseOptions* options, const TextReaders&);
 std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options);
 
 inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {

@@ -9,10 +9,10 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/plan.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/diagnose/diagnosis_documents.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/diagnose/diagnosis_parts.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

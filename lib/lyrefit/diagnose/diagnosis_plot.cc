@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/text_layout.h"
 

@@ -11,8 +11,8 @@
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/values.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

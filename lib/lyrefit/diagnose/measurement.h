@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/diagnose/values.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/model/reading.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

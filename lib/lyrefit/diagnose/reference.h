@@ -5,9 +5,9 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/reference_comparison.h"
 #include "lyrefit/diagnose/reference_options.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -10,9 +10,9 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/reference.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"

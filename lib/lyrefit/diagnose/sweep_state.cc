@@ -5,11 +5,11 @@
 #include <numeric>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/choose_base.h"
 #include "lyrefit/diagnose/measurement.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/curve/check_readings.h"
-#include "lyrefit/curve/sweep_order.h"
 
 namespace lyrefit {
 namespace {

@@ -1,8 +1,8 @@
 #include "lyrefit/effects/read_effect_use.h"
 
+#include "lyrefit/base/setting_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/base/setting_text.h"
 
 namespace lyrefit {
 

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/key_point_summary.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

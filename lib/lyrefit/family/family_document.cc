@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/report/documents.h"
 #include "lyrefit/family/family_parts.h"
+#include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -10,8 +10,8 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/family/family_search.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
+#include "lyrefit/family/family_search.h"
 #include "lyrefit/model/extended_set.h"
 
 namespace lyrefit {

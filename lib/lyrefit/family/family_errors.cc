@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/family/family_error_sizes.h"
 #include "lyrefit/family/family_model.h"
-#include "lyrefit/estimate/refine/linearize.h"
-#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

@@ -10,9 +10,9 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
+#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/family/family_judge.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/family/family_judge.h"
 #include "lyrefit/model/extended_set.h"
 
 namespace lyrefit {

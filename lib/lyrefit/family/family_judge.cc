@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "lyrefit/base/observer.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/intervals.h"
 #include "lyrefit/estimate/refine/other_optima.h"
+#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/model_points.h"
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/refine/reporting_model.h"
+#include "lyrefit/family/family_model.h"
 #include "lyrefit/family/family_problem.h"
 #include "lyrefit/family/family_report.h"
-#include "lyrefit/family/family_model.h"
 #include "lyrefit/family/joint.h"
-#include "lyrefit/estimate/refine/reporting_model.h"
 
 namespace lyrefit {
 

@@ -10,10 +10,10 @@
 #include "lyrefit/base/largest.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/family/curve_subset.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/family/curve_subset.h"
 
 namespace lyrefit {
 namespace {

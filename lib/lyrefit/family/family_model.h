@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/family/joint.h"
 #include "lyrefit/estimate/refine/model.h"
+#include "lyrefit/family/joint.h"
 #include "lyrefit/model/kernel.h"
 
 namespace lyrefit {

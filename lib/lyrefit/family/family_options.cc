@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "lyrefit/family/fit_family.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/family/fit_family.h"
 
 namespace lyrefit {
 
 Expected<void> ReadIrradianceAccuracy(const std::string& text, FamilyOptions* options,
-                    const TextReaders&) {
+                                      const TextReaders&) {
   constexpr double kWorst_percent = 50;
   const bool sign = !text.empty() && text.back() == '%';
   const std::optional<double> percent = ParseNumber(sign ? text.substr(0, text.size() - 1) : text);
@@ -21,8 +21,7 @@ Expected<void> ReadIrradianceAccuracy(const std::string& text, FamilyOptions* op
   return {};
 }
 
-Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options,
-                    const TextReaders&) {
+Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options, const TextReaders&) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     if (end > begin) options->leave_out.push_back(text.substr(begin, end - begin));

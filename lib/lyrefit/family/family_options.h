@@ -10,12 +10,12 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
@@ -127,10 +127,9 @@ struct FamilyOptions {
 
 // Reads a percentage, "2" or "2%". Error: not a percentage from 0 to 50.
 Expected<void> ReadIrradianceAccuracy(const std::string& text, FamilyOptions* options,
-                    const TextReaders&);
+                                      const TextReaders&);
 // Reads one id or several, "17,18".
-Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options,
-                    const TextReaders&);
+Expected<void> ReadLeaveOut(const std::string& text, FamilyOptions* options, const TextReaders&);
 
 inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
     OptionRow<FamilyOptions>("Family"),
@@ -162,12 +161,13 @@ inline constexpr OptionRow<FamilyOptions> kFamilyOptionTable[] = {
      EnumOption<&FamilyOptions::residuals>()},
     {"key-point-errors", "LIST",
      "how well key points are measured against each other, isc=0.4%,voc=0.3%,vmp=0.6%,pmp=0.3%",
-     OptionText<FamilyOptions>{[](const std::string& text, FamilyOptions* options, const TextReaders&) {
-                                 return ReadKeyPointErrors(text, &options->key_point_errors);
-                               },
-                               [](const FamilyOptions& options) -> std::vector<std::string> {
-                                 return {KeyPointErrorsText(options.key_point_errors)};
-                               }}},
+     OptionText<FamilyOptions>{
+         [](const std::string& text, FamilyOptions* options, const TextReaders&) {
+           return ReadKeyPointErrors(text, &options->key_point_errors);
+         },
+         [](const FamilyOptions& options) -> std::vector<std::string> {
+           return {KeyPointErrorsText(options.key_point_errors)};
+         }}},
     {"weights", "NAME",
      "how curves count: every point alike, relative to Isc, or as the residuals say",
      EnumOption<&FamilyOptions::weights>()},

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/reporting_units.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

@@ -10,9 +10,9 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_effects.h"
+#include "lyrefit/model/default_values.h"
 #include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
 namespace {

@@ -9,12 +9,12 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/family/family_options.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/estimate/refine/error_terms.h"
+#include "lyrefit/family/family_options.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 

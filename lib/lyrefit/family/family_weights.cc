@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_members.h"
 #include "lyrefit/family/joint_fit.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 

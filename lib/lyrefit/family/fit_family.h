@@ -4,10 +4,10 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/family/family_options.h"
 #include "lyrefit/family/family_report.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -9,10 +9,10 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/family/individual_fits.h"
-#include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/model/reporting_units.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/family/individual_fits.h"
+#include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {
 namespace {

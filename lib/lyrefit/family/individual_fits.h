@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "lyrefit/family/family_options.h"
-#include "lyrefit/family/family_report.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/family/family_options.h"
+#include "lyrefit/family/family_report.h"
 
 namespace lyrefit {
 

@@ -5,8 +5,8 @@
 
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/family/family_judge.h"
 #include "lyrefit/estimate/refine/multistart.h"
+#include "lyrefit/family/family_judge.h"
 
 namespace lyrefit {
 namespace {

@@ -1,6 +1,6 @@
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/report/json_parts.h"
 #include "lyrefit/family/family_parts.h"
+#include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
 

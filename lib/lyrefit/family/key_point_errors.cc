@@ -4,9 +4,9 @@
 #include <sstream>
 #include <string>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/family/family_options.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

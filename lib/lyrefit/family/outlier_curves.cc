@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/family/family_search.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/family/family_search.h"
 
 namespace lyrefit {
 namespace {

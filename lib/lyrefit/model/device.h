@@ -8,9 +8,9 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/model/parameter.h"
 #include "lyrefit/model/term.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

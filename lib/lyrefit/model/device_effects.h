@@ -9,11 +9,11 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/law.h"
 #include "lyrefit/model/reading.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

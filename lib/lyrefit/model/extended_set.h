@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/curve_set.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/reporting_units.h"
 #include "lyrefit/model/translation.h"
-#include "lyrefit/curve/curve_set.h"
 
 namespace lyrefit {
 

@@ -7,12 +7,12 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/default_values.h"
-#include "lyrefit/model/law.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
+#include "lyrefit/model/default_values.h"
+#include "lyrefit/model/law.h"
 
 namespace lyrefit {
 

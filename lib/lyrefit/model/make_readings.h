@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/model/reading.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/model/reading.h"
 
 namespace lyrefit {
 

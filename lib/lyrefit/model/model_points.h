@@ -1,7 +1,7 @@
 #pragma once
 
-#include "lyrefit/model/device.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 

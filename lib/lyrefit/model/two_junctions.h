@@ -5,8 +5,8 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/parameter.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/model/parameter.h"
 
 // A device of two unlike junctions in series with one series resistance (a monolithic tandem of two
 // terminals), in ampere and volt. Junction j (1: top, 2: bottom) has the voltage V_j at which it

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {

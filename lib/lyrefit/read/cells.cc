@@ -6,8 +6,8 @@
 #include <regex>
 #include <utility>
 
-#include "lyrefit/read/column.h"
 #include "lyrefit/curve/dark.h"
+#include "lyrefit/read/column.h"
 
 namespace lyrefit {
 namespace {

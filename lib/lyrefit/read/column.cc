@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/read/label.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/label.h"
 
 namespace lyrefit {
 namespace {

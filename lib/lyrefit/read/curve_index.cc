@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_header.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/read/curve_index.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/read/curve_index.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_curve.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/read/column.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/read/column.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_columns.h"
 

@@ -10,16 +10,16 @@
 #include <utility>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/make_curve.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
-#include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_head.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {

@@ -10,10 +10,10 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_set_builder.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_head.h"
 #include "lyrefit/read/table_header.h"

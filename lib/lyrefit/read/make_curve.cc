@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/join_sweeps.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {

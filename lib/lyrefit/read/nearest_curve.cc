@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 namespace {

@@ -7,10 +7,10 @@
 #include <cctype>
 #include <string_view>
 
-#include "lyrefit/base/try.h"
-#include "lyrefit/read/column.h"
-#include "lyrefit/curve/date_time.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/curve/date_time.h"
+#include "lyrefit/read/column.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/table_row.h"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/cells.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {

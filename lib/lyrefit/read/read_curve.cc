@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_text.h"
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/table_curve.h"

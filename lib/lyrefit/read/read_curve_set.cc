@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/curve_set.h"
@@ -16,7 +16,7 @@
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
-#include "lyrefit/base/number_text.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"

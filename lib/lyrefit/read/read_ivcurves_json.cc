@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <set>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/settle_conditions.h"
 
 namespace lyrefit {

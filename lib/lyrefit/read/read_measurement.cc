@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/read/curve_text.h"
 #include "lyrefit/curve/sweep_order.h"
+#include "lyrefit/read/curve_text.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/table_curve.h"
 
 namespace lyrefit {

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/coefficients.h"
-#include "lyrefit/read/pan_object.h"
-#include "lyrefit/model/pan_technology.h"
-#include "lyrefit/read/pan_values.h"
-#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/base/number_text.h"
+#include "lyrefit/model/pan_technology.h"
+#include "lyrefit/model/pvlib_parameters.h"
+#include "lyrefit/read/pan_object.h"
+#include "lyrefit/read/pan_values.h"
 
 namespace lyrefit {
 namespace {

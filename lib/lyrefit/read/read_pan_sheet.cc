@@ -1,10 +1,10 @@
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/read/pan_values.h"
 #include "lyrefit/read/read_pan.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 

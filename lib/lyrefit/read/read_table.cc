@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/join_sweeps.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_header.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/numbers.h"
 
 namespace lyrefit {
 

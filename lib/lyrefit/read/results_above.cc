@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/read/label.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/label.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/table_columns.h"
 

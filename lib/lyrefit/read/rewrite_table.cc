@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "lyrefit/read/label.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 

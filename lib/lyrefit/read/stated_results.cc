@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lyrefit/read/column.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/read/column.h"
 #include "lyrefit/read/table_columns.h"
 
 namespace lyrefit {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "lyrefit/read/label.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/label.h"
 
 namespace lyrefit {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/curve/equal_readings.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/read_table.h"
 #include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/select_sweep.h"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <optional>
 
+#include "lyrefit/base/number_text.h"
+#include "lyrefit/curve/left_temperature.h"
 #include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/curve/left_temperature.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {

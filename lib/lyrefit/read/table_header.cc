@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
 

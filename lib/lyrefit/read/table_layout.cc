@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "lyrefit/base/byte_input.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/header_layout.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/read/results_above.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"

@@ -4,8 +4,8 @@
 #include <initializer_list>
 #include <utility>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {

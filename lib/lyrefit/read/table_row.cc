@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 

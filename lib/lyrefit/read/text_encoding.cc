@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {

@@ -9,9 +9,9 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/model/coefficients.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
-#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/translation.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/translation.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

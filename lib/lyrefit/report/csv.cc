@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "lyrefit/read/spreadsheet_text.h"
-#include "lyrefit/report/readable.h"
 #include "lyrefit/report/fit_parts.h"
+#include "lyrefit/report/readable.h"
 
 namespace lyrefit {
 namespace {

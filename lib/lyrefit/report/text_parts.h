@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/report/document.h"
 
 // Functions shared by the reports.

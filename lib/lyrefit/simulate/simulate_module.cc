@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "lyrefit/simulate/simulate_from.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/simulate/law_of_report.h"
 #include "lyrefit/read/read_module.h"
+#include "lyrefit/simulate/law_of_report.h"
+#include "lyrefit/simulate/simulate_from.h"
 
 namespace lyrefit {
 

@@ -6,9 +6,9 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/read/read_pvlib.h"
 #include "lyrefit/estimate/fit/simulate.h"
 #include "lyrefit/read/condition_options.h"
+#include "lyrefit/read/read_pvlib.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

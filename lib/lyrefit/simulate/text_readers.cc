@@ -1,7 +1,7 @@
 #include "lyrefit/simulate/text_readers.h"
 
-#include "lyrefit/settings/error_file.h"
 #include "lyrefit/effects/read_effect_use.h"
+#include "lyrefit/settings/error_file.h"
 
 namespace lyrefit {
 

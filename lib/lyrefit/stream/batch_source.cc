@@ -8,11 +8,11 @@
 #include <set>
 #include <utility>
 
-#include "lyrefit/base/try.h"
-#include "lyrefit/stream/batch_input.h"
 #include "lyrefit/base/number_text.h"
-#include "lyrefit/stream/seen_ids.h"
+#include "lyrefit/base/try.h"
 #include "lyrefit/read/table_curve.h"
+#include "lyrefit/stream/batch_input.h"
+#include "lyrefit/stream/seen_ids.h"
 
 namespace lyrefit {
 namespace {

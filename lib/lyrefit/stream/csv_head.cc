@@ -7,16 +7,16 @@
 #include <cstring>
 #include <utility>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/guess_columns.h"
-#include "lyrefit/stream/json_row.h"
-#include "lyrefit/stream/list_text.h"
-#include "lyrefit/base/number_text.h"
-#include "lyrefit/stream/row_names.h"
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/text_encoding.h"
+#include "lyrefit/stream/json_row.h"
+#include "lyrefit/stream/list_text.h"
+#include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {
 namespace {

@@ -5,14 +5,14 @@
 
 #include <zlib.h>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/stream/batch_input.h"
 #include "lyrefit/read/cells.h"
 #include "lyrefit/read/curve_text.h"
+#include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/read/table_curve.h"
+#include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/line_scanner.h"
 #include "lyrefit/stream/row_names.h"
-#include "lyrefit/read/table_curve.h"
 
 namespace lyrefit {
 namespace {

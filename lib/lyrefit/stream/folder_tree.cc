@@ -7,9 +7,9 @@
 #include <set>
 #include <system_error>
 
-#include "lyrefit/stream/natural_order.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_curve.h"
+#include "lyrefit/stream/natural_order.h"
 
 namespace lyrefit {
 namespace {

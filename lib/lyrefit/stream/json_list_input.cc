@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/json_elements.h"
 #include "lyrefit/stream/json_row.h"
-#include "lyrefit/read/json_text.h"
-#include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "lyrefit/base/try.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
 
 namespace lyrefit {
 namespace {

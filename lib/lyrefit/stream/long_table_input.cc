@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/table_lines.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/line_scanner.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
-#include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
 namespace {

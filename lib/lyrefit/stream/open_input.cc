@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <utility>
 
-#include "lyrefit/base/try.h"
-#include "lyrefit/stream/batch_input.h"
-#include "lyrefit/read/column.h"
-#include "lyrefit/stream/json_row.h"
-#include "lyrefit/read/key_point_table.h"
-#include "lyrefit/stream/line_scanner.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/column.h"
+#include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/rewrite_table.h"
-#include "lyrefit/stream/row_names.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_layout.h"
+#include "lyrefit/stream/batch_input.h"
+#include "lyrefit/stream/json_row.h"
+#include "lyrefit/stream/line_scanner.h"
+#include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/stream/batch_input.h"
 #include "lyrefit/read/json_curves.h"
-#include "lyrefit/stream/json_row.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/stream/batch_input.h"
+#include "lyrefit/stream/json_row.h"
 #include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
 

@@ -10,16 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/read/guess_columns.h"
-#include "lyrefit/base/number_text.h"
-#include "lyrefit/stream/row_names.h"
 #include "lyrefit/read/select_sweep.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_head.h"
+#include "lyrefit/stream/row_names.h"
 
 namespace lyrefit {
 namespace {

@@ -6,11 +6,11 @@
 #include <string_view>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/stream/batch_source.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/make_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/records.h"
+#include "lyrefit/stream/batch_source.h"
 
 namespace lyrefit {
 

@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/json_row.h"
 #include "lyrefit/stream/line_scanner.h"
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/stream/row_curve.h"
 #include "lyrefit/stream/row_names.h"
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/table_curve.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/folder_tree.h"
-#include "lyrefit/read/table_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lyrefit/settings/bounds_file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/bounds.h"
-#include "lyrefit/base/number_text.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/study/audit_curves.h"
 #include "lyrefit/study/audit_evidence.h"
 #include "lyrefit/study/audit_explain.h"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "lyrefit/curve/key_points.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/table_curve.h"
 

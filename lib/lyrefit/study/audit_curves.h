@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/model/kernel.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/kernel.h"
 
 namespace lyrefit {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "lyrefit/model/device.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 

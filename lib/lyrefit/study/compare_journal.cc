@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "lyrefit/family/family_documents.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/family/family_documents.h"
 
 namespace lyrefit {
 namespace {

@@ -1,9 +1,9 @@
 #include "lyrefit/study/compare_run.h"
 
-#include "lyrefit/family/fit_family.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/search_space.h"
+#include "lyrefit/family/fit_family.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
 

@@ -7,8 +7,8 @@
 
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/procedures.h"
 #include "lyrefit/translate/uncertainty_options.h"

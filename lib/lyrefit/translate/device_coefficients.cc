@@ -8,11 +8,11 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/file.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/base/number_text.h"
 
 namespace lyrefit {
 namespace {
@@ -231,7 +231,7 @@ Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficien
 }
 
 Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients,
-                         const TextReaders&) {
+                        const TextReaders&) {
   return ReadPerKelvin(text, &coefficients->beta_V_K, &coefficients->beta_percent_K);
 }
 

@@ -34,7 +34,7 @@ struct StatedCoefficients {
 Expected<void> ReadAlpha(const std::string& text, StatedCoefficients* coefficients,
                          const TextReaders&);
 Expected<void> ReadBeta(const std::string& text, StatedCoefficients* coefficients,
-                         const TextReaders&);
+                        const TextReaders&);
 std::vector<std::string> AlphaTexts(const StatedCoefficients& coefficients);
 std::vector<std::string> BetaTexts(const StatedCoefficients& coefficients);
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/translate/procedures.h"
 
 namespace lyrefit {

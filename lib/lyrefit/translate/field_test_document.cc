@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/translate/translation_parts.h"
 
 namespace lyrefit {
 namespace {

@@ -37,17 +37,17 @@ inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
     OptionRow<FieldTestOptions>("Field test"),
     {"rated-W", "W", "rated Pmax of one module at 1000 W/m2 and 25 C", &FieldTestOptions::rated_W},
     {"tolerance", "-L,+H", "of the rating, in % or as -0W,+5W",
-     OptionText<FieldTestOptions>{
-         [](const std::string& text, FieldTestOptions* options, const TextReaders&) -> Expected<void> {
-           const Expected<PowerTolerance> tolerance = ReadTolerance(text);
-           if (!tolerance) return tl::unexpected<Error>(tolerance.error());
-           options->tolerance = *tolerance;
-           return {};
-         },
-         [](const FieldTestOptions& options) -> std::vector<std::string> {
-           return {ToleranceText(options.tolerance)};
-         },
-         nullptr, false}},
+     OptionText<FieldTestOptions>{[](const std::string& text, FieldTestOptions* options,
+                                     const TextReaders&) -> Expected<void> {
+                                    const Expected<PowerTolerance> tolerance = ReadTolerance(text);
+                                    if (!tolerance) return tl::unexpected<Error>(tolerance.error());
+                                    options->tolerance = *tolerance;
+                                    return {};
+                                  },
+                                  [](const FieldTestOptions& options) -> std::vector<std::string> {
+                                    return {ToleranceText(options.tolerance)};
+                                  },
+                                  nullptr, false}},
     {"rated-u", "%", "expanded uncertainty (k = 2) of the rating itself; 0: it is a promise",
      &FieldTestOptions::rated_percent, 0, 50},
     {"gamma", "%/K", "temperature coefficient of Pmax",

@@ -1,7 +1,7 @@
 #include <string>
 
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/translate/translation_report.h"
 
 namespace lyrefit {

@@ -9,8 +9,8 @@
 #include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/model/device.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

@@ -6,15 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
-#include "lyrefit/base/try.h"
-#include "lyrefit/read/read_module.h"
-#include "lyrefit/read/json_text.h"
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/base/try.h"
+#include "lyrefit/read/json_text.h"
+#include "lyrefit/read/read_module.h"
 
 namespace lyrefit {
 
-Expected<void> ReadTarget(const std::string& text, TranslateOptions* options,
-                    const TextReaders&) {
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options, const TextReaders&) {
   constexpr double kLowest_W_m2 = 1, kHighest_W_m2 = 2000, kColdest_C = -60, kHottest_C = 150;
   if (LowerCase(TrimBlanks(text)) == "stc") {
     options->target = TranslationTarget();

@@ -7,8 +7,8 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/diagnose/diagnose_options.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"
@@ -48,8 +48,7 @@ constexpr OptionNest<TranslateOptions> NestedOptions() {
 }
 
 // "1000,25" or "STC": irradiance in W/m2 and cell temperature in C.
-Expected<void> ReadTarget(const std::string& text, TranslateOptions* options,
-                    const TextReaders&);
+Expected<void> ReadTarget(const std::string& text, TranslateOptions* options, const TextReaders&);
 std::vector<std::string> TargetTexts(const TranslateOptions& options);
 
 inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {

@@ -1,10 +1,10 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/report/csv.h"
 #include "lyrefit/translate/key_point_noise.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/translate/translation_report.h"
 
 namespace lyrefit {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "lyrefit/diagnose/diagnosis_parts.h"
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/documents.h"
-#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/key_point_noise.h"
+#include "lyrefit/translate/translation_documents.h"
+#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/translate/translation_report.h"
 
 namespace lyrefit {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/figure_parts.h"
-#include "lyrefit/report/plots.h"
 #include "lyrefit/report/fit_parts.h"
-#include "lyrefit/translate/translation_parts.h"
+#include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/field_inputs.h"
 #include "lyrefit/translate/key_point_noise.h"
+#include "lyrefit/translate/translation_documents.h"
+#include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/translate/translation_report.h"
 
 namespace lyrefit {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "lyrefit/diagnose/diagnosis_parts.h"
-#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/report/plots.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "lyrefit/translate/translation_parts.h"
 #include "lyrefit/translate/translation_report.h"
 

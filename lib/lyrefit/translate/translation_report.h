@@ -8,9 +8,9 @@
 
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
-#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/diagnose/diagnosis.h"
 #include "lyrefit/translate/checklist.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"

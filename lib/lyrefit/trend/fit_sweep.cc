@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/estimate/refine/least_squares.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/estimate/refine/least_squares.h"
 
 namespace lyrefit {
 namespace {

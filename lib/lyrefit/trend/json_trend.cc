@@ -1,7 +1,7 @@
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/json_parts.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/trend/trend_report.h"
 
 namespace lyrefit {

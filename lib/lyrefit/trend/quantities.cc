@@ -7,8 +7,8 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
-#include "lyrefit/model/translation.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/model/translation.h"
 #include "lyrefit/trend/change_points.h"
 #include "lyrefit/trend/day_series.h"
 

@@ -9,12 +9,12 @@
 #include <map>
 #include <utility>
 
-#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/read/operating_points.h"
+#include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/trend/trend_device.h"
 
 namespace lyrefit {

@@ -1,8 +1,8 @@
 #include <map>
 
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/csv.h"
+#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/trend/trend_report.h"
 
 namespace lyrefit {

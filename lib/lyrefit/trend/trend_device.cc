@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
-#include "lyrefit/model/translation.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/model/translation.h"
 #include "lyrefit/trend/fit_sweep.h"
 
 namespace lyrefit {

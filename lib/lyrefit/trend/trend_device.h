@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
-#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/trend/trend_report.h"
 
 namespace lyrefit {

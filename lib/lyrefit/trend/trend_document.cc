@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "lyrefit/trend/trend_documents.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/plots.h"
-#include "lyrefit/trend/trend_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
+#include "lyrefit/trend/trend_documents.h"
+#include "lyrefit/trend/trend_parts.h"
 #include "lyrefit/trend/trend_report.h"
 #include "lyrefit/trend/trend_words.h"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "estimate/fit/simulated.h"
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 #include "temp_folder.h"
 
 namespace lyrefit {

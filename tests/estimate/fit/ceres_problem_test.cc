@@ -31,7 +31,8 @@ template <int kSize>
 double Solved(const IvCurve& curve, Model model, Objective objective, std::vector<double> start) {
   const Device device = MakeDevice(model, curve.conditions);
   ceres::Problem problem;
-  for (int i = 1; i < kSize; i += i == 1 ? 4 : 2) start[static_cast<std::size_t>(i)] = std::log(start[static_cast<std::size_t>(i)]);
+  for (int i = 1; i < kSize; i += i == 1 ? 4 : 2)
+    start[static_cast<std::size_t>(i)] = std::log(start[static_cast<std::size_t>(i)]);
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const DiodeResidual one(device, objective, curve.voltage_V[k], curve.current_A[k]);
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ByLogarithms<kSize>, 1, kSize>(

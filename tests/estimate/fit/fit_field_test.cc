@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "lyrefit/read/read_curve_set.h"
-#include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
 namespace {

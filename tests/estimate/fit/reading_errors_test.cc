@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/settings/error_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/error_file.h"
 #include "repeats.h"
 #include "simulated.h"
 #include "temp_folder.h"

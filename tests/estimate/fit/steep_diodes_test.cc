@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/term.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 
 // Diodes with an n so small that their exponents are cut at a reading.
 namespace lyrefit {

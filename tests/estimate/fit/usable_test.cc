@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve/synthetic_curve.h"
 #include "error_of.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "curve/synthetic_curve.h"
 
 namespace lyrefit {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "lyrefit/settings/bounds_file.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/settings/bounds_file.h"
 
 namespace lyrefit {
 namespace {

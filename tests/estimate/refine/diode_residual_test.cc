@@ -50,7 +50,8 @@ Drawn Draw(std::mt19937_64* random) {
   drawn.p[kRsh] = log_uniform(1, 1e6) * voc / iph;
   for (int k = 0; k < 8; ++k) {
     drawn.voltage_V.push_back(uniform(-0.5, 1.3) * voc);
-    const double current = SolvePoint(drawn.device, drawn.p.data(), drawn.voltage_V.back()).current_A;
+    const double current =
+        SolvePoint(drawn.device, drawn.p.data(), drawn.voltage_V.back()).current_A;
     drawn.current_A.push_back(current + 0.1 * iph * uniform(-1, 1));
   }
   return drawn;
@@ -79,8 +80,8 @@ void Compare(const Drawn& drawn, Objective objective, Largest* largest) {
     EXPECT_EQ(found.a, plain);
     // The terms cancel in a current: its error is that of the largest.
     const double scale = std::fabs(current[k]) + std::fabs(drawn.current_A[k]) + drawn.p[kIph];
-    largest->value = std::fmax(largest->value,
-                               std::fabs(found.a - (current[k] - drawn.current_A[k])) / scale);
+    largest->value =
+        std::fmax(largest->value, std::fabs(found.a - (current[k] - drawn.current_A[k])) / scale);
     for (int i = 0; i < kSize; ++i) {
       const double expected = slopes[k * kSize + static_cast<std::size_t>(i)];
       if (expected == 0) continue;
@@ -102,8 +103,10 @@ TEST(DiodeResidual, HasTheValuesAndSlopesOfTheVectorKernels) {
     }
     EXPECT_LT(largest.value, 1e-12) << ToText(objective);
     EXPECT_LT(largest.slope, 1e-12) << ToText(objective);
-    RecordProperty("largest difference of a value", ToText(objective) + " " + NumberText(largest.value));
-    RecordProperty("largest difference of a slope", ToText(objective) + " " + NumberText(largest.slope));
+    RecordProperty("largest difference of a value",
+                   ToText(objective) + " " + NumberText(largest.value));
+    RecordProperty("largest difference of a slope",
+                   ToText(objective) + " " + NumberText(largest.slope));
   }
 }
 

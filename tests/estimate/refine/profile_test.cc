@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "family/synthetic_family.h"
 #include "estimate/refine/test_curves.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/family/family_model.h"
-#include "lyrefit/family/joint.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
+#include "lyrefit/family/family_model.h"
+#include "lyrefit/family/joint.h"
 
 namespace lyrefit {
 namespace {

@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "family/synthetic_family.h"
 #include "estimate/refine/test_curves.h"
+#include "family/synthetic_family.h"
 #include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/family/joint.h"
 #include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/estimate/refine/refine.h"
+#include "lyrefit/family/joint.h"
 
 namespace lyrefit {
 namespace {

@@ -14,6 +14,7 @@ int main() {
   const auto report = lyrefit::Fit(*curve);
   if (!report) return std::puts(report.error().ToString().c_str()), 1;
   const double rs = report->refined[lyrefit::kRs];
-  std::printf("Rs %.9f ohm, solved-current RMSE %.3g A\n", rs, report->rmse.refined.solved_current_A);
+  std::printf("Rs %.9f ohm, solved-current RMSE %.3g A\n", rs,
+              report->rmse.refined.solved_current_A);
   return std::abs(rs - 0.02) < 1e-6 ? 0 : 1;
 }

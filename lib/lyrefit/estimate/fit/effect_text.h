@@ -16,21 +16,21 @@ namespace LYREFIT_PUBLIC lyrefit {
 template <auto First, auto... Rest>
 constexpr auto EffectsOption() {
   using Options = ClassOf<First>;
-  return OptionText<Options>{[](const std::string& text, Options* options,
-                                const TextReaders& readers) -> Expected<void> {
-                               Expected<EffectUse> use = readers.effect(text);
-                               if (!use) return tl::unexpected<Error>(use.error());
-                               Along<First, Rest...>(*options).push_back(std::move(*use));
-                               return {};
-                             },
-                             [](const Options& options) {
-                               std::vector<std::string> texts;
-                               for (const EffectUse& use : Along<First, Rest...>(options)) {
-                                 texts.push_back(DescribeUse(use));
-                               }
-                               return texts;
-                             },
-                             nullptr, true};
+  return OptionText<Options>{
+      [](const std::string& text, Options* options, const TextReaders& readers) -> Expected<void> {
+        Expected<EffectUse> use = readers.effect(text);
+        if (!use) return tl::unexpected<Error>(use.error());
+        Along<First, Rest...>(*options).push_back(std::move(*use));
+        return {};
+      },
+      [](const Options& options) {
+        std::vector<std::string> texts;
+        for (const EffectUse& use : Along<First, Rest...>(options)) {
+          texts.push_back(DescribeUse(use));
+        }
+        return texts;
+      },
+      nullptr, true};
 }
 
 // Unit and help text of every option that takes effects.

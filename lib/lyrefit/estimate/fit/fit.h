@@ -3,9 +3,9 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

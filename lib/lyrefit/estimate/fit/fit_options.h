@@ -9,13 +9,13 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/base/setting_text.h"
 #include "lyrefit/estimate/fit/bounds.h"
 #include "lyrefit/estimate/fit/effect_text.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/kernel.h"
-#include "lyrefit/base/setting_text.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 
@@ -159,16 +159,17 @@ inline constexpr OptionRow<FitOptions> kFitOptionTable[] = {
     {"threads", "N", "0: all cores; never changes a result", &FitOptions::threads, 0, kMostThreads,
      OptionTrait::kQuiet | OptionTrait::kNoEcho},
     {"kernel", "NAME", "instruction set of the heavy loops; never changes a result",
-     OptionText<FitOptions>{[](const std::string& text, FitOptions* options, const TextReaders&) -> Expected<void> {
-                              const Expected<const Kernel*> kernel = KernelNamed(text);
-                              if (!kernel) return tl::unexpected<Error>(kernel.error());
-                              options->kernel = *kernel;
-                              return {};
-                            },
-                            [](const FitOptions& options) -> std::vector<std::string> {
-                              return {options.kernel == nullptr ? "" : options.kernel->name};
-                            },
-                            KernelNames},
+     OptionText<FitOptions>{
+         [](const std::string& text, FitOptions* options, const TextReaders&) -> Expected<void> {
+           const Expected<const Kernel*> kernel = KernelNamed(text);
+           if (!kernel) return tl::unexpected<Error>(kernel.error());
+           options->kernel = *kernel;
+           return {};
+         },
+         [](const FitOptions& options) -> std::vector<std::string> {
+           return {options.kernel == nullptr ? "" : options.kernel->name};
+         },
+         KernelNames},
      OptionTrait::kNoEcho, ": the fastest"},
 };
 

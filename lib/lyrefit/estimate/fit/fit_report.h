@@ -10,11 +10,11 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/refine/error_terms.h"
 #include "lyrefit/estimate/refine/estimate.h"
 #include "lyrefit/model/device.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/curve/key_points.h"
 #include "lyrefit/search/search_options.h"
 #include "lyrefit/search/search_summary.h"
 

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/distinct_readings.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/steep_diodes.h"
@@ -14,7 +15,6 @@
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
-#include "lyrefit/curve/check_readings.h"
 
 namespace lyrefit {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <memory>
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/fit/average_neighbours.h"
 #include "lyrefit/estimate/refine/curve_model.h"
 #include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/model/current.h"
-#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {

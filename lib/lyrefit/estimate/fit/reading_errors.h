@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/error_spec.h"
 #include "lyrefit/estimate/refine/active_set.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/estimate/refine/problem.h"
-#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 

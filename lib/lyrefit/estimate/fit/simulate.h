@@ -10,13 +10,13 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/base/setting_text.h"
+#include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/effect_text.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/device_effects.h"
-#include "lyrefit/curve/curve_set.h"
-#include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/base/setting_text.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 

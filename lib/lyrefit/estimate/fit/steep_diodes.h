@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "lyrefit/model/device.h"
 #include "lyrefit/curve/iv_curve.h"
+#include "lyrefit/model/device.h"
 
 namespace lyrefit {
 

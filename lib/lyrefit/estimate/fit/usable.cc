@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "lyrefit/base/largest.h"
-#include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/curve/find_step.h"
+#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {

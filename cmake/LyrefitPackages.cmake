@@ -118,7 +118,7 @@ add_custom_command(OUTPUT "${parts}/changelog.gz" "${parts}/lyrefit-slurm.1.gz"
   COMMAND ${compress} "${PROJECT_SOURCE_DIR}/apps/slurm/lyrefit-slurm.1" > "${parts}/lyrefit-slurm.1.gz"
   DEPENDS "${parts}/changelog" "${PROJECT_SOURCE_DIR}/apps/slurm/lyrefit-slurm.1" VERBATIM)
 set(all)
-if(LYREFIT_BUILD_TESTS)  # tests check the contents of packages
+if(LYREFIT_BUILD_TESTS AND LYREFIT_ALL_TESTS)  # tests check the contents of packages
   set(all ALL)
 endif()
 add_custom_target(package_parts ${all} DEPENDS lyrefit_shared lyrefit_static lyrefit_command

@@ -7,7 +7,6 @@ foreach(module IN LISTS WEB_TEST_MODULES)
   list(FILTER sources EXCLUDE REGEX "_(rate|field)_test\\.cc$")
   list(APPEND WEB_TEST_SOURCES ${sources})
 endforeach()
-list(APPEND WEB_TEST_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/read/number_text_test.cc")  # has its own code in this build
 foreach(source IN LISTS WEB_TEST_SOURCES)
   file(STRINGS "${source}" beyond REGEX "_DEATH\\(|_EXIT\\(|std::thread|std::async|fork\\(|float128")
   if(beyond)

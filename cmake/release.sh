@@ -20,7 +20,7 @@ grep -q "^## \[$version\]" .github/CHANGELOG.md || Die ".github/CHANGELOG.md has
 InstallPackages build python release
 rm -rf "$OUT"
 mkdir -p "$OUT"
-cmake/check.sh
+cmake/check.sh --all
 cmake/packages.sh
 cmake/wheel.sh
 cmake/benchmark.sh

@@ -7,7 +7,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
 InstallPackages build test peers
 cd -- "$LYREFIT_ROOT"
-Configure build -DLYREFIT_BUILD_TESTS=ON
+Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_ALL_TESTS=ON
 Build build --target lyrefit_paper
 
 command=(build/tests/paper/lyrefit_paper data/paper)

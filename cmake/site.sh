@@ -7,7 +7,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
 InstallPackages build test python reference site pages
 cd -- "$LYREFIT_ROOT"
-Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON
+Configure build -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_ALL_TESTS=ON -DLYREFIT_BUILD_PYTHON=ON
 Build build --target site
 [[ ${1:-} != --check ]] || RunTests build --tests-regex '^site/'
 Say "$(find build/site -name '*.html' | wc -l) pages, $(du -sm build/site | cut -f 1) MB: $LYREFIT_ROOT/build/site/index.html"

@@ -44,14 +44,22 @@ def solved_voltage(cells, k, current, vt):
     return low - current * cells["rs"][k]
 
 
+def rounded(value):
+    """A label with its numbers to 12 digits: their last ones are those of the processor's exp and log."""
+    if isinstance(value, dict):
+        return {key: rounded(part) for key, part in value.items()}
+    return float(f"{value:.12g}") if isinstance(value, float) else value
+
+
 class Recipe(unittest.TestCase):
-    def test_the_open_half_comes_out_the_same_to_the_bit(self):
+    def test_the_open_half_comes_out_the_same(self):
+        """The readings, which instruments have rounded, to the bit; the labels to 12 digits."""
         published = {record["id"]: record for record in curves("open")}
         labels = submission.read_labels(["open"], FOLDER)
         for number in (0, 1, 7, 13, 20, 23, 29, 34, 101, 249):
             record, truth = sweep.made_curve(make.OPEN_SEED, number)
             self.assertEqual(published[record["id"]], record)
-            self.assertEqual(labels[truth["id"]], {**json.loads(json.dumps(truth)), "part": "open"})
+            self.assertEqual(rounded(labels[truth["id"]]), rounded({**json.loads(json.dumps(truth)), "part": "open"}))
 
     def test_another_seed_or_number_gives_another_curve(self):
         first = sweep.made_curve(make.OPEN_SEED, 3)[0]

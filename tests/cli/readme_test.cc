@@ -144,8 +144,8 @@ constexpr const char* kPages[] = {"README.md",
                                   "data/formats/README.md",
                                   "data/landscapes/README.md",
                                   "data/published/README.md",
-                                  "lib/lyrefit/model/effects/README.md",
-                                  "lib/lyrefit/estimate/family/README.md",
+                                  "lib/lyrefit/effects/README.md",
+                                  "lib/lyrefit/family/README.md",
                                   "lib/lyrefit/estimate/fit/README.md"};
 
 INSTANTIATE_TEST_SUITE_P(Readme, Page, ::testing::ValuesIn(kPages),
@@ -255,7 +255,7 @@ TEST(Readme, TablesThatCommandsWriteStandBetweenTheirMarks) {
 TEST(Readme, ShowsTheEffectOfOnesOwnThatIsCompiled) {
   const std::string example = FileText((Project() / "tests/package/own_effect.cc").string());
   EXPECT_GT(example.size(), 500U);
-  EXPECT_NE(FileText((Project() / "lib/lyrefit/model/effects/README.md").string())
+  EXPECT_NE(FileText((Project() / "lib/lyrefit/effects/README.md").string())
                 .find("```cpp\n" + example + "```"),
             std::string::npos);
 }

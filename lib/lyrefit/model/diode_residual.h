@@ -23,30 +23,27 @@ auto JetValue(const Jet& number) -> decltype(number.a) {
   return number.a;
 }
 
-// The residual of one measured point under the implicit diode equation
+// The residual of one measured point under the implicit diode equation, as a functor for least
+// squares with automatic differentiation. The equation is
 //
-//   I = F(V + I Rs),   F(Vd) = Iph - sum of Is (exp(Vd / (n Ns Vt)) - 1) - Vd / Rsh
+//   I = F(V + I Rs)
+//   F(Vd) = Iph - sum of Is (exp(Vd / (n Ns Vt)) - 1) - Vd / Rsh
 //
-// as a functor for least squares with automatic differentiation, such as
-//
-//   ceres::AutoDiffCostFunction<DiodeResidual, 1, 5>(new DiodeResidual(device, ...))
-//
-// for a single diode; 7 and 9 parameters for two and three. This header includes nothing of Ceres:
-// any number type with arithmetic, comparisons and exp() found by its namespace will do, whose value
-// is the member `a`.
+// Ceres takes it as ceres::AutoDiffCostFunction<DiodeResidual, 1, 5> for a single diode, with 7 and 9
+// parameters for two and three. This header includes nothing of Ceres: any number type with
+// arithmetic, comparisons and exp() found by its namespace will do, whose value is the member `a`.
 //
 // The parameters are those of the device, in its order and natural units: Iph (A), Is1 (A), n1 (per
 // cell), Rs (ohm), Rsh (ohm), Is2 (A), n2, Is3 (A), n3. Is spans decades and varies with n: a solver
 // does better with its logarithm, which a functor of one's own makes and passes on
 // (lib/lyrefit/estimate/README.md has such a program).
 //
-// Both residuals are model minus measurement, in ampere times `weight`:
-//   measured current   F(V + I Rs) - I at the measured I: explicit, exact derivatives by parameters
-//   solved current     I(V) - I at the root I(V), found in double precision. Its derivatives are
-//                      those of the implicit function theorem, dI = dF / (1 - Rs dF/dVd), where dF
-//                      is the derivative by the parameters at the root and fixed I. To differentiate
-//                      the iterations of a solver would cost more and be less exact.
-// Their sums of squares have different optima and must not be compared (see Objective).
+// Both residuals are model minus measurement, in ampere times `weight`. That of the measured current
+// is F(V + I Rs) - I at the measured I: it is explicit. That of the solved current is I(V) - I at the
+// root I(V), found in double precision. Its derivatives are those of the implicit function theorem,
+// dI = dF / (1 - Rs dF/dVd), where dF is the derivative by the parameters at the root and fixed I. To
+// differentiate the iterations of a solver would cost more and be less exact. The two sums of squares
+// have different optima and must not be compared (see Objective).
 class DiodeResidual {
  public:
   // A point at `voltage_V` (V) with the measured current `current_A` (A, generator sign). `weight`

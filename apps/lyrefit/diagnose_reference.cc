@@ -81,14 +81,14 @@ Expected<void> CheckReferenceFlags(const DiagnoseRequest& request) {
 Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
   const ReportFlags& output = request.output;
   TRY(const auto sweeps, ReadSweeps(request, request.files, request.conditions));
-  TRY(const OutlierSweeps outlier, FindOutlierSweeps(sweeps, request.reference));
-  TRY(WriteWanted(output.json_file, [&] { return OutlierSweepsJson(outlier); }));
-  TRY(WriteWanted(output.csv_file, [&] { return OutlierSweepsCsv(outlier); }));
+  TRY(const OutlierSweeps outliers, FindOutlierSweeps(sweeps, request.reference));
+  TRY(WriteWanted(output.json_file, [&] { return OutlierSweepsJson(outliers); }));
+  TRY(WriteWanted(output.csv_file, [&] { return OutlierSweepsCsv(outliers); }));
   TRY(WriteWanted(output.html_file, [&] {
-    return DrawPage(OutlierSweepsDocument(outlier), OutlierSweepsJson(outlier));
+    return DrawPage(OutlierSweepsDocument(outliers), OutlierSweepsJson(outliers));
   }));
   TRY(WriteText(verb, [&] {
-    return output.brief ? BriefOutlierSweeps(outlier) : OutlierSweepsText(outlier);
+    return output.brief ? BriefOutlierSweeps(outliers) : OutlierSweepsText(outliers);
   }));
   return kExitFine;
 }

@@ -83,17 +83,17 @@ class DiagnoseResult : public Result {
 
 class OutlierSweepsResult : public Result {
  public:
-  explicit OutlierSweepsResult(const std::shared_ptr<const OutlierSweeps>& outlier)
-      : Result(RecordOf(outlier)) {}
+  explicit OutlierSweepsResult(const std::shared_ptr<const OutlierSweeps>& outliers)
+      : Result(RecordOf(outliers)) {}
 
  private:
-  static Record RecordOf(const std::shared_ptr<const OutlierSweeps>& outlier) {
+  static Record RecordOf(const std::shared_ptr<const OutlierSweeps>& outliers) {
     Record record;
-    record.json = [outlier](JsonPoints) { return OutlierSweepsJson(*outlier); };
-    record.text = [outlier] { return OutlierSweepsText(*outlier); };
-    record.brief = [outlier] { return BriefOutlierSweeps(*outlier); };
-    record.document = [outlier] { return OutlierSweepsDocument(*outlier); };
-    record.csv = [outlier] { return OutlierSweepsCsv(*outlier); };
+    record.json = [outliers](JsonPoints) { return OutlierSweepsJson(*outliers); };
+    record.text = [outliers] { return OutlierSweepsText(*outliers); };
+    record.brief = [outliers] { return BriefOutlierSweeps(*outliers); };
+    record.document = [outliers] { return OutlierSweepsDocument(*outliers); };
+    record.csv = [outliers] { return OutlierSweepsCsv(*outliers); };
     return record;
   }
 };
@@ -171,9 +171,9 @@ py::object DiagnoseAgainst(py::handle curves, py::handle current, py::handle ref
 py::object DiagnoseModule(py::handle curves, const CurveKeywords& said,
                           const DiagnoseAsked& asked) {
   const std::vector<IvCurve> sweeps = SweepsOf(curves, said);
-  OutlierSweeps outlier = Must(Work(
+  OutlierSweeps outliers = Must(Work(
       asked.progress, [&](const Observer&) { return FindOutlierSweeps(sweeps, asked.reference); }));
-  return py::cast(OutlierSweepsResult(std::make_shared<const OutlierSweeps>(std::move(outlier))));
+  return py::cast(OutlierSweepsResult(std::make_shared<const OutlierSweeps>(std::move(outliers))));
 }
 
 py::object DiagnoseOne(py::handle curves, py::handle current, const py::kwargs& given) {
@@ -184,9 +184,9 @@ py::object DiagnoseOne(py::handle curves, py::handle current, const py::kwargs& 
   CurveKeywords said = ReadCurveKeywords(&keywords);
   said.reading.keep_limited = true;  // a limit of the instrument is a finding
   keywords.Finish();
-  const bool outlier = module && TruthOf("module", *module);
-  if (outlier && !reference.is_none()) Raise({"only one of healthy and module", {}});
-  if (outlier) return DiagnoseModule(curves, said, asked);
+  const bool of_module = module && TruthOf("module", *module);
+  if (of_module && !reference.is_none()) Raise({"only one of healthy and module", {}});
+  if (of_module) return DiagnoseModule(curves, said, asked);
   if (!reference.is_none()) return DiagnoseAgainst(curves, current, reference, said, asked);
   const bool file = IsPath(curves) && current.is_none();
   const CurveSet set = SetOf(curves, current, said);

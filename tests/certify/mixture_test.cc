@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kMixtureTolerance = 1e-10;
 
-double ComputeDualGain(const MixtureData& data) { return 2 * data.current_A.cwiseAbs().maxCoeff(); }
+double BoundDarkCurrent(const MixtureData& data) {
+  return 2 * data.current_A.cwiseAbs().maxCoeff();
+}
 
 // Half the sum of squares of a good mixture on a grid of n, by projected coordinate descent. It is
 // an upper bound of the minimum.
@@ -42,7 +44,7 @@ TEST(SolveMixture, ProvesItsOwnValue) {
     const Window window = WindowOf(curve, 1, 2);
     const double rs = 0.05 * data.reference_voltage_V / data.current_A.maxCoeff();
     const Mixture mixture =
-        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
+        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, BoundDarkCurrent(data));
     EXPECT_LT(mixture.relative_gap, 1e-8) << curve.name;
     EXPECT_NEAR(mixture.dual / mixture.primal, 1, 1e-8) << curve.name;
     const Eigen::VectorXd vd = data.voltage_V + rs * data.current_A;
@@ -66,7 +68,7 @@ TEST(SolveMixture, IsNoWorseThanTheBestOnAGrid) {
   const Window window = WindowOf(curve, 1, 2);
   for (const double rs : {0.0, 0.02, 0.0367, 0.05}) {
     const Mixture mixture =
-        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
+        SolveMixture(data, {window}, rs, {}, kMixtureTolerance, BoundDarkCurrent(data));
     const double grid = OnGrid(data, window, rs, 21);
     EXPECT_LE(mixture.primal, grid * (1 + 1e-9)) << rs;
     EXPECT_LE(mixture.dual, grid * (1 + 1e-12))
@@ -80,10 +82,10 @@ TEST(SolveMixture, DoesNotDependOnWhereItStarts) {
   const MixtureData data = DataOf(curve);
   const Window window = WindowOf(curve, 1, 2);
   const Mixture cold =
-      SolveMixture(data, {window}, 0.29, {}, kMixtureTolerance, ComputeDualGain(data));
+      SolveMixture(data, {window}, 0.29, {}, kMixtureTolerance, BoundDarkCurrent(data));
   const std::vector<Atom> elsewhere = {{window.lower, 1}, {window.upper, 1}};
   const Mixture warm =
-      SolveMixture(data, {window}, 0.29, elsewhere, kMixtureTolerance, ComputeDualGain(data));
+      SolveMixture(data, {window}, 0.29, elsewhere, kMixtureTolerance, BoundDarkCurrent(data));
   EXPECT_NEAR(warm.primal / cold.primal, 1, 1e-8);
 }
 
@@ -92,7 +94,7 @@ TEST(SolveMixture, KeepsToItsWindows) {
   const MixtureData data = DataOf(curve);
   const Window low = WindowOf(curve, 1.8, 2), high = WindowOf(curve, 1, 1.2);
   const Mixture mixture =
-      SolveMixture(data, {low, high}, 0.036, {}, kMixtureTolerance, ComputeDualGain(data));
+      SolveMixture(data, {low, high}, 0.036, {}, kMixtureTolerance, BoundDarkCurrent(data));
   ASSERT_FALSE(mixture.atoms.empty());
   for (const Atom& atom : mixture.atoms) {
     EXPECT_TRUE((atom.u >= low.lower && atom.u <= low.upper) ||
@@ -105,7 +107,7 @@ TEST(SolveMixture, KnowsItsSlopeOverRs) {
   const MixtureData data = DataOf(curve);
   const Window window = WindowOf(curve, 1, 2);
   const auto solve = [&](double rs) {
-    return SolveMixture(data, {window}, rs, {}, kMixtureTolerance, ComputeDualGain(data));
+    return SolveMixture(data, {window}, rs, {}, kMixtureTolerance, BoundDarkCurrent(data));
   };
   constexpr double kStep = 1e-5;
   const double numerical = (solve(1.1 + kStep).primal - solve(1.1 - kStep).primal) / (2 * kStep);

@@ -120,15 +120,15 @@ TEST(Rigorous, HoldsWhereDoublesClaimMoreThanIsTrue) {
   for (int seed = 0; seed < 200; ++seed) {
     const IvCurve curve = NearlyExact(seed % 2 == 0 ? "msx60" : "rtc_france", 1e-9, seed);
     const MixtureData data = DataOf(curve);
-    const double dual_gain = 2 * data.target_A.maxCoeff();
+    const double dark_bound = 2 * data.target_A.maxCoeff();
     const std::vector<Window> windows = {WindowOf(curve, 1, 2)};
     const double rs = seed % 2 == 0 ? 0.2 : 0.036;
-    Mixture mixture = SolveMixture(data, windows, rs, {}, 1e-12, dual_gain);
+    Mixture mixture = SolveMixture(data, windows, rs, {}, 1e-12, dark_bound);
     const double truth = ExactPrimal(curve, data, mixture);
-    const DualGain tag = lyrefit::ComputeDualGain<Interval>(data, rs, rs, truth);
+    const DarkCurrentBound tag = lyrefit::BoundDarkCurrent<Interval>(data, rs, rs, truth);
     const PartBound plain = BoundPart(data, windows, mixture, mixture, tag, truth);
     if (plain.lower > truth) ++claimed;
-    MakeSafe(data, windows, dual_gain, &mixture);
+    MakeSafe(data, windows, dark_bound, &mixture);
     const PartBound bound = BoundPart<Interval>(data, windows, mixture, mixture, tag, truth);
     EXPECT_LE(bound.lower, truth) << seed;
     if (bound.lower > 0.999 * truth) ++close;

@@ -149,7 +149,7 @@ TEST(SlopeBounds, HoldForEveryLawThroughTheValues) {
           law.Current(data.voltage_V[k]) + known.each_A[k] * (2 * random.Uniform() - 1);
     }
     known.largest_light_A = 1;
-    known.dual_gain = {3, data.reference_voltage_V};
+    known.dark_bound = {3, data.reference_voltage_V};
     const std::vector<double> below(data.voltage_V.begin() + 1, data.voltage_V.end());
     std::vector<double> above = below;
     for (double& v : above) v += 0.002 * random.Uniform();
@@ -181,7 +181,7 @@ TEST(SlopeBounds, HoldBetweenThePointsThatAreBounded) {
   known.each_A = Eigen::VectorXd::Constant(kPoints, 1e-6);
   known.shared = known.common_A = Eigen::VectorXd::Zero(kPoints);
   known.largest_light_A = 1;
-  known.dual_gain = {3, 0.6};
+  known.dark_bound = {3, 0.6};
   std::vector<double> below(known.voltage_V.begin(), known.voltage_V.end());
   std::vector<double> above = below;
   for (double& v : below) v -= 1e-4;

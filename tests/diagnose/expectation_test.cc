@@ -85,9 +85,9 @@ TEST(Expect, LeavesOutTheOutlierOnes) {
   states[12].shape *= -20;
   const SweepState sweep = SyntheticState(&random);
   const Expectation e = Expect(Pointers(states), sweep);
-  std::vector<int> outlier = e.outlier;
-  std::sort(outlier.begin(), outlier.end());
-  EXPECT_THAT(outlier, ElementsAre(7, 12));
+  std::vector<int> outliers = e.outliers;
+  std::sort(outliers.begin(), outliers.end());
+  EXPECT_THAT(outliers, ElementsAre(7, 12));
   EXPECT_EQ(e.regressors, 3);
   EXPECT_EQ(e.degrees, 15);
 }

@@ -58,7 +58,7 @@ TEST(SignatureOfEffectTest, IsWhatTheProbesDo) {
   const Effect& drift = *FindEffect("drift");
   Signatures signatures;
   const Eigen::MatrixXd moved =
-      FindSignature(made.weighted, fit, {&drift}, &signatures)->moved.at(&drift);
+      FindSignatures(made.weighted, fit, {&drift}, &signatures)->moved.at(&drift);
   const std::vector<Probe> probes = drift.probes(readings.traits);
   ASSERT_EQ(moved.cols(), static_cast<int>(probes.size()));
   Law law;
@@ -77,15 +77,15 @@ TEST(SignatureOfEffectTest, ServesFitsOfTheSameLawWithinTheNoise) {
   LawFit fit = FitBase(made.weighted, Law());
   const Effect *drift = FindEffect("drift"), *step = FindEffect("irr_step");
   Signatures signatures;
-  const auto first = FindSignature(made.weighted, fit, {drift}, &signatures);
+  const auto first = FindSignatures(made.weighted, fit, {drift}, &signatures);
   for (double& current : fit.current) current += 0.5 * made.weighted.sigma.front();
-  EXPECT_EQ(FindSignature(made.weighted, fit, {drift}, &signatures), first);
-  EXPECT_NE(FindSignature(made.weighted, fit, {drift, step}, &signatures), first);
+  EXPECT_EQ(FindSignatures(made.weighted, fit, {drift}, &signatures), first);
+  EXPECT_NE(FindSignatures(made.weighted, fit, {drift, step}, &signatures), first);
   for (double& current : fit.current) current += made.weighted.sigma.front();
-  EXPECT_NE(FindSignature(made.weighted, fit, {drift}, &signatures), first);
+  EXPECT_NE(FindSignatures(made.weighted, fit, {drift}, &signatures), first);
   fit.law.effects = {step};
   fit.p.insert(fit.p.end(), {0.0, 0.0});
-  EXPECT_NE(FindSignature(made.weighted, fit, {drift}, &signatures), first);
+  EXPECT_NE(FindSignatures(made.weighted, fit, {drift}, &signatures), first);
 }
 
 }  // namespace

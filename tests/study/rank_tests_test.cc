@@ -125,7 +125,7 @@ TEST(FriedmanTest, SaysNothingWhereAllValuesTie) {
 }
 
 TEST(FriedmanTestDeathTest, WantsFiniteValuesInEqualNumbers) {
-  EXPECT_DEATH(FriedmanTest({{1, 2}, {1}}), "every compared");
+  EXPECT_DEATH(FriedmanTest({{1, 2}, {1}}), "every algorithm");
   EXPECT_DEATH(FriedmanTest({{1, 2}}), "two algorithms");
   EXPECT_DEATH(FriedmanTest({{1, NAN}, {1, 2}}), "finite");
 }

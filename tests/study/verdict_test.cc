@@ -37,7 +37,7 @@ TEST(JudgeProblem, TakesTheFastestWayThatIsEnough) {
   const auto summaries = SummariseProblems(comparison);
   const SearchVerdict verdict = JudgeProblem(summaries[0]);
   ASSERT_TRUE(verdict.search);
-  EXPECT_EQ(verdict.search->compared->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
+  EXPECT_EQ(verdict.search->algorithm->name, "de@100") << "25 ms; mlo@10 with all starts 40 ms";
   EXPECT_EQ(verdict.search->level, PolishLevel::kOwn);
   EXPECT_EQ(verdict.needed, 10);
   EXPECT_FALSE(verdict.random);
@@ -49,7 +49,7 @@ TEST(JudgeProblem, CountsABudgetOnlyIfAllLargerOnesAreEnough) {
   const Comparison comparison =
       OfOne({Hits("mlo", 10, 10, 0), Hits("mlo", 100, 9, 0, 100), Hits("mlo", 1000, 10, 0, 1000)});
   const auto summaries = SummariseProblems(comparison);
-  EXPECT_EQ(JudgeProblem(summaries[0]).search->compared->name, "mlo@1000");
+  EXPECT_EQ(JudgeProblem(summaries[0]).search->algorithm->name, "mlo@1000");
 }
 
 TEST(JudgeProblem, LeavesAllStartsOutWhereTheShapeIsEnough) {
@@ -77,9 +77,9 @@ TEST(JudgeProblem, SetsRandomPointsBesideTheWinner) {
       OfOne({Hits("mlo", 10, 10, 10), Hits("random", 10, 5, 10), Hits("random", 100, 7, 7)});
   const auto summaries = SummariseProblems(comparison);
   const SearchVerdict verdict = JudgeProblem(summaries[0]);
-  EXPECT_EQ(verdict.search->compared->name, "mlo@10");
+  EXPECT_EQ(verdict.search->algorithm->name, "mlo@10");
   ASSERT_TRUE(verdict.random);
-  EXPECT_EQ(verdict.random->compared->name, "random@10") << "most hits, though not enough on";
+  EXPECT_EQ(verdict.random->algorithm->name, "random@10") << "most hits, though not enough on";
   EXPECT_EQ(verdict.random->level, PolishLevel::kHybrid);
 }
 
@@ -92,7 +92,7 @@ TEST(CompareWithPeers, TakesThePeerThatIsSureTheSoonest) {
   const auto summaries = SummariseProblems(comparison);
   const auto ratio = CompareWithPeers(summaries[0]);
   ASSERT_TRUE(ratio);
-  EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@100") << "60 ms; 6 ms 15 times are 90 ms";
+  EXPECT_EQ(ratio->peer->algorithm->name, "pagmo:de@100") << "60 ms; 6 ms 15 times are 90 ms";
   EXPECT_EQ(ratio->repeats, 1);
   EXPECT_DOUBLE_EQ(ratio->times, 2);
 }
@@ -102,7 +102,7 @@ TEST(CompareWithPeers, RepeatsWhatHitsLessOften) {
       {Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 8, 10), Hits("pagmo:de", 100, 7, 10)});
   const auto summaries = SummariseProblems(comparison);
   const auto ratio = CompareWithPeers(summaries[0]);
-  EXPECT_EQ(ratio->peer->compared->name, "pagmo:de@10");
+  EXPECT_EQ(ratio->peer->algorithm->name, "pagmo:de@10");
   EXPECT_EQ(ratio->repeats, 2) << "0.2^2 = 0.04";
   EXPECT_DOUBLE_EQ(ratio->times, 1) << "15 ms twice by 30 ms";
   const Comparison never = OfOne({Hits("default", 0, 0, 10, 0), Hits("pagmo:de", 10, 0, 10)});

@@ -17,7 +17,7 @@ TEST(FitSweep, RecoversTwoDiodesThatWereMade) {
   const TrendDevice device = MadeDevice();
   for (const auto& [irradiance, temperature_C] :
        {std::pair{1000.0, 25.0}, {800.0, 55.0}, {300.0, 20.0}}) {
-    const TrendState state = MadeState(device, irradiance, temperature_C);
+    const DeviceState state = MadeState(device, irradiance, temperature_C);
     const IvCurve curve = MadeSweep(device, state, irradiance, temperature_C);
     const SweepFit fit = FitSweep(curve.voltage_V, curve.current_A,
                                   ThermalAt(device, temperature_C), 1, SweepFree::kSecondDiode);

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kSplit_C = 45;
 
-double PowerOf(const TrendState& state) {
+double PowerOf(const DeviceState& state) {
   return MaximumPowerPoint(MadeDevice(), state, kSplit_C).power_W();
 }
 
-TrendState DrawDamage(const TrendState& whole, RandomStream* random) {
-  TrendState state = whole;
+DeviceState DrawDamage(const DeviceState& whole, RandomStream* random) {
+  DeviceState state = whole;
   state.photocurrent_A *= Between(random, 0.5, 1.1);
   state.resistance_series_ohm *= Between(random, 0.8, 3);
   state.saturation_current_A *= LogUniform(random, 0.5, 20);
@@ -27,10 +27,10 @@ TrendState DrawDamage(const TrendState& whole, RandomStream* random) {
 }
 
 TEST(SplitLoss, SharesAddUpToTheLoss) {
-  const TrendState whole = MadeState(MadeDevice(), 800, kSplit_C);
+  const DeviceState whole = MadeState(MadeDevice(), 800, kSplit_C);
   RandomStream random(36);
   for (int draw = 0; draw < 200; ++draw) {
-    const TrendState damaged = DrawDamage(whole, &random);
+    const DeviceState damaged = DrawDamage(whole, &random);
     const auto shares = SplitLoss(MadeDevice(), whole, damaged, kSplit_C);
     double sum = 0;
     for (const double share : shares) sum += share;
@@ -40,8 +40,8 @@ TEST(SplitLoss, SharesAddUpToTheLoss) {
 }
 
 TEST(SplitLoss, AParameterAloneIsItsOwnShare) {
-  const TrendState whole = MadeState(MadeDevice(), 800, kSplit_C);
-  std::array<TrendState, kPartMismatch> damaged;
+  const DeviceState whole = MadeState(MadeDevice(), 800, kSplit_C);
+  std::array<DeviceState, kPartMismatch> damaged;
   damaged.fill(whole);
   damaged[kPartLight].photocurrent_A *= 0.9;
   damaged[kPartSeries].resistance_series_ohm *= 2;
@@ -60,10 +60,10 @@ TEST(SplitLoss, AParameterAloneIsItsOwnShare) {
 }
 
 TEST(SplitLoss, WayBackHasTheOppositeShares) {
-  const TrendState whole = MadeState(MadeDevice(), 600, kSplit_C);
+  const DeviceState whole = MadeState(MadeDevice(), 600, kSplit_C);
   RandomStream random(37);
   for (int draw = 0; draw < 50; ++draw) {
-    const TrendState damaged = DrawDamage(whole, &random);
+    const DeviceState damaged = DrawDamage(whole, &random);
     const auto there = SplitLoss(MadeDevice(), whole, damaged, kSplit_C);
     const auto back = SplitLoss(MadeDevice(), damaged, whole, kSplit_C);
     for (int part = 0; part < kTrendParts; ++part) {
@@ -73,7 +73,7 @@ TEST(SplitLoss, WayBackHasTheOppositeShares) {
 }
 
 TEST(SplitLoss, WithoutAChangeIsZero) {
-  const TrendState whole = MadeState(MadeDevice(), 600, kSplit_C);
+  const DeviceState whole = MadeState(MadeDevice(), 600, kSplit_C);
   for (const double share : SplitLoss(MadeDevice(), whole, whole, kSplit_C)) EXPECT_EQ(share, 0);
 }
 

@@ -34,16 +34,16 @@ inline TrendDevice MadeDevice() {
 }
 
 // The device in light and warmth, by its own law.
-inline TrendState MadeState(const TrendDevice& device, double irradiance_W_m2,
-                            double temperature_C) {
+inline DeviceState MadeState(const TrendDevice& device, double irradiance_W_m2,
+                             double temperature_C) {
   const double light_A = device.Photocurrent(irradiance_W_m2, temperature_C);
   TrendDevice first = device, second = device;
   first.saturation_current_2_A = 0;
   second.saturation_current_A = 0;
   const double a = device.ThermalVoltage(temperature_C);
   const double of_first = first.OpenCircuit(light_A, temperature_C);
-  TrendState state = {light_A, device.resistance_series_ohm, light_A * std::exp(-of_first / a), 0,
-                      device.shunt_conductance_S};
+  DeviceState state = {light_A, device.resistance_series_ohm, light_A * std::exp(-of_first / a), 0,
+                       device.shunt_conductance_S};
   if (device.saturation_current_2_A > 0) {
     const double of_second = second.OpenCircuit(light_A, temperature_C);
     state.saturation_current_2_A = light_A * std::exp(-0.5 * of_second / a);
@@ -52,16 +52,16 @@ inline TrendState MadeState(const TrendDevice& device, double irradiance_W_m2,
 }
 
 // The current at a voltage across the junction.
-inline double JunctionCurrent(const TrendDevice& device, const TrendState& state, double junction_V,
-                              double temperature_C) {
+inline double JunctionCurrent(const TrendDevice& device, const DeviceState& state,
+                              double junction_V, double temperature_C) {
   const double half = std::exp(0.5 * junction_V / device.ThermalVoltage(temperature_C));
   return state.photocurrent_A - state.saturation_current_A * half * half -
          state.saturation_current_2_A * half - state.shunt_conductance_S * junction_V;
 }
 
 // An exact sweep from short circuit to open circuit.
-inline IvCurve MadeSweep(const TrendDevice& device, const TrendState& state, double irradiance_W_m2,
-                         double temperature_C, int points = 40) {
+inline IvCurve MadeSweep(const TrendDevice& device, const DeviceState& state,
+                         double irradiance_W_m2, double temperature_C, int points = 40) {
   IvCurve curve;
   curve.name = "made";
   curve.conditions.cells_in_series = device.cells_in_series;
@@ -120,7 +120,7 @@ inline TimedSweep MadeSweepOf(const TrendDevice& device, const MadeYear& year,
                               RandomStream* random) {
   const double irradiance = 1000 * light;
   const double temperature_C = 8 + 32 * light + 3 * random->Normal();
-  TrendState state = MadeState(device, irradiance, temperature_C);
+  DeviceState state = MadeState(device, irradiance, temperature_C);
   state.photocurrent_A *= now.light;
   state.resistance_series_ohm *= now.series;
   state.saturation_current_A *= now.recombination;

@@ -26,7 +26,7 @@ std::vector<TrendRow> OperatingRows(double series_ohm, double lost_V, double noi
     for (int k = 0; k < 30; ++k) {
       const double light = 0.15 + 0.85 * random.Uniform();
       const double temperature_C = 10 + 35 * light + 2 * random.Normal();
-      const TrendState state =
+      const DeviceState state =
           StateOf(device, {0, series_ohm, -lost_V, 0, device.shunt_conductance_S},
                   device.Photocurrent(1000 * light, temperature_C), temperature_C);
       const TrendPoint point = MaximumPowerPoint(device, state, temperature_C);
@@ -91,7 +91,7 @@ TEST(ReduceOperatingPoints, MarksRowsAtTheLimitOfTheInverter) {
   for (TrendRow& row : rows) {
     if (row.power_W() <= kLimit_W) continue;
     // The inverter raises the voltage until the power is the limit.
-    const TrendState state = MadeState(device, row.irradiance_W_m2, row.temperature_C);
+    const DeviceState state = MadeState(device, row.irradiance_W_m2, row.temperature_C);
     double low = row.voltage_V, high = 60;
     for (int step = 0; step < 60; ++step) {
       const double junction = 0.5 * (low + high);

@@ -22,7 +22,7 @@ TEST(MaximumPowerPoint, IsThatOfAFineGrid) {
   for (const auto& [irradiance, temperature_C] :
        {std::pair{1000.0, 25.0}, {700.0, 60.0}, {50.0, 5.0}}) {
     for (const double shunt : {0.1, 1.0, 100.0}) {
-      TrendState state = MadeState(device, irradiance, temperature_C);
+      DeviceState state = MadeState(device, irradiance, temperature_C);
       state.shunt_conductance_S *= shunt;
       const TrendPoint found = MaximumPowerPoint(device, state, temperature_C);
       double best = 0, at_V = 0;
@@ -44,7 +44,7 @@ TEST(MaximumPowerPoint, OfOneDiodeIsThatOfTheKeyPoints) {
   TrendDevice device = MadeDevice();
   device.saturation_current_2_A = 0;
   for (const double irradiance : {1000.0, 300.0, 20.0}) {
-    const TrendState state = MadeState(device, irradiance, 40);
+    const DeviceState state = MadeState(device, irradiance, 40);
     const double shunt = 1 / state.shunt_conductance_S, thermal = device.ThermalVoltage(40);
     // A trend leaves out the 1 of exp() - 1.
     const double light_A = state.photocurrent_A - state.saturation_current_A;
@@ -66,11 +66,11 @@ TEST(MaximumPowerPoint, OfOneDiodeIsThatOfTheKeyPoints) {
 
 TEST(StateOf, OfTheLawsOwnParametersIsTheLaw) {
   const TrendDevice device = MadeDevice();
-  const TrendState made = MadeState(device, 600, 50);
+  const DeviceState made = MadeState(device, 600, 50);
   const double half =
       std::exp(0.5 * device.OpenCircuit(made.photocurrent_A, 50) / device.ThermalVoltage(50));
   const double second = made.saturation_current_2_A * half / made.photocurrent_A;
-  const TrendState state =
+  const DeviceState state =
       StateOf(device, {0, 0.3, 0, second, 1 / 400.0}, device.Photocurrent(600, 50), 50);
   EXPECT_NEAR(state.photocurrent_A, made.photocurrent_A, 1e-12);
   EXPECT_NEAR(state.saturation_current_A / made.saturation_current_A, 1, 1e-10);
@@ -83,7 +83,7 @@ TEST(TrendDevice, OpenCircuitIsWhereTheDiodesTakeThePhotocurrent) {
   TrendDevice device = MadeDevice();
   device.shunt_conductance_S = 0;
   for (const double temperature_C : {-10.0, 25.0, 70.0}) {
-    const TrendState state = MadeState(device, 500, temperature_C);
+    const DeviceState state = MadeState(device, 500, temperature_C);
     const double voc = device.OpenCircuit(state.photocurrent_A, temperature_C);
     EXPECT_NEAR(JunctionCurrent(device, state, voc, temperature_C), 0, 1e-9);
   }
@@ -91,7 +91,7 @@ TEST(TrendDevice, OpenCircuitIsWhereTheDiodesTakeThePhotocurrent) {
 
 TEST(ReduceSweep, RecoversWhatTheSweepWasMadeOf) {
   const TrendDevice device = MadeDevice();
-  TrendState state = MadeState(device, 700, 45);
+  DeviceState state = MadeState(device, 700, 45);
   const double voltage_before = device.OpenCircuit(state.photocurrent_A, 45);
   state.photocurrent_A *= 0.93;
   state.resistance_series_ohm = 0.41;
@@ -112,7 +112,7 @@ TEST(ReduceSweep, RecoversWhatTheSweepWasMadeOf) {
 
 TEST(ReduceSweep, CountsSubstringsWithoutVoltage) {
   const TrendDevice device = MadeDevice();
-  const TrendState state = MadeState(device, 700, 45);
+  const DeviceState state = MadeState(device, 700, 45);
   IvCurve curve = MadeSweep(device, state, 700, 45);
   for (int lost = 1; lost < 3; ++lost) {
     IvCurve shorter = curve;
@@ -192,7 +192,7 @@ TEST(DeviceOfModule, HasTheCurvesOfTheModuleFile) {
   EXPECT_DOUBLE_EQ(device->resistance_series_ohm, 0.31);
   EXPECT_DOUBLE_EQ(device->shunt_conductance_S, 1 / 400.0);
   for (const double temperature_C : {25.0, 60.0}) {
-    TrendState state = MadeState(*device, 1000, temperature_C);
+    DeviceState state = MadeState(*device, 1000, temperature_C);
     const TranslatedDevice at =
         TranslateTo(module->translation, module->shared, 1000, temperature_C + kZeroCelsius_K);
     const TrendPoint point = MaximumPowerPoint(*device, state, temperature_C);

@@ -22,17 +22,17 @@
 namespace lyrefit {
 namespace {
 
-CheckpointHead OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
-  CheckpointHead json = {{"seed", options.seed},
-                         {"group-level", options.group_level},
-                         {"like-light", options.like_light}};
+BatchJson OptionsJson(const BatchTaskType& task, const BatchOptions& options) {
+  BatchJson json = {{"seed", options.seed},
+                    {"group-level", options.group_level},
+                    {"like-light", options.like_light}};
   if (options.pages != PagesOf::kNone) json["pages"] = ToText(options.pages);
   if (options.interactive_pages) json["interactive-pages"] = true;
   if (options.raw_csv) json["raw-csv"] = true;
   // An option that is given several times is echoed with all its values.
   for (const auto* echoes : {&options.reading, &task.options}) {
     for (const OptionEcho& echo : *echoes) {
-      CheckpointHead& value = json[echo.name];
+      BatchJson& value = json[echo.name];
       value = value.is_string() ? value.get<std::string>() + " " + echo.value : echo.value;
     }
   }
@@ -92,12 +92,12 @@ std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& colum
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-// Creates the row of a curve. Thread-safe.
 ResultCell BypassDiodes(const BatchCurve& curve) {
   if (!curve.curve || !curve.curve->notes.bypass_diodes) return {};
   return std::int64_t{*curve.curve->notes.bypass_diodes};
 }
 
+// Creates the row of a curve. Thread-safe.
 class RowMaker {
  public:
   RowMaker(const BatchSource& source, const BatchTaskType& task, const BatchOptions& options)
@@ -222,7 +222,7 @@ Expected<std::string> TakeEarlier(const BatchTaskType& task, const BatchOptions&
                 options.folder);
   }
   TRY(const EarlierResults earlier, ReadEarlierResults(options.before));
-  CheckpointHead& echoed = head->at("options");
+  BatchJson& echoed = head->at("options");
   TRY(CheckSameCoefficients(earlier, echoed));
   std::string text = EarlierText(earlier);
   echoed[kBeforeOption] = EarlierDigest(text);

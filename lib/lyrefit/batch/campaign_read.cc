@@ -172,7 +172,7 @@ Expected<void> ReadEarlierSchema(const std::string& path, EarlierResults* result
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   TRY(const std::string text, ReadTextFile(path, kLargestEarlierSchema));
-  const CheckpointHead schema = CheckpointHead::parse(text, nullptr, false);
+  const BatchJson schema = BatchJson::parse(text, nullptr, false);
   const bool run =
       schema.is_object() && schema.contains("lyrefit") && schema["lyrefit"].is_object();
   if (!run) return Fail("expected the schema of results", path);
@@ -183,7 +183,7 @@ Expected<void> ReadEarlierSchema(const std::string& path, EarlierResults* result
                 path);
   }
   results->version = schema["lyrefit"].value("version", "unknown");
-  results->options = schema["lyrefit"].value("options", CheckpointHead::object());
+  results->options = schema["lyrefit"].value("options", BatchJson::object());
   results->options_place = path;
   return {};
 }
@@ -219,7 +219,7 @@ Expected<EarlierResults> ReadEarlierResults(const std::string& path) {
   return results;
 }
 
-Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const CheckpointHead& options) {
+Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const BatchJson& options) {
   if (earlier.options_place.empty()) return {};
   const auto spoken = [](const std::string& text) { return text.empty() ? "none" : text; };
   for (const OptionRow<StatedCoefficients>& row : kCoefficientTable) {
@@ -236,20 +236,20 @@ Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const Checkp
 }
 
 std::string EarlierText(const EarlierResults& earlier) {
-  const CheckpointHead head = {{kCopyHead, 1},
-                               {"version", earlier.version},
-                               {"rows", earlier.strings.size()},
-                               {"first_date", earlier.first_date},
-                               {"last_date", earlier.last_date}};
-  const auto replace = CheckpointHead::error_handler_t::replace;
+  const BatchJson head = {{kCopyHead, 1},
+                          {"version", earlier.version},
+                          {"rows", earlier.strings.size()},
+                          {"first_date", earlier.first_date},
+                          {"last_date", earlier.last_date}};
+  const auto replace = BatchJson::error_handler_t::replace;
   std::string text = head.dump(-1, ' ', false, replace) + "\n";
   const auto number = [](float value) {
     return std::isfinite(value) ? fmt::format("{}", double{value}) : std::string("null");
   };
   for (const CampaignString& string : earlier.strings) {
     text += fmt::format("{{\"id\":{},\"cause\":{},\"cause_about\":\"{}\"",
-                        CheckpointHead(string.id).dump(-1, ' ', false, replace),
-                        CheckpointHead(string.cause).dump(-1, ' ', false, replace),
+                        BatchJson(string.id).dump(-1, ' ', false, replace),
+                        BatchJson(string.cause).dump(-1, ' ', false, replace),
                         string.repeat ? "sweep" : "");
     for (int q = 0; q < kCampaignKept; ++q) {
       text += fmt::format(",\"{}\":{},\"{}\":{}", kFigureColumns[q], number(string.values[q]),
@@ -277,7 +277,7 @@ Expected<EarlierResults> ReadEarlierCopy(const std::string& path, const std::str
   std::istringstream lines(text);
   std::string first;
   std::getline(lines, first);
-  const CheckpointHead head = CheckpointHead::parse(first, nullptr, false);
+  const BatchJson head = BatchJson::parse(first, nullptr, false);
   if (!head.is_object() || !head.contains(kCopyHead)) {
     return Fail("expected a copy of earlier results", path, 1);
   }

@@ -48,7 +48,7 @@ CampaignResults::CampaignResults(EarlierResults earlier, const std::vector<Resul
 Expected<std::unique_ptr<CampaignResults>> CampaignResults::Open(
     const CheckpointHead& head, const std::vector<std::string>& parts,
     const std::vector<ResultColumn>& columns) {
-  const CheckpointHead& options = head.at("options");
+  const BatchJson& options = head.at("options");
   const std::string digest = options.value(kBeforeOption, "");
   if (digest.empty()) return std::unique_ptr<CampaignResults>();
   for (const std::string& part : parts) {

@@ -19,11 +19,11 @@ inline constexpr char kBypassDiodesColumn[] = "bypass_diodes";
 
 // The results of an earlier run of task field-test, reduced to the figures that are compared.
 struct EarlierResults {
-  std::string version;                                // of lyrefit; "unknown" without a schema
-  CheckpointHead options = CheckpointHead::object();  // of the run; empty without a schema
-  std::string options_place;                          // file that states them
-  std::string first_date, last_date;                  // of the sweeps, as written
-  std::vector<CampaignString> strings;                // one for each row
+  std::string version;                      // of lyrefit; "unknown" without a schema
+  BatchJson options = BatchJson::object();  // of the run; empty without a schema
+  std::string options_place;                // file that states them
+  std::string first_date, last_date;        // of the sweeps, as written
+  std::vector<CampaignString> strings;      // one for each row
 };
 
 // Reads results.jsonl, else results.csv, of a folder, or one of both files. results.schema.json
@@ -33,7 +33,7 @@ Expected<EarlierResults> ReadEarlierResults(const std::string& path);
 
 // Checks that both runs carry curves to standard conditions alike: the coefficients are the same.
 // `options`: those of the later run.
-Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const CheckpointHead& options);
+Expected<void> CheckSameCoefficients(const EarlierResults& earlier, const BatchJson& options);
 
 // The results as text: a copy for the folder of a run, which its results are made with later. The
 // digest is that of the text.
@@ -54,8 +54,8 @@ inline constexpr const char* kExpandedColumns[] = {"Isc_stc_U_A",  "Voc_stc_U_V"
 bool IsOfSweep(const std::string& about);
 
 // The summary as one JSON object, campaign.json, and back. A missing member keeps its default.
-CheckpointHead CampaignJson(const CampaignSummary& summary);
-CampaignSummary CampaignOf(const CheckpointHead& json);
+BatchJson CampaignJson(const CampaignSummary& summary);
+CampaignSummary CampaignOf(const BatchJson& json);
 
 // Takes the strings of the later campaign from the rows, compares, and gives the cells of the rows
 // in the same order.

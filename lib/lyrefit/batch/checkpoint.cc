@@ -52,9 +52,9 @@ std::optional<std::pair<int, std::int64_t>> PlaceOf(const nlohmann::json& json) 
 
 // Parses the head, whose checksum is the first of the file.
 Expected<CheckpointHead> HeadOf(const std::string& line, LineSums* sums, const std::string& path) {
-  const CheckpointHead as_it_is = CheckpointHead::parse(line, nullptr, false);
+  const BatchJson as_it_is = BatchJson::parse(line, nullptr, false);
   if (!as_it_is.is_object()) return Fail(kNoPart, path, 1);
-  if (as_it_is.value("lyrefit_batch", CheckpointHead()) == 1) return Fail(kNoSums, path, 1);
+  if (as_it_is.value("lyrefit_batch", BatchJson()) == 1) return Fail(kNoSums, path, 1);
   const auto checked = sums->Check(line);
   if (!checked) return Fail(checked.error().message, path, 1);
   return CheckpointHead::parse(*checked, nullptr, false);
@@ -92,7 +92,7 @@ std::string CheckpointPath(const std::string& folder, const Shard& shard) {
 
 Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead& now,
                              const std::string& path) {
-  const auto compare = [&path](const CheckpointHead& a, const CheckpointHead& b) -> Expected<void> {
+  const auto compare = [&path](const BatchJson& a, const BatchJson& b) -> Expected<void> {
     const std::optional<std::string> key = FirstDifference(a, b);
     if (!key) return {};
     return Fail(fmt::format("these rows were begun {} {}, now it is {}: go on as it was begun, or "
@@ -106,8 +106,8 @@ Expected<void> CheckSameHead(const CheckpointHead& before, const CheckpointHead&
     return head;
   };
   TRY(compare(plain(before), plain(now)));
-  TRY(compare(before.value("options", CheckpointHead::object()), now.at("options")));
-  if (before.value("columns", CheckpointHead()) == now.at("columns")) return {};
+  TRY(compare(before.value("options", BatchJson::object()), now.at("options")));
+  if (before.value("columns", BatchJson()) == now.at("columns")) return {};
   return Fail("these rows were begun with other columns: say --force to begin anew", path, 1);
 }
 
@@ -127,8 +127,7 @@ Expected<std::unique_ptr<CheckpointFile>> CheckpointFile::Open(const std::string
     TRY(part->log_->Clear());
   }
   if (part->log_->empty()) {
-    TRY(part->Append(head.dump(-1, ' ', false, CheckpointHead::error_handler_t::replace) + "\n",
-                     0));
+    TRY(part->Append(head.dump(-1, ' ', false, BatchJson::error_handler_t::replace) + "\n", 0));
   }
   return part;
 }

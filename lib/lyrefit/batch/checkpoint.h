@@ -20,7 +20,9 @@ namespace lyrefit {
 // member of every line, "crc", is the CRC-32 of this and all earlier lines. A reader thus detects a
 // line that was changed, moved or lost.
 
-using CheckpointHead = nlohmann::ordered_json;
+// JSON with its keys in order, of every record of a batch.
+using BatchJson = nlohmann::ordered_json;
+using CheckpointHead = BatchJson;
 
 // A head that holds only the format of checkpoint files.
 CheckpointHead NewCheckpointHead();

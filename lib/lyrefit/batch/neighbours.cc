@@ -110,16 +110,16 @@ std::vector<ResultCell> NeighbourCells(const NeighbourDeviation& deviation,
   if (deviation.peers == 0) return std::vector<ResultCell>(kNeighbourQuantities + 3);
   static constexpr const char* kNames[] = {"Isc/G", "Voc", "FF", "Pmax/G"};
   std::vector<ResultCell> cells = {std::int64_t{deviation.peers}};
-  std::vector<std::string> outlier;
+  std::vector<std::string> differences;
   for (int q = 0; q < kNeighbourQuantities; ++q) {
     const double part = deviation.parts[q];
     cells.push_back(NumberCell(100 * part));
     if (!(std::fabs(part) > limits[q])) continue;
-    outlier.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q], 100 * part,
-                                  100 * limits[q]));
+    differences.push_back(fmt::format("{} {:+.2f} % (usual: within {:.2f} %)", kNames[q],
+                                      100 * part, 100 * limits[q]));
   }
-  cells.emplace_back(!outlier.empty());
-  cells.push_back(ListCell(outlier, ", "));
+  cells.emplace_back(!differences.empty());
+  cells.push_back(ListCell(differences, ", "));
   return cells;
 }
 

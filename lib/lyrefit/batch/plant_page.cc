@@ -25,15 +25,15 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestResultsSchema = 16U << 20;
 
-std::string Text(const CheckpointHead& value) {
+std::string Text(const BatchJson& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 // Facts about the run, from the schema.
-std::vector<block::Field> FactsOf(const CheckpointHead& run) {
+std::vector<block::Field> FactsOf(const BatchJson& run) {
   std::vector<block::Field> facts;
-  const CheckpointHead options = run.value("options", CheckpointHead::object());
-  const auto take = [&](const char* name, const CheckpointHead& from, const char* key) {
+  const BatchJson options = run.value("options", BatchJson::object());
+  const auto take = [&](const char* name, const BatchJson& from, const char* key) {
     if (from.contains(key)) facts.push_back({name, Text(from[key])});
   };
   take("Instrument", options, "tracer");
@@ -72,12 +72,12 @@ std::string UrlOf(const std::string& path) {
 }
 
 // What changed since earlier results, if the run had any.
-Expected<CampaignSummary> CampaignIn(const fs::path& folder, const CheckpointHead& run) {
-  const CheckpointHead options = run.value("options", CheckpointHead::object());
+Expected<CampaignSummary> CampaignIn(const fs::path& folder, const BatchJson& run) {
+  const BatchJson options = run.value("options", BatchJson::object());
   if (!options.contains(kBeforeOption)) return CampaignSummary();
   const std::string path = (folder / "campaign.json").string();
   TRY(const std::string text, ReadTextFile(path, kLargestResultsSchema));
-  const CheckpointHead json = CheckpointHead::parse(text, nullptr, false);
+  const BatchJson json = BatchJson::parse(text, nullptr, false);
   if (!json.is_object()) return Fail("expected the comparison of two campaigns", path);
   return CampaignOf(json);
 }
@@ -127,12 +127,12 @@ Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::stri
                                       const std::string& plant) {
   const std::string schema_file = (fs::path(folder) / "results.schema.json").string();
   TRY(const std::string text, ReadTextFile(schema_file, kLargestResultsSchema));
-  const CheckpointHead schema = CheckpointHead::parse(text, nullptr, false);
+  const BatchJson schema = BatchJson::parse(text, nullptr, false);
   if (!schema.is_object()) return Fail("expected the schema of results", schema_file);
   PlantContent content;
-  TRY(content.columns, ReadColumns(schema.value("fields", CheckpointHead())));
+  TRY(content.columns, ReadColumns(schema.value("fields", BatchJson())));
   content.plant = plant;
-  const CheckpointHead run = schema.value("lyrefit", CheckpointHead::object());
+  const BatchJson run = schema.value("lyrefit", BatchJson::object());
   content.facts = FactsOf(run);
   TRY(content.campaign, CampaignIn(folder, run));
   content.results = UrlFrom(file, folder);

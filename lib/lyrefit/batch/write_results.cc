@@ -109,12 +109,12 @@ Expected<void> ForGroups(const std::vector<std::string>& parts,
 std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColumn>& columns,
                        bool samples) {
   // The keys `lyrefit` and `samples` are extensions: the standard allows additional keys.
-  CheckpointHead schema = {{"fields", FieldsJson(columns)},
-                           {"missingValues", {""}},
-                           {"primaryKey", "where"},
-                           {"lyrefit", ResultsHeadOf(head)}};
+  BatchJson schema = {{"fields", FieldsJson(columns)},
+                      {"missingValues", {""}},
+                      {"primaryKey", "where"},
+                      {"lyrefit", ResultsHeadOf(head)}};
   if (samples) schema["samples"] = {{"fields", FieldsJson(SampleColumns())}};
-  return schema.dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
+  return schema.dump(2, ' ', false, BatchJson::error_handler_t::replace) + "\n";
 }
 
 // Rows passed so far, reported to an observer at intervals.
@@ -145,7 +145,7 @@ struct ResultsPlan {
 
 Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::string& path) {
   ResultsPlan plan;
-  const auto columns = ReadColumns(head.value("columns", CheckpointHead()));
+  const auto columns = ReadColumns(head.value("columns", BatchJson()));
   if (!columns) return Fail(columns.error().message, path, 1);
   plan.rows = plan.results = *columns;
   for (const ResultColumn& column : NeighbourColumns()) plan.results.push_back(column);
@@ -154,7 +154,7 @@ Expected<ResultsPlan> ResultsPlanOf(const CheckpointHead& head, const std::strin
   if (plan.scale) {
     for (const ResultColumn& column : ScaleColumns()) plan.results.push_back(column);
   }
-  const CheckpointHead& options = head.at("options");
+  const BatchJson& options = head.at("options");
   if (options.contains(kBeforeOption)) {
     for (const ResultColumn& column : CampaignColumns()) plan.results.push_back(column);
   }
@@ -234,7 +234,7 @@ CheckpointHead ResultsHead(const std::string& folder) {
   const bool any = fs::exists(base / kCsv, error) || fs::exists(base / kLines, error);
   const auto text = ReadFileBytes((base / kSchema).string(), kLargestSchema);
   if (!text) return any ? CheckpointHead::object() : CheckpointHead();
-  const CheckpointHead schema = CheckpointHead::parse(*text, nullptr, false);
+  const BatchJson schema = BatchJson::parse(*text, nullptr, false);
   if (!schema.is_object() || !schema.contains("lyrefit")) return CheckpointHead::object();
   return schema["lyrefit"];
 }
@@ -242,7 +242,7 @@ CheckpointHead ResultsHead(const std::string& folder) {
 namespace {
 
 std::string CampaignText(const CampaignSummary& summary) {
-  return CampaignJson(summary).dump(2, ' ', false, CheckpointHead::error_handler_t::replace) + "\n";
+  return CampaignJson(summary).dump(2, ' ', false, BatchJson::error_handler_t::replace) + "\n";
 }
 
 void Append(std::vector<ResultCell> cells, ResultRow* row) {

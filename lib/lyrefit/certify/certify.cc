@@ -186,7 +186,7 @@ void TakeBest(const Proof& proof, BranchEnd* floor) {
   for (const Mixture& model : proof.upper_bound) {
     if (!(model.primal < floor->best.primal * (1 - kCertifiedGap))) continue;
     const double tolerance = 0.01 * proof.limits.tolerance;
-    const double dual_gain_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
+    const double dark_bound_A = 1e3 * proof.data.target_A.cwiseAbs().maxCoeff();
     Mixture here = model;
     if (IsSolvedCurrent(proof)) {
       const SolvedMixture solved =
@@ -200,7 +200,7 @@ void TakeBest(const Proof& proof, BranchEnd* floor) {
       }
     } else {
       here =
-          SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, dual_gain_A);
+          SolveMixture(proof.data, {proof.window}, model.rs, model.atoms, tolerance, dark_bound_A);
     }
     if (here.primal < floor->best.primal) floor->best = here;
   }

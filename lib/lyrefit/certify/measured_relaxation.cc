@@ -12,7 +12,7 @@ namespace {
 template <class Real>
 PartBound BoundEnds(const MixtureData& data, const BranchPart& part, const Incumbent& incumbent) {
   return BoundPart<Real>(data, Union(part.windows), *part.left, *part.right,
-                         ComputeDualGain<Real>(data, part.rs0, part.rs1, incumbent.primal),
+                         BoundDarkCurrent<Real>(data, part.rs0, part.rs1, incumbent.primal),
                          incumbent.primal);
 }
 
@@ -27,11 +27,11 @@ double MeasuredRelaxation::Scale() const { return data_.WeightedTarget().cwiseAb
 MixturePtr MeasuredRelaxation::At(const std::vector<Window>& windows, double rs,
                                   const std::vector<Atom>& start, Incumbent* incumbent) const {
   ++incumbent->solved;
-  const double dual_gain = ComputeDualGain(data_, rs, rs, incumbent->primal).current_A;
-  const double dual_gain_A = std::min(dual_gain, 1e3 * Scale());
+  const double dark_bound = BoundDarkCurrent(data_, rs, rs, incumbent->primal).current_A;
+  const double dark_bound_A = std::min(dark_bound, 1e3 * Scale());
   auto mixture = std::make_shared<Mixture>(
-      SolveMixture(data_, Union(windows), rs, start, 0.01 * incumbent->tolerance, dual_gain_A));
-  if (rigorous_) MakeSafe(data_, Union(windows), dual_gain_A, mixture.get());
+      SolveMixture(data_, Union(windows), rs, start, 0.01 * incumbent->tolerance, dark_bound_A));
+  if (rigorous_) MakeSafe(data_, Union(windows), dark_bound_A, mixture.get());
   incumbent->Note(*mixture, mixture->primal);
   return mixture;
 }

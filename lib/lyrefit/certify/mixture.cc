@@ -30,8 +30,8 @@ Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, d
 }
 
 Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows, double rs,
-                     const std::vector<Atom>& start, double tolerance, double dual_gain_A) {
-  return MixtureSolver(data, windows, rs).Run(start, tolerance, dual_gain_A);
+                     const std::vector<Atom>& start, double tolerance, double dark_bound_A) {
+  return MixtureSolver(data, windows, rs).Run(start, tolerance, dark_bound_A);
 }
 
 }  // namespace lyrefit

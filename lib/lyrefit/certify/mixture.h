@@ -93,10 +93,10 @@ struct Mixture {
 // Solves the problem at `rs` (ohm) with u in the windows, which are sorted and share at most an
 // end. `start` has the atoms of a neighbouring solution, or is empty. The mixture respects the
 // ranges of Is. `tolerance` is the relative duality gap to reach; the result states the gap that
-// was reached. `dual_gain_A` is the penalty factor of the remaining excess. It bounds the sum of
+// was reached. `dark_bound_A` is the penalty factor of the remaining excess. It bounds the sum of
 // shunt and diode currents at Vs of every competitive mixture.
 Mixture SolveMixture(const MixtureData& data, const std::vector<Window>& windows, double rs,
-                     const std::vector<Atom>& start, double tolerance, double dual_gain_A);
+                     const std::vector<Atom>& start, double tolerance, double dark_bound_A);
 
 // The diode column a(u) at junction voltages vd, for any Vs > 0.
 Eigen::VectorXd DiodeColumn(const Eigen::VectorXd& vd, double scale_voltage_V, double u);

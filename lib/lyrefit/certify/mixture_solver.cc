@@ -52,14 +52,14 @@ MixtureSolver::MixtureSolver(const MixtureData& data, const std::vector<Window>&
 
 // Solves first without the ranges of Is. Each violated range is then enforced by a row, and the
 // rows are corrected until the dual value has converged.
-Mixture MixtureSolver::Run(const std::vector<Atom>& start, double tolerance, double dual_gain_A) {
+Mixture MixtureSolver::Run(const std::vector<Atom>& start, double tolerance, double dark_bound_A) {
   for (const Atom& atom : start) Add(atom.u);
   SolveLinear();
-  Mixture best = Settle(tolerance, dual_gain_A);
+  Mixture best = Settle(tolerance, dark_bound_A);
   int idle = 0;
   for (int round = 0; round < kMostCorrections && idle < 2 && UpdateRows(); ++round) {
     SolveLinear();
-    Mixture next = Settle(tolerance, dual_gain_A);
+    Mixture next = Settle(tolerance, dark_bound_A);
     idle = next.relative_gap < 0.5 * best.relative_gap ? 0 : idle + 1;
     if (next.relative_gap < best.relative_gap) best = std::move(next);
     if (best.relative_gap <= tolerance) break;
@@ -67,19 +67,19 @@ Mixture MixtureSolver::Run(const std::vector<Atom>& start, double tolerance, dou
   return best;
 }
 
-Mixture MixtureSolver::Settle(double tolerance, double dual_gain_A) {
+Mixture MixtureSolver::Settle(double tolerance, double dark_bound_A) {
   Mixture best;
   for (int round = 0; round < kMostRounds; ++round) {
     UpdateAtoms();
     if (round % 3 == 2) MergeNeighbours();
     const Eigen::VectorXd y = CleanResidual();
     const Eigen::VectorXd at_points = y.head(points());
-    const double allowed = AllowedExcess(at_points.norm(), tolerance, dual_gain_A);
+    const double allowed = AllowedExcess(at_points.norm(), tolerance, dark_bound_A);
     const Correlation1D correlation =
         BoundCorrelation(vd_, scale_, data_.weight.cwiseProduct(at_points), windows_, state_.atoms,
                          allowed, Pulls(y));
     if (round == 0 || correlation.bound < best.excess) {
-      best = Finish(y, correlation.bound, dual_gain_A);
+      best = Finish(y, correlation.bound, dark_bound_A);
     }
     const double u = Within(correlation.best_u);
     if (correlation.best <= allowed || !Add(u)) break;
@@ -89,9 +89,9 @@ Mixture MixtureSolver::Settle(double tolerance, double dual_gain_A) {
   return best;
 }
 
-double MixtureSolver::AllowedExcess(double y_norm, double tolerance, double dual_gain_A) const {
+double MixtureSolver::AllowedExcess(double y_norm, double tolerance, double dark_bound_A) const {
   if (y_norm <= 10 * kMixtureRounding * target_.norm()) return y_norm;  // an exact fit
-  return std::max(0.25 * tolerance * y_norm * y_norm / dual_gain_A, kMixtureRounding * y_norm);
+  return std::max(0.25 * tolerance * y_norm * y_norm / dark_bound_A, kMixtureRounding * y_norm);
 }
 
 std::size_t MixtureSolver::WindowIndex(double u) const {
@@ -305,7 +305,7 @@ MixtureState MixtureSolver::WithinRanges() const {
   return state;
 }
 
-Mixture MixtureSolver::Finish(const Eigen::VectorXd& y, double excess, double dual_gain_A) const {
+Mixture MixtureSolver::Finish(const Eigen::VectorXd& y, double excess, double dark_bound_A) const {
   const MixtureState state = WithinRanges();
   Mixture mixture;
   mixture.rs = rs_;
@@ -331,10 +331,10 @@ Mixture MixtureSolver::Finish(const Eigen::VectorXd& y, double excess, double du
   }
   const Eigen::VectorXd pulls = TransposedTimes(columns_, mixture.y);  // of the scaled columns
   mixture.pulls = pulls.cwiseProduct(sizes_);
-  double lack = mixture.excess * dual_gain_A;
+  double lack = mixture.excess * dark_bound_A;
   for (Eigen::Index j = 0; j < terms_; ++j) {
     if (pulls[j] > 0 && upper_[j] == kInfinity) {
-      lack += pulls[j] * (state.linear[j] + dual_gain_A);
+      lack += pulls[j] * (state.linear[j] + dark_bound_A);
     } else if (pulls[j] != 0) {
       mixture.dual -= pulls[j] * (pulls[j] < 0 ? lower_[j] : upper_[j]);
     }

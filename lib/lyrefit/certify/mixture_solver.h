@@ -41,7 +41,7 @@ class MixtureSolver {
  public:
   MixtureSolver(const MixtureData& data, const std::vector<Window>& windows, double rs);
 
-  Mixture Run(const std::vector<Atom>& start, double tolerance, double dual_gain_A);
+  Mixture Run(const std::vector<Atom>& start, double tolerance, double dark_bound_A);
 
  private:
   int size() const { return static_cast<int>(state_.atoms.size()); }
@@ -49,9 +49,9 @@ class MixtureSolver {
   Eigen::Index rows() const { return vd_.size() + static_cast<Eigen::Index>(rows_.size()); }
 
   // Adds and moves atoms until no diode column has a positive gain; the rows of Is are constant.
-  Mixture Settle(double tolerance, double dual_gain_A);
+  Mixture Settle(double tolerance, double dark_bound_A);
   // The largest correlation that neither opens the duality gap nor exceeds rounding.
-  double AllowedExcess(double y_norm, double tolerance, double dual_gain_A) const;
+  double AllowedExcess(double y_norm, double tolerance, double dark_bound_A) const;
   std::size_t WindowIndex(double u) const;
   const Window& WindowOf(double u) const { return windows_[WindowIndex(u)]; }
   double Within(double u) const;  // the nearest u of its window
@@ -79,7 +79,7 @@ class MixtureSolver {
   void MergeNeighbours();
   bool SplitNearest(double u);
   Eigen::VectorXd CleanResidual() const;
-  Mixture Finish(const Eigen::VectorXd& y, double excess, double dual_gain_A) const;
+  Mixture Finish(const Eigen::VectorXd& y, double excess, double dark_bound_A) const;
   double SlopeInRs(const MixtureState& state) const;
 
   const MixtureData& data_;

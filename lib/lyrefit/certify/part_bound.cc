@@ -25,24 +25,24 @@ Real Excess(const Mixture& mixture, const std::vector<Window>& windows, double v
          exp(Real(u) * above);
 }
 
-// The largest coefficient of a linear term in a model that the dual gain allows.
+// The largest coefficient of a linear term in a model that the bound of the dark current allows.
 template <class Real>
 double LargestCoefficient(const MixtureData& data, const LinearTerm& term,
-                          const DualGain& dual_gain, double known) {
+                          const DarkCurrentBound& dark_bound, double known) {
   double largest = kInfinity;
   if (term.light()) {
     const ArrayOf<Real> allowed = RealArray<Real>(data.target_A) +
                                   sqrt(Real(2 * known)) / RealArray<Real>(data.weight) +
-                                  Real(dual_gain.current_A);
+                                  Real(dark_bound.current_A);
     const double most = std::max(Upper(allowed.maxCoeff()), 0.0);
     for (const double lit : term.constant) {
       if (lit > 0) largest = std::min(largest, Upper(Real(most) / Real(lit)));
     }
   } else {
     const ArrayOf<Real> leak = -(RealArray<Real>(term.constant) +
-                                 RealArray<Real>(term.per_volt) * Real(dual_gain.voltage_V));
+                                 RealArray<Real>(term.per_volt) * Real(dark_bound.voltage_V));
     const Real least = leak.minCoeff();
-    if (Lower(least) > 0) largest = Upper(Real(dual_gain.current_A) / least);
+    if (Lower(least) > 0) largest = Upper(Real(dark_bound.current_A) / least);
   }
   return std::min(largest, term.upper);
 }
@@ -65,7 +65,7 @@ double LeastBetween(const Interval& left, const Interval& right, const Interval&
 }  // namespace
 
 template <class Real>
-DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double known) {
+DarkCurrentBound BoundDarkCurrent(const MixtureData& data, double rs0, double rs1, double known) {
   const ArrayOf<Real> v0 = JunctionVoltage<Real>(data, rs0);
   const ArrayOf<Real> v1 = JunctionVoltage<Real>(data, rs1);
   // Bounds of each junction voltage over all Rs of the range.
@@ -91,20 +91,20 @@ DualGain ComputeDualGain(const MixtureData& data, double rs0, double rs1, double
 
 template <class Real>
 PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows, const Mixture& a,
-                    const Mixture& b, const DualGain& dual_gain, double known) {
+                    const Mixture& b, const DarkCurrentBound& dark_bound, double known) {
   PartBound bound{-kInfinity, std::min(a.dual, b.dual)};
-  if (!std::isfinite(dual_gain.current_A)) return bound;
+  if (!std::isfinite(dark_bound.current_A)) return bound;
   const Real dr = Real(b.rs) - Real(a.rs);
   const ArrayOf<Real> step = RealArray<Real>(b.y) - RealArray<Real>(a.y);
-  const Real current(dual_gain.current_A);
-  Real left = Real(a.dual) - current * Excess<Real>(a, windows, dual_gain.voltage_V);
-  Real right = Real(b.dual) - current * Excess<Real>(b, windows, dual_gain.voltage_V);
+  const Real current(dark_bound.current_A);
+  Real left = Real(a.dual) - current * Excess<Real>(a, windows, dark_bound.voltage_V);
+  Real right = Real(b.dual) - current * Excess<Real>(b, windows, dark_bound.voltage_V);
   Real bend(0);  // at t: (1 - t) left + t right + t (1 - t) / 2 (|step|^2 - bend)
   const ArrayOf<Real> per_ohm = WeightedArray<Real>(data, data.current_A);
   for (std::size_t j = 0; j < data.terms.size(); ++j) {
     const LinearTerm& term = data.terms[j];
     const auto index = static_cast<Eigen::Index>(j);
-    const Real largest(LargestCoefficient<Real>(data, term, dual_gain, known));
+    const Real largest(LargestCoefficient<Real>(data, term, dark_bound, known));
     if (term.upper == kInfinity) {  // finite ranges are in the dual values already
       if (a.pulls[index] > 0) left -= Real(a.pulls[index]) * largest;
       if (b.pulls[index] > 0) right -= Real(b.pulls[index]) * largest;
@@ -119,7 +119,7 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
   }
   bound.lower = std::min(Lower(left), Lower(right));
   if (b.rs > a.rs) {
-    bend += current * BoundBend<Real>(data, windows, a.rs, b.rs, a.y, b.y, dual_gain.voltage_V,
+    bend += current * BoundBend<Real>(data, windows, a.rs, b.rs, a.y, b.y, dark_bound.voltage_V,
                                       a.saturation_pulls, b.saturation_pulls);
     const Real curvature = Real(0.5) * (step.square().sum() - bend);
     if (!(Lower(curvature) >= 0)) bound.lower = LeastBetween(left, right, curvature);
@@ -127,7 +127,7 @@ PartBound BoundPart(const MixtureData& data, const std::vector<Window>& windows,
   return bound;
 }
 
-void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, double dual_gain_A,
+void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, double dark_bound_A,
               Mixture* mixture) {
   const Eigen::VectorXd& y = mixture->y;
   std::vector<WideInterval> weighted, wide_vd;
@@ -151,7 +151,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
       pull += weighted[k] * column;
     }
     // The largest gain of a coefficient within its range. Without an upper end only a negative pull
-    // counts here; a positive one is penalised with the dual gain.
+    // counts here; a positive one is penalised with the bound of the dark current.
     const WideReal zero(0);
     const WideInterval falling(std::min(pull.lower, zero), std::min(pull.upper, zero));
     const WideInterval rising(std::max(pull.lower, zero), std::max(pull.upper, zero));
@@ -160,7 +160,7 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
     if (term.upper < kInfinity) {
       dual -= rising * WideInterval(term.upper);
     } else if (pull.upper > 0) {
-      lack += Interval(mixture->pulls[index]) * (mixture->linear[index] + Interval(dual_gain_A));
+      lack += Interval(mixture->pulls[index]) * (mixture->linear[index] + Interval(dark_bound_A));
     }
   }
   // Any multiplier of Is proves a bound, so the one found is used unchanged.
@@ -179,16 +179,17 @@ void MakeSafe(const MixtureData& data, const std::vector<Window>& windows, doubl
                                  windows, mixture->atoms, std::max(mixture->excess, hidden),
                                  mixture->saturation_pulls)
           .bound;
-  lack += Interval(mixture->excess) * dual_gain_A;
+  lack += Interval(mixture->excess) * dark_bound_A;
   mixture->relative_gap = Upper(abs(Interval(mixture->primal) - mixture->dual) + lack) /
                           std::max(mixture->primal, 1e-300);
 }
 
-template DualGain ComputeDualGain<double>(const MixtureData&, double, double, double);
-template DualGain ComputeDualGain<Interval>(const MixtureData&, double, double, double);
+template DarkCurrentBound BoundDarkCurrent<double>(const MixtureData&, double, double, double);
+template DarkCurrentBound BoundDarkCurrent<Interval>(const MixtureData&, double, double, double);
 template PartBound BoundPart<double>(const MixtureData&, const std::vector<Window>&, const Mixture&,
-                                     const Mixture&, const DualGain&, double);
+                                     const Mixture&, const DarkCurrentBound&, double);
 template PartBound BoundPart<Interval>(const MixtureData&, const std::vector<Window>&,
-                                       const Mixture&, const Mixture&, const DualGain&, double);
+                                       const Mixture&, const Mixture&, const DarkCurrentBound&,
+                                       double);
 
 }  // namespace lyrefit

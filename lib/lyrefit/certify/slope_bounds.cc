@@ -34,7 +34,7 @@ Difference Above(double x, double h) {
 struct Columns {
   std::vector<double> u;
   double scale_V = 0;
-  std::vector<double> dual_gains;  // largest coefficient of each column
+  std::vector<double> largest;  // coefficient of each column
 
   std::size_t size() const { return 2 + u.size(); }
   double Value(std::size_t column, double vd) const {
@@ -54,7 +54,7 @@ struct Columns {
 
 Columns SampleColumns(const KnownValues& known, const std::vector<Window>& windows) {
   Columns columns;
-  columns.scale_V = known.dual_gain.voltage_V;
+  columns.scale_V = known.dark_bound.voltage_V;
   for (const Window& window : windows) {
     const double span = (window.upper - window.lower) * columns.scale_V;
     const int count = std::min(std::max(3, static_cast<int>(span / kSampleWidth) + 2), 60);
@@ -62,8 +62,8 @@ Columns SampleColumns(const KnownValues& known, const std::vector<Window>& windo
       columns.u.push_back(window.lower + (window.upper - window.lower) * i / (count - 1));
     }
   }
-  columns.dual_gains.assign(columns.size(), known.dual_gain.current_A);
-  columns.dual_gains[0] = known.largest_light_A;
+  columns.largest.assign(columns.size(), known.dark_bound.current_A);
+  columns.largest[0] = known.largest_light_A;
   return columns;
 }
 
@@ -84,12 +84,12 @@ double LeftOver(const KnownValues& known, const std::vector<Window>& windows,
     voltage[nodes + i] = difference.voltage_V[i];
     weight[nodes + i] = sign * difference.weight[i];
   }
-  double left = std::max(weight.sum(), 0.0) * columns.dual_gains[0];
-  left += std::max(-voltage.dot(weight) / columns.scale_V, 0.0) * known.dual_gain.current_A;
-  const double dual_gain = known.dual_gain.current_A;
-  return left + dual_gain * BoundCorrelation(voltage, columns.scale_V, weight, windows, {},
-                                             allowed / std::max(dual_gain, 1e-300))
-                                .bound;
+  double left = std::max(weight.sum(), 0.0) * columns.largest[0];
+  left += std::max(-voltage.dot(weight) / columns.scale_V, 0.0) * known.dark_bound.current_A;
+  const double dark_bound = known.dark_bound.current_A;
+  return left + dark_bound * BoundCorrelation(voltage, columns.scale_V, weight, windows, {},
+                                              allowed / std::max(dark_bound, 1e-300))
+                                 .bound;
 }
 
 std::vector<SlopeRange> BoundAll(const KnownValues& known, const std::vector<Window>& windows,
@@ -105,13 +105,13 @@ std::vector<SlopeRange> BoundAll(const KnownValues& known, const std::vector<Win
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(samples + nodes, nodes);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(samples + nodes, 2 * count);
   for (Eigen::Index i = 0; i < samples; ++i) {
-    const double dual_gain = kLeftOverWeight * columns.dual_gains[i];
+    const double weight = kLeftOverWeight * columns.largest[i];
     for (Eigen::Index m = 0; m < nodes; ++m) {
-      a(i, m) = dual_gain * columns.Value(i, known.voltage_V[m]);
+      a(i, m) = weight * columns.Value(i, known.voltage_V[m]);
     }
     for (Eigen::Index k = 0; k < count; ++k) {
-      b(i, 2 * k) = dual_gain * columns.Value(i, Below(below_V[k], h));
-      b(i, 2 * k + 1) = dual_gain * columns.Value(i, Above(above_V[k], h));
+      b(i, 2 * k) = weight * columns.Value(i, Below(below_V[k], h));
+      b(i, 2 * k + 1) = weight * columns.Value(i, Above(above_V[k], h));
     }
   }
   for (Eigen::Index m = 0; m < nodes; ++m) {

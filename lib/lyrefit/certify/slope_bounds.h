@@ -22,7 +22,7 @@ struct KnownValues {
   double radius_A = 0;
   Eigen::VectorXd common_A;
   double largest_light_A = 0;  // upper bound of the sum of the light terms
-  DualGain dual_gain;          // upper bound of shunt and diode currents
+  DarkCurrentBound dark_bound;
 };
 
 // Bounds of the slope -dI/dVd, in S: `lower` at one junction voltage, `upper` at another.

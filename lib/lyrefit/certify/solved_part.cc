@@ -18,7 +18,7 @@ double Allowed(const SolvedPart& part, Eigen::Index k) {
 // The currents at the points of the largest and the smallest junction voltage are known to within
 // the allowed residuals. The sum of leak and diode currents is convex in the voltage, and zero at
 // 0 V.
-DualGain CompetitorDualGain(const SolvedPart& part) {
+DarkCurrentBound CompetitorDarkCurrent(const SolvedPart& part) {
   const Eigen::Index points = part.data.target_A.size();
   Eigen::Index high = 0, low = 0;
   double v_high = -kInfinity, v_low = kInfinity;
@@ -51,7 +51,7 @@ bool NoneCompetes(const MixtureData& data, double rs_lower, double known) {
   return false;
 }
 
-double LargestLight(const SolvedPart& part, const DualGain& dual_gain) {
+double LargestLight(const SolvedPart& part, const DarkCurrentBound& dark_bound) {
   double largest = 0, v_low = kInfinity;
   for (Eigen::Index k = 0; k < part.data.target_A.size(); ++k) {
     const double most = part.data.target_A[k] + Allowed(part, k);
@@ -59,7 +59,8 @@ double LargestLight(const SolvedPart& part, const DualGain& dual_gain) {
     v_low = std::min(
         v_low, part.data.voltage_V[k] + std::max(part.region.rs0 * most, part.region.rs1 * most));
   }
-  return largest + dual_gain.current_A * std::min(std::max(v_low / dual_gain.voltage_V, 0.0), 1.0);
+  return largest +
+         dark_bound.current_A * std::min(std::max(v_low / dark_bound.voltage_V, 0.0), 1.0);
 }
 
 Eigen::ArrayXd RoughSlopes(const SolvedPart& part, double light_A, bool one_rs) {

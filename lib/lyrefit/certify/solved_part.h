@@ -33,14 +33,14 @@ struct SolvedPart {
 double Allowed(const SolvedPart& part, Eigen::Index k);
 
 // Upper bound of the sum of leak and diode currents of every competing mixture at one voltage.
-DualGain CompetitorDualGain(const SolvedPart& part);
+DarkCurrentBound CompetitorDarkCurrent(const SolvedPart& part);
 
 // True if no mixture with an Rs of `rs_lower` (ohm) or more competes. The proof is a pair of points
 // of which the one of larger junction voltage would have the larger current.
 bool NoneCompetes(const MixtureData& data, double rs_lower, double known);
 
 // Upper bound of the sum of the light terms of a competing mixture, in ampere.
-double LargestLight(const SolvedPart& part, const DualGain& dual_gain);
+double LargestLight(const SolvedPart& part, const DarkCurrentBound& dark_bound);
 
 // Upper bounds of the slopes of competing mixtures at each point (S), from the largest light alone.
 // They hold at every junction voltage between V + J' Rs and V + J Rs. With `one_rs` they hold at

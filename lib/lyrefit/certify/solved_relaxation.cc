@@ -15,8 +15,8 @@ constexpr int kMostSharpenings = 12;  // rounds that tighten the bounds of one p
 constexpr double kCoarse = 0.3;       // largest slope error e at which BoundNear() alone suffices
 constexpr double kNearby = 4;         // BoundNear() is used below this multiple of the best value
 
-double ComputeDualGain(const MixtureData& data, double rs, double known) {
-  return std::min(ComputeDualGain(data, rs, rs, known).current_A,
+double BoundDarkCurrent(const MixtureData& data, double rs, double known) {
+  return std::min(BoundDarkCurrent(data, rs, rs, known).current_A,
                   1e3 * data.target_A.cwiseAbs().maxCoeff());
 }
 
@@ -36,7 +36,7 @@ void SlopeEnds(const SolvedPart& work, std::vector<double>* below, std::vector<d
 }
 
 // Tightens the bounds of the slopes in rounds, as long as that helps to prove `target`.
-void Sharpen(const DualGain& dual_gain, double light_A, double target, SolvedPart* work) {
+void Sharpen(const DarkCurrentBound& dark_bound, double light_A, double target, SolvedPart* work) {
   std::vector<SlopeRange> slopes(static_cast<std::size_t>(work->error.size()));
   double radius = kInfinity, unsure = kInfinity;
   for (int round = 0; round < kMostSharpenings; ++round) {
@@ -48,7 +48,7 @@ void Sharpen(const DualGain& dual_gain, double light_A, double target, SolvedPar
       KnownValues from_duals = ValuesFromDuals(*work, slopes, radius);
       if (Spread(from_duals) < Spread(known)) known = std::move(from_duals);
     }
-    known.dual_gain = dual_gain;
+    known.dark_bound = dark_bound;
     known.largest_light_A = light_A;
     const double precision =
         std::min(1e-4, 0.3 * std::sqrt(1 - target / work->known)) / work->region.rs1;
@@ -83,25 +83,24 @@ void BoundNear(const SolvedMixture& fit, double tolerance, double target, Solved
     work->deviation_A[k] =
         Allowed(*work, k) + std::fabs(work->reference_A[k] - work->data.target_A[k]);
   }
-  const DualGain dual_gain = CompetitorDualGain(*work);
-  if (!std::isfinite(dual_gain.current_A)) return;
-  const double light = LargestLight(*work, dual_gain);
+  const DarkCurrentBound dark_bound = CompetitorDarkCurrent(*work);
+  if (!std::isfinite(dark_bound.current_A)) return;
+  const double light = LargestLight(*work, dark_bound);
   work->highest_slope_S = RoughSlopes(*work, light, false);
   work->error.resize(points);
   std::vector<SlopeRange> slopes;
   for (const double highest : work->highest_slope_S) slopes.push_back({0, highest});
   SetErrors(slopes, work);
-  const double solve_dual_gain =
-      std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
+  const double solve_dark_A = std::min(dark_bound.current_A, 1e3 * work->data.target_A.maxCoeff());
   work->left = SolveMixture(work->linear, work->windows, part.rs0, fit.mixture.atoms, tolerance,
-                            solve_dual_gain);
+                            solve_dark_A);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
-                                                   fit.mixture.atoms, tolerance, solve_dual_gain)
+                                                   fit.mixture.atoms, tolerance, solve_dark_A)
                                     : work->left;
-  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dual_gain,
+  work->bound = BoundPart(work->linear, work->windows, work->left, work->right, dark_bound,
                           LinearKnown(*work));
   work->loss = Loss(*work);
-  if (part.rs1 > 0) Sharpen(dual_gain, light, target, work);
+  if (part.rs1 > 0) Sharpen(dark_bound, light, target, work);
 }
 
 // Bounds a part by the measured-current problem. Each residual is divided by 1 + Rs times the
@@ -115,20 +114,19 @@ void BoundFar(double tolerance, SolvedPart* work) {
     work->deviation_A[k] = Allowed(*work, k);
   }
   work->loss = 0;
-  const DualGain dual_gain = CompetitorDualGain(*work);
-  if (!std::isfinite(dual_gain.current_A)) return;
-  const Eigen::ArrayXd slopes = RoughSlopes(*work, LargestLight(*work, dual_gain), true);
+  const DarkCurrentBound dark_bound = CompetitorDarkCurrent(*work);
+  if (!std::isfinite(dark_bound.current_A)) return;
+  const Eigen::ArrayXd slopes = RoughSlopes(*work, LargestLight(*work, dark_bound), true);
   work->linear = work->data;
   work->linear.weight =
       work->data.weight.array() / (1 + part.rs1 * slopes.min(1e12 / (part.rs1 + 1e-12)));
-  const double solve_dual_gain =
-      std::min(dual_gain.current_A, 1e3 * work->data.target_A.maxCoeff());
-  work->left = SolveMixture(work->linear, work->windows, part.rs0, {}, tolerance, solve_dual_gain);
+  const double solve_dark_A = std::min(dark_bound.current_A, 1e3 * work->data.target_A.maxCoeff());
+  work->left = SolveMixture(work->linear, work->windows, part.rs0, {}, tolerance, solve_dark_A);
   work->right = part.rs1 > part.rs0 ? SolveMixture(work->linear, work->windows, part.rs1,
-                                                   work->left.atoms, tolerance, solve_dual_gain)
+                                                   work->left.atoms, tolerance, solve_dark_A)
                                     : work->left;
   work->bound =
-      BoundPart(work->linear, work->windows, work->left, work->right, dual_gain, work->known);
+      BoundPart(work->linear, work->windows, work->left, work->right, dark_bound, work->known);
 }
 
 SolvedPart Begin(const MixtureData& data, const BranchPart& part, double known) {
@@ -174,7 +172,7 @@ SolvedMixture SolveSolvedMixture(const MixtureData& data, const std::vector<Wind
     const MixtureData linear = Linearise(data, rs, reference, slope);
     Mixture mixture =
         SolveMixture(linear, windows, rs, atoms, tolerance,
-                     ComputeDualGain(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
+                     BoundDarkCurrent(linear, rs, 0.5 * linear.WeightedTarget().squaredNorm()));
     ++best.steps;
     const MixtureLaw law(data, mixture);
     reference = SolvedCurrents(data, mixture);

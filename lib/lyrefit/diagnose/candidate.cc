@@ -50,17 +50,17 @@ struct Raw {
 };
 
 std::vector<Raw> RawSignatures(const WeightedData& weighted, const Effect& effect,
-                               const Signature& signature) {
+                               const FitSignatures& known) {
   std::vector<Raw> raw;
   if (effect.found_by == FoundBy::kWaves) {
     for (Eigen::VectorXd& wave : Waves(weighted)) raw.push_back({std::move(wave), -1});
     return raw;
   }
-  const auto moved = signature.moved.find(&effect);
-  if (moved == signature.moved.end()) return raw;
-  const Eigen::MatrixXd signatures = WhitenColumns(weighted, moved->second);
-  for (int k = 0; k < signatures.cols(); ++k) {
-    const auto signature = signatures.col(k);
+  const auto moved = known.moved.find(&effect);
+  if (moved == known.moved.end()) return raw;
+  const Eigen::MatrixXd whitened = WhitenColumns(weighted, moved->second);
+  for (int k = 0; k < whitened.cols(); ++k) {
+    const auto signature = whitened.col(k);
     if (signature.allFinite() && signature.norm() > 0) raw.push_back({signature, k});
   }
   return raw;
@@ -91,14 +91,14 @@ Eigen::MatrixXd Move(const Readings& readings, const LawFit& fit, const Effect& 
 }
 
 bool Serves(const WeightedData& weighted, const LawFit& fit,
-            const std::vector<const Effect*>& effects, const Signature& signature) {
-  if (signature.fit.law.effects != fit.law.effects) return false;
+            const std::vector<const Effect*>& effects, const FitSignatures& known) {
+  if (known.fit.law.effects != fit.law.effects) return false;
   for (const Effect* effect : effects) {
-    if (effect->probes != nullptr && signature.moved.count(effect) == 0) return false;
+    if (effect->probes != nullptr && known.moved.count(effect) == 0) return false;
   }
   const int count = static_cast<int>(fit.current.size());
   const Eigen::Map<const Eigen::VectorXd> here(fit.current.data(), count),
-      there(signature.fit.current.data(), count);
+      there(known.fit.current.data(), count);
   return Whiten(weighted, here - there).squaredNorm() < weighted.count();
 }
 
@@ -112,12 +112,12 @@ double Headroom(const Effect& effect, const Probe& probe) {
 }
 
 Score ScoreProbes(const WeightedData& weighted, const Linearized& linear, const Effect& effect,
-                  const Signature& signature) {
+                  const FitSignatures& known) {
   Score score;
   const bool two_sided = IsTwoSided(effect);
   const std::vector<Probe> probes =
       effect.probes != nullptr ? effect.probes(weighted.readings->traits) : std::vector<Probe>();
-  for (const Raw& raw : RawSignatures(weighted, effect, signature)) {
+  for (const Raw& raw : RawSignatures(weighted, effect, known)) {
     Eigen::VectorXd rest = raw.signature;
     TakeOut(linear.basis, &rest);
     Direction direction;
@@ -171,26 +171,26 @@ double Statistic(double score, double sum, int degrees, double least_variance) {
 
 }  // namespace
 
-std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
-                                               const std::vector<const Effect*>& effects,
-                                               Signatures* known) {
-  for (const auto& signature : *known) {
-    if (Serves(weighted, fit, effects, *signature)) return signature;
+std::shared_ptr<const FitSignatures> FindSignatures(const WeightedData& weighted, const LawFit& fit,
+                                                    const std::vector<const Effect*>& effects,
+                                                    Signatures* known) {
+  for (const auto& one : *known) {
+    if (Serves(weighted, fit, effects, *one)) return one;
   }
-  auto signature = std::make_shared<Signature>();
-  signature->fit = fit;
+  auto own = std::make_shared<FitSignatures>();
+  own->fit = fit;
   for (const Effect* effect : effects) {
     if (weighted.progress.Stopped()) break;
     if (effect->probes == nullptr) continue;
-    signature->moved.emplace(effect, Move(*weighted.readings, fit, *effect));
+    own->moved.emplace(effect, Move(*weighted.readings, fit, *effect));
   }
-  known->push_back(signature);
-  return signature;
+  known->push_back(own);
+  return own;
 }
 
 std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
                                 const std::vector<const Effect*>& effects, Signatures* known) {
-  const std::shared_ptr<const Signature> signature = FindSignature(weighted, fit, effects, known);
+  const auto signatures = FindSignatures(weighted, fit, effects, known);
   const Linearized linear = Linearize(weighted, fit);
   const int degrees = weighted.count() - static_cast<int>(linear.basis.cols());
   const double sum = linear.residual.squaredNorm();
@@ -199,7 +199,7 @@ std::vector<Score> ScoreEffects(const WeightedData& weighted, const LawFit& fit,
     if (weighted.progress.Stopped()) break;
     const bool single = effect->found_by == FoundBy::kSingleReading;
     Score score = single ? ScoreSingleReadings(weighted, linear)
-                         : ScoreProbes(weighted, linear, *effect, *signature);
+                         : ScoreProbes(weighted, linear, *effect, *signatures);
     score.effect = effect;
     if (degrees < 3) score.testable = false;
     if (score.testable) {

@@ -32,18 +32,18 @@ struct Score {
 
 // Changes of a fitted law's currents by the probes of effects, not whitened. Each matrix has one
 // column per probe, 0 where the law cannot be evaluated. Fits of the same effects whose currents
-// differ by less than the noise share a signature.
-struct Signature {
+// differ by less than the noise share them.
+struct FitSignatures {
   LawFit fit;
   std::map<const Effect*, Eigen::MatrixXd> moved;
 };
-using Signatures = std::vector<std::shared_ptr<const Signature>>;
+using Signatures = std::vector<std::shared_ptr<const FitSignatures>>;
 
-// Returns a signature of `known` that applies to this fit and holds all of `effects`. If there is
-// none, computes one and appends it to `known`.
-std::shared_ptr<const Signature> FindSignature(const WeightedData& weighted, const LawFit& fit,
-                                               const std::vector<const Effect*>& effects,
-                                               Signatures* known);
+// Returns those of `known` that apply to this fit and hold all of `effects`. If there are none,
+// computes them and appends them to `known`.
+std::shared_ptr<const FitSignatures> FindSignatures(const WeightedData& weighted, const LawFit& fit,
+                                                    const std::vector<const Effect*>& effects,
+                                                    Signatures* known);
 
 // Scores every effect of `effects` on the residuals of `fit`, by its probes, by smooth waves along
 // each monotone stretch, or by single readings.

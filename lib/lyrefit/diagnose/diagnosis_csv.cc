@@ -53,9 +53,9 @@ std::string CausesCsv(const std::vector<std::string>& names,
   return csv;
 }
 
-std::string OutlierSweepsCsv(const OutlierSweeps& outlier) {
+std::string OutlierSweepsCsv(const OutlierSweeps& outliers) {
   std::string csv = "sweep,differs,p_value,cause,size,low_95,high_95,unit,power,sentence\n";
-  for (const ReferenceComparison& sweep : outlier.sweeps) {
+  for (const ReferenceComparison& sweep : outliers.sweeps) {
     const ReferenceCause none{"", "", kUnknown, kUnknown, kUnknown, "", kUnknown, 0};
     const ReferenceCause& cause = sweep.causes.empty() ? none : sweep.causes.front();
     csv += CsvLine({CsvField(sweep.name), YesNo(sweep.differs), CsvField(sweep.p_value),

@@ -32,9 +32,9 @@ std::string BriefReference(const ReferenceComparison& comparison);
 
 // Outliers among the sweeps of a module: each outlier with its table, the others as a count. The
 // brief text has one line for each outlier and a last line with the count.
-Document OutlierSweepsDocument(const OutlierSweeps& outlier);
-std::string OutlierSweepsText(const OutlierSweeps& outlier);
-std::string BriefOutlierSweeps(const OutlierSweeps& outlier);
+Document OutlierSweepsDocument(const OutlierSweeps& outliers);
+std::string OutlierSweepsText(const OutlierSweeps& outliers);
+std::string BriefOutlierSweeps(const OutlierSweeps& outliers);
 
 // A diagnosis, which refers to points by index into `points`. Several diagnoses form an array.
 std::string DiagnosisJson(const Diagnosis& diagnosis);
@@ -47,7 +47,7 @@ std::string AnswersJson(const std::vector<std::string>& names,
 
 // The comparison and the diagnosis of its remainder.
 std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis& diagnosis);
-std::string OutlierSweepsJson(const OutlierSweeps& outlier);
+std::string OutlierSweepsJson(const OutlierSweeps& outliers);
 
 // One row for each cause, with those below the floor after the named ones. A measurement without a
 // cause has one row with its name and the verdict only.
@@ -55,7 +55,7 @@ std::string CausesCsv(const std::vector<std::string>& names,
                       const std::vector<Diagnosis>& diagnoses);
 
 // One row for each sweep, the strongest outlier first.
-std::string OutlierSweepsCsv(const OutlierSweeps& outlier);
+std::string OutlierSweepsCsv(const OutlierSweeps& outliers);
 
 // A diagnosis, coloured by curve, or by direction if one curve was swept both ways. Above: measured
 // points, base model and the model with causes. Below: the residuals of both in % of Isc. A band in

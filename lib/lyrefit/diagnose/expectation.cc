@@ -168,7 +168,7 @@ Expectation Expect(const std::vector<const SweepState*>& references, const Sweep
   const std::vector<char> keep = KeepUsual(RowsOf(e, near));
   std::vector<const SweepState*> kept;
   for (std::size_t i = 0; i < near.size(); ++i) {
-    (keep[i] != 0 ? e.used : e.outlier).push_back(nearest[i]);
+    (keep[i] != 0 ? e.used : e.outliers).push_back(nearest[i]);
     if (keep[i] != 0) kept.push_back(near[i]);
   }
   e.regressors = RegressorsFor(kept.size());

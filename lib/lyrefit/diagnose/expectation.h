@@ -27,7 +27,7 @@ constexpr int kFewestReferences = 4;
 // Prediction for a reference sweep at the Isc and Voc of the given sweep.
 struct Expectation {
   std::vector<int> used;        // positions among the references
-  std::vector<int> outlier;     // left out: outliers among the references
+  std::vector<int> outliers;    // left out: outliers among the references
   int regressors = 1;           // 1, ln Isc, Voc: more with more references
   Eigen::VectorXd centre;       // ln Isc and Voc of the sweep
   Eigen::MatrixXd slopes;       // regressors x kQuantities

@@ -118,7 +118,7 @@ IvCurve AllPoints(const CurveSet& set) {
 }
 
 // Inserts alpha and the band gap into the report if the law keeps them fixed.
-void AddHeld(const Selection& selection, FitReport* report) {
+void AddFixed(const Selection& selection, FitReport* report) {
   const Law& law = selection.extended.law;
   const Readings& readings = *selection.weighted.readings;
   const auto insert = [&](int at, ParameterInfo info, double value) {
@@ -190,7 +190,7 @@ void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& 
                     : ExtendSet(base, law, AsRead(set, readings), readings.reference_temperature_K,
                                 uses, /*force=*/true);
   if (!device) return;
-  if (!one) AddHeld(selection, report);
+  if (!one) AddFixed(selection, report);
   report->device = std::move(*device);
   report->refined = Internal(report->device, report->refined);
   report->searched = Internal(report->device, report->searched);

@@ -61,7 +61,7 @@ const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
 const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
 
 // Sum of squares plus the penalty for freed parameters.
-double Paid(const WeightedData& weighted, const LawFit& fit) {
+double Penalised(const WeightedData& weighted, const LawFit& fit) {
   return fit.sum + FreedomOf(weighted, fit.law) * NoiseVariance(weighted, fit);
 }
 
@@ -128,14 +128,14 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     const WeightedData& data = stage.problem == kEqualWeights ? alike : weighted;
     const bool last = stage.steps == rules.last.steps;
     LeastSquaresOptions how = UpTo(stage.steps, 1e-5);
-    if (last && best->usable) how.cutoff = Paid(weighted, *best);
+    if (last && best->usable) how.cutoff = Penalised(weighted, *best);
     LawFit end = FitLaw(data, at->fit.law, at->fit.p, how);
     at->value = HUGE_VAL;
     if (!end.usable) return;
-    at->value = Paid(data, end);
+    at->value = Penalised(data, end);
     at->fit = std::move(end);
     if (!last || !IsItself(effect, at->fit, readings.traits)) return;
-    if (!best->usable || at->value < Paid(weighted, *best)) *best = at->fit;
+    if (!best->usable || at->value < Penalised(weighted, *best)) *best = at->fit;
   };
   Multistart<ShapeEnd> run;
   RunMultistart(rules, std::move(starts), refine, NeverSame, &run);

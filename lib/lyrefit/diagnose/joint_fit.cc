@@ -89,9 +89,9 @@ bool EvaluateCurve(const Joint& joint, const PlannedCurve& curve, int first, con
   std::vector<double> moved(count);
   for (const int u : {curve.light, curve.temperature, curve.drop}) {
     if (u < 0) continue;
-    std::vector<double> follow_up = unknown;
-    follow_up[u] += kStep;
-    if (!Currents(own, Under(curve, InUnits(follow_up, joint.unknown)), moved.data())) return false;
+    std::vector<double> shifted = unknown;
+    shifted[u] += kStep;
+    if (!Currents(own, Under(curve, InUnits(shifted, joint.unknown)), moved.data())) return false;
     for (int k = 0; k < count; ++k) (*rows)(first + k, size + u) = (moved[k] - current[k]) / kStep;
   }
   return true;

@@ -225,11 +225,11 @@ std::string ReferenceJson(const ReferenceComparison& comparison, const Diagnosis
       {{"lyrefit_version", Version()}, {"comparison", comparison}, {"diagnosis", diagnosis}});
 }
 
-std::string OutlierSweepsJson(const OutlierSweeps& outlier) {
+std::string OutlierSweepsJson(const OutlierSweeps& outliers) {
   return Dump({{"lyrefit_version", Version()},
-               {"outliers", outlier.outlier},
-               {"sweeps", outlier.sweeps},
-               {"rejected", outlier.rejected}});
+               {"outliers", outliers.outlier},
+               {"sweeps", outliers.sweeps},
+               {"rejected", outliers.rejected}});
 }
 
 }  // namespace lyrefit

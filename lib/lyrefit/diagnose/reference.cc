@@ -80,12 +80,12 @@ std::string SentenceOf(const ReferenceComparison& c, bool light, const std::stri
 void NameSweeps(const std::vector<const SweepState*>& references, const Expectation& e,
                 ReferenceComparison* result) {
   for (const int i : e.used) result->references.push_back(references[i]->name);
-  for (const int i : e.outlier) {
+  for (const int i : e.outliers) {
     result->left_out.push_back(references[i]->name + ": unlike the other reference sweeps");
   }
   static const char* const kRegressors[] = {"Isc", "Voc"};
   for (int k = 1; k < e.regressors; ++k) result->regressed_on.push_back(kRegressors[k - 1]);
-  const std::size_t far = references.size() - e.used.size() - e.outlier.size();
+  const std::size_t far = references.size() - e.used.size() - e.outliers.size();
   if (far > 0) {
     result->left_out.push_back(fmt::format("{} more: the nearest in Isc and Voc were taken", far));
   }

@@ -103,39 +103,39 @@ std::string ReferenceText(const ReferenceComparison& comparison) {
   return DrawText(ReferenceDocument(comparison));
 }
 
-Document OutlierSweepsDocument(const OutlierSweeps& outlier) {
+Document OutlierSweepsDocument(const OutlierSweeps& outliers) {
   Document document;
   document.head.heading =
       fmt::format("lyrefit {}: the sweeps of one module against each other", Version());
   AddField("compared",
            fmt::format("{}, each with the nearest of the others in Isc and Voc; p-values count "
                        "them all",
-                       Plural(outlier.sweeps.size(), "sweep")),
+                       Plural(outliers.sweeps.size(), "sweep")),
            &document.head);
-  AddField("outliers", outlier.outlier == 0 ? "none" : std::to_string(outlier.outlier),
+  AddField("outliers", outliers.outlier == 0 ? "none" : std::to_string(outliers.outlier),
            &document.head);
-  for (const ReferenceComparison& sweep : outlier.sweeps) {
+  for (const ReferenceComparison& sweep : outliers.sweeps) {
     if (sweep.differs) AddSweep(sweep, sweep.name, &document);
   }
-  AddSections({ListSection("Not compared", outlier.rejected)}, &document);
+  AddSections({ListSection("Not compared", outliers.rejected)}, &document);
   return document;
 }
 
-std::string OutlierSweepsText(const OutlierSweeps& outlier) {
-  return DrawText(OutlierSweepsDocument(outlier));
+std::string OutlierSweepsText(const OutlierSweeps& outliers) {
+  return DrawText(OutlierSweepsDocument(outliers));
 }
 
 std::string BriefReference(const ReferenceComparison& comparison) {
   return comparison.name + ": " + comparison.sentence + "\n";
 }
 
-std::string BriefOutlierSweeps(const OutlierSweeps& outlier) {
+std::string BriefOutlierSweeps(const OutlierSweeps& outliers) {
   std::string text;
-  for (const ReferenceComparison& sweep : outlier.sweeps) {
+  for (const ReferenceComparison& sweep : outliers.sweeps) {
     if (sweep.differs) text += BriefReference(sweep);
   }
-  return text + fmt::format("outliers: {} of {}\n", outlier.outlier,
-                            Plural(outlier.sweeps.size(), "sweep"));
+  return text + fmt::format("outliers: {} of {}\n", outliers.outlier,
+                            Plural(outliers.sweeps.size(), "sweep"));
 }
 
 }  // namespace lyrefit

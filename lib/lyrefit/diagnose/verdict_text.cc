@@ -15,7 +15,7 @@ namespace {
 
 // Range of the lack of fit of a single diode on sweeps of modules without a fault, in fractions of
 // Isc.
-constexpr double kLeastReferences = 5e-4, kMostHealthy = 2e-3;
+constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
 
 std::string OfIsc(double part) {
   if (part < 5e-5) return "below 0.01 % of Isc";
@@ -24,12 +24,12 @@ std::string OfIsc(double part) {
 
 // "0.05 to 0.20 %"
 std::string Usual() {
-  return fmt::format("{:.2f} to {:.2f} %", 100 * kLeastReferences, 100 * kMostHealthy);
+  return fmt::format("{:.2f} to {:.2f} %", 100 * kLeastHealthy, 100 * kMostHealthy);
 }
 
 // "0.12 % of Isc, as healthy modules do (0.05 to 0.20 %)". `noise`: of the readings, in Isc.
 std::string DepartureText(double lack_of_fit, double noise, const Floors& floors) {
-  if (lack_of_fit < kLeastReferences) {
+  if (lack_of_fit < kLeastHealthy) {
     const std::string size =
         noise > kMostHealthy ? fmt::format(" of {:.1f} % of Isc", 100 * noise) : "";
     return OfIsc(lack_of_fit) + " beyond their noise" + size;

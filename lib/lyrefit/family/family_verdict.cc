@@ -26,8 +26,8 @@ std::string FamilyVerdict(const FamilyReport& report) {
   if (!report.usable) return "Not to be used: the fit came to no device that could be one.";
   const TranslationSpec& spec = report.translation.spec;
   const double rmse_A = report.rmse.refined.solved_current_A;
-  std::size_t outlier = 0;
-  for (const FamilyCurve& curve : report.curves) outlier += curve.outlier ? 1 : 0;
+  std::size_t outliers = 0;
+  for (const FamilyCurve& curve : report.curves) outliers += curve.outlier ? 1 : 0;
   std::string text =
       OneByOne(report)
           ? fmt::format("Every curve has a {} model of its own", ModelTitle(spec.model))
@@ -37,9 +37,9 @@ std::string FamilyVerdict(const FamilyReport& report) {
               ? KeyPointWords(*report.key_points)
               : fmt::format(": solved-current RMSE {} A{}", Scientific(rmse_A, 3),
                             PartOfIsc(rmse_A, report.reference.short_circuit_current_A));
-  if (outlier > 0) {
-    text += fmt::format("; {} look{} like another device", Plural(outlier, "curve"),
-                        outlier == 1 ? "s" : "");
+  if (outliers > 0) {
+    text += fmt::format("; {} look{} like another device", Plural(outliers, "curve"),
+                        outliers == 1 ? "s" : "");
   }
   return FullSentence(text);
 }

@@ -78,16 +78,16 @@ std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& 
     point = RefineJointly(robust, point, quick).point;
     median = measure(point);
   }
-  std::vector<int> outlier;
+  std::vector<int> outliers;
   for (int c = 0; c < curves; ++c) {
     const double limit = std::max(kOutlier * median, visible);
     const double noise = std::max(median, 1e-9 * problem.current_scale_A);
     const bool far = rmse[c] > limit;
-    if (far && !ReadingsExplain(problem, point, c, noise, limit, stop)) outlier.push_back(c);
+    if (far && !ReadingsExplain(problem, point, c, noise, limit, stop)) outliers.push_back(c);
   }
   // Outliers cannot be more than a third of the curves.
-  if (3 * static_cast<int>(outlier.size()) > curves) outlier.clear();
-  return outlier;
+  if (3 * static_cast<int>(outliers.size()) > curves) outliers.clear();
+  return outliers;
 }
 
 }  // namespace lyrefit

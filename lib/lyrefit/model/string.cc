@@ -367,10 +367,10 @@ StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>&
     if (give_up == GiveUp::kSlow) hopeless = !done;
     if (give_up == GiveUp::kAbsurd) hopeless = IsAbsurd(cell, terms) & (!done);
     if (Any(hopeless)) break;
-    StringState settled;
-    StartString(cell, limits, voltage, 0.0, &settled);
-    SolveByBrackets(context, cell, limits, voltage, &settled);
-    Take(cell, !done, settled, state);
+    StringState bracketed;
+    StartString(cell, limits, voltage, 0.0, &bracketed);
+    SolveByBrackets(context, cell, limits, voltage, &bracketed);
+    Take(cell, !done, bracketed, state);
   }
   StringRoot root;
   for (int g = 0; g < cell.groups; ++g) root.group[g] = terms.group[g];

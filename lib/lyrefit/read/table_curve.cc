@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string EffectsOf(const fs::path& path) { return LowerCase(path.extension().string()); }
+std::string ExtensionOf(const fs::path& path) { return LowerCase(path.extension().string()); }
 
 }  // namespace
 
@@ -38,10 +38,10 @@ bool IsFolder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-bool IsJson(const fs::path& path) { return EffectsOf(path) == ".json"; }
+bool IsJson(const fs::path& path) { return ExtensionOf(path) == ".json"; }
 
 bool IsTable(const fs::path& path) {
-  const std::string extension = EffectsOf(path);
+  const std::string extension = ExtensionOf(path);
   constexpr const char* kEndings[] = {".csv", ".tsv", ".txt", ".dat", ".asc",
                                       ".dta", ".mpt", ".lvm", ".prn"};
   return std::find(std::begin(kEndings), std::end(kEndings), extension) != std::end(kEndings);

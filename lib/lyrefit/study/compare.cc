@@ -144,14 +144,14 @@ class Study {
       const RunPlace& at = run->place;
       if (at.run >= options_.runs) continue;  // the journal has more runs than requested
       if (at.problem < 0 || at.problem >= static_cast<int>(problems_.size()) || at.run < 0 ||
-          at.compared < 0 || at.compared >= static_cast<int>(algorithms_.size())) {
+          at.algorithm < 0 || at.algorithm >= static_cast<int>(algorithms_.size())) {
         return Fail("this record is of no run of the study", journal_->path(), record.line);
       }
       std::optional<RunOutcome>& slot = SlotOf(at);
       if (slot) continue;
       slot = std::move(run->outcome);
       ++taken_up_;
-      progress_.Count(WorkOf(*problems_[at.problem], algorithms_[at.compared]));
+      progress_.Count(WorkOf(*problems_[at.problem], algorithms_[at.algorithm]));
     }
     return {};
   }
@@ -185,7 +185,7 @@ class Study {
   int jobs() const { return static_cast<int>(problems_.size()) * runs_per_problem_; }
 
   std::optional<RunOutcome>& SlotOf(const RunPlace& at) {
-    return problems_[at.problem]->outcomes[at.compared * options_.runs + at.run];
+    return problems_[at.problem]->outcomes[at.algorithm * options_.runs + at.run];
   }
 
   // The order of jobs is run by run. All algorithms of an interrupted study then have about the
@@ -206,13 +206,13 @@ class Study {
     if (!slot) return;
     const std::int64_t evaluations = slot->record.evaluations;
     if (--problem->left == 0) SumUp(at.problem);
-    if (!taken_up) progress_.Step(WorkOf(*problem, algorithms_[at.compared]), evaluations);
+    if (!taken_up) progress_.Step(WorkOf(*problem, algorithms_[at.algorithm]), evaluations);
   }
 
   // Empty if the observer stopped the run, or if it failed: a search of the user's may return what is no point of
   // the bounds, which Try() cannot foresee.
   std::optional<RunOutcome> FitOnce(const Problem& problem, const RunPlace& at, int job) {
-    const ComparedAlgorithm& compared = algorithms_[at.compared];
+    const ComparedAlgorithm& compared = algorithms_[at.algorithm];
     auto done = RunOnce(problem.subject, problem.result, options_, compared, at.run,
                         progress_.stop().AsObserver());
     if (!done) {

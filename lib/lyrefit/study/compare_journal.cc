@@ -121,7 +121,7 @@ JournalLine WriteRun(const RunPlace& place, const ProblemResult& problem,
   JournalLine line = {{"problem", place.problem},
                       {"curve", problem.curve_name},
                       {"model", ToText(problem.model)},
-                      {"compared", place.compared},
+                      {"compared", place.algorithm},
                       {"algorithm", compared.name},
                       {"run", place.run},
                       {"seed", options.seed},
@@ -148,7 +148,7 @@ Expected<WrittenRun> ReadRun(const Journal& journal, const Journal::Record& reco
   RecordReader read(journal, record);
   WrittenRun run;
   run.place.problem = static_cast<int>(read.Whole("problem"));
-  run.place.compared = static_cast<int>(read.Whole("compared"));
+  run.place.algorithm = static_cast<int>(read.Whole("compared"));
   run.place.run = static_cast<int>(read.Whole("run"));
   RunRecord& r = run.outcome.record;
   r.run = run.place.run;

@@ -18,7 +18,7 @@ JournalLine CompareHead(const std::vector<CompareCurve>& curves,
 // The position of a run in its comparison.
 struct RunPlace {
   int problem = 0;  // curves in the given order, each with all models
-  int compared = 0;
+  int algorithm = 0;
   int run = 0;
 };
 

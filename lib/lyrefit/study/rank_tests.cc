@@ -50,9 +50,10 @@ DoubledRanks RankDoubled(const std::vector<double>& values) {
 void CheckBlocks(const std::vector<std::vector<double>>& values) {
   CHECK_GE(values.size(), 2U) << "ranks need two algorithms";
   CHECK(!values[0].empty()) << "ranks need a block";
-  for (const std::vector<double>& compared : values) {
-    CHECK_EQ(compared.size(), values[0].size()) << "every compared needs a value in every block";
-    for (const double value : compared) CHECK(std::isfinite(value));
+  for (const std::vector<double>& of_algorithm : values) {
+    CHECK_EQ(of_algorithm.size(), values[0].size())
+        << "every algorithm needs a value in every block";
+    for (const double value : of_algorithm) CHECK(std::isfinite(value));
   }
 }
 
@@ -60,7 +61,7 @@ void CheckBlocks(const std::vector<std::vector<double>>& values) {
 DoubledRanks RankBlock(const std::vector<std::vector<double>>& values, std::size_t b) {
   std::vector<double> block;
   block.reserve(values.size());
-  for (const std::vector<double>& compared : values) block.push_back(compared[b]);
+  for (const std::vector<double>& of_algorithm : values) block.push_back(of_algorithm[b]);
   return RankDoubled(block);
 }
 

@@ -88,8 +88,8 @@ std::vector<MedianPoint> MedianCourse(const std::vector<RunOutcome>& outcomes, i
 
 BestFound BestOf(const std::vector<std::vector<RunOutcome>>& outcomes) {
   BestFound best{kInfinity, {}};
-  for (const std::vector<RunOutcome>& compared : outcomes) {
-    for (const RunOutcome& outcome : compared) {
+  for (const std::vector<RunOutcome>& of_algorithm : outcomes) {
+    for (const RunOutcome& outcome : of_algorithm) {
       const RunRecord& run = outcome.record;
       for (const double rmse :
            {run.polished_A, run.own_polished_A, run.plain_polished_A, run.searched_A}) {
@@ -128,8 +128,8 @@ RunSpread SpreadOf(std::vector<double> values, double reference) {
 Ranking RankAll(std::vector<std::vector<double>> values) {
   Ranking ranking;
   if (values.size() < 2 || values[0].size() < 2) return ranking;
-  for (std::vector<double>& compared : values) {
-    for (double& value : compared) {
+  for (std::vector<double>& of_algorithm : values) {
+    for (double& value : of_algorithm) {
       value = std::min(value, std::numeric_limits<double>::max());
     }
   }
@@ -150,12 +150,12 @@ Ranking RankAll(std::vector<std::vector<double>> values) {
 
 Ranking RankJoined(const std::vector<std::vector<double>>& values) {
   std::vector<double> all;
-  for (const auto& compared : values) all.insert(all.end(), compared.begin(), compared.end());
+  for (const auto& one : values) all.insert(all.end(), one.begin(), one.end());
   all = JoinEqual(std::move(all), kEqual);
   std::vector<std::vector<double>> joined;
   auto next = all.begin();
-  for (const auto& compared : values) {
-    const auto end = next + static_cast<std::ptrdiff_t>(compared.size());
+  for (const auto& one : values) {
+    const auto end = next + static_cast<std::ptrdiff_t>(one.size());
     joined.emplace_back(next, end);
     next = end;
   }

@@ -96,7 +96,7 @@ SearchVerdict JudgeProblem(const ProblemSummary& summary) {
   if (verdict.search) verdict.best.reset();
   const std::optional<Configuration>& winner = verdict.search ? verdict.search : verdict.best;
   verdict.random = random_enough ? random_enough : random_best;
-  const bool wins = winner && winner->compared->algorithm == ToText(Algorithm::kRandom);
+  const bool wins = winner && winner->algorithm->algorithm == ToText(Algorithm::kRandom);
   if (wins) verdict.random.reset();
   return verdict;
 }

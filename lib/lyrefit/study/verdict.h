@@ -14,10 +14,10 @@ int EnoughHits(int runs);
 
 // A way to solve a problem: an algorithm and a level of polish.
 struct Configuration {
-  const AlgorithmSummary* compared = nullptr;  // the algorithm
+  const AlgorithmSummary* algorithm = nullptr;
   PolishLevel level = PolishLevel::kSearch;
   // Results of the algorithm at the level.
-  const LevelSummary& figures() const { return *compared->At(level); }
+  const LevelSummary& figures() const { return *algorithm->At(level); }
   // True if enough of its runs hit.
   bool IsEnough() const { return figures().hits >= EnoughHits(figures().runs); }
 };

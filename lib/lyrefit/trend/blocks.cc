@@ -118,7 +118,7 @@ double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
   if (what < kTrendParameters) return row.parameters[what];
   if (row.lost_substrings > 0) return kUnknown;
   const double expected_A = blocks.device->Photocurrent(row.irradiance_W_m2, row.temperature_C);
-  const TrendState state = StateOf(*blocks.device, row.parameters, expected_A, row.temperature_C);
+  const DeviceState state = StateOf(*blocks.device, row.parameters, expected_A, row.temperature_C);
   return std::log(MaximumPowerPoint(*blocks.device, state, row.temperature_C).power_W() /
                   row.power_W());
 }
@@ -185,8 +185,8 @@ void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
   if (row->state == TrendRowState::kStepped) {
     after[kTrendLight] = std::log(row->isc_A / expected_A);
   }
-  const TrendState reference = StateOf(device, before, expected_A, row->temperature_C);
-  const TrendState now = StateOf(device, after, expected_A, row->temperature_C);
+  const DeviceState reference = StateOf(device, before, expected_A, row->temperature_C);
+  const DeviceState now = StateOf(device, after, expected_A, row->temperature_C);
   const double scale = std::exp(
       -(blocks.reference[kModelExcess] + Departure(blocks.departures[kModelExcess], features)));
   row->expected_W = scale * MaximumPowerPoint(device, reference, row->temperature_C).power_W();

@@ -111,7 +111,7 @@ double PowerAt(const TrendBlocks& blocks, double lost_V) {
   std::copy_n(blocks.reference.begin(), parameters.size(), parameters.begin());
   parameters[kTrendLight] = PlainLight(blocks);
   parameters[kTrendVoltage] -= lost_V;
-  const TrendState state =
+  const DeviceState state =
       StateOf(*blocks.device, parameters, blocks.device->photocurrent_A, kReferenceTemperature_C);
   return MaximumPowerPoint(*blocks.device, state, kReferenceTemperature_C).power_W();
 }

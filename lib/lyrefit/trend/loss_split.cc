@@ -6,9 +6,9 @@ namespace {
 constexpr int kExchanged = kPartMismatch;  // parts before it
 
 // `before` with the parts of the set taken from `after`.
-TrendState Mixed(const TrendState& before, const TrendState& after, int set) {
+DeviceState Mixed(const DeviceState& before, const DeviceState& after, int set) {
   const auto has = [set](int part) { return (set >> part & 1) != 0; };
-  TrendState state = before;
+  DeviceState state = before;
   if (has(kPartLight)) state.photocurrent_A = after.photocurrent_A;
   if (has(kPartSeries)) state.resistance_series_ohm = after.resistance_series_ohm;
   if (has(kPartRecombination)) {
@@ -21,8 +21,8 @@ TrendState Mixed(const TrendState& before, const TrendState& after, int set) {
 
 }  // namespace
 
-std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const TrendState& before,
-                                          const TrendState& after, double temperature_C) {
+std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const DeviceState& before,
+                                          const DeviceState& after, double temperature_C) {
   constexpr int kSets = 1 << kExchanged;
   // Weight of a set of this size in the mean over all orders of four: s! (3 - s)! / 4!.
   constexpr std::array<double, kExchanged> kWeight = {1.0 / 4, 1.0 / 12, 1.0 / 12, 1.0 / 4};

@@ -11,7 +11,7 @@ namespace lyrefit {
 // series resistance, recombination and shunt: Shapley's value, the mean over all orders in which
 // they may be exchanged (Shapley 1953, "A value for n-person games"). The shares, by TrendPart, add
 // up to the difference; that of mismatch is 0.
-std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const TrendState& before,
-                                          const TrendState& after, double temperature_C);
+std::array<double, kTrendParts> SplitLoss(const TrendDevice& device, const DeviceState& before,
+                                          const DeviceState& after, double temperature_C);
 
 }  // namespace lyrefit

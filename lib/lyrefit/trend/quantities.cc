@@ -176,7 +176,8 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
 }
 
 // Adds coefficients between days to those within days.
-void Condition(int what, const std::array<double, kBetweenDays>& between, TrendBlocks* blocks) {
+void AddBetweenDays(int what, const std::array<double, kBetweenDays>& between,
+                    TrendBlocks* blocks) {
   Features reference{};
   for (std::size_t b = 0; b < blocks->size(); ++b) {
     if (!blocks->IsReference(b)) continue;
@@ -264,7 +265,7 @@ void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendRepor
     const double scale = kind.value(*blocks, blocks->reference[kind.followed] + 0.5) -
                          kind.value(*blocks, blocks->reference[kind.followed] - 0.5);
     for (double& one : between[i]) one /= scale;
-    Condition(kind.followed, between[i], blocks);
+    AddBetweenDays(kind.followed, between[i], blocks);
   }
   RateBeforeShunt(*blocks, options, report);
   report->reference_power_W = PowerAt(*blocks, 0) * std::exp(-blocks->reference[kModelExcess]);

@@ -124,9 +124,9 @@ double TrendDevice::OpenCircuit(double photocurrent, double temperature_C) const
   return 2 * ThermalVoltage(temperature_C) * std::log(half);
 }
 
-TrendState StateOf(const TrendDevice& device,
-                   const std::array<double, kTrendParameters>& parameters, double expected_A,
-                   double temperature_C) {
+DeviceState StateOf(const TrendDevice& device,
+                    const std::array<double, kTrendParameters>& parameters, double expected_A,
+                    double temperature_C) {
   const double voc = device.OpenCircuit(expected_A, temperature_C) + parameters[kTrendVoltage];
   const double half = std::exp(-0.5 * voc / device.ThermalVoltage(temperature_C));
   const double second = std::min(parameters[kTrendSecond], 1.0);
@@ -135,7 +135,7 @@ TrendState StateOf(const TrendDevice& device,
           std::max(parameters[kTrendShunt], 0.0)};
 }
 
-TrendPoint MaximumPowerPoint(const TrendDevice& device, const TrendState& state,
+TrendPoint MaximumPowerPoint(const TrendDevice& device, const DeviceState& state,
                              double temperature_C) {
   // P = I (Vd - I Rs), where I is a function of the junction voltage Vd alone. Newton's method on
   // dP/dVd = I + Vd I' - 2 Rs I I'.

@@ -38,8 +38,8 @@ struct TrendDevice {
   double OpenCircuit(double photocurrent_A, double temperature_C) const;
 };
 
-// A device in one condition.
-struct TrendState {
+// A device at one irradiance and temperature, after some time of use.
+struct DeviceState {
   double photocurrent_A = 0;
   double resistance_series_ohm = 0;
   double saturation_current_A = 0;
@@ -49,9 +49,9 @@ struct TrendState {
 
 // The device with these parameters (TrendParameter) where the law expects `expected_A` as its
 // photocurrent.
-TrendState StateOf(const TrendDevice& device,
-                   const std::array<double, kTrendParameters>& parameters, double expected_A,
-                   double temperature_C);
+DeviceState StateOf(const TrendDevice& device,
+                    const std::array<double, kTrendParameters>& parameters, double expected_A,
+                    double temperature_C);
 
 // A point of a device's curve.
 struct TrendPoint {
@@ -62,7 +62,7 @@ struct TrendPoint {
 };
 
 // The point of maximum power.
-TrendPoint MaximumPowerPoint(const TrendDevice& device, const TrendState& state,
+TrendPoint MaximumPowerPoint(const TrendDevice& device, const DeviceState& state,
                              double temperature_C);
 
 // The law of a module file, with one diode. Errors: two diodes, no photocurrent.

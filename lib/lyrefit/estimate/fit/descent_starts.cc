@@ -35,14 +35,14 @@ void AddWholeNumbers(const PreparedFit& fit, const DescentEnd& at,
   const Variant& variant = fit.variants[at.start.variant];
   const int first = fit.base_size();
   std::vector<std::pair<int, double>> steps;
-  for (int k = 0; k < fit.effects(); ++k) {
+  for (int k = 0; k < fit.effects_size(); ++k) {
     if (variant.bounds[k].whole == 0) continue;
     steps.emplace_back(first + k, variant.bounds[k].whole);
     steps.emplace_back(first + k, -variant.bounds[k].whole);
   }
   const auto add = [&](std::vector<double> p) {
     const std::vector<double> wanted = p;
-    for (int k = 0; k < fit.effects(); ++k) {
+    for (int k = 0; k < fit.effects_size(); ++k) {
       p[first + k] = WithinBounds(variant.bounds[k], p[first + k]);
     }
     LeaveARest(*fit.problem.device.effects, variant.bounds, p.data() + first);
@@ -114,7 +114,7 @@ void AddOtherVariants(const PreparedFit& fit, const DescentEnd& at,
     if (static_cast<int>(f) == at.start.variant) continue;
     const Variant& variant = fit.variants[f];
     std::vector<double> p = at.end.p;
-    for (int k = 0; k < fit.effects(); ++k) {
+    for (int k = 0; k < fit.effects_size(); ++k) {
       const ParameterBounds& before = fit.variants[at.start.variant].bounds[k];
       double& value = p[first + k];
       if (before.lower == before.upper) value = variant.usual[k];

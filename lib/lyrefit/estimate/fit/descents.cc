@@ -58,7 +58,7 @@ DescentEnd StartOf(const PreparedFit& fit, PolishStart start) {
 RefineOptions Briefly(int steps) {
   RefineOptions briefly;
   briefly.small = true;
-  briefly.let_in = false;
+  briefly.add_diodes = false;
   briefly.max_rounds = 1;
   briefly.max_iterations = briefly.first_iterations = steps;
   briefly.trust_radius = 1e4;

@@ -38,7 +38,7 @@ bool LeavesNoise(const PreparedFit& fit, const Descents& descents) {
   return FindResidualStatistics(fit.problem.voltage_V, residuals).durbin_watson > kLeast;
 }
 
-void AscentSettings(const PreparedFit& fit, const ProgressReporter& progress, Descents* descents) {
+void TryNeighbours(const PreparedFit& fit, const ProgressReporter& progress, Descents* descents) {
   for (int step = 0; step < kSteps && !progress.stop().requested(); ++step) {
     const int before = descents->best;
     std::vector<PolishStart> neighbours = Neighbours(fit, descents->ends[before]);
@@ -154,7 +154,7 @@ ExtendedPolish PolishExtended(const PreparedFit& fit, const std::vector<PolishSt
   progress.BeginSilently("polish", 0);
   Descents descents;
   TryStarts(candidates, space, fit, progress, &descents);
-  AscentSettings(fit, progress, &descents);
+  TryNeighbours(fit, progress, &descents);
   std::vector<PolishStart> starts;
   std::vector<RefineEnd> ends;
   for (const DescentEnd& end : descents.ends) {

@@ -178,7 +178,7 @@ PreparedFit WithVariant(PreparedFit fit, int variant, const std::vector<double>&
   const int first = fit.base_size();
   fit.problem = InVariant(fit.problem, own, p);
   auto device_effects = std::make_shared<DeviceEffects>(*fit.device.effects);
-  for (int k = 0; k < fit.effects(); ++k) {
+  for (int k = 0; k < fit.effects_size(); ++k) {
     const ParameterBounds& bounds = own.bounds[k];
     const bool is_fixed = bounds.lower == bounds.upper;
     fit.bounds[first + k] = bounds;

@@ -36,8 +36,8 @@ struct PreparedFit {
   // Readings that are the rows of `problem`.
   const IvCurve& fitted() const { return extended() ? curve : distinct; }
   // Number of parameters of the effects, and of the base, which precede them.
-  int effects() const { return extended() ? static_cast<int>(variants[0].bounds.size()) : 0; }
-  int base_size() const { return device.size() - effects(); }
+  int effects_size() const { return extended() ? static_cast<int>(variants[0].bounds.size()) : 0; }
+  int base_size() const { return device.size() - effects_size(); }
 };
 
 // Checks the curve and the options. Errors: those of Fit().

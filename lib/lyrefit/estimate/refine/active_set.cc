@@ -18,7 +18,7 @@ namespace {
 constexpr double kFlat = 1e-8;
 // Limits of released bounds and of added diodes, as multiples of the number of parameters.
 constexpr int kMostReleased = 2;
-constexpr int kMostLetIn = 1;
+constexpr int kMostAdded = 1;
 constexpr double kNoInfluence = 1e-12;  // length of a column, in residuals, without influence
 // Relative rise of the mean square, from the lowest point to the end, beyond rounding.
 constexpr double kWorse = 1e-9;
@@ -323,15 +323,15 @@ class ActiveSet {
   // Adds a dropped diode where the residuals correlate with its current and continues the solve.
   // Keeps the diode only if the sum of squares falls.
   bool AddDiode() {
-    if (!options_.let_in || Ended()) return false;
+    if (!options_.add_diodes || Ended()) return false;
     for (int i = 0; i < size(); ++i) {
       const FitParameter& is = shape_.parameters[i];
       const bool vanished = is.may_vanish && now_.active[i] && now_.at.p[i] <= 0;
-      if (!vanished || is.fixed() || let_in_ > kMostLetIn * size()) continue;
+      if (!vanished || is.fixed() || added_ > kMostAdded * size()) continue;
       if (coarse_ == nullptr) coarse_ = model_.Coarse();
       const DiodeToAdd diode = FindDiodeToAdd(model_, coarse_.get(), now_.at, i);
       if (!(diode.cosine > kFlat)) continue;
-      ++let_in_;
+      ++added_;
       const State before = now_;
       const int n = is.with[0];
       now_.at.p[i] = std::min(diode.size, is.upper);
@@ -359,7 +359,7 @@ class ActiveSet {
   std::vector<bool> refused_;
   int last_released_ = -1;
   int released_ = 0;
-  int let_in_ = 0;
+  int added_ = 0;
   int iterations_ = 0;
   bool stopped_ = false;
   bool hopeless_ = false;             // options_.cutoff is out of reach

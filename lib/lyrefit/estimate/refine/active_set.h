@@ -12,7 +12,7 @@ struct RefineOptions {
   int max_iterations = 2000;          // of one least-squares solve
   double function_tolerance = 1e-15;  // relative decrease of the sum of squares that ends a solve
   int max_rounds = 30;                // of finding the active bounds
-  bool let_in = true;                 // whether a dropped diode may be added again
+  bool add_diodes = true;             // whether a dropped diode may be added again
   double target = 0;                  // A^2; iterations end at or below this mean square
   StopToken stop;                     // polled once per iteration; a stop ends at this point
   // Solves small problems in fewer evaluations (SolveOptions::small), without further rounds if the

@@ -23,7 +23,7 @@ class CurveRefits {
     outside_ =
         best.mean_square + kInside * query.t * query.t * query.variance / model_.shape().points;
     how_.small = true;
-    how_.let_in = false;  // the separable descents add diodes
+    how_.add_diodes = false;  // the separable descents add diodes
     how_.max_iterations = how_.first_iterations = kMaxIterations;
     how_.max_rounds = kMaxRounds;
     how_.stop = stop;
@@ -57,7 +57,7 @@ class CurveRefits {
     Ask(value, target, tolerance);
     RefineOptions reach = how_;
     reach.cutoff = target;
-    reach.let_in = true;
+    reach.add_diodes = true;
     std::vector<std::vector<double>> starts;
     for (SeparableStart& grid : SeparableStarts(held_, best_.p[kRs], /*count=*/1)) {
       starts.push_back(std::move(grid.p));

@@ -165,8 +165,8 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     const bool solved = TakeStep(problem, model, here.p, trust.radius, &next.p);
     const VectorXd step = next.p - here.p;
     const double predicted = solved ? Predicted(model, step) : 0;
-    const double target = options.function_tolerance * here.sum;
-    const bool promising = predicted > target || trust.radius < hardly_damped;
+    const double negligible = options.function_tolerance * here.sum;  // decrease
+    const bool promising = predicted > negligible || trust.radius < hardly_damped;
     end.converged = solved && (IsTiny(step, here.p) || !promising);
     end.hopeless = !end.converged && trust.radius >= hardly_damped &&
                    here.sum - kMany * predicted > options.cutoff;
@@ -178,7 +178,7 @@ LeastSquaresEnd Descend(const LeastSquaresProblem& problem, const LeastSquaresOp
     }
     invalid = 0;
     double gained = here.sum - next.sum;
-    end.converged = std::fabs(gained) <= target;
+    end.converged = std::fabs(gained) <= negligible;
     if (gained > kLeastQuality * predicted) {
       trust.Lengthen(gained / predicted);
     } else if (!end.converged) {

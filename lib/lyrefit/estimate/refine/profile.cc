@@ -302,7 +302,7 @@ class FixedModel : public FitModel {
 RefineOptions ProfileOptions(const StopToken& stop) {
   RefineOptions how;
   how.small = true;
-  how.let_in = false;
+  how.add_diodes = false;
   how.max_rounds = 10;
   how.max_iterations = how.first_iterations = 200;
   how.stop = stop;

@@ -54,7 +54,7 @@ Json AnswerJson(const ProblemSummary& summary) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(summary);
   Json answer = {{"sentence", VerdictText(summary)}};
   if (!ratio || !ratio->peer) return answer;
-  answer["peer"] = {{"name", ratio->peer->compared->name},
+  answer["peer"] = {{"name", ratio->peer->algorithm->name},
                     {"hits", ratio->peer->figures().hits},
                     {"repeats", ratio->repeats},
                     {"times_faster", ratio->times},

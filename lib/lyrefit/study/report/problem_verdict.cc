@@ -31,7 +31,7 @@ std::string HitsText(const Configuration& way) {
 // "with the best candidate's own polish from 1000 evaluations (310 ms)"
 std::string HowText(const Configuration& way, const char* from) {
   return fmt::format("{} {} {} evaluations ({})", LevelPhrase(way.level), from,
-                     way.compared->budget, Duration(way.figures().seconds));
+                     way.algorithm->budget, Duration(way.figures().seconds));
 }
 
 std::string ShapeText(const Configuration& shape) {
@@ -41,13 +41,13 @@ std::string ShapeText(const Configuration& shape) {
 
 std::string SearchText(const SearchVerdict& verdict) {
   if (verdict.search) {
-    return fmt::format("of the searches {} reaches {} {}", verdict.search->compared->algorithm,
+    return fmt::format("of the searches {} reaches {} {}", verdict.search->algorithm->algorithm,
                        HitsText(*verdict.search), HowText(*verdict.search, "from"));
   }
   const int runs = verdict.best->figures().runs;
   if (verdict.best->figures().hits == 0) return "the searches never hit";
   return fmt::format("no search reaches {} of {} from any budget on; the best, {}, hits {} {}",
-                     verdict.needed, runs, verdict.best->compared->algorithm,
+                     verdict.needed, runs, verdict.best->algorithm->algorithm,
                      verdict.best->figures().hits, HowText(*verdict.best, "at"));
 }
 
@@ -64,14 +64,14 @@ std::string RandomText(const Configuration& random) {
 std::string ConfigurationText(const std::optional<Configuration>& way, bool named) {
   if (!way) return "-";
   const LevelSummary& figures = way->figures();
-  return (named ? way->compared->name + " " : "") +
+  return (named ? way->algorithm->name + " " : "") +
          fmt::format("{} ({})", figures.hits, Duration(figures.seconds));
 }
 
 std::string Headline(const SearchVerdict& verdict) {
   if (verdict.shape_wins) return "no search is needed";
   if (!verdict.search) return "nothing is enough";
-  const std::string& name = verdict.search->compared->algorithm;
+  const std::string& name = verdict.search->algorithm->algorithm;
   return name == ToText(Algorithm::kRandom) ? "random points will do" : name + " will do";
 }
 
@@ -115,7 +115,7 @@ std::string PeerText(const ProblemSummary& summary) {
   const std::optional<PeerRatio> ratio = CompareWithPeers(summary);
   if (!ratio || !ratio->peer) return "";
   const auto brief = [](const Configuration& way) {
-    return fmt::format("{} ({}, {})", way.compared->name, HitsText(way),
+    return fmt::format("{} ({}, {})", way.algorithm->name, HitsText(way),
                        Duration(way.figures().seconds));
   };
   if (ratio->repeats == 0) return brief(ratio->self) + ": no peer ever hits";

@@ -7,7 +7,8 @@
 
 C++ stands in the comments of public headers, indented by two further blanks, and in pages between ```cpp and ```;
 Python between ```python and ```. A whole program has a `main`; of other C++ it counts that it compiles. Programs are run
-in an empty folder, in which `data` leads to the project's, and must end well and have printed something. Python that needs a module which is not installed is left out, and that is said.
+in an empty folder, in which `data` leads to the project's, and must end well and have printed something: what stands
+below them on the page between ```text and ```, if there is such a block. Python that needs a module which is not installed is left out, and that is said.
 """
 
 import argparse
@@ -56,13 +57,20 @@ def of_page(text, language):
         yield text[:found.start(1)].count("\n") + 1, found.group(1)
 
 
+def printed(text):
+    """What a page shows below a piece of C++ as its output, by the line on which the piece begins."""
+    shown = re.finditer(r"^```cpp\n((?:(?!```).*\n)*)```\n\n```text\n((?:(?!```).*\n)*)```$", text, re.M)
+    return {text[:found.start(1)].count("\n") + 1: found.group(2) for found in shown}
+
+
 def unit(root):
-    """All C++ as one unit, and the names of its whole programs."""
-    includes, pieces, programs = [], [], []
+    """All C++ as one unit, and its whole programs: the output that is shown of each by its name, "" where none is."""
+    includes, pieces, programs = [], [], {}
     places = [(path, of_header(path.read_text(encoding="utf-8"))) for path in public_headers(root)]
     pages = [root / "README.md", *(p for part in ("lib", "apps", "data", "tests") for p in sorted((root / part).rglob("*.md")))]
     places += [(path, of_page(path.read_text(encoding="utf-8"), "cpp")) for path in pages]
     for path, found in places:
+        outputs = printed(path.read_text(encoding="utf-8"))
         for line, code in found:
             place = path.relative_to(root)
             name = re.sub(r"\W", "_", f"{place}_{line}")
@@ -71,7 +79,7 @@ def unit(root):
             includes += re.findall(r"^#include .*", code, re.M)
             code = re.sub(r"^#include .*", "", code, flags=re.M)
             if re.search(r"\bint main\(", code):
-                programs.append(name)
+                programs[name] = outputs.get(line, "")
                 code = re.sub(r"\bint main\(\) \{", "int Main() {", code)
                 code = re.sub(r"\}\s*$", "  return 0;\n}\n", code)
             else:
@@ -87,13 +95,14 @@ def unit(root):
 
 
 def run(root, program):
-    names = unit(root)[1]
-    for name in names:
+    for name, shown in unit(root)[1].items():
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(root / "data", pathlib.Path(folder) / "data")
             ended = subprocess.run([program, name], cwd=folder, capture_output=True, text=True, check=False)
         if ended.returncode or not ended.stdout:
             sys.exit(f"{name} ends with {ended.returncode}:\n{ended.stdout}{ended.stderr}")
+        if shown and ended.stdout != shown:
+            sys.exit(f"{name} prints\n{ended.stdout}where the page shows\n{shown}")
         print(f"{name}: {len(ended.stdout)} bytes printed")
 
 

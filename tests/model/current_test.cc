@@ -10,6 +10,7 @@
 #include "lyrefit/base/random.h"
 #include "lyrefit/model/kernel.h"
 #include "model/kernels_agree.h"
+#include "model/open_circuit.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -26,17 +27,6 @@ struct Draw {
   std::vector<double> p;
   double voltage_V = 0;
 };
-
-// Junction voltage without current, by bisection in double precision.
-double OpenCircuit(const Device& device, const double* p) {
-  double low = 0, high = 1;
-  while (JunctionCurrent(device, p, high) > 0) high *= 2;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (JunctionCurrent(device, p, middle) > 0 ? low : high) = middle;
-  }
-  return high;
-}
 
 Draw DrawDevice(RandomStream* random) {
   Draw draw;

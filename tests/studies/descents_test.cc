@@ -132,7 +132,7 @@ TEST_F(DescentsTest, AnEndIsTriedInEveryOtherVariant) {
     EXPECT_EQ(start.variant, 1);
     EXPECT_EQ(start.origin, "another variant");
     for (int i = 0; i < fit_.base_size(); ++i) EXPECT_EQ(start.p[i], end.end.p[i]);
-    for (int k = 0; k < fit_.effects(); ++k) {
+    for (int k = 0; k < fit_.effects_size(); ++k) {
       const ParameterBounds& bounds = fit_.variants[1].bounds[k];
       const double value = start.p[fit_.base_size() + k];
       EXPECT_GE(value, bounds.lower) << k;

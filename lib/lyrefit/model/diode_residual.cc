@@ -6,12 +6,6 @@
 
 namespace lyrefit {
 
-SolvedPoint SolvePoint(const Device& device, const double* p, double voltage_V) {
-  const OperatingPoint point = SolveOperatingPoint(device, p, voltage_V);
-  return {point.current_A, ExplicitCurrent(device, p, voltage_V, point.current_A),
-          1 / ImplicitFactor(device, p, point)};
-}
-
 DiodeResidual::DiodeResidual(const Device& device, Objective objective, double voltage_V,
                              double current_A, double weight)
     : size_(device.size()),
@@ -19,11 +13,16 @@ DiodeResidual::DiodeResidual(const Device& device, Objective objective, double v
       voltage_V_(voltage_V),
       current_A_(current_A),
       weight_(weight) {
-  CHECK(device.effects == nullptr) << "effects need a whole measurement";
-  CHECK_LE(size_, kMost);
+  CHECK(device.effects == nullptr) << "a residual of one reading cannot have effects";
+  CHECK_LE(size_, kMostParameters);
   device_.terms = device.terms;
   device_.resistance_series = device.resistance_series;
   device_.module_thermal_voltage_V = device.module_thermal_voltage_V;
+}
+
+DiodeResidual::Root DiodeResidual::Solve(const double* p) const {
+  const OperatingPoint point = SolveOperatingPoint(device_, p, voltage_V_);
+  return {point.current_A, point.junction_voltage_V, ImplicitFactor(device_, p, point)};
 }
 
 }  // namespace lyrefit

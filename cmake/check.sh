@@ -2,8 +2,7 @@
 # Sets the machine up, builds lyrefit and its Python module and runs the tests of every module, of the command, of the
 # Python module and of the README. With LYREFIT_FIELD_DATA=FOLDER in the environment the tests on field measurements run
 # as well.
-#   cmake/check.sh --all         also those of pages in a browser, of the site, of engines, packages, fuzzed readers, rates
-#                                and of the publication
+#   cmake/check.sh --all         also those of pages in a browser, of the site, of engines, packages and rates
 #   cmake/check.sh --nightly     instead the tests that learn rates and those on field measurements, at full size
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"

@@ -9,7 +9,7 @@ InstallPackages build test clang
 cd -- "$LYREFIT_ROOT"
 seconds=${1:-600}
 targets=("${@:2}")
-Configure build-fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLYREFIT_FUZZ=ON -DLYREFIT_ALL_TESTS=ON \
+Configure build-fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLYREFIT_FUZZ=ON \
   -DLYREFIT_BUILD_TESTS=ON -DLYREFIT_BUILD_APP=OFF
 if ((${#targets[@]} == 0)); then
   for corpus in tests/fuzz/corpus/*/; do targets+=("$(basename -- "$corpus")"); done

@@ -6,6 +6,8 @@
 #   cmake/same.sh OLD NEW --full         all of them
 #   cmake/same.sh OLD NEW --verb fit     the cases of one verb
 #   cmake/same.sh --list                 the cases
+#   cmake/same.sh PROGRAM --sanitized    one program, built with sanitizers, which must report nothing (cmake/sanitize.sh)
+# --share 4 takes every fourth case, and --sweeps 2 at most two files of a folder.
 # --data FOLDER (as often as wanted, or LYREFIT_FIELD_DATA) adds measurements; --allow FILE names differences that are meant,
 # each with its reason. Exit code 1: a difference; 3: a case that both did not end within the limit.
 set -euo pipefail

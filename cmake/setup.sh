@@ -79,7 +79,8 @@ Configure() {
   local generator=()
   [[ -f $1/CMakeCache.txt ]] || generator=(-G Ninja)
   Modules "$LYREFIT_ROOT/cmake/page_parts" "$1/page_parts"
-  Modules "$LYREFIT_ROOT/tests/pages" "$1/tests/pages"
+  # Pages are tried in a browser with all tests, and where the page that needs no server is built.
+  [[ ! "${*:2}" =~ LYREFIT_(ALL_TESTS=ON|WEB_SOURCES) ]] || Modules "$LYREFIT_ROOT/tests/pages" "$1/tests/pages"
   Say "Configuring $1"
   cmake -S "$LYREFIT_ROOT" -B "$1" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release "${@:2}"
 }

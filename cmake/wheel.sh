@@ -4,8 +4,9 @@
 # commit's unless SOURCE_DATE_EPOCH says another.
 #   cmake/wheel.sh            (PYTHON=... in the environment for an interpreter other than Debian's, which needs pip,
 #                             build, setuptools, wheel and pybind11)
-#   cmake/wheel.sh --test     instead installs that wheel in a fresh environment, compares its digits with those of the
-#                             command in build and runs the tests of the Python module on it
+#   cmake/wheel.sh --try      instead installs that wheel in a fresh environment, compares its digits with those of the
+#                             command in build and runs examples on it
+#   cmake/wheel.sh --test     and the tests of the Python module, which cmake/check.sh runs on the module in build
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -57,7 +58,8 @@ Licences() {
   done
 }
 
-# Try: what is in dist, in an environment of its own, which sees the machine's numpy and pandas.
+# Try: what is in dist, in an environment of its own, which sees the machine's numpy and pandas; with --test also the tests of
+# the module.
 Try() {
   local native=$LYREFIT_ROOT/build/apps/lyrefit/lyrefit bin=$FOLDER/fresh/bin test
   [[ -x $native ]] || Die "no command to compare with: cmake/check.sh builds it"
@@ -69,6 +71,11 @@ Try() {
   "$bin/lyrefit" fit data/rtc_france --json "$FOLDER/wheel.json" > /dev/null
   cmp <(Untimed "$FOLDER/native.json") <(Untimed "$FOLDER/wheel.json") || Die "the wheel's digits are not those of the command"
   "$bin/lyrefit" fit data/rtc_france | head -n 1 > "$FOLDER/cut.txt" # ended by the closed pipe, without a word
+  Say "Examples"
+  for test in fit fit_many two_diodes; do
+    (cd "$FOLDER" && MPLBACKEND=Agg "$bin/python3" -B "$LYREFIT_ROOT/apps/python/examples/$test.py")
+  done
+  [[ $1 == --test ]] || return 0
   Say "The tests of the module"
   cd tests/python
   for test in *_test.py; do
@@ -79,8 +86,8 @@ Try() {
 
 InstallPackages build python pages wheel
 cd -- "$LYREFIT_ROOT"
-if [[ ${1:-} == --test ]]; then
-  Try
+if [[ ${1:-} == --t* ]]; then
+  Try "$1"
   exit
 fi
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}

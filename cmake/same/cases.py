@@ -5,7 +5,7 @@ import pathlib
 from case import cases_of
 from inputs import FILES
 from pages import page_cases
-from sweeps import sweep_cases
+from sweeps import SWEEPS, sweep_cases
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -29,8 +29,9 @@ WORDS = {
 }
 
 
-def all_cases(root, links, full):
-    """The cases for the repository at `root` and data folders under their names in `links`; no two with one name."""
+def all_cases(root, links, most=SWEEPS):
+    """The cases for the repository at `root` and data folders under their names in `links`; no two with one name. Of a
+    folder at most so many files are taken; without a limit all are, and all cases run."""
     cases = {}
     for file in sorted((HERE / "verbs").glob("*.txt")):
         for case in cases_of(file.stem.replace("_", "/", 1), file.read_text(encoding="utf-8"), WORDS, FILES):
@@ -38,6 +39,6 @@ def all_cases(root, links, full):
     for case in page_cases(root):
         cases.setdefault(case.name, case)
     for link, folder in links.items():
-        for case in sweep_cases(pathlib.PurePosixPath(link), folder, full):
+        for case in sweep_cases(pathlib.PurePosixPath(link), folder, most):
             cases.setdefault(case.name, case)
-    return [case for case in cases.values() if full or not case.full]
+    return [case for case in cases.values() if most is None or not case.full]

@@ -136,6 +136,23 @@ def excerpt(old, new):
     return [line if len(line) <= WIDTH else line[0] + "..." + line[1 + column:1 + column + WIDTH] for line in shown][:EXCERPT]
 
 
+REPORT = re.compile(rb"^.*(ERROR: \w+Sanitizer|: runtime error: ).*$", re.M)  # of a sanitizer
+
+
+def faults(outcome):
+    """What a build with sanitizers must not do: (what, lines that show it) of each step that a signal ended (an assertion
+    is one) or that a sanitizer reported."""
+    found = []
+    for what, content in outcome.parts.items():
+        if what.startswith("exit code") and int(content) < 0:
+            found.append((what, [f"ended by signal {-int(content)}"]))
+        if what.startswith("standard error"):
+            reported = REPORT.search(content)
+            if reported:
+                found.append((what, content[reported.start():].decode(errors="replace").splitlines()[:EXCERPT]))
+    return found
+
+
 def differences(old, new, masks=MASKS):
     """What differs between two outcomes: (what, lines that show it) of each part."""
     if old.parts is None or new.parts is None:

@@ -88,15 +88,15 @@ def _of_two_files(path, shown):
                 yield _case(verb, f"{shown}+{partner}", template, {"FIRST": shown, "SECOND": second})
 
 
-def sweep_cases(link, root, full):
-    """The cases of a data folder, which commands see under the name `link`."""
+def sweep_cases(link, root, most):
+    """The cases of a data folder, which commands see under the name `link`: of at most so many files of each folder."""
     folders = [root, *sorted(path for path in root.rglob("*") if path.is_dir())]
     for folder in folders:
         inside = folder.relative_to(root)
         files = measurements(folder)
         if not files or NO_MEASUREMENTS & set(inside.parts):
             continue
-        for path in files if full else spread(files, SWEEPS):
+        for path in files if most is None else spread(files, most):
             shown = (link / path.relative_to(root)).as_posix()
             yield from _of_a_file(path, shown)
             yield from _of_two_files(path, shown)

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 1000;
+constexpr std::uintmax_t kShortFile = 1000;
 
 int FilesIn(const std::string& folder) {
   int count = 0;
@@ -36,7 +36,7 @@ TEST(WriteTextFileTest, WritesAndReplacesAndLeavesNothingElse) {
   const std::string path = folder.Path("a.txt");
   ASSERT_TRUE(WriteTextFile(path, "one"));
   ASSERT_TRUE(WriteTextFile(path, "two"));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "two");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "two");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
 }
 
@@ -48,7 +48,7 @@ TEST(WriteTextFileTest, KeepsPermissionsAndSymbolicLinks) {
   std::filesystem::create_symlink(path, folder.Path("link.txt"));
   ASSERT_TRUE(WriteTextFile(folder.Path("link.txt"), "new"));
   EXPECT_TRUE(std::filesystem::is_symlink(folder.Path("link.txt")));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "new");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "new");
   EXPECT_EQ(std::filesystem::status(path).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
@@ -116,7 +116,7 @@ TEST(WriteTextFileTest, ALimitOfTheFileSizeIsAnErrorAndTheOldFileStays) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("cannot write the file: File too large"));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "old");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "old");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
 }
 
@@ -154,7 +154,7 @@ TEST(CheckWritableTest, SaysWhetherAFileCanBeWrittenAndLeavesNone) {
   EXPECT_EQ(MessageOf(CheckWritable(folder.Path(""))), "expected a file to write, found a folder");
   EXPECT_EQ(MessageOf(CheckWritable(folder.Path("no/new.txt"))),
             "cannot write the file: No such file or directory");
-  EXPECT_EQ(*ReadTextFile(folder.Path("old.txt"), kMostBytes), "old");
+  EXPECT_EQ(*ReadTextFile(folder.Path("old.txt"), kShortFile), "old");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
 }
 
@@ -166,7 +166,7 @@ TEST(NewFileTest, HasItsNameAfterCommitOnly) {
     ASSERT_TRUE(file.Begin());
     ASSERT_TRUE(file.Write(std::string(1 << 20, 'x')));
   }
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "old");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "old");
   EXPECT_EQ(FilesIn(folder.Path("")), 1);
   NewFile first(path), second(other);
   ASSERT_TRUE(first.Begin());
@@ -174,8 +174,8 @@ TEST(NewFileTest, HasItsNameAfterCommitOnly) {
   ASSERT_TRUE(first.Write("one, "));
   ASSERT_TRUE(first.Write("two"));
   ASSERT_TRUE(NewFile::Commit({&first, &second}));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "one, two");
-  EXPECT_EQ(*ReadFileBytes(other, kMostBytes), "");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "one, two");
+  EXPECT_EQ(*ReadFileBytes(other, kShortFile), "");
   EXPECT_EQ(FilesIn(folder.Path("")), 2);
 }
 
@@ -184,7 +184,7 @@ TEST(WriteTextFileTest, ReplacesInSharedMemoryToo) {
   if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "no /dev/shm";
   ASSERT_TRUE(WriteTextFile(path, "one"));
   ASSERT_TRUE(WriteTextFile(path, "two"));
-  EXPECT_EQ(*ReadTextFile(path, kMostBytes), "two");
+  EXPECT_EQ(*ReadTextFile(path, kShortFile), "two");
   fs::remove(path);
 }
 

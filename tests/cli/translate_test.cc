@@ -16,23 +16,24 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kCell = std::string("translate ") + LYREFIT_DATA_DIR + "/rtc_france ";
+const std::string kTranslateCell = std::string("translate ") + LYREFIT_DATA_DIR + "/rtc_france ";
 const std::string kAt = "--irradiance-Wm2 1000 ";
 const std::string kQuickTranslation =
     "--draws 200 --effects nonohmic_shunt --alpha 0.05% --beta -0.35% ";
 
 TEST(TranslateVerb, RefusesBadInputWithOneSentence) {
-  ExpectRefusals("", {{"translate", "CURVE"},
-                      {kCell + kAt + "--to 1000", "--to: expected irradiance"},
-                      {kCell + kAt + "--to 1000,abc", "--to: expected irradiance"},
-                      {kCell + kAt + "--to 9000,25", "1 to 2000 W/m2"},
-                      {kCell + kAt + "--beta steep", "--beta: expected a number per kelvin"},
-                      {kCell + kAt + "--procedures iec5", "iec4"},
-                      {kCell + kAt + "--key-points by-eye", "--key-points"},
-                      {kCell + kAt + "--lead-resistance -1", "--lead-resistance"},
-                      {kCell + kAt + "--coefficients no_such.json", "no_such.json"},
-                      {kCell + kAt + "--with-curve no_such.csv", "no_such.csv"},
-                      {kCell + "--irradiance-Wm2 0 --temperature-C 25", "dark"}});
+  ExpectRefusals("",
+                 {{"translate", "CURVE"},
+                  {kTranslateCell + kAt + "--to 1000", "--to: expected irradiance"},
+                  {kTranslateCell + kAt + "--to 1000,abc", "--to: expected irradiance"},
+                  {kTranslateCell + kAt + "--to 9000,25", "1 to 2000 W/m2"},
+                  {kTranslateCell + kAt + "--beta steep", "--beta: expected a number per kelvin"},
+                  {kTranslateCell + kAt + "--procedures iec5", "iec4"},
+                  {kTranslateCell + kAt + "--key-points by-eye", "--key-points"},
+                  {kTranslateCell + kAt + "--lead-resistance -1", "--lead-resistance"},
+                  {kTranslateCell + kAt + "--coefficients no_such.json", "no_such.json"},
+                  {kTranslateCell + kAt + "--with-curve no_such.csv", "no_such.csv"},
+                  {kTranslateCell + "--irradiance-Wm2 0 --temperature-C 25", "dark"}});
 }
 
 // Absurd input is refused with one sentence.
@@ -64,7 +65,7 @@ TEST(TranslateVerb, RefusesHostileInputWithOneSentence) {
                       {good + "--lead-resistance 5", "leads of 5 ohm"},
                       {good + "--rear-irradiance-Wm2 100", "say --bifaciality"},
                       {good + "--with-curve '" + folder.Path("good.csv") + "'", "--irradiance-Wm2"},
-                      {kCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
+                      {kTranslateCell + "--irradiance-Wm2 -5", "--irradiance-Wm2"}});
 }
 
 // Every verb gives the same warning, and translate gives no pass or fail for an impossible power.
@@ -102,7 +103,7 @@ TEST(TranslateVerb, JudgesNoMilliampereReadAsAmpere) {
 }
 
 TEST(TranslateVerb, SaysWhatTheSensorReadAndWhatTheCellsHave) {
-  const std::string back = kCell + kAt + kQuickTranslation +
+  const std::string back = kTranslateCell + kAt + kQuickTranslation +
                            "--procedures desoto --temperature-C 33 --temperature-from back ";
   const AppResult result = RunApp(back);
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -120,13 +121,13 @@ TEST(TranslateVerb, SaysWhatTheSensorReadAndWhatTheCellsHave) {
 
 TEST(TranslateVerb, WarnsOfStepsThatNobodyMeasured) {
   const AppResult result =
-      RunApp(kCell + "--irradiance-Wm2 60 " + kQuickTranslation + "--procedures desoto");
+      RunApp(kTranslateCell + "--irradiance-Wm2 60 " + kQuickTranslation + "--procedures desoto");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("the stated uncertainty is too small"));
 }
 
 TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
-  const AppResult result = RunApp(kCell + kAt + kQuickTranslation + "--to STC");
+  const AppResult result = RunApp(kTranslateCell + kAt + kQuickTranslation + "--to STC");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::size_t answer = result.out.find("here, k = 2"), table = result.out.find("Procedures");
   ASSERT_NE(answer, std::string::npos) << result.out;
@@ -139,7 +140,7 @@ TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
 
 TEST(TranslateVerb, WritesWhatItPrints) {
   const AppResult text =
-      RunApp(kCell + kAt + kQuickTranslation + "--rated-W 0.3 --tolerance -3,+3 --json -");
+      RunApp(kTranslateCell + kAt + kQuickTranslation + "--rated-W 0.3 --tolerance -3,+3 --json -");
   ASSERT_EQ(text.exit_code, 0) << text.err;
   const json j = json::parse(text.out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
@@ -153,16 +154,16 @@ TEST(TranslateVerb, WritesWhatItPrints) {
     EXPECT_EQ(result["budget"]["results"].size(), 6U);
     EXPECT_GT(result["key_points"]["max_power_W"].get<double>(), 0.3);
   }
-  const AppResult csv = RunApp(kCell + kAt + kQuickTranslation + "--csv -");
+  const AppResult csv = RunApp(kTranslateCell + kAt + kQuickTranslation + "--csv -");
   ASSERT_EQ(csv.exit_code, 0) << csv.err;
   EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 8);
-  const AppResult again = RunApp(kCell + kAt + kQuickTranslation + "--csv - --threads 1");
+  const AppResult again = RunApp(kTranslateCell + kAt + kQuickTranslation + "--csv - --threads 1");
   EXPECT_EQ(csv.out, again.out);
 }
 
 TEST(TranslateVerb, IsBriefWhereItIsAskedTo) {
-  const AppResult result =
-      RunApp(kCell + kAt + kQuickTranslation + "--procedures iec4,desoto --to 800,25 --brief");
+  const AppResult result = RunApp(kTranslateCell + kAt + kQuickTranslation +
+                                  "--procedures iec4,desoto --to 800,25 --brief");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
   EXPECT_THAT(result.out, HasSubstr("W at 800 W/m2, 25 C (k = 2, "));

@@ -11,12 +11,12 @@ namespace lyrefit {
 namespace {
 
 // A family whose law has every parameter that a base can have.
-struct Family {
+struct FamilyLaw {
   Readings readings = SyntheticReadings(DataKind::kFamily, 60);
   Law law;
   std::vector<double> theta = {1, -0.1, 1.25, 0.02, 0.04, 0.1, 2, 0.0006, 1.15, 0.03, 0.1, 0.2};
 
-  Family() {
+  FamilyLaw() {
     law.model = Model::kDoubleDiode;
     law.free_tempco = law.free_bandgap = true;
     law.effects = {FindEffect("drift")};
@@ -24,7 +24,7 @@ struct Family {
 };
 
 TEST(LawCoordinatesTest, AreThoseOfAnOrdinaryCell) {
-  const Family at;
+  const FamilyLaw at;
   const std::vector<double> p = LawCoordinates(at.law, at.readings).Parameters(at.theta);
   const std::vector<double> cell = ParametersOf({}, at.readings, Model::kDoubleDiode);
   for (int k = 0; k < 5; ++k) EXPECT_NEAR(p[k], cell[k], 1e-12 * cell[k]) << k;
@@ -36,7 +36,7 @@ TEST(LawCoordinatesTest, AreThoseOfAnOrdinaryCell) {
 }
 
 TEST(LawCoordinatesTest, LeaveOutWhatIsNotThere) {
-  Family at;
+  FamilyLaw at;
   at.theta[kIph] = at.theta[kRs] = at.theta[kRsh] = at.theta[SaturationCurrentIndex(1)] = 0;
   at.theta[at.law.TempcoAt()] = 0;  // has no meaning without a photocurrent
   const LawCoordinates coordinates(at.law, at.readings);
@@ -49,7 +49,7 @@ TEST(LawCoordinatesTest, LeaveOutWhatIsNotThere) {
 // Also at bounds: without a shunt, a second diode or a photocurrent.
 TEST(LawCoordinatesTest, DerivativesAreThoseOfTheCurrents) {
   for (const bool bare : {false, true}) {
-    Family at;
+    FamilyLaw at;
     if (bare) at.theta[kIph] = at.theta[kRsh] = at.theta[SaturationCurrentIndex(1)] = 0;
     const LawCoordinates coordinates(at.law, at.readings);
     const std::size_t count = at.readings.points.size(), size = at.theta.size();

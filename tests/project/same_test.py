@@ -51,9 +51,19 @@ class Same(unittest.TestCase):
         self.assertEqual(self.found("sleep 60", limit=0.5)[0][0], "time")
         self.assertIsNone(self.found("sleep 60", limit=0.5, old="sleep 60"))
 
+    def test_faults_of_a_sanitized_build_are_named(self):
+        case = Case("fit/one", (Step(("fit",)),))
+        for number, (script, what) in enumerate((("exit 2", []), ("kill -ABRT $$", ["exit code"]), ("sleep 60", None),
+                                                 ("echo '==1==ERROR: AddressSanitizer: overflow' >&2", ["standard error"]),
+                                                 ("echo 'a.cc:1:2: runtime error: shift' >&2; exit 1", ["standard error"]))):
+            work = self.folder / f"sanitized{number}"
+            work.mkdir()
+            [(_, _, found)] = same.compare([case], self.program("one", script), None, {}, work, limit=2.0)
+            self.assertEqual(found if found is None else [name for name, _ in found], what)
+
     def test_cases_name_every_verb(self):
         root = pathlib.Path(__file__).resolve().parents[2]
-        verbs = {case.verb for case in same.all_cases(root, {"data": root / "data"}, False)}
+        verbs = {case.verb for case in same.all_cases(root, {"data": root / "data"})}
         pages = {page.stem for page in (root / "apps/lyrefit/verbs").glob("*.md")}
         self.assertLessEqual(pages - verbs, {"family", "merge", "README"})  # of fit and of batch; an index
 

@@ -13,7 +13,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake" / "
 import same
 from case import Case, Step
 
-SAME = 'echo "$@"; echo "{\\"seconds\\": $RANDOM.5}" > out.json; echo "took 0.$RANDOM s"; cat given.txt; exit 2'
+SAME = 'echo "$@"; echo "{\\"seconds\\": $RANDOM.5}" > out.json; echo "took 0.$RANDOM s"; echo "  $((RANDOM % 99)) ms |"; \
+echo a,search_seconds,b > out.csv; echo 1,0.$RANDOM,3 >> out.csv; cat given.txt; exit 2'
 
 
 class Same(unittest.TestCase):
@@ -43,7 +44,7 @@ class Same(unittest.TestCase):
                           (SAME.replace('"$@"', "$1"), "standard output"),
                           (SAME + "; true", None),
                           (SAME.replace("exit 2", "echo no >&2; exit 2"), "standard error"),
-                          (SAME.replace("seconds", "minutes"), "file out.json"),
+                          (SAME.replace("{\\\"seconds", "{\\\"minutes"), "file out.json"),
                           (SAME.replace("exit 2", "touch more; exit 2"), "file more")):
             self.assertEqual([name for name, _ in self.found(new)], [what] if what else [])
 

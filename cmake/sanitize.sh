@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the command with the address and undefined-behaviour sanitizers of clang in build-sanitize/ and runs there what no
-# other script does: every reader over its corpus of bad files, and the command over a share of the cases of cmake/same.sh
-# (all verbs, all flags, every kind of measurement in data/). -O1 keeps it bearable; -g1 is enough for line numbers.
+# other script does: every reader over its corpus of bad files, and the command over every twelfth case of cmake/same.sh
+# (of all verbs, and of the measurements in data/). -O1, for what calculates, keeps it bearable; -g1 is enough for
+# line numbers.
 #   cmake/sanitize.sh --build       builds alone
 #   cmake/sanitize.sh --tests       instead the tests of all modules, which cmake/check.sh runs without sanitizers: twenty
 #                                   minutes on two cores. What takes long there and is seen in other tests is skipped by
@@ -25,4 +26,4 @@ fi
 Build build-sanitize --target lyrefit_app fuzz_targets
 [[ ${1:-} != --build ]] || exit 0
 RunTests build-sanitize --tests-regex '^fuzz/'
-LYREFIT_FIELD_DATA='' cmake/same.sh build-sanitize/apps/lyrefit/lyrefit --sanitized --share 8 --sweeps 2 --limit 300
+LYREFIT_FIELD_DATA='' cmake/same.sh build-sanitize/apps/lyrefit/lyrefit --sanitized --share 12 --sweeps 2 --limit 300

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "../lyrefit/program.h"
+#include "../lyrefit/line/program.h"
 #include "bindings.h"
 
 namespace lyrefit::python {

@@ -73,7 +73,7 @@ Try() {
   "$bin/lyrefit" fit data/rtc_france | head -n 1 > "$FOLDER/cut.txt" # ended by the closed pipe, without a word
   Say "Examples"
   for test in fit fit_many two_diodes; do
-    (cd "$FOLDER" && MPLBACKEND=Agg "$bin/python3" -B "$LYREFIT_ROOT/apps/python/examples/$test.py")
+    MPLBACKEND=Agg "$bin/python3" -B "apps/python/examples/$test.py" > /dev/null
   done
   [[ $1 == --test ]] || return 0
   Say "The tests of the module"

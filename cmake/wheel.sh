@@ -86,10 +86,14 @@ Try() {
 
 InstallPackages build python pages wheel
 cd -- "$LYREFIT_ROOT"
-if [[ ${1:-} == --t* ]]; then
-  Try "$1"
-  exit
-fi
+case ${1:-} in
+  "") ;;
+  --try | --test)
+    Try "$1"
+    exit
+    ;;
+  *) Die "usage: cmake/wheel.sh [--try | --test]" ;;
+esac
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
 export SOURCE_DATE_EPOCH
 FetchSources ceres-solver google-glog fmtlib libcsv zlib

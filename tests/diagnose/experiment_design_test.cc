@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "lyrefit/diagnose/diagnose.h"
 #include "synthetic_data.h"
@@ -35,6 +36,22 @@ TEST(EquivalentsTest, HaveATwentiethOfTheProbability) {
   EXPECT_EQ(OwnCandidate(cause), &cause.others.candidates[1]);
   cause.others = {};
   EXPECT_THAT(EquivalentsOf(cause), IsEmpty());
+}
+
+TEST(PlanCandidateTest, IsTheCauseWhereverItStandsInItsLaw) {
+  const SyntheticData made = OnTheData(SyntheticCurve({}));
+  FittedCandidate fitted = FittedCandidateOf("shading", 0.5);
+  fitted.fit = FitBase(made.weighted, Law());
+  fitted.fit.law.effects = {FindEffect("shading"), FindEffect("irr_step")};
+  const int first = fitted.fit.law.Offset(0), behind = fitted.fit.law.Offset(1);
+  fitted.fit.p.resize(fitted.fit.law.size(), 0.25);
+  const PlanCandidate candidate = MakeCandidate(made.measurement.readings, fitted);
+  EXPECT_STREQ(candidate.effect->id, "shading");
+  for (const std::vector<double>& start : candidate.starts) {
+    for (int k = 0; k < fitted.fit.law.size(); ++k) {
+      if (k < first || k >= behind) EXPECT_EQ(start[k], fitted.fit.p[k]) << k;
+    }
+  }
 }
 
 DiagnoseOptions QuickWith(const std::vector<std::string>& effects) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "synthetic_data.h"
 
@@ -17,15 +18,19 @@ using ::testing::Not;
 
 constexpr double kField = 1.2e-3;
 
-// The law of `base` with one more effect, fitted from a probe.
-FittedCandidate With(const SyntheticData& made, const LawFit& base, const char* id) {
+// The law of `base` with one more effect, fitted from a probe, and with those of `after`.
+FittedCandidate With(const SyntheticData& made, const LawFit& base, const char* id,
+                     const std::vector<const char*>& after = {}) {
   FittedCandidate candidate;
   candidate.score.effect = FindEffect(id);
   Law law = base.law;
   law.effects = {candidate.score.effect};
+  for (const char* other : after) law.effects.push_back(FindEffect(other));
   std::vector<double> start = base.p;
-  const Probe probe = candidate.score.effect->probes(made.measurement.readings.traits)[10];
-  start.insert(start.end(), probe.begin(), probe.end());
+  for (const Effect* effect : law.effects) {
+    const Probe probe = effect->probes(made.measurement.readings.traits)[10];
+    start.insert(start.end(), probe.begin(), probe.end());
+  }
   candidate.fit = FitLaw(made.weighted, law, start);
   return candidate;
 }
@@ -113,14 +118,15 @@ TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
 
 // The part of a shading's probability that cells which differ one by one have.
 double PartOfScatter(double light_missing, int substrings,
-                     const std::vector<const Effect*>& candidates = {}) {
+                     const std::vector<const Effect*>& candidates = {},
+                     const std::vector<const char*>& after = {}) {
   SyntheticData made = OnTheData(SyntheticCurve({}));
   Readings readings = made.measurement.readings;
   readings.traits.substrings = substrings;
   made.weighted.readings = std::make_shared<const Readings>(readings);
   Hypotheses hypotheses;
   hypotheses.none.fit = FitBase(made.weighted, Law());
-  FittedCandidate shading = With(made, hypotheses.none.fit, "shading");
+  FittedCandidate shading = With(made, hypotheses.none.fit, "shading", after);
   shading.fit.p[shading.fit.law.Offset(0)] = light_missing;
   hypotheses.candidates = {shading, With(made, hypotheses.none.fit, "irr_step")};
   JudgeOptions options;
@@ -150,6 +156,12 @@ TEST(JudgeTest, SlightDifferencesOfLightMayBeCellsThatDiffer) {
   // Only what is asked for is named.
   EXPECT_EQ(PartOfScatter(0.05, 2, {FindEffect("shading"), FindEffect("irr_step")}), 0);
   EXPECT_GT(PartOfScatter(0.05, 2, {FindEffect("shading"), FindEffect("scatter")}), 0.8);
+}
+
+// The parameters judged are those of the cause, wherever it stands among the effects of its law.
+TEST(JudgeTest, ACauseIsJudgedByItsOwnParameters) {
+  const double alone = PartOfScatter(0.05, 2);
+  EXPECT_NEAR(PartOfScatter(0.05, 2, {}, {"irr_step"}), alone, 1e-9);
 }
 
 // Evidence that readings which alternate by 0.01 A about a step of the light take from the step.

@@ -125,8 +125,7 @@ std::vector<PlanCandidate> FitPair(const Pair& pair, const Synthetic& made) {
   alike.priors.alike = true;
   Judge(made.weighted, base, alike, &pairs);
   for (const FittedCandidate& candidate : pairs.candidates) {
-    candidates.push_back(MakeCandidate(*made.weighted.readings, candidate.fit,
-                                       -2 * candidate.log_posterior - candidate.fit.sum));
+    candidates.push_back(MakeCandidate(*made.weighted.readings, candidate));
   }
   if (candidates.front().effect != FindEffect(pair.truth)) std::swap(candidates[0], candidates[1]);
   const double apart =

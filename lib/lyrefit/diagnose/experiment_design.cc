@@ -139,11 +139,12 @@ std::string PlanSentence(const Plan& plan) {
 
 }  // namespace
 
-PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double charge) {
+PlanCandidate MakeCandidate(const Readings& readings, const FittedCandidate& fitted) {
   constexpr std::size_t kFew = 8;
-  PlanCandidate candidate{fit.law.effects.back(), fit, charge, {fit.p}};
-  const Effect& effect = *candidate.effect;
-  const std::size_t first = fit.p.size() - effect.parameters.size();
+  const LawFit& fit = fitted.fit;
+  const Effect& effect = *fitted.score.effect;
+  PlanCandidate candidate{&effect, fit, -2 * fitted.log_posterior - fit.sum, {fit.p}};
+  const int first = ParametersAt(fit.law, effect);
   std::set<std::vector<double>> settings;
   if (effect.probes == nullptr) return candidate;
   for (const Probe& probe : effect.probes(readings.traits)) {
@@ -168,8 +169,7 @@ std::vector<PlanCandidate> PlanCandidates(const Selection& selection) {
   std::vector<PlanCandidate> candidates;
   if (first == nullptr) return candidates;
   const auto add = [&](const FittedCandidate& fitted) {
-    candidates.push_back(MakeCandidate(*selection.weighted.readings, fitted.fit,
-                                       -2 * fitted.log_posterior - fitted.fit.sum));
+    candidates.push_back(MakeCandidate(*selection.weighted.readings, fitted));
   };
   add(*OwnCandidate(*first));
   for (const FittedCandidate* fitted : EquivalentsOf(*first)) {

@@ -10,14 +10,14 @@ namespace lyrefit {
 
 // One of the causes between which a plan decides.
 struct PlanCandidate {
-  const Effect* effect = nullptr;  // last effect of its law
+  const Effect* effect = nullptr;  // one of its law
   LawFit fit;
   double charge = 0;  // penalty on the sum of squares, for its freedom
   // Starts of fits to additional readings: the present parameters and, if there are at most eight,
   // the other probe values of searched parameters.
   std::vector<std::vector<double>> starts;
 };
-PlanCandidate MakeCandidate(const Readings& readings, const LawFit& fit, double charge);
+PlanCandidate MakeCandidate(const Readings& readings, const FittedCandidate& fitted);
 
 // The first cause that has equivalents, and these. Empty if no cause has any.
 std::vector<PlanCandidate> PlanCandidates(const Selection& selection);

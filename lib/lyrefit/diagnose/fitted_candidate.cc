@@ -83,8 +83,7 @@ double PartOfSlight(const FittedCandidate& candidate, const DataTraits& traits,
     const double prior = options.priors.Of(id, options.module);
     return prior / (1 - prior);
   };
-  const int last = static_cast<int>(fit.law.effects.size()) - 1;
-  const double missing = effect.light_missing(fit.p.data() + fit.law.Offset(last), traits);
+  const double missing = effect.light_missing(fit.p.data() + ParametersAt(fit.law, effect), traits);
   if (!std::isfinite(missing)) return 0;
   const double z = missing / kUsualDimmest;
   const double density = 12 * std::sqrt(3.0) / M_PI / kUsualDimmest / std::pow(3 + z * z, 2);

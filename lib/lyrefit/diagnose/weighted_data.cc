@@ -1,5 +1,7 @@
 #include "lyrefit/diagnose/weighted_data.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -262,6 +264,12 @@ int FreeCount(const WeightedData& weighted, const Law& law) {
 
 int Degrees(const WeightedData& weighted, const Law& law) {
   return std::max(weighted.count() - FreeCount(weighted, law), 1);
+}
+
+int ParametersAt(const Law& law, const Effect& effect) {
+  const auto at = std::find(law.effects.begin(), law.effects.end(), &effect);
+  CHECK(at != law.effects.end()) << effect.id << " is no effect of the law";
+  return law.Offset(static_cast<int>(at - law.effects.begin()));
 }
 
 bool CanAdd(const Law& law, const Effect& effect) {

@@ -126,4 +126,7 @@ constexpr int kMostEffectParameters = 11;
 // and the number of parameters stays within the limit.
 bool CanAdd(const Law& law, const Effect& effect);
 
+// Position of the first parameter of an effect that is part of the law.
+int ParametersAt(const Law& law, const Effect& effect);
+
 }  // namespace lyrefit

@@ -54,9 +54,13 @@ const dropText = (page, name, text) => {
   return drop(page, [[name, out(`drop_${name}`)]]);
 };
 
+// What is below may move while files are read and pictures are drawn, so that a click could miss it: a key does not.
+const openOptions = (page) => page.press('text=More options', 'Enter');
+
 async function work(page, verb) {
+  await page.waitForFunction(() => lyrefitPage.looking() === 0);
   const before = await page.evaluate(() => lyrefitPage.finished());
-  await page.click(`[data-verb=${verb}]`);
+  await page.press(`[data-verb=${verb}]`, 'Enter');
   await page.waitForFunction((count) => lyrefitPage.finished() > count, before);
 }
 
@@ -126,7 +130,7 @@ for (const [look, settings] of Object.entries(kLooks)) {
     for (const summary of await page.$$('main summary')) await summary.click();
     await check('options');
     for (const summary of await page.$$('main summary')) await summary.click();
-    await page.click('[data-verb=diagnose]');
+    await page.press('[data-verb=diagnose]', 'Enter');
     await page.waitForSelector('#running:not([hidden])');
     await check('running', false);
     await page.waitForSelector('#running', {state: 'hidden'});
@@ -162,7 +166,7 @@ test('options and conditions mean what the flags of the command mean', async () 
   await page.fill('[data-name=cells] input', '1');
   await page.fill('[data-name=temperature-C] input', '40');
   await page.press('[data-name=temperature-C] input', 'Tab');
-  await page.click('text=More options');
+  await openOptions(page);
   await page.selectOption('[data-name=model] select', 'dd');
   await page.fill('[data-name=fix] textarea', 'n2=2');
   await page.fill('#options [data-name=seed] input >> nth=0', '7');
@@ -173,6 +177,30 @@ test('options and conditions mean what the flags of the command mean', async () 
   assert.equal(record.model, 'dd');
   assert.equal(record.search.seed, 7);
   compare(record, commanded([table], 'fit', flags));
+  await close();
+});
+
+test('what is typed stays while the file is read anew', async () => {
+  const {page, complaints, close} = await begin();
+  await drop(page, kFiles.rtc);
+  await page.waitForFunction(() => lyrefitPage.looking() === 0);
+  const input = (name) => page.inputValue(`[data-name=${name}] input`);
+  // The answer comes after both, since the page does nothing else meanwhile.
+  await page.evaluate(() => {
+    const field = (name) => document.querySelector(`[data-name=${name}] input`);
+    field('cells').value = '2';
+    field('cells').dispatchEvent(new Event('change'));
+    field('temperature-C').focus();
+    document.execCommand('insertText', false, '4');
+  });
+  await page.waitForFunction(() => lyrefitPage.looking() === 0);
+  assert.equal(await input('temperature-C'), '4');
+  await page.keyboard.type('0');
+  assert.equal(await input('temperature-C'), '40');
+  await page.keyboard.press('Tab');
+  await page.waitForFunction(() => lyrefitPage.looking() === 0 &&
+      lyrefitPage.files.some(({lookedWith}) => lookedWith === '{"cells":"2","temperature-C":"40"}'));
+  assert.deepEqual(complaints, []);
   await close();
 });
 
@@ -240,10 +268,10 @@ test('cancel at once, the last result stays, and the next one is that of an undi
   await drop(page, kFiles.shaded);
   await work(page, 'diagnose');
   await report(page);
-  await page.click('text=More options');
+  await openOptions(page);
   await page.fill('[data-name=iterations] input', '1000000');
   await page.press('[data-name=iterations] input', 'Tab');
-  await page.click('[data-verb=fit]');
+  await page.press('[data-verb=fit]', 'Enter');
   await page.waitForFunction(() => /begins/.test(document.querySelector('#stage').textContent) === false);
   await page.click('#cancel');
   await page.waitForSelector('#running', {state: 'hidden'});
@@ -265,7 +293,7 @@ test('several files: a list, each with its result; the examples', async () => {
   await page.click('[data-example^=shaded]');
   await page.waitForSelector('#files >> text=137 readings');
   await page.check('#every');
-  await page.click('[data-verb=fit]');
+  await page.press('[data-verb=fit]', 'Enter');
   await page.waitForFunction(() => [...document.querySelectorAll('#files .state')].filter(
       (each) => /^Fit: done/.test(each.textContent)).length === 2);
   await page.click('#files .name:has-text("rtc_france.csv")');

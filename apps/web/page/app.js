@@ -14,6 +14,7 @@
   let queue = [];
   let running = null;
   let finished = 0;  // number of fits and diagnoses, including failed ones
+  let looking = 0;   // number of files that are being read
 
   function say(id, text) {
     element(id).textContent = text;
@@ -136,11 +137,20 @@
   }
 
   async function look(file) {
-    const answer = await looker.run({verb: 'look', file: file.name, options: ownValues(file)});
+    const said = ownValues(file);
+    file.lookedWith = JSON.stringify(said);
+    ++looking;
+    const answer = await looker.run({verb: 'look', file: file.name, options: said});
+    --looking;
     if (!files.includes(file)) return;
     file.look = {curves: [], columns: [], assumptions: [], ...answer};
     listFiles();
     if (file === chosen) showRead();
+  }
+
+  // A field that was filled anew while somebody typed does not tell that it has changed.
+  function lookIfChanged() {
+    if (chosen?.look && JSON.stringify(ownValues(chosen)) !== chosen.lookedWith) look(chosen);
   }
 
   function lookAtAll() {
@@ -350,6 +360,7 @@
     for (const button of document.querySelectorAll('[data-save]')) {
       button.addEventListener('click', () => reportView.save(chosen.results[shown], shown, button.dataset.save));
     }
+    for (const id of ['conditions', 'reading']) element(id).addEventListener('focusout', lookIfChanged);
     element('print').addEventListener('click', () => element('report').firstChild.contentWindow.print());
     element('cancel').addEventListener('click', cancel);
     element('for-all').addEventListener('click', () => {
@@ -397,6 +408,6 @@
   }
 
   // Interface for the tests of the page.
-  globalThis.lyrefitPage = {files, engines: () => [looker, runner], finished: () => finished};
+  globalThis.lyrefitPage = {files, engines: () => [looker, runner], finished: () => finished, looking: () => looking};
   start();
 })();

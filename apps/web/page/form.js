@@ -67,10 +67,14 @@ function formFields(rows, values, changed) {
       input.setAttribute('aria-describedby', hint.id);
       field.append(hint);
     }
-    input.addEventListener('change', () => {
+    const keep = () => {
       const value = read(row, input);
       if (value.length === 0) delete values[row.name];
       else values[row.name] = value;
+    };
+    input.addEventListener('input', keep);  // at once: a form may be filled anew while somebody types
+    input.addEventListener('change', () => {
+      keep();
       changed?.(row.name);
     });
     return field;

@@ -75,11 +75,16 @@ const readView = (() => {
     return formFields(rows, file.values, changed);
   }
 
-  // Replaces a form's fields and restores the keyboard focus.
+  // Replaces a form's fields and restores the keyboard focus and the selected text.
   function fill(holder, fields) {
-    const field = holder.contains(document.activeElement) ? document.activeElement.closest('.field') : null;
+    const old = holder.contains(document.activeElement) ? document.activeElement : null;
+    const selected = old?.type === 'text' ? [old.selectionStart, old.selectionEnd] : null;
     holder.replaceChildren(...fields);
-    if (field) holder.querySelector(`[data-name="${field.dataset.name}"] :is(input, select, textarea)`)?.focus();
+    if (!old) return;
+    const name = old.closest('.field').dataset.name;
+    const input = holder.querySelector(`[data-name="${name}"] :is(input, select, textarea)`);
+    input?.focus();
+    if (selected && input?.type === 'text') input.setSelectionRange(...selected);
   }
 
   return {isOwn: (row) => kOwnGroups.includes(row.group), showError, conditionFields, readingFields, columnTable, fill};

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -135,6 +136,28 @@ TEST(TrendState, PointsAtADamagedLine) {
   const std::string path =
       folder.Write("b.state", whole.substr(0, third) + "noise\n" + whole.substr(fourth));
   ExpectErrorAt(AppendTrendState(path, series), path, 3, 0, "this line is no row of a trend");
+}
+
+TEST(TrendState, RefusesARowThatCountsWithoutItsConditions) {
+  const TempFolder folder;
+  const TrendSeries series = ThirtyDays();
+  ASSERT_TRUE(AppendTrendState(folder.Path("a.state"), series));
+  const std::string whole = FileText(folder.Path("a.state"));
+  const std::size_t second = whole.find('\n') + 1;
+  for (const char* conditions :
+       {"null,800,25", "1741775400,null,25", "1741775400,800,null", "1741775400,800,-274"}) {
+    for (const int state : {0, 1}) {
+      const std::string row =
+          fmt::format("[{},30,7,8,37,0,0,0,0,0,0.001,0,{},\"\"]\n", conditions, state);
+      const std::string path =
+          folder.Write("b.state", whole.substr(0, second) + row + whole.substr(second));
+      ExpectErrorAt(ReadTrendState(path), path, 2, 0, "expected a time, an irradiance and a");
+    }
+    const std::string left_out =
+        fmt::format("[{},30,7,8,37,0,0,0,0,0,0.001,0,5,\"\"]\n", conditions);
+    EXPECT_TRUE(ReadTrendState(
+        folder.Write("b.state", whole.substr(0, second) + left_out + whole.substr(second))));
+  }
 }
 
 TEST(TrendState, RefusesADamagedHead) {

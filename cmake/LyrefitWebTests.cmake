@@ -43,7 +43,7 @@ if(LYREFIT_CHROMIUM AND LYREFIT_PLOTLY AND EXISTS "${PAGES}/node_modules/playwri
     configure_file("pages/${script}.mjs" "${PAGES}/${script}.mjs" COPYONLY)
   endforeach()
   add_test(NAME web/page COMMAND node --test "${PAGES}/web_test.mjs")
-  set_tests_properties(web/page PROPERTIES TIMEOUT 600 ENVIRONMENT
+  set_tests_properties(web/page PROPERTIES TIMEOUT 900 ENVIRONMENT
     "PAGE=${PROJECT_BINARY_DIR}/apps/web/lyrefit.html;APP=${LYREFIT_NATIVE};CHROMIUM=${LYREFIT_CHROMIUM};DATA=${PROJECT_SOURCE_DIR}/data;OUT=${PAGES}/out")
 else()
   add_test(NAME web/page COMMAND ${CMAKE_COMMAND} -E echo "SKIPPED: chromium, Plotly, playwright-core or axe-core missing")

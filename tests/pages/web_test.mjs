@@ -6,7 +6,7 @@ import {mkdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs'
 import {basename, join} from 'node:path';
 import {after, before, test} from 'node:test';
 
-import {barriers, chartsReady, kLooks, launch, memoryOf, open} from './browser.mjs';
+import {barriers, chartsReady, kHangs_ms, kLooks, launch, memoryOf, open} from './browser.mjs';
 
 const {PAGE, APP, CHROMIUM, DATA, OUT} = process.env;
 const kMegabyte = 1e6;
@@ -83,7 +83,8 @@ function commanded(files, verb, flags = []) {
   rmSync(folder, {recursive: true, force: true});
   mkdirSync(folder, {recursive: true});
   for (const [name, path] of files) writeFileSync(join(folder, name), readFileSync(path));
-  execFileSync(APP, [verb, files[0][0], ...flags, '--quiet', '--force', '--json', 'command.out'], {cwd: folder});
+  execFileSync(APP, [verb, files[0][0], ...flags, '--quiet', '--force', '--json', 'command.out'],
+               {cwd: folder, timeout: kHangs_ms});
   return JSON.parse(readFileSync(join(folder, 'command.out'), 'utf8'));
 }
 

@@ -18,10 +18,6 @@ constexpr double kSteppedTimes = 4;      // misfit of a stepped sweep over the m
 constexpr double kSteppedLeast = 0.004;  // and of Isc
 constexpr double kCovered = 0.85;        // light of a covered device, of its 90 % quantile
 
-bool Counts(const TrendRow& row) {
-  return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
-}
-
 double SpanOf(const std::vector<TrendRow>& rows) {
   return rows.empty() ? 0 : rows.back().time_s - rows.front().time_s;
 }
@@ -87,7 +83,7 @@ void CutBlocks(TrendBlocks* blocks) {
   std::vector<TrendRow> counting;
   double last = -1;
   for (const TrendRow& row : blocks->rows) {
-    if (!Counts(row)) continue;
+    if (!CountsInBlocks(row)) continue;
     const double number = std::floor((row.time_s - origin) / blocks->length_s);
     if (number != last) {
       blocks->time_s.push_back(0);

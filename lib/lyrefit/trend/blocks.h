@@ -15,6 +15,11 @@ namespace lyrefit {
 constexpr int kModelExcess = kTrendParameters;
 constexpr int kFollowed = kTrendParameters + 1;
 
+// Whether a row has a say in its block: it is used, or tells the light of a shaded device.
+inline bool CountsInBlocks(const TrendRow& row) {
+  return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
+}
+
 // The measurements of a series in blocks: days, or shorter spans of a short series.
 struct TrendBlocks {
   const TrendDevice* device = nullptr;

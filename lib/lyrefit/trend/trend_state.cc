@@ -13,6 +13,7 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/read_trend.h"
 #include "lyrefit/trend/trend_device.h"
 
@@ -139,13 +140,10 @@ Expected<TrendRow> RowOfLine(const std::string& text, const std::string& path, i
   row.lost_substrings = line[13];
   row.state = static_cast<TrendRowState>(line[14].get<int>());
   row.reason = line[15];
-  const bool counts = row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;
-  if (counts && !(std::isfinite(row.time_s) && std::isfinite(row.irradiance_W_m2) &&
-                  row.temperature_C > -kZeroCelsius_K)) {
-    return Fail(
-        "expected a time, an irradiance and a temperature above absolute zero in a row that "
-        "counts, the file is damaged",
-        path, number);
+  if (CountsInBlocks(row) && !(std::isfinite(row.time_s) && std::isfinite(row.irradiance_W_m2) &&
+                               row.temperature_C > -kZeroCelsius_K)) {
+    return Fail("expected a time, an irradiance and a temperature, the file is damaged", path,
+                number);
   }
   return row;
 }

@@ -112,5 +112,37 @@ TEST(LeaveOutLimitedTest, NothingIsLeftOutBelowTheLimitOrIfNothingWouldRemain) {
   EXPECT_EQ(curve.size(), 4U);
 }
 
+TEST(LeaveOutPaddingTest, RowsOfZerosWhereTheSweepDoesNotComeAreLeftOut) {
+  IvCurve lit = SyntheticModule();
+  const std::vector<double> voltage = lit.voltage_V;
+  lit.time_s.assign(lit.size(), 1);
+  for (std::vector<double>* column : {&lit.voltage_V, &lit.current_A, &lit.time_s}) {
+    column->resize(column->size() + 7, 0.0);
+  }
+  EXPECT_EQ(LeaveOutPadding(0, &lit), 7U);
+  EXPECT_EQ(lit.voltage_V, voltage);
+  EXPECT_EQ(lit.time_s.size(), voltage.size());
+  EXPECT_EQ(LeaveOutPadding(0, &lit), 0U);
+}
+
+TEST(LeaveOutPaddingTest, ADarkSweepMayEndAtTheOrigin) {
+  IvCurve dark;
+  dark.voltage_V = {0.6, 0.4, 0.2, 0};
+  dark.current_A = {-1, -0.02, -0.01, 0};
+  EXPECT_EQ(LeaveOutPadding(0, &dark), 0U);
+  dark.voltage_V.resize(9, 0.0);
+  dark.current_A.resize(9, 0.0);
+  EXPECT_EQ(LeaveOutPadding(0, &dark), 5U);
+  EXPECT_EQ(dark.size(), 4U);
+}
+
+TEST(LeaveOutPaddingTest, WithoutAReadingNothingIsLeft) {
+  IvCurve empty;
+  empty.voltage_V.resize(4, 0.0);
+  empty.current_A.resize(4, 0.0);
+  EXPECT_EQ(LeaveOutPadding(0, &empty), 4U);
+  EXPECT_EQ(empty.size(), 0U);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -193,6 +193,14 @@ TEST(RecogniseColumnTest, DirectionAndLightStandApart) {
       {"Jlight", ColumnKind::kCurrentDensity, "", SweepDirection::kUnknown, SweepLight::kLight,
        1e-3},
       {"I_up (mA)", ColumnKind::kCurrent, "", SweepDirection::kForward, SweepLight::kUnknown, 1e-3},
+      {"SunsVoc_Voltage_(V)", ColumnKind::kVoltage, "", SweepDirection::kUnknown,
+       SweepLight::kSunsVoc, 1},
+      {"Suns-Voc Current (mA)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
+       SweepLight::kSunsVoc, 1e-3},
+      {"SunsVoc_Suns_(suns)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
+       SweepLight::kSunsVoc, 1},
+      {"SunsVoc Intensity (W/m2)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
+       SweepLight::kSunsVoc, 1e-3},
   };
   for (const auto& c : kCases) {
     SCOPED_TRACE(c.label);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "error_of.h"
 
 namespace lyrefit {
@@ -14,6 +16,7 @@ using ::testing::Contains;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(ReadTableTest, ReadsEveryWayToWriteTheSameTable) {
   for (const char* text : {
@@ -157,6 +160,54 @@ TEST(ReadTableTest, PairsSideBySideMayEndEarly) {
   EXPECT_THAT(table->curve.voltage_V, ElementsAre(0, 0.4));
   EXPECT_EQ(table->name, "I2");
   EXPECT_FALSE(ReadTable("V1,I1,V2,I2\n0,2,0,1\n0.5,1,0.4,\n", "f", options));
+}
+
+constexpr char kFlashTester[] =
+    "Vload_(V),ILoad_(A),SunsVoc_Voltage_(V),SunsVoc_Suns_(suns),Intensity_(suns),"
+    "Dark_IV_Voltage_(V),Dark_IV_Current_(A)\n"
+    "0,5,40,1,1.1,0,0\n20,4.9,39,0.5,1.0,20,0.1\n30,4,38,0.2,0.9,30,1\n"
+    "0,0,37,0.1,0.8,0,0\n0,0,36,0.05,0.7,0,0\n";
+
+TEST(ReadTableTest, TheCurveUnderLoadCountsBesideASunsVocTrace) {
+  const auto load = ReadTable(kFlashTester, "f");
+  ASSERT_TRUE(load) << load.error().ToString();
+  EXPECT_THAT(load->curve.voltage_V, ElementsAre(0, 20, 30));
+  EXPECT_THAT(load->curve.current_A, ElementsAre(5, 4.9, 4));
+  EXPECT_THAT(load->curve.irradiance_W_m2, IsEmpty());  // the light is that of the trace
+  EXPECT_FALSE(load->curve.suns_voc_A);
+  const auto says = [&](const char* text) {
+    return std::any_of(load->curve.assumptions.begin(), load->curve.assumptions.end(),
+                       [&](const Assumption& one) {
+                         return one.sentence.find(text) != std::string::npos;
+                       });
+  };
+  EXPECT_TRUE(says("2 of 5 rows left out: they hold 0 V and 0 A"));
+  EXPECT_TRUE(says("'Intensity_(suns)' is the light of the Suns-Voc trace"));
+}
+
+TEST(ReadTableTest, ASunsVocTraceHasTheShortCircuitCurrentOfTheCurveBesideIt) {
+  ReadOptions options;
+  options.column = "2";
+  const auto trace = ReadTable(kFlashTester, "f", options);
+  ASSERT_TRUE(trace) << trace.error().ToString();
+  EXPECT_THAT(trace->curve.voltage_V, ElementsAre(40, 39, 38, 37, 36));
+  ASSERT_TRUE(trace->curve.suns_voc_A);
+  EXPECT_NEAR(*trace->curve.suns_voc_A, 5, 1e-12);
+  EXPECT_NEAR(trace->curve.current_A[1], 2.5, 1e-12);
+}
+
+TEST(ReadTables, AMeasurementOfZerosOnlyIsNoCurve) {
+  const char* text =
+      "Vload_(V),ILoad_(A),SunsVoc_Voltage_(V),SunsVoc_Current_(A),Dark_IV_Voltage_(V),"
+      "Dark_IV_Current_(A)\n0,5,40,0,0,0\n20,4.9,39,2,0,0\n30,4,38,4,0,0\n";
+  const auto tables = ReadTables(text, "f", {}, BrokenRows::kRefuse);
+  ASSERT_TRUE(tables) << tables.error().ToString();
+  ASSERT_EQ(tables->size(), 2U);
+  EXPECT_FALSE((*tables)[0].error);
+  ASSERT_TRUE((*tables)[1].curve.suns_voc_A);
+  EXPECT_EQ(*(*tables)[1].curve.suns_voc_A, 4);
+  EXPECT_THAT((*tables)[0].curve.assumptions.back().sentence,
+              HasSubstr("'Dark_IV_Current_(A)' left aside: every row holds 0 V and 0 A"));
 }
 
 TEST(ReadTableTest, DensitiesAreInAmperePerSquareCentimetre) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "lyrefit/base/largest.h"
+
 namespace lyrefit {
 namespace {
 
@@ -219,6 +221,31 @@ void LeaveOutLimited(IvCurve* curve) {
     RemoveAt(removed, column);
   }
   RemoveAt(removed, &curve->sweep);
+}
+
+std::size_t LeaveOutPadding(std::size_t begin, IvCurve* curve) {
+  constexpr double kNear = 2;      // steps of the voltage before the first row of zeros
+  constexpr double kSmall = 0.05;  // of the largest current, at a reading beside the origin
+  const std::size_t size = curve->size();
+  std::size_t end = size;
+  while (end > begin && curve->voltage_V[end - 1] == 0 && curve->current_A[end - 1] == 0) --end;
+  if (end == size) return 0;
+  if (end >= begin + 2) {  // a dark sweep may end at the origin, with one reading of zeros
+    const std::vector<double>& voltage = curve->voltage_V;
+    const double largest =
+        LargestMagnitude({curve->current_A.begin() + static_cast<std::ptrdiff_t>(begin),
+                          curve->current_A.begin() + static_cast<std::ptrdiff_t>(end)});
+    const double step = std::fabs(voltage[end - 1] - voltage[end - 2]);
+    const bool arrives = std::fabs(voltage[end - 1]) <= kNear * step &&
+                         std::fabs(curve->current_A[end - 1]) <= kSmall * largest;
+    if (arrives) ++end;
+  }
+  for (auto* column : {&curve->voltage_V, &curve->current_A, &curve->sigma_A, &curve->time_s,
+                       &curve->irradiance_W_m2, &curve->temperature_C}) {
+    if (column->size() == size) column->resize(end);
+  }
+  if (curve->sweep.size() == size) curve->sweep.resize(end);
+  return size - end;
 }
 
 std::vector<ReadingFinding> FindEqualReadings(const IvCurve& curve) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "lyrefit/curve/check_readings.h"
@@ -21,5 +22,9 @@ std::vector<ReadingFinding> FindEqualReadings(const IvCurve& curve);
 // highest voltage down whose current is against the generator and within 0.2 % of the limit. Says
 // so in `assumptions`. Does nothing if fewer than four readings would remain.
 void LeaveOutLimited(IvCurve* curve);
+
+// Leaves out the rows at the end, from row `begin` on, that hold exactly 0 V and 0 A although the
+// sweep does not come there: a shorter column of a table is padded with them. Returns their number.
+std::size_t LeaveOutPadding(std::size_t begin, IvCurve* curve);
 
 }  // namespace lyrefit

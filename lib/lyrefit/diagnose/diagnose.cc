@@ -188,13 +188,14 @@ struct PreparedDiagnosis {
   Measurement measurement;
 };
 
-Expected<PreparedDiagnosis> Prepare(const CurveSet& taken, const DiagnoseOptions& options) {
+Expected<PreparedDiagnosis> Prepare(const CurveSet& given, const DiagnoseOptions& options) {
   TRY(CheckOptions(options));
   PreparedDiagnosis prepared;
   prepared.options = options;
   TRY(prepared.known, KnownEffects(options));
-  TRY(prepared.doubts, JudgeReadings(taken.curves));
   std::vector<std::string> disorder;
+  const CurveSet taken = WithoutTraces(given, &disorder);
+  TRY(prepared.doubts, JudgeReadings(taken.curves));
   prepared.set = InOrder(taken, &disorder);
   TRY(prepared.measurement, MakeMeasurement(prepared.set));
   std::vector<std::string>& warnings = prepared.measurement.warnings;

@@ -58,6 +58,10 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
     } else if (const auto judged = JudgeReadings(curve); !judged) {
       LeaveOut(judged.error().message, &member);
       if (!refusal->has_value()) *refusal = judged.error();
+    } else if (curve.suns_voc_A) {
+      LeaveOut("a Suns-Voc trace: series resistance is not in it, and each reading has a light of "
+               "its own",
+               &member);
     } else if (member.irradiance_known && !(irradiance > 0)) {
       const bool lit = !IsDark(curve);
       if (!lit && !options.with.empty()) {  // models with effects include dark curves

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -167,7 +168,8 @@ constexpr std::pair<std::string_view, SweepLight> kLights[] = {
     {"light", SweepLight::kLight},
     {"lit", SweepLight::kLight},
     {"illuminated", SweepLight::kLight},
-    {"illumination", SweepLight::kLight}};
+    {"illumination", SweepLight::kLight},
+    {"sunsvoc", SweepLight::kSunsVoc}};
 constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
 
 template <class T, std::size_t N>
@@ -202,7 +204,12 @@ bool TakeTagWord(const LabelWord& word, ColumnTag* tag) {
 ColumnTag TakeTag(std::vector<LabelWord>* words) {
   ColumnTag tag;
   std::vector<LabelWord> kept;
-  for (LabelWord word : *words) {
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    LabelWord word = (*words)[i];
+    const bool suns_voc = word.text == "suns" && i + 1 < words->size() &&
+                          !word.marked_as_unit && (*words)[i + 1].text == "voc";
+    if (suns_voc) word = {"sunsvoc", "SunsVoc", false};
+    if (suns_voc) ++i;
     if (TakeTagWord(word, &tag)) continue;
     const Name* letter = FindName(std::string_view(word.text).substr(0, 1));
     const bool electrical = letter != nullptr && IsElectrical(letter->kind);
@@ -348,6 +355,19 @@ Column RecogniseTagged(std::string_view label, const std::vector<LabelWord>& wor
   return column;
 }
 
+// The light of a Suns-Voc trace, in suns, which takes the place of its current.
+std::optional<Column> AsLightOfTrace(std::string_view label, const std::vector<LabelWord>& words,
+                                     const ColumnTag& tag) {
+  if (tag.light != SweepLight::kSunsVoc || words.empty()) return std::nullopt;
+  Column column = Recognise(label, words);
+  const bool irradiance = column.kind == ColumnKind::kIrradiance && column.refusal.empty();
+  if (!irradiance && words[0].text != "suns") return std::nullopt;
+  const double factor = irradiance ? column.factor / 1000 : 1;
+  column = {ColumnKind::kCurrent, std::string(label), "a", factor, 0, {}, tag};
+  column.light = true;
+  return column;
+}
+
 }  // namespace
 
 ColumnTag ReadTag(std::string_view text) {
@@ -367,6 +387,7 @@ Column RecogniseColumn(std::string_view label) {
   if (column.kind != ColumnKind::kUnrecognised && column.refusal.empty()) return column;
   const ColumnTag tag = TakeTag(&words);
   if (StatesSweep(tag) || tag.average) {
+    if (const auto light = AsLightOfTrace(label, words, tag)) return *light;
     Column tagged = RecogniseTagged(label, words, tag);
     if (IsElectrical(tagged.kind)) return tagged;
   }

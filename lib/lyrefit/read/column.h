@@ -32,8 +32,9 @@ inline bool IsElectrical(ColumnKind kind) {
 // Direction of a sweep: towards higher voltages or towards lower ones.
 enum class SweepDirection { kUnknown, kForward, kReverse };
 
-// Light during a sweep, as far as a label states it.
-enum class SweepLight { kUnknown, kDark, kLight };
+// Light during a sweep, as far as a label states it. kSunsVoc: a Suns-Voc trace, at open circuit
+// while the light decays.
+enum class SweepLight { kUnknown, kDark, kLight, kSunsVoc };
 
 // What tells columns of one quantity apart: "a_Forward_Dark", "Pixel 2", "Current 1 (A)".
 struct ColumnTag {

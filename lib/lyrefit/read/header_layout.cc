@@ -95,6 +95,12 @@ Expected<void> PickColumns(const ReadOptions& options, const HeaderPlace& place,
     TRY(*index, PickColumn(*layout, kind, place));
   }
   if (layout->sweep == kNoColumn) layout->sweep = *PickColumn(*layout, ColumnKind::kCurve, place);
+  if (layout->irradiance != kNoColumn && IsLightOfTrace(layout->columns, layout->irradiance)) {
+    layout->assumptions.push_back(
+        fmt::format("column {} is the light of the Suns-Voc trace beside it, not that of a sweep",
+                    Quoted(layout->columns[layout->irradiance].label)));
+    layout->irradiance = kNoColumn;
+  }
   if (layout->more.empty()) return {};
   if (layout->sweep != kNoColumn) {
     return place.Refuse("expected columns of both directions or a column of sweeps, found both",

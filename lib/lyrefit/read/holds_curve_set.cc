@@ -8,6 +8,7 @@
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/multi_flash.h"
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/read_table.h"
@@ -61,6 +62,7 @@ bool TextHoldsCurveSet(const DecodedText& text, const std::string& path,
                        const ReadOptions& options) {
   const auto document = DocumentIn(text.text, path);
   if (!document) return false;
+  if (IsMultiFlash(text.text)) return true;
   return *document ? JsonHoldsSet(**document, path, options)
                    : TableHoldsSet(RewriteTable(text).text, path, options);
 }

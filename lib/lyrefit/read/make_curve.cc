@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/read/join_sweeps.h"
 
 namespace lyrefit {
@@ -131,6 +132,14 @@ void SaySkipped(const std::vector<bool>& missing, IvCurve* curve) {
 
 }  // namespace
 
+void SayPadding(std::size_t rows, IvCurve* curve) {
+  if (rows == 0) return;
+  curve->assumptions.push_back(
+      fmt::format("{} of {} rows left out: they hold 0 V and 0 A at the end, where the sweep does "
+                  "not come, and only pad the table",
+                  rows, rows + curve->size()));
+}
+
 Expected<RawCurve> CurveOfRecords(const Records& records, const std::vector<Column>& columns,
                                   const Channel& channel, const ReadOptions& options,
                                   const RecordPlace& place) {
@@ -146,14 +155,17 @@ Expected<RawCurve> CurveOfRecords(const Records& records, const std::vector<Colu
   TakeValues(reading, missing, channel.current, &curve.current_A);
   TakeFurtherLists(reading, missing, &curve);
   TRY(CheckTemperatures(place, curve));
+  std::size_t padding = LeaveOutPadding(0, &curve);
   std::vector<FurtherSweep> further;
   for (const ColumnPair& pair : channel.more) {
     TRY(const std::vector<bool> left_out, FindMissing(reading, pair));
     further.emplace_back();
     TakeValues(reading, left_out, pair.voltage, &further.back().curve.voltage_V);
     TakeValues(reading, left_out, pair.current, &further.back().curve.current_A);
+    padding += LeaveOutPadding(0, &further.back().curve);
     SaySkipped(left_out, &curve);
   }
+  SayPadding(padding, &curve);
   if (!further.empty()) curve.sweep.clear();
   std::vector<int> lines;
   JoinSweeps(columns, channel, std::move(further), &curve, &lines);

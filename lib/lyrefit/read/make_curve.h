@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,5 +37,8 @@ struct RecordPlace {
 Expected<RawCurve> CurveOfRecords(const Records& records, const std::vector<Column>& columns,
                                   const Channel& channel, const ReadOptions& options,
                                   const RecordPlace& place);
+
+// Says how many rows of zeros were left out at the end (LeaveOutPadding); nothing of none.
+void SayPadding(std::size_t rows, IvCurve* curve);
 
 }  // namespace lyrefit

@@ -14,8 +14,10 @@
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/multi_flash.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/rewrite_table.h"
+#include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_layout.h"
 
@@ -54,14 +56,14 @@ Expected<std::vector<NumberedCurve>> CurvesOf(const json& document, const std::s
   return numbered;
 }
 
-Expected<IvCurve> FromDocument(const json& document, const std::string& path,
-                               const ReadOptions& options) {
-  Expected<std::vector<NumberedCurve>> curves = CurvesOf(document, path, options);
-  if (!curves) return tl::unexpected(curves.error());
+// The curve that the options name, the only one, or the one at place `usual`.
+Expected<IvCurve> ChooseCurve(std::vector<NumberedCurve> curves, std::optional<std::size_t> usual,
+                              const std::string& path, const ReadOptions& options) {
   constexpr std::size_t kLongestList = 200;
   std::string numbers;
-  NumberedCurve* chosen = curves->size() == 1 && !options.curve ? &curves->front() : nullptr;
-  for (NumberedCurve& curve : *curves) {
+  if (curves.size() == 1) usual = 0;
+  NumberedCurve* chosen = usual && !options.curve ? &curves[*usual] : nullptr;
+  for (NumberedCurve& curve : curves) {
     if (options.curve && curve.number == std::to_string(*options.curve)) chosen = &curve;
     if (numbers.size() > kLongestList) continue;
     numbers += (numbers.empty() ? "" : ", ") + curve.number;
@@ -69,16 +71,43 @@ Expected<IvCurve> FromDocument(const json& document, const std::string& path,
   }
   if (chosen == nullptr && options.curve) {
     return Fail(fmt::format("curve {} was asked for, but the file holds {} curves ({} ...)",
-                            *options.curve, curves->size(), numbers),
+                            *options.curve, curves.size(), numbers),
                 path);
   }
   if (chosen == nullptr) {
     return Fail(fmt::format("expected one curve, found {} ({} ...): choose one with --curve INDEX",
-                            curves->size(), numbers),
+                            curves.size(), numbers),
                 path);
   }
   if (chosen->settled) return std::move(chosen->raw.curve);
   return FinishCurve(std::move(chosen->raw), options);
+}
+
+Expected<IvCurve> FromDocument(const json& document, const std::string& path,
+                               const ReadOptions& options) {
+  TRY(std::vector<NumberedCurve> curves, CurvesOf(document, path, options));
+  return ChooseCurve(std::move(curves), std::nullopt, path, options);
+}
+
+// A curve of the file of a multi-flash tester, by default that at the light that the file aims at.
+Expected<IvCurve> FromFlashes(const DecodedText& text, const std::string& path,
+                              const Sidecar& beside, const ReadOptions& options) {
+  TRY(MultiFlash flashes, ReadMultiFlash(text.text, path));
+  const std::string name = fs::path(path).stem().string();
+  std::string list;
+  std::vector<NumberedCurve> numbered;
+  for (RawCurve& raw : flashes.curves) {
+    const std::string number = std::to_string(numbered.size() + 1);
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", number, raw.curve.name);
+    raw.curve.name = fmt::format("{}_{}", name, raw.curve.name);
+    raw.stated = MergeHead(beside, raw.stated);
+    numbered.push_back({number, std::move(raw), false});
+  }
+  for (NumberedCurve& curve : numbered) {
+    curve.raw.curve.assumptions.emplace_back(
+        fmt::format("one of {} curves, which --curve chooses: {}", numbered.size(), list));
+  }
+  return ChooseCurve(std::move(numbered), flashes.at_target, path, options);
 }
 
 Expected<IvCurve> FromTable(RawCurve raw, const ReadOptions& options) {
@@ -118,6 +147,10 @@ Expected<IvCurve> CurveOfFile(const DecodedText& text, const std::string& path,
                     fmt::format(" (for the curve beside it, name {})", table.filename().string()),
                 path);
   }
+  if (IsMultiFlash(text.text)) {
+    TRY(const Sidecar beside, ReadSidecarBeside(path, options));
+    return FromFlashes(text, path, beside, options);
+  }
   Expected<RawCurve> raw = TableCurveOfFile(text, path, options);
   if (!raw && HoldsKeyPoints(text.text, path)) return CurveOfKeyPoints(text, path, options);
   if (!raw) return tl::unexpected(raw.error());
@@ -141,6 +174,7 @@ Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
   TRY(const DecodedText decoded, DecodeText(std::move(text), name));
   TRY(const std::optional<json> document, DocumentIn(decoded.text, name));
   if (document) return FromDocument(*document, name, options);
+  if (IsMultiFlash(decoded.text)) return FromFlashes(decoded, name, {}, options);
   Expected<RawCurve> read = TableCurveFromText(decoded, name, options);
   if (!read && HoldsKeyPoints(decoded.text, name)) return CurveOfKeyPoints(decoded, name, options);
   TRY(RawCurve raw, std::move(read));
@@ -153,6 +187,9 @@ Expected<std::vector<ColumnNote>> ListColumns(const std::string& path, const Rea
   const fs::path inside = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
   if (inside.empty()) return Fail("expected a file, found a folder", path);
   TRY(const DecodedText text, ReadDecodedFile(inside.string(), options.largest_file_bytes));
+  if (IsMultiFlash(text.text)) {
+    return Fail("flashes at fixed loads, not columns: --curve chooses one of their curves", path);
+  }
   return ListTableColumns(RewriteTable(text).text, inside.string(), options);
 }
 

@@ -16,6 +16,7 @@
 #include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
+#include "lyrefit/read/multi_flash.h"
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/read/read_table.h"
@@ -211,12 +212,24 @@ Expected<CurveSet> SetFromJson(const nlohmann::json& document, const std::string
   return builder.Finish();
 }
 
+// The curves of a multi-flash tester at several lights, and its Suns-Voc trace.
+Expected<CurveSet> SetFromFlashes(const DecodedText& text, const std::string& path,
+                                  const ReadOptions& options) {
+  TRY(MultiFlash flashes, ReadMultiFlash(text.text, path));
+  CurveSetBuilder builder(fs::path(path).stem().string(), path, options);
+  TRY(builder.ReadCommon(fs::path(path).replace_extension(".json").string(), SidecarOf::kSet));
+  for (RawCurve& raw : flashes.curves) builder.Add(std::move(raw), 0);
+  return builder.Finish();
+}
+
 }  // namespace
 
 Expected<CurveSet> CurveSetOfFile(const DecodedText& text, const std::string& path,
                                   const ReadOptions& options) {
   TRY(const std::optional<nlohmann::json> document, DocumentIn(text.text, path));
-  return document ? SetFromJson(*document, path, options) : SetFromTable(text, path, path, options);
+  if (document) return SetFromJson(*document, path, options);
+  if (IsMultiFlash(text.text)) return SetFromFlashes(text, path, options);
+  return SetFromTable(text, path, path, options);
 }
 
 Expected<CurveSet> ReadCurveSet(const std::string& path, const ReadOptions& options) {

@@ -11,7 +11,11 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/equal_readings.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/join_sweeps.h"
+#include "lyrefit/read/make_curve.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_header.h"
@@ -98,8 +102,20 @@ Expected<void> TakeRow(BrokenRows broken_rows, TableRow* row, std::vector<TableR
   return {};
 }
 
+void LeaveOutPadding(TableReading* reading) {
+  Table& table = reading->table;
+  const std::size_t begin = reading->starts.empty() ? 0 : reading->starts.back();
+  reading->padding += LeaveOutPadding(begin, &table.curve);
+  table.lines.resize(table.curve.size());
+  for (FurtherSweep& sweep : reading->further) {
+    reading->padding += LeaveOutPadding(0, &sweep.curve);
+    sweep.lines.resize(sweep.curve.size());
+  }
+}
+
 void JoinFurther(std::vector<TableReading>* readings) {
   for (TableReading& reading : *readings) {
+    LeaveOutPadding(&reading);
     JoinSweeps(reading.layout.columns, reading.layout.channel(), std::exchange(reading.further, {}),
                &reading.table.curve, &reading.table.lines);
   }
@@ -146,9 +162,10 @@ Expected<std::vector<TableLayout>> ReadRows(TablesBelow* rows) {
   return std::vector<TableLayout>();
 }
 
-void SayWhatWasSkipped(Table* table) {
+void SayWhatWasSkipped(std::size_t padding, Table* table) {
   constexpr std::size_t kShown = 10;
   const std::vector<int>& skipped = table->skipped;
+  SayPadding(padding, &table->curve);
   if (skipped.empty()) return;
   std::string shown;
   for (std::size_t i = 0; i < skipped.size() && i < kShown; ++i) {
@@ -208,20 +225,43 @@ void TakeUnitOfShortCircuit(Table* table, const TableLayout& layout) {
       About::kCurrentUnit);
 }
 
-// Turns the light of a Suns-Voc trace into currents. Isc is that of the options or of the head.
-Expected<void> TakeTrace(const TableLayout& layout, const std::string& file,
-                         const ReadOptions& options, Table* table) {
-  if (!layout.columns[layout.current].light) return {};
+// The short-circuit current of the measurement under load beside a Suns-Voc trace.
+std::optional<double> CurrentUnderLoad(std::string_view text, const std::string& file,
+                                       const TableReading& trace, Table* table) {
+  const auto place = ChannelUnderLoad(trace.layout.columns, trace.layout.channels);
+  if (!place) return std::nullopt;
+  ReadOptions options = trace.options;
+  options.column = std::to_string(*place + 1);
+  Expected<Table> load = ReadTable(text, file, options);
+  if (!load || !load->curve.sweep.empty()) return std::nullopt;
+  TurnLoadSign(&load->curve);
+  const KeyPoints points = FindKeyPoints(load->curve.voltage_V, load->curve.current_A);
+  if (!(points.short_circuit_current_A > 0)) return std::nullopt;
+  table->per_area = load->per_area;
+  return points.short_circuit_current_A;
+}
+
+// Makes the curve of a Suns-Voc trace. Isc is that of the options, of the head or of the measurement
+// under load. Currents in place of the light are such a curve already.
+Expected<void> TakeTrace(std::string_view text, const std::string& file,
+                         const TableReading& reading, Table* table) {
+  const TableLayout& layout = reading.layout;
+  const Column& column = layout.columns[layout.current];
+  if (!column.light) {
+    if (column.tag.light == SweepLight::kSunsVoc) SayIsTrace(&table->curve);
+    return {};
+  }
   std::vector<std::string> labels;
-  for (const Column& column : layout.columns) labels.push_back(column.label);
-  const auto trace = FindSunsVoc(labels);
-  std::optional<double> isc = options.isc_A;
+  for (const Column& one : layout.columns) labels.push_back(one.label);
+  const SunsVocColumns trace = FindSunsVoc(labels).value_or(SunsVocColumns{});
+  std::optional<double> isc = reading.options.isc_A;
   const std::optional<StatedCurrent>& stated = layout.head.short_circuit;
   if (!isc && stated) {
     isc = std::abs(stated->value) * stated->factor;
     table->per_area = stated->kind == ColumnKind::kCurrentDensity;
   }
-  const auto current = LightToCurrent(*trace, isc, &table->curve);
+  if (!isc) isc = CurrentUnderLoad(text, file, reading, table);
+  const auto current = LightToCurrent(trace, isc, &table->curve);
   if (!current) return Fail(current.error().message, file, layout.first_row_line);
   return {};
 }
@@ -274,17 +314,40 @@ TableReading Begin(TableLayout layout, const ReadOptions& options) {
   return reading;
 }
 
-Expected<void> Finish(const std::string& file, TableReading* reading) {
+constexpr char kOnlyZeros[] = "every row holds 0 V and 0 A: nothing was measured";
+
+// Drops measurements side by side that hold only zeros, and names them.
+void DropUnmeasured(std::vector<TableReading>* readings) {
+  const auto is_empty = [](const TableReading& reading) {
+    return !reading.table.error && reading.table.curve.size() == 0 && reading.padding > 0;
+  };
+  std::string names;
+  for (const TableReading& reading : *readings) {
+    if (is_empty(reading)) names += (names.empty() ? "" : ", ") + Quoted(reading.table.name);
+  }
+  const auto kept = std::stable_partition(readings->begin(), readings->end(), [&](const auto& one) {
+    return !is_empty(one);
+  });
+  if (names.empty() || kept == readings->begin()) return;
+  readings->erase(kept, readings->end());
+  for (TableReading& reading : *readings) {
+    reading.table.curve.assumptions.push_back(
+        fmt::format("{} left aside: {}", names, kOnlyZeros));
+  }
+}
+
+Expected<void> Finish(std::string_view text, const std::string& file, TableReading* reading) {
   Table& table = reading->table;
   if (table.error) return tl::unexpected(*table.error);
   if (table.curve.size() == 0 && table.broken.empty()) {
-    return Fail("expected rows of numbers below the header, found none", file,
-                reading->layout.first_row_line);
+    return Fail(reading->padding == 0 ? "expected rows of numbers below the header, found none"
+                                      : kOnlyZeros,
+                file, reading->layout.first_row_line);
   }
-  SayWhatWasSkipped(&table);
+  SayWhatWasSkipped(reading->padding, &table);
   table.curve.stated = ResultsOf(reading->layout.head.result_lines, reading->layout.columns,
                                  reading->layout.channels, reading->layout.channel());
-  TRY(TakeTrace(reading->layout, file, reading->options, &table));
+  TRY(TakeTrace(text, file, *reading, &table));
   TakeUnitOfShortCircuit(&table, reading->layout);
   NumberTables(reading);
   return {};
@@ -301,8 +364,9 @@ Expected<std::vector<Table>> ReadAll(std::string_view text, const std::string& f
     }
   }
   std::vector<Table> tables;
+  DropUnmeasured(&rows.readings);
   for (TableReading& reading : rows.readings) {
-    if (auto finished = Finish(file, &reading); !finished) reading.table.error = finished.error();
+    if (auto finished = Finish(text, file, &reading); !finished) reading.table.error = finished.error();
     tables.push_back(std::move(reading.table));
   }
   return tables;

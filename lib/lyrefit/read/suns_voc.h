@@ -29,4 +29,7 @@ std::optional<SunsVocColumns> FindSunsVoc(const std::vector<std::string>& labels
 Expected<void> LightToCurrent(const SunsVocColumns& columns, std::optional<double> isc,
                               IvCurve* curve);
 
+// Marks a curve whose currents a tester has made of the light of a Suns-Voc trace.
+void SayIsTrace(IvCurve* curve);
+
 }  // namespace lyrefit

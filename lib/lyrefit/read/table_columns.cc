@@ -189,10 +189,33 @@ std::string ListChannels(const std::vector<Column>& columns, const std::vector<C
   return list;
 }
 
+std::optional<std::size_t> ChannelUnderLoad(const std::vector<Column>& columns,
+                                            const std::vector<Channel>& channels) {
+  std::optional<std::size_t> found;
+  bool trace = false;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const SweepLight light = columns[channels[i].current].tag.light;
+    trace = trace || light == SweepLight::kSunsVoc;
+    if (light == SweepLight::kSunsVoc || light == SweepLight::kDark) continue;
+    if (found) return std::nullopt;
+    found = i;
+  }
+  return trace ? found : std::nullopt;
+}
+
+bool IsLightOfTrace(const std::vector<Column>& columns, int light) {
+  for (int i = light - 1; i >= 0; --i) {
+    if (!IsElectrical(columns[i].kind) || !columns[i].refusal.empty()) continue;
+    return columns[i].tag.light == SweepLight::kSunsVoc;
+  }
+  return false;
+}
+
 Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
                                 const std::vector<Channel>& channels, const std::string& wish) {
   if (wish.empty()) {
     if (channels.size() == 1) return channels[0];
+    if (const auto under_load = ChannelUnderLoad(columns, channels)) return channels[*under_load];
     return Fail(
         fmt::format("expected one current column, found {}: {}; choose one with --column NAME|N",
                     channels.size(), ListChannels(columns, channels)));

@@ -40,7 +40,16 @@ Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channe
 // two columns whose average is a third. Empty if no pairing works.
 std::vector<Channel> FindChannels(const std::vector<Column>& columns);
 
-// The channel that `wish` names; the only channel if `wish` is empty. The error lists all channels.
+// The place of the channel measured under load beside a Suns-Voc trace and perhaps a dark curve;
+// nullopt without a trace, or if there is not exactly one.
+std::optional<std::size_t> ChannelUnderLoad(const std::vector<Column>& columns,
+                                            const std::vector<Channel>& channels);
+
+// Whether the light in a column is that of a Suns-Voc trace: it follows the trace's columns.
+bool IsLightOfTrace(const std::vector<Column>& columns, int light);
+
+// The channel that `wish` names; if `wish` is empty the only channel, or the one under load beside a
+// Suns-Voc trace. The error lists all channels.
 Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
                                 const std::vector<Channel>& channels, const std::string& wish);
 

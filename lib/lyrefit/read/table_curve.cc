@@ -43,7 +43,7 @@ bool IsJson(const fs::path& path) { return ExtensionOf(path) == ".json"; }
 bool IsTable(const fs::path& path) {
   const std::string extension = ExtensionOf(path);
   constexpr const char* kEndings[] = {".csv", ".tsv", ".txt", ".dat", ".asc",
-                                      ".dta", ".mpt", ".lvm", ".prn"};
+                                      ".dta", ".mpt", ".lvm", ".prn", ".mfr"};
   return std::find(std::begin(kEndings), std::end(kEndings), extension) != std::end(kEndings);
 }
 

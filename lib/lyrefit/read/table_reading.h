@@ -19,6 +19,7 @@ struct TableReading {
   TableLayout layout;
   Table table = {};
   std::vector<FurtherSweep> further = {};  // of the present table
+  std::size_t padding = 0;                 // rows of zeros that were left out
   std::vector<std::size_t> starts = {};    // first rows of the second and later tables
   std::vector<Sidecar> heads = {};         // of the second and later tables
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 
 namespace lyrefit {
 namespace {
@@ -224,7 +225,7 @@ void LeaveOutLimited(IvCurve* curve) {
 }
 
 std::size_t LeaveOutPadding(std::size_t begin, IvCurve* curve) {
-  constexpr double kNear = 2;      // steps of the voltage before the first row of zeros
+  constexpr double kNear = 2;      // usual steps of the voltage
   constexpr double kSmall = 0.05;  // of the largest current, at a reading beside the origin
   const std::size_t size = curve->size();
   std::size_t end = size;
@@ -235,8 +236,11 @@ std::size_t LeaveOutPadding(std::size_t begin, IvCurve* curve) {
     const double largest =
         LargestMagnitude({curve->current_A.begin() + static_cast<std::ptrdiff_t>(begin),
                           curve->current_A.begin() + static_cast<std::ptrdiff_t>(end)});
-    const double step = std::fabs(voltage[end - 1] - voltage[end - 2]);
-    const bool arrives = std::fabs(voltage[end - 1]) <= kNear * step &&
+    std::vector<double> steps;
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      steps.push_back(std::fabs(voltage[k] - voltage[k - 1]));
+    }
+    const bool arrives = std::fabs(voltage[end - 1]) <= kNear * Median(steps) &&
                          std::fabs(curve->current_A[end - 1]) <= kSmall * largest;
     if (arrives) ++end;
   }

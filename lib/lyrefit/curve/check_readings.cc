@@ -200,6 +200,11 @@ void LookForExchange(const Examined& look, Findings* out) {
                   {}});
 }
 
+// What registers of an inverter may be, added to a doubt about their unit.
+std::string AsRegisters(const std::vector<double>& readings, const std::string& question) {
+  return AreWholeNumbers(readings) ? "an inverter's registers, in " + question + "? or " : "";
+}
+
 void LookAtUnits(const Examined& look, Findings* out) {
   const IvCurve& curve = look.curve;
   const int strings = curve.conditions.strings_in_parallel;
@@ -207,10 +212,13 @@ void LookAtUnits(const Examined& look, Findings* out) {
   if (!curve.current_unit_known && current_A > kLargestString_A * strings) {
     out->push_back(
         {"unit",
-         fmt::format("the largest current is {:.4g} A and the file names no unit: "
+         fmt::format("the largest current is {:.4g} A and the file names no unit: {}"
                      "milliampere{}? say so with --current-unit mA, {}A if it is "
                      "ampere",
-                     current_A, look.largest_V < kLargestString_A ? ", or columns exchanged" : "",
+                     current_A,
+                     AsRegisters(curve.current_A,
+                                 "hundredths or tenths of an ampere (--current-unit 0.01A, 0.1A)"),
+                     look.largest_V < kLargestString_A ? ", or columns exchanged" : "",
                      look.largest_V < kHighestStack_V
                          ? "mA/cm2 or A/m2 with --area-cm2 if it is a density, or "
                          : "or "),
@@ -225,9 +233,10 @@ void LookAtUnits(const Examined& look, Findings* out) {
   }
   if (!curve.voltage_unit_known && look.largest_V > kLargestVoltage_V) {
     out->push_back({"unit",
-                    fmt::format("the largest voltage is {:.4g} V and the file names no unit: "
+                    fmt::format("the largest voltage is {:.4g} V and the file names no unit: {}"
                                 "millivolt? say so with --voltage-unit mV, or V if it is volt",
-                                look.largest_V),
+                                look.largest_V,
+                                AsRegisters(curve.voltage_V, "tenths of a volt (--voltage-unit 0.1V)")),
                     true,
                     {}});
   } else if (look.largest_V > kLargestStated_V) {

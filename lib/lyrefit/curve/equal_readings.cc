@@ -262,4 +262,12 @@ std::vector<ReadingFinding> FindEqualReadings(const IvCurve& curve) {
   return findings;
 }
 
+bool AreWholeNumbers(const std::vector<double>& readings) {
+  constexpr std::size_t kFewest = 8;
+  constexpr double kLarge = 100;  // whole numbers below may be readings of a coarse instrument
+  return readings.size() >= kFewest && LargestMagnitude(readings) > kLarge &&
+         std::all_of(readings.begin(), readings.end(),
+                     [](double value) { return value == std::floor(value); });
+}
+
 }  // namespace lyrefit

@@ -27,4 +27,7 @@ void LeaveOutLimited(IvCurve* curve);
 // sweep does not come there: a shorter column of a table is padded with them. Returns their number.
 std::size_t LeaveOutPadding(std::size_t begin, IvCurve* curve);
 
+// Whether readings are whole numbers, and large ones, as the registers of an inverter hold them.
+bool AreWholeNumbers(const std::vector<double>& readings);
+
 }  // namespace lyrefit

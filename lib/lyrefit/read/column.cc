@@ -9,6 +9,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {
@@ -140,7 +141,9 @@ std::string TakeNumber(std::vector<LabelWord>* words) {
       continue;
     }
     const std::size_t letters = word.text.find_last_not_of("0123456789") + 1;
-    const std::string front = word.text.substr(0, letters);
+    LabelWord cut = {word.text.substr(0, letters), "", false};
+    CutQualifierOffLetter(&cut);  // "vpv1" is a "v" with a number
+    const std::string front = cut.text;
     const bool channel = IsAmong(kChannels, front);
     const Name* name = FindName(front);
     const bool named = name != nullptr && IsElectrical(name->kind);
@@ -380,7 +383,9 @@ ColumnTag ReadTag(std::string_view text) {
   return tag;
 }
 
-Column RecogniseColumn(std::string_view label) {
+namespace {
+
+Column RecogniseUnscaled(std::string_view label) {
   std::vector<LabelWord> words = SplitLabel(label);
   DropQualifiers(&words);
   Column column = Recognise(label, words);
@@ -401,6 +406,19 @@ Column RecogniseColumn(std::string_view label) {
   return numbered;
 }
 
+}  // namespace
+
+Column RecogniseColumn(std::string_view label) {
+  const ScaledLabel scaled = TakeScale(label);
+  if (scaled.scale == 1) return RecogniseUnscaled(label);
+  Column column = RecogniseUnscaled(scaled.label);
+  if (!IsElectrical(column.kind) || !column.refusal.empty()) return RecogniseUnscaled(label);
+  column.label = std::string(label);
+  column.factor *= scaled.scale;
+  if (column.unit.empty()) column.unit = column.kind == ColumnKind::kVoltage ? "v" : "a";
+  return column;
+}
+
 Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
   Column column = RecogniseColumn(label);
   const bool as_said = column.kind == kind ||
@@ -409,7 +427,8 @@ Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
   column = {};
   column.label = std::string(label);
   column.kind = kind;
-  const std::vector<LabelWord> words = SplitLabel(label);
+  const ScaledLabel scaled = TakeScale(label);
+  const std::vector<LabelWord> words = SplitLabel(scaled.label);
   for (std::size_t from = 0; from < words.size(); ++from) {
     const std::string unit = JoinWords(words, from, words.size());
     for (const ColumnKind as : {kind, ColumnKind::kCurrentDensity}) {
@@ -419,6 +438,7 @@ Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {
       if (found == nullptr || (from == 0 && words.size() == 1)) continue;
       column.kind = as;
       TakeUnit(*found, &column);
+      column.factor *= scaled.scale;
       return column;
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -13,11 +14,13 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/make_curve.h"
+#include "lyrefit/read/register_dump.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_columns.h"
@@ -156,11 +159,36 @@ struct Surroundings {
   Sidecar stated;
   SweepDirection direction = SweepDirection::kUnknown;
   bool nomad = false;
+  std::map<ColumnKind, double> scales = {};  // of voltages and currents: "voltage_scale": 0.1
   std::vector<StatedResult> results = {};  // that the innermost object with results states
 };
 
+// A flat list of registers with the scan of an inverter.
+Records FromRegisters(const json& list) {
+  std::vector<double> registers;
+  for (const json& item : list) {
+    if (!item.is_number_integer()) return {};
+    registers.push_back(item.get<double>());
+  }
+  const auto scan = AsRegisterScan(registers);
+  if (!scan) return {};
+  Records records;
+  records.lists.resize(1 + scan->currents.size());
+  records.lists[0].name = "voltage";
+  records.lists[0].values = scan->voltages;
+  for (std::size_t i = 0; i < scan->currents.size(); ++i) {
+    records.lists[i + 1].name = fmt::format("PV{} current", i + 1);
+    records.lists[i + 1].values = scan->currents[i];
+  }
+  records.assumptions.emplace_back(
+      "a list of registers, taken apart into voltages, which rise or fall all the way, and currents");
+  return records;
+}
+
 std::vector<Records> RecordsOf(const json& node) {
-  if (node.is_array()) return {FromObjects(node), FromNamedLists(node), FromPairs(node)};
+  if (node.is_array()) {
+    return {FromObjects(node), FromNamedLists(node), FromPairs(node), FromRegisters(node)};
+  }
   if (node.is_object()) return {FromLists(node), FromSplit(node), FromObjects(node)};
   return {};
 }
@@ -277,11 +305,35 @@ Expected<bool> TakeSunsVoc(FoundCurves* found, const Records& records, std::vect
   return true;
 }
 
+// Takes the scales that an object states for voltages and currents, and says so.
+void TakeScales(const json& object, Surroundings* around) {
+  for (const auto& [key, value] : object.items()) {
+    const auto number = value.is_structured() ? std::nullopt : NumberOrText(value);
+    if (!number) continue;
+    const Column column = RecogniseColumn(fmt::format("{} {:g}", key, *number));
+    if (!IsElectrical(column.kind) || !column.refusal.empty() || column.factor >= 1) continue;
+    around->scales[column.kind] = column.factor;
+    around->stated.assumptions.push_back(
+        fmt::format("readings multiplied by {:g}, since the file states {} {:g}", column.factor,
+                    Quoted(key), *number));
+  }
+}
+
+void ApplyScales(const std::map<ColumnKind, double>& scales, std::vector<Column>* columns) {
+  for (Column& column : *columns) {
+    const auto scale = scales.find(column.kind);
+    if (scale == scales.end() || column.factor != 1) continue;
+    column.factor = scale->second;
+    if (column.unit.empty()) column.unit = column.kind == ColumnKind::kVoltage ? "v" : "a";
+  }
+}
+
 // Adds the curves of records. False if they have no pair of voltage and current.
 Expected<bool> TakeRecords(FoundCurves* found, const Records& records, const Surroundings& around) {
   std::vector<Column> columns;
   for (const Record& list : records.lists) columns.push_back(RecogniseColumn(list.name));
   ApplyColumnWishes(found->options, &columns);
+  ApplyScales(around.scales, &columns);
   const std::vector<Channel> channels = FindChannels(columns);
   if (channels.empty()) return TakeSunsVoc(found, records, columns, around);
   std::vector<Channel> chosen = channels;
@@ -302,8 +354,10 @@ Expected<bool> TakeRecords(FoundCurves* found, const Records& records, const Sur
     }
     raw->stated = Merge(std::move(raw->stated), around.stated);
     // Documents without units are taken in V and A, with a sentence but without the doubts about
-    // unit and size that tables get.
-    raw->curve.voltage_unit_known = raw->curve.current_unit_known = true;
+    // unit and size that tables get, unless they hold whole numbers, as registers do.
+    IvCurve& curve = raw->curve;
+    curve.voltage_unit_known = curve.voltage_unit_known || !AreWholeNumbers(curve.voltage_V);
+    curve.current_unit_known = curve.current_unit_known || !AreWholeNumbers(curve.current_A);
     TakeCurve(found, std::move(*raw), id, around);
   }
   return true;
@@ -313,6 +367,7 @@ Expected<void> FindCurvesIn(FoundCurves* found, const json& node, Surroundings a
   if (node.is_object()) {
     around.nomad = around.nomad || node.contains("jv_curve");
     around.stated = Merge(StatedIn(node, around), around.stated);
+    TakeScales(node, &around);
     if (auto results = ResultsIn(node, around.id); !results.empty()) around.results = results;
     SweepDirection direction = ReadTag(TextOf(node, "direction")).direction;
     if (direction == SweepDirection::kUnknown) {

@@ -11,6 +11,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/read/column.h"
+#include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/table_row.h"
@@ -62,6 +63,8 @@ int KindOf(const std::string& label, Column* column) {
   if (!column->refusal.empty()) return kOperating;
   if (column->kind == ColumnKind::kIrradiance) return kAtIrradiance;
   if (column->kind == ColumnKind::kTemperature) return kAtTemperature;
+  if (column->kind == ColumnKind::kVoltage) return kAtVoltage;
+  if (column->kind == ColumnKind::kCurrent) return kAtCurrent;
   return kOperating;
 }
 
@@ -84,6 +87,29 @@ OperatingLayout LayoutOf(std::string_view header) {
   return best;
 }
 
+// Takes the input of an inverter that `wish` names: "Vpv2" and "Ipv2" of "2". Error: several inputs
+// and no wish, or a wish that names none.
+Expected<void> ChooseInput(const std::string& wish, OperatingLayout* layout) {
+  const std::vector<Channel> channels = FindChannels(layout->columns);
+  const bool numbered =
+      std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+        return !layout->columns[channel.current].tag.device.empty();
+      });
+  if (wish.empty() && (channels.size() < 2 || !numbered)) return {};
+  TRY(const Channel chosen, ChooseChannel(layout->columns, channels, wish));
+  layout->at[kAtVoltage] = chosen.voltage;
+  layout->at[kAtCurrent] = chosen.current;
+  return {};
+}
+
+// What a table without a column needs.
+const char* HowToAdd(int kind) {
+  const bool sensor = kind == kAtIrradiance || kind == kAtTemperature;
+  return sensor ? ": a trend compares each row with what the module gives under its light and "
+                  "temperature; join the readings of their sensors to the rows by time"
+                : "";
+}
+
 Expected<double> NumberOrMissing(TableRow* row, int field) {
   const std::string_view text = TrimBlanks((*row)[field]);
   if (text.empty() || IsMissingWord(text)) return kUnknown;
@@ -93,19 +119,23 @@ Expected<double> NumberOrMissing(TableRow* row, int field) {
 }  // namespace
 
 Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& path,
-                                                           std::int64_t largest_file_bytes) {
+                                                           std::int64_t largest_file_bytes,
+                                                           const std::string& input) {
   TRY(const DecodedText text, ReadDecodedFile(path, largest_file_bytes));
   LineReader lines(text.text);
   std::string_view line;
   if (!lines.NextContent(&line)) {
     return Fail("the file holds no data, only blank lines and comments", path);
   }
-  const OperatingLayout layout = LayoutOf(line);
+  OperatingLayout layout = LayoutOf(line);
+  if (auto chosen = ChooseInput(input, &layout); !chosen) {
+    return Fail(chosen.error().message, path, lines.number(), 1);
+  }
   for (int kind = 0; kind < kOperating; ++kind) {
     if (layout.at[kind] >= 0) continue;
     return Fail(fmt::format("expected a header with the columns time, irradiance, temperature, vmp "
-                            "and imp, found none for {}",
-                            kOperatingNames[kind]),
+                            "and imp, found none for {}{}",
+                            kOperatingNames[kind], HowToAdd(kind)),
                 path, lines.number(), 1);
   }
   TableRow row(layout.columns, layout.delimiter, path);

@@ -12,6 +12,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/register_dump.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 
@@ -196,6 +197,9 @@ DecodedText RewriteTable(DecodedText text) {
        "currents without voltages: the voltages follow from the first one and the interval that "
        "the "
        "lines above state"},
+      {RowsOfRegisters,
+       "a list of registers: taken apart into voltages, which rise or fall all the way, and "
+       "currents"},
       {RowsOfPixels,
        "one line a measurement with its pixels side by side: taken apart; current densities in "
        "mA/cm2 were multiplied by the areas in the line"}};

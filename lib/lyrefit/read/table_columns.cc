@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {
@@ -125,7 +126,8 @@ Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channe
   };
   for (const auto& [place, wish, kinds, flag] : wishes) {
     if (wish.empty()) continue;
-    const std::vector<LabelWord> words = SplitLabel(wish);
+    const ScaledLabel scaled = TakeScale(wish);
+    const std::vector<LabelWord> words = SplitLabel(scaled.label);
     const std::string text = JoinWords(words, 0, words.size());
     const Unit* unit = FindUnit(kinds[0], text);
     if (unit == nullptr) unit = FindUnit(kinds[1], text);
@@ -138,7 +140,7 @@ Expected<void> ApplyUnitWishes(const ReadOptions& options, const Channel& channe
       Column& column = (*columns)[i];
       column.kind = unit->kind;
       column.unit = unit->text;
-      column.factor = unit->factor;
+      column.factor = unit->factor * scaled.scale;
       column.offset = unit->offset;
     }
   }

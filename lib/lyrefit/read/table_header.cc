@@ -7,6 +7,7 @@
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
+#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {
@@ -135,7 +136,7 @@ std::string WithUnits(std::string_view names, std::string_view units) {
       std::string name = (*above)[i];
       std::string unit = (*below)[i];
       any_number = any_number || IsNumber(unit, delimiter);
-      const std::vector<LabelWord> words = SplitLabel(unit);
+      const std::vector<LabelWord> words = SplitLabel(TakeScale(unit).label);
       const std::string text = JoinWords(words, 0, words.size());
       for (const ColumnKind kind : {ColumnKind::kVoltage, ColumnKind::kCurrent,
                                     ColumnKind::kCurrentDensity, ColumnKind::kTime}) {

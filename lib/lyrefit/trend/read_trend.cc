@@ -214,7 +214,8 @@ Expected<TrendSeries> ReadOperatingPoints(const std::vector<std::string>& files,
   TrendSeries series = *reading.law;
   for (const std::string& file : files) {
     TRY(const std::vector<OperatingReading> points,
-        ReadOperatingTable(file, reading.reading.reading.largest_file_bytes));
+        ReadOperatingTable(file, reading.reading.reading.largest_file_bytes,
+                           reading.reading.reading.column));
     for (const OperatingReading& point : points) {
       AppendOperatingPoint(point.time_s, point.irradiance_W_m2, point.temperature_C,
                            point.voltage_V, point.current_A, &series);

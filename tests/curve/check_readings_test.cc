@@ -116,6 +116,14 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
          for (double& i : c->current_A) i *= 1e3;
          c->current_unit_known = false;
        }},
+      {"registers",
+       "unit",
+       true,
+       {"registers, in tenths of a volt (--voltage-unit 0.1V)?"},
+       [](IvCurve* c) {
+         for (double& v : c->voltage_V) v = std::round(1e3 * v);
+         c->voltage_unit_known = false;
+       }},
       {"millivolt",
        "unit",
        true,

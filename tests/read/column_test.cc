@@ -174,6 +174,39 @@ TEST(RecogniseColumnTest, TheNumberOfAPixelStandsApart) {
   }
 }
 
+TEST(RecogniseColumnTest, AScaleBesideTheUnitCounts) {
+  const struct {
+    const char* label;
+    ColumnKind kind;
+    double factor;
+    const char* device;
+  } kCases[] = {
+      {"PV1 voltage (0.1V)", ColumnKind::kVoltage, 0.1, "1"},
+      {"PV1 current [0.01 A]", ColumnKind::kCurrent, 0.01, "1"},
+      {"Upv2 x0.1 V", ColumnKind::kVoltage, 0.1, "2"},
+      {"Ipv2 (A, gain 100)", ColumnKind::kCurrent, 0.01, "2"},
+      {"voltage_scale 0.1", ColumnKind::kVoltage, 0.1, ""},
+      {"current (0,1 A)", ColumnKind::kCurrent, 0.1, ""},
+      {"current (dA)", ColumnKind::kCurrent, 0.1, ""},
+      {"Voltage (cV)", ColumnKind::kVoltage, 0.01, ""},
+      {"Vpv1(V)", ColumnKind::kVoltage, 1, "1"},
+      {"Ipv1(A)", ColumnKind::kCurrent, 1, "1"},
+  };
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.label);
+    const Column column = RecogniseColumn(c.label);
+    EXPECT_EQ(column.kind, c.kind);
+    EXPECT_NEAR(column.factor, c.factor, 1e-15);
+    EXPECT_FALSE(column.unit.empty());
+    EXPECT_EQ(column.tag.device, c.device);
+    EXPECT_EQ(column.label, c.label);
+  }
+  // Light, scan rates and other numbers are no scales.
+  for (const char* label : {"Current 0.1 sun (A)", "Voltage (V) 0.1V/s", "Current 0.05 A"}) {
+    EXPECT_TRUE(RecogniseColumn(label).factor == 1) << label;
+  }
+}
+
 TEST(RecogniseColumnTest, DirectionAndLightStandApart) {
   const struct {
     const char* label;

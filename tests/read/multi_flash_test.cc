@@ -127,7 +127,8 @@ TEST(MultiFlashTest, WhatIsMissingOrWrongIsNamedWithItsLine) {
   };
   EXPECT_THAT(with("Voltage Transfer", "Transfer"),
               HasSubstr("expected the constant \"Voltage Transfer\", found none"));
-  EXPECT_THAT(with("= \"0.25\"", "= \"0\""), HasSubstr("f.mfr:10:1: expected a number other than 0"));
+  EXPECT_THAT(with("= \"0.25\"", "= \"0\""),
+              HasSubstr("f.mfr:10:1: expected a number other than 0"));
   EXPECT_THAT(with("<size(s)=8 5 20>", "<size(s)=8 5 21>"),
               HasSubstr("found 800 numbers for 840 by the sizes"));
   EXPECT_THAT(with("<size(s)=8 5 20>", "<size(s)=8 100>"), HasSubstr("in 3 dimensions"));

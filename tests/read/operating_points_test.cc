@@ -41,6 +41,25 @@ TEST(ReadOperatingTable, TakesColumnsInAnyOrderByTheirNames) {
   }
 }
 
+TEST(ReadOperatingTable, AnInputOfAnInverterIsNamed) {
+  const TempFolder folder;
+  const std::string path = folder.Write(
+      "log.csv",
+      "Serial number,Time,Vpv1(V),Vpv2(V),Ipv1(A),Ipv2(A),irradiance_Wm2,temperature_C\n"
+      "7,2025-03-12 10:30,600,610,7,8,812,41\n");
+  EXPECT_THAT(MessageOf(ReadOperatingTable(path, kLargest)),
+              ::testing::HasSubstr("choose one with --column"));
+  const auto points = ReadOperatingTable(path, kLargest, "2");
+  ASSERT_TRUE(points) << points.error().ToString();
+  EXPECT_EQ(points->front().voltage_V, 610);
+  EXPECT_EQ(points->front().current_A, 8);
+  const std::string bare = folder.Write("bare.csv",
+                                        "No,Time,Status,Vpv1(V),Ipv1(A)\n"
+                                        "7,2025-03-12 10:30,on,600,7\n");
+  EXPECT_THAT(MessageOf(ReadOperatingTable(bare, kLargest)),
+              ::testing::HasSubstr("found none for irradiance: a trend compares each row"));
+}
+
 TEST(ReadOperatingTable, ConvertsUnits) {
   const TempFolder folder;
   const std::string path = folder.Write("points.csv",

@@ -176,10 +176,9 @@ TEST(ReadTableTest, TheCurveUnderLoadCountsBesideASunsVocTrace) {
   EXPECT_THAT(load->curve.irradiance_W_m2, IsEmpty());  // the light is that of the trace
   EXPECT_FALSE(load->curve.suns_voc_A);
   const auto says = [&](const char* text) {
-    return std::any_of(load->curve.assumptions.begin(), load->curve.assumptions.end(),
-                       [&](const Assumption& one) {
-                         return one.sentence.find(text) != std::string::npos;
-                       });
+    return std::any_of(
+        load->curve.assumptions.begin(), load->curve.assumptions.end(),
+        [&](const Assumption& one) { return one.sentence.find(text) != std::string::npos; });
   };
   EXPECT_TRUE(says("2 of 5 rows left out: they hold 0 V and 0 A"));
   EXPECT_TRUE(says("'Intensity_(suns)' is the light of the Suns-Voc trace"));

@@ -232,13 +232,14 @@ void LookAtUnits(const Examined& look, Findings* out) {
                     {}});
   }
   if (!curve.voltage_unit_known && look.largest_V > kLargestVoltage_V) {
-    out->push_back({"unit",
-                    fmt::format("the largest voltage is {:.4g} V and the file names no unit: {}"
-                                "millivolt? say so with --voltage-unit mV, or V if it is volt",
-                                look.largest_V,
-                                AsRegisters(curve.voltage_V, "tenths of a volt (--voltage-unit 0.1V)")),
-                    true,
-                    {}});
+    out->push_back(
+        {"unit",
+         fmt::format("the largest voltage is {:.4g} V and the file names no unit: {}"
+                     "millivolt? say so with --voltage-unit mV, or V if it is volt",
+                     look.largest_V,
+                     AsRegisters(curve.voltage_V, "tenths of a volt (--voltage-unit 0.1V)")),
+         true,
+         {}});
   } else if (look.largest_V > kLargestStated_V) {
     out->push_back({"unit",
                     fmt::format("the largest voltage is {:.4g} V: is the unit of its column right?",

@@ -59,9 +59,10 @@ void LeaveOutMisfits(const CurveSet& set, const FamilyOptions& options,
       LeaveOut(judged.error().message, &member);
       if (!refusal->has_value()) *refusal = judged.error();
     } else if (curve.suns_voc_A) {
-      LeaveOut("a Suns-Voc trace: series resistance is not in it, and each reading has a light of "
-               "its own",
-               &member);
+      LeaveOut(
+          "a Suns-Voc trace: series resistance is not in it, and each reading has a light of "
+          "its own",
+          &member);
     } else if (member.irradiance_known && !(irradiance > 0)) {
       const bool lit = !IsDark(curve);
       if (!lit && !options.with.empty()) {  // models with effects include dark curves

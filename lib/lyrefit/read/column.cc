@@ -167,12 +167,9 @@ constexpr std::pair<std::string_view, SweepDirection> kDirections[] = {
     {"bwd", SweepDirection::kReverse},      {"rev", SweepDirection::kReverse},
     {"rv", SweepDirection::kReverse},       {"down", SweepDirection::kReverse}};
 constexpr std::pair<std::string_view, SweepLight> kLights[] = {
-    {"dark", SweepLight::kDark},
-    {"light", SweepLight::kLight},
-    {"lit", SweepLight::kLight},
-    {"illuminated", SweepLight::kLight},
-    {"illumination", SweepLight::kLight},
-    {"sunsvoc", SweepLight::kSunsVoc}};
+    {"dark", SweepLight::kDark},          {"light", SweepLight::kLight},
+    {"lit", SweepLight::kLight},          {"illuminated", SweepLight::kLight},
+    {"illumination", SweepLight::kLight}, {"sunsvoc", SweepLight::kSunsVoc}};
 constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
 
 template <class T, std::size_t N>
@@ -209,8 +206,8 @@ ColumnTag TakeTag(std::vector<LabelWord>* words) {
   std::vector<LabelWord> kept;
   for (std::size_t i = 0; i < words->size(); ++i) {
     LabelWord word = (*words)[i];
-    const bool suns_voc = word.text == "suns" && i + 1 < words->size() &&
-                          !word.marked_as_unit && (*words)[i + 1].text == "voc";
+    const bool suns_voc = word.text == "suns" && i + 1 < words->size() && !word.marked_as_unit &&
+                          (*words)[i + 1].text == "voc";
     if (suns_voc) word = {"sunsvoc", "SunsVoc", false};
     if (suns_voc) ++i;
     if (TakeTagWord(word, &tag)) continue;

@@ -160,7 +160,7 @@ struct Surroundings {
   SweepDirection direction = SweepDirection::kUnknown;
   bool nomad = false;
   std::map<ColumnKind, double> scales = {};  // of voltages and currents: "voltage_scale": 0.1
-  std::vector<StatedResult> results = {};  // that the innermost object with results states
+  std::vector<StatedResult> results = {};    // that the innermost object with results states
 };
 
 // A flat list of registers with the scan of an inverter.
@@ -181,7 +181,8 @@ Records FromRegisters(const json& list) {
     records.lists[i + 1].values = scan->currents[i];
   }
   records.assumptions.emplace_back(
-      "a list of registers, taken apart into voltages, which rise or fall all the way, and currents");
+      "a list of registers, taken apart into voltages, which rise or fall all the way, and "
+      "currents");
   return records;
 }
 

@@ -67,7 +67,8 @@ struct Settings {
   std::optional<int> Count(std::string_view key) const {
     constexpr double kMost = 1e6;
     const auto number = Number(First(key));
-    const bool counts = number && *number >= 1 && *number <= kMost && *number == std::floor(*number);
+    const bool counts =
+        number && *number >= 1 && *number <= kMost && *number == std::floor(*number);
     return counts ? std::optional<int>(static_cast<int>(*number)) : std::nullopt;
   }
 };
@@ -180,10 +181,8 @@ Flash FlashOf(const Array& array, std::size_t from, const Constants& constants) 
     flash.push_back({at(kLight, k) / constants.reference_V, at(kVoltage, k) * constants.voltage,
                      at(kCurrent, k) / constants.current});
   }
-  const auto brightest =
-      std::max_element(flash.begin(), flash.end(), [](const auto& a, const auto& b) {
-        return a.suns < b.suns;
-      });
+  const auto brightest = std::max_element(
+      flash.begin(), flash.end(), [](const auto& a, const auto& b) { return a.suns < b.suns; });
   flash.erase(flash.begin(), brightest);
   return flash;
 }
@@ -197,9 +196,10 @@ Expected<std::vector<Flash>> ReadFlashes(const Settings& settings, std::string_v
   const bool fits = sizes.size() == dimensions && sizes[dimensions - 2] >= kQuantities;
   if (!fits) {
     return settings.Refuse(
-        fmt::format("expected \"{}\" in {} dimensions, with time, light, voltage and current in the "
-                    "last but one",
-                    key, dimensions),
+        fmt::format(
+            "expected \"{}\" in {} dimensions, with time, light, voltage and current in the "
+            "last but one",
+            key, dimensions),
         array.line);
   }
   const std::size_t one = sizes[dimensions - 2] * sizes[dimensions - 1];
@@ -239,9 +239,10 @@ Sidecar StatedIn(const Settings& settings) {
   if (!measured) return stated;
   stated.temperature_C = *measured - offset;
   stated.assumptions.emplace_back(
-      fmt::format("cell temperature {:.4g} C: {:.4g} C measured, less the stated offset of {:.3g} C; "
-                  "the voltages are those at this temperature, not moved to another",
-                  *stated.temperature_C, *measured, offset),
+      fmt::format(
+          "cell temperature {:.4g} C: {:.4g} C measured, less the stated offset of {:.3g} C; "
+          "the voltages are those at this temperature, not moved to another",
+          *stated.temperature_C, *measured, offset),
       About::kTemperature);
   return stated;
 }
@@ -280,9 +281,8 @@ std::optional<IvCurve> CurveAt(const AllFlashes& all, double suns) {
       static_cast<double>(readings.size()) < kMost * static_cast<double>(all.flashes.size())) {
     return std::nullopt;
   }
-  std::stable_sort(readings.begin(), readings.end(), [](const auto& a, const auto& b) {
-    return a.voltage_V < b.voltage_V;
-  });
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const auto& a, const auto& b) { return a.voltage_V < b.voltage_V; });
   IvCurve curve;
   curve.name = fmt::format("{:.4g} suns", suns);
   for (const FlashReading& reading : readings) {

@@ -91,10 +91,9 @@ OperatingLayout LayoutOf(std::string_view header) {
 // and no wish, or a wish that names none.
 Expected<void> ChooseInput(const std::string& wish, OperatingLayout* layout) {
   const std::vector<Channel> channels = FindChannels(layout->columns);
-  const bool numbered =
-      std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
-        return !layout->columns[channel.current].tag.device.empty();
-      });
+  const bool numbered = std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+    return !layout->columns[channel.current].tag.device.empty();
+  });
   if (wish.empty() && (channels.size() < 2 || !numbered)) return {};
   TRY(const Channel chosen, ChooseChannel(layout->columns, channels, wish));
   layout->at[kAtVoltage] = chosen.voltage;

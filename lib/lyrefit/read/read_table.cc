@@ -325,14 +325,12 @@ void DropUnmeasured(std::vector<TableReading>* readings) {
   for (const TableReading& reading : *readings) {
     if (is_empty(reading)) names += (names.empty() ? "" : ", ") + Quoted(reading.table.name);
   }
-  const auto kept = std::stable_partition(readings->begin(), readings->end(), [&](const auto& one) {
-    return !is_empty(one);
-  });
+  const auto kept = std::stable_partition(readings->begin(), readings->end(),
+                                          [&](const auto& one) { return !is_empty(one); });
   if (names.empty() || kept == readings->begin()) return;
   readings->erase(kept, readings->end());
   for (TableReading& reading : *readings) {
-    reading.table.curve.assumptions.push_back(
-        fmt::format("{} left aside: {}", names, kOnlyZeros));
+    reading.table.curve.assumptions.push_back(fmt::format("{} left aside: {}", names, kOnlyZeros));
   }
 }
 
@@ -366,7 +364,8 @@ Expected<std::vector<Table>> ReadAll(std::string_view text, const std::string& f
   std::vector<Table> tables;
   DropUnmeasured(&rows.readings);
   for (TableReading& reading : rows.readings) {
-    if (auto finished = Finish(text, file, &reading); !finished) reading.table.error = finished.error();
+    if (auto finished = Finish(text, file, &reading); !finished)
+      reading.table.error = finished.error();
     tables.push_back(std::move(reading.table));
   }
   return tables;

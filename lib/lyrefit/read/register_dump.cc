@@ -35,10 +35,16 @@ int Direction(const std::vector<double>& values, std::size_t length) {
 }
 
 bool IsScan(const std::vector<double>& voltages, const std::vector<double>& currents) {
+  constexpr double kNoise = 0.1;  // of the range of the currents, which may rise by so much
   const std::size_t length = LengthOf(voltages, currents);
   const int direction = Direction(voltages, length);
-  return direction != 0 && (currents[0] - currents[length - 1]) * direction > 0 &&
-         *std::min_element(voltages.begin(), voltages.end()) >= 0;
+  if (direction == 0 || *std::min_element(voltages.begin(), voltages.end()) < 0) return false;
+  const double range = (currents[0] - currents[length - 1]) * direction;
+  if (!(range > 0)) return false;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((currents[k] - currents[k - 1]) * direction > kNoise * range) return false;
+  }
+  return true;
 }
 
 std::optional<RegisterScan> ScanOfPairs(const std::vector<double>& registers) {
@@ -54,7 +60,8 @@ std::optional<RegisterScan> ScanOfPairs(const std::vector<double>& registers) {
   // If both fit, the voltages are those with the larger numbers: tenths of hundreds of volt.
   const double largest[] = {*std::max_element(first.begin(), first.end()),
                             *std::max_element(second.begin(), second.end())};
-  if (voltage_first && (!current_first || largest[0] >= largest[1])) return RegisterScan{first, {second}};
+  if (voltage_first && (!current_first || largest[0] >= largest[1]))
+    return RegisterScan{first, {second}};
   return RegisterScan{second, {first}};
 }
 
@@ -171,11 +178,13 @@ std::optional<RegisterText> ReadList(std::string_view text) {
   LineReader lines(text);
   for (std::string_view line; lines.Next(&line);) {
     std::string plain(line);
-    std::replace_if(plain.begin(), plain.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
     const auto fields = SplitFields(plain, ' ');
     if (!fields || fields->empty()) continue;
     const bool numbers = std::all_of(fields->begin(), fields->end(), [](const std::string& word) {
-      return WholeNumber(word) || (word.size() >= 4 && Hexadecimal(word));
+      return WholeNumber(word) ||
+             ((word.size() == 4 || word.substr(0, 2) == "0x") && Hexadecimal(word));
     });
     const bool begins = numbers && fields->size() >= kFewestInLine;
     if (dump.words.empty() && !begins) {
@@ -232,7 +241,8 @@ std::string RowsOfRegisters(std::string_view text) {
   }
   for (std::size_t k = 0; k < scan->voltages.size(); ++k) {
     rows += fmt::format("\n{:g}", scan->voltages[k]);
-    for (const std::vector<double>& current : scan->currents) rows += fmt::format("\t{:g}", current[k]);
+    for (const std::vector<double>& current : scan->currents)
+      rows += fmt::format("\t{:g}", current[k]);
   }
   return rows + "\n";
 }

@@ -7,7 +7,7 @@
 
 # The core: a curve goes in, parameters of a diode model with their uncertainties come out.
 lyrefit_module(base WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog Threads::Threads)
-lyrefit_module(curve LINK base WITH fmt::fmt glog::glog)
+lyrefit_module(curve LINK base WITH Eigen3::Eigen fmt::fmt glog::glog)
 lyrefit_module(model LINK curve WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)
 lyrefit_module(search LINK base WITH glog::glog ARITHMETIC)
 lyrefit_module(refine FOLDER estimate/refine LINK model WITH Ceres::ceres Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "lyrefit/base/random.h"
+
 namespace lyrefit {
 namespace {
 
@@ -29,6 +33,36 @@ TEST(DarkTest, WhatIsStatedAsDarkMayHaveAnOffset) {
   assumed.irradiance_known = false;
   EXPECT_FALSE(IsStatedDark(assumed));
   EXPECT_FALSE(IsDark(assumed));
+}
+
+// A photodiode from -1 to 1 V with 50 mA forward. Noise of the currents: constant.
+IvCurve Photodiode(double photo_A, double noise_A, double loop_A = 0) {
+  IvCurve curve;
+  curve.irradiance_known = false;
+  RandomStream random(5);
+  for (const double direction : {1.0, -1.0}) {
+    for (int k = 0; k <= 50; ++k) {
+      const double voltage_V = direction * (-1 + 0.04 * k);
+      const double diode_A = 1e-9 * std::expm1(voltage_V / 0.0565);
+      curve.voltage_V.push_back(voltage_V);
+      curve.current_A.push_back(photo_A - diode_A - voltage_V / 1e6 - direction * loop_A +
+                                noise_A * random.Normal());
+    }
+  }
+  return curve;
+}
+
+TEST(DarkTest, APhotocurrentAboveItsNoiseIsLightHoweverLargeTheForwardCurrentIs) {
+  EXPECT_FALSE(IsDark(Photodiode(1e-6, 1e-8)));
+  EXPECT_TRUE(IsDark(Photodiode(1e-6, 1e-7))) << "may be an offset";
+  EXPECT_TRUE(IsDark(Photodiode(-1e-6, 1e-8)));
+  EXPECT_TRUE(IsDark(Photodiode(1e-8, 1e-9))) << "an offset of ten times the noise";
+  EXPECT_TRUE(IsDark(Photodiode(0, 1e-9, 1e-7))) << "the charge of a sweep up and down";
+  IvCurve stated = Photodiode(1e-6, 1e-7);
+  stated.irradiance_known = true;
+  EXPECT_FALSE(IsDark(stated)) << "light is stated";
+  stated.conditions.irradiance_W_m2 = 0;
+  EXPECT_TRUE(IsDark(stated)) << "darkness is stated";
 }
 
 }  // namespace

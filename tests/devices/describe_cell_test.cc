@@ -155,6 +155,40 @@ TEST(DescribeCell, AnSShapeIsVoid) {
               1, 1e-12);
 }
 
+TEST(DescribeCell, AnSShapeIsSeenInBothDirectionsAfterAStartThatSettles) {
+  for (const bool down : {false, true}) {
+    IvCurve curve = CellSweepOf(kCellTruth, 1000, down, kNoise);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      const double voltage = curve.voltage_V[k];
+      curve.current_A[k] += kCellTruth[0] * (0.015 * std::exp(-4 * (voltage + 0.1)) -
+                                             0.25 / (1 + std::exp((0.6 - voltage) / 0.02)));
+    }
+    const CellReport report = Described({curve});
+    EXPECT_LT(report.sweeps[0].least_slope_ratio, 0.9);
+    EXPECT_FALSE(report.sweeps[0].diode());
+  }
+}
+
+TEST(DescribeCell, WhatSettlesBeforeTheKneeIsNoSShape) {
+  for (const double begins : {0.015, -0.008}) {  // more or less current than when settled
+    IvCurve curve = CellSweepOf(kCellTruth, 1000, false, kNoise);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      curve.current_A[k] += begins * kCellTruth[0] * std::exp(-0.04 * static_cast<double>(k));
+    }
+    const CellReport report = Described({curve});
+    EXPECT_THAT(report.sweeps[0].void_because, IsEmpty());
+    EXPECT_NEAR(FittedValue(report.sweeps[0], "n1").value, kCellTruth[2], 0.1);
+  }
+}
+
+TEST(DescribeCell, ACurrentThatRisesBeyondItsNoiseIsVoid) {
+  IvCurve curve = CellSweepOf(kCellTruth, 1000, false, kNoise);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (curve.voltage_V[k] > 0.45) curve.current_A[k] += 0.015 * kCellTruth[0];
+  }
+  EXPECT_THAT(Described({curve}).sweeps[0].void_because, Contains(HasSubstr("rises")));
+}
+
 TEST(DescribeCell, EqualReadingsAtALimitAreLeftOut) {
   IvCurve curve = CellSweepOf(kCellTruth, 1000, false, kNoise);
   for (double& i : curve.current_A) i = std::max(i, -1e-3);

@@ -170,7 +170,7 @@ TEST(CompareWithReferences, RefusesWhatCannotBeCompared) {
     const auto comparison = CompareWithReferences(curve, reference);
     return comparison ? std::string() : comparison.error().message;
   };
-  EXPECT_THAT(complaint(Sweep(50), Sweeps(3)), HasSubstr("needs 4 or more"));
+  EXPECT_THAT(complaint(Sweep(50), Sweeps(3)), HasSubstr("needs 4 or more; to put"));
   IvCurve other = Sweep(50);
   other.conditions.cells_in_series = 72;
   EXPECT_THAT(complaint(other, Sweeps(8)), HasSubstr("72 cells"));

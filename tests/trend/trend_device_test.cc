@@ -9,13 +9,16 @@
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/single_diodes.h"
 #include "lyrefit/read/read_pvlib.h"
+#include "lyrefit/trend/trend_series.h"
 #include "temp_folder.h"
 #include "trend/made_sweeps.h"
 
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(MaximumPowerPoint, IsThatOfAFineGrid) {
   const TrendDevice device = MadeDevice();
@@ -170,11 +173,26 @@ TEST(DeviceOfSweeps, IsTheLawOfTheSweeps) {
   EXPECT_NEAR(found->OpenCircuit(6, 40), device.OpenCircuit(6, 40), 0.02);
 }
 
+TEST(SeriesOfSweeps, SaysWhatToRunOnFewSweepsThatEndBelowOpenCircuit) {
+  TimedSweep sweep;
+  sweep.curve.irradiance_known = sweep.curve.temperature_known = true;
+  for (int k = 0; k < 20; ++k) {
+    sweep.curve.voltage_V.push_back(k);
+    sweep.curve.current_A.push_back(5 - 0.01 * k);
+  }
+  const std::vector<TimedSweep> few(3, sweep);
+  EXPECT_THAT(MessageOf(SeriesOfSweeps(few, {})),
+              AllOf(HasSubstr("3 sweeps are too few"), HasSubstr("lyrefit fit FILES --csv"),
+                    HasSubstr("to open circuit")));
+  EXPECT_THAT(MessageOf(SeriesOfSweeps(std::vector<TimedSweep>(30, sweep), {})),
+              StartsWith("expected sweeps from 0 V to open circuit"));
+}
+
 TEST(DeviceOfSweeps, NeedsASweepWithItsConditions) {
   const TrendDevice device = MadeDevice();
   IvCurve curve = MadeSweep(device, MadeState(device, 700, 45), 700, 45);
   curve.irradiance_known = false;
-  EXPECT_THAT(MessageOf(DeviceOfSweeps({&curve})), HasSubstr("expected sweeps with a stated"));
+  EXPECT_THAT(MessageOf(DeviceOfSweeps({&curve})), HasSubstr("with their irradiance and temperature"));
   EXPECT_THAT(MessageOf(DeviceOfSweeps({})), HasSubstr("found none"));
 }
 

@@ -15,6 +15,7 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TrendReport ReportOf(const MadeYear& year, const TrendOptions& options = {}) {
@@ -272,7 +273,8 @@ TEST(FindTrend, RefusesASeriesThatIsTooShort) {
   for (const TrendSeries& series :
        {ReducedBy(device, {}), ReducedBy(device, MakeSweeps(device, year))}) {
     EXPECT_THAT(MessageOf(FindTrend(series)),
-                HasSubstr("expected usable measurements at 5 times or more, found"));
+                AllOf(HasSubstr("expected usable measurements at 5 times or more, found"),
+                      HasSubstr("lyrefit fit FILES --csv")));
   }
   TrendSeries unusable = ReducedBy(device, {});
   for (int k = 0; k < 50; ++k) {

@@ -17,6 +17,7 @@
 #include "lyrefit/certify/safe_values.h"
 #include "lyrefit/certify/solved_relaxation.h"
 #include "lyrefit/certify/upper_bound.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/order_alike.h"
 
@@ -106,7 +107,6 @@ Expected<void> CheckExponents(const Proof& proof) {
 Expected<void> Prepare(Proof* proof) {
   const IvCurve& curve = proof->curve;
   const CertifyOptions& options = proof->options;
-  TRY(Validate(curve));
   TRY(proof->doubts, JudgeReadings(curve));
   proof->data = CurveData(curve.voltage_V, curve.current_A);
   SetRanges(options, &proof->data);
@@ -328,10 +328,12 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
   return cosines;
 }
 
-Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
+Expected<Certificate> Certify(const IvCurve& given, const CertifyOptions& asked,
                               const Observer& observer) {
   const Instant begin = Now();
   TRY(CheckOptions(asked));
+  TRY(Validate(given));
+  const IvCurve curve = WithoutBeyondVoc(given);
   const CertifyOptions options = WithEveryDiode(asked);
   Proof proof{curve, options, ProgressReporter(observer), {}, {}, {}};
   TRY(Prepare(&proof));

@@ -8,6 +8,7 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/device.h"
@@ -119,7 +120,7 @@ Expected<CertifyOptions> CertifyWithin(const BoundsSpec& spec, const IvCurve& cu
   Model largest = options.models.empty() ? Model::kTripleDiode : Model::kSingleDiode;
   for (const Model model : options.models) largest = std::max(largest, model);
   const Device device = MakeDevice(largest, curve.conditions, options.constants);
-  TRY(const std::vector<ParameterBounds> bounds, MakeBounds(spec, device, curve));
+  TRY(const std::vector<ParameterBounds> bounds, MakeBounds(spec, device, WithoutBeyondVoc(curve)));
   CertifyOptions within = RangesOf(bounds, options.constants, options.models);
   within.objective = options.objective;
   within.tolerance = options.tolerance;

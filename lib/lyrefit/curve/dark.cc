@@ -1,19 +1,64 @@
 #include "lyrefit/curve/dark.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 
 namespace lyrefit {
 namespace {
 
-// Current at the reading with the smallest |V|.
-double CurrentNearZero(const IvCurve& curve) {
-  std::size_t nearest = 0;
-  for (std::size_t k = 1; k < curve.size(); ++k) {
-    if (std::fabs(curve.voltage_V[k]) < std::fabs(curve.voltage_V[nearest])) nearest = k;
+// Indices of the readings next to 0 V. Those of reverse bias alone if there are enough: the current
+// is nearly a line there.
+std::vector<int> NextToZero(const IvCurve& curve, std::size_t count) {
+  std::vector<int> all, reverse;
+  for (int k = 0; k < static_cast<int>(curve.size()); ++k) {
+    all.push_back(k);
+    if (curve.voltage_V[k] <= 0) reverse.push_back(k);
   }
-  return curve.current_A[nearest];
+  std::vector<int>& from = reverse.size() >= count ? reverse : all;
+  std::stable_sort(from.begin(), from.end(), [&](int a, int b) {
+    return std::fabs(curve.voltage_V[a]) < std::fabs(curve.voltage_V[b]);
+  });
+  from.resize(std::min(from.size(), count));
+  return from;
+}
+
+// Smallest step between currents, which bounds the resolution of the instrument.
+double SmallestStep(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  double step = HUGE_VAL;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] > values[k - 1]) step = std::min(step, values[k] - values[k - 1]);
+  }
+  return step;
+}
+
+// Noise of the readings next to 0 V: the scatter about a line through them, at least the resolution.
+// Infinite if they are too few to tell.
+double NoiseNearZero(const IvCurve& curve) {
+  constexpr std::size_t kReadings = 9;
+  constexpr double kToSigma = 1.4826;  // of the median of |normal values|
+  const std::vector<int> next = NextToZero(curve, kReadings);
+  if (next.size() < kReadings) return HUGE_VAL;
+  double v = 0, i = 0, vv = 0, vi = 0;
+  for (const int k : next) {
+    v += curve.voltage_V[k] / kReadings;
+    i += curve.current_A[k] / kReadings;
+  }
+  for (const int k : next) {
+    vv += std::pow(curve.voltage_V[k] - v, 2);
+    vi += (curve.voltage_V[k] - v) * (curve.current_A[k] - i);
+  }
+  const double slope = vv > 0 ? vi / vv : 0;
+  std::vector<double> away;
+  for (const int k : next) {
+    away.push_back(std::fabs(curve.current_A[k] - i - slope * (curve.voltage_V[k] - v)));
+  }
+  return std::max(kToSigma * Median(std::move(away)), SmallestStep(curve.current_A));
 }
 
 }  // namespace
@@ -24,9 +69,15 @@ bool IsStatedDark(const IvCurve& curve) {
 
 bool IsDark(const IvCurve& curve) {
   constexpr double kOffset = 0.05, kNothing = 0.002;  // of the largest current
+  constexpr double kNoises = 30, kNoisesAtLight = 5;
+  constexpr double kLight_W_m2 = 20;  // a sensor may show less in the dark
   if (curve.size() == 0) return false;
-  const double least = IsStatedDark(curve) ? kOffset : kNothing;
-  return CurrentNearZero(curve) <= least * LargestMagnitude(curve.current_A);
+  const double at_zero_A = curve.current_A[NextToZero(curve, 1).front()];
+  const double largest_A = LargestMagnitude(curve.current_A);
+  if (IsStatedDark(curve)) return at_zero_A <= kOffset * largest_A;
+  if (!(at_zero_A > 0) || at_zero_A > kNothing * largest_A) return !(at_zero_A > 0);
+  const bool light = curve.irradiance_known && curve.conditions.irradiance_W_m2 > kLight_W_m2;
+  return at_zero_A <= (light ? kNoisesAtLight : kNoises) * NoiseNearZero(curve);
 }
 
 }  // namespace lyrefit

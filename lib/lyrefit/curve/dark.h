@@ -4,9 +4,13 @@
 
 namespace lyrefit {
 
-// Whether a curve was measured in the dark, without photocurrent. The current at the voltage
-// nearest to 0 V is compared with the largest |current|. A curve stated as dark (irradiance 0) is
-// dark up to 5 %, which may be an offset of the meter. Any other curve is dark up to 0.2 %.
+// Whether a curve was measured in the dark, without photocurrent. A photocurrent is a positive
+// current, in generator sign, at the voltage nearest to 0 V. It counts as one
+//   - of a curve stated as dark (irradiance 0): above 5 % of the largest |current|, since less may
+//     be an offset of the meter,
+//   - of any other: above 0.2 % of it, or above 30 times the noise of the readings next to 0 V (5
+//     times, if light of more than 20 W/m2 is stated). Specified offsets of meters are up to some
+//     20 times their noise in the same range.
 bool IsDark(const IvCurve& curve);
 
 // Whether the irradiance is stated, and as 0.

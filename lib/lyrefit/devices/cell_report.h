@@ -71,8 +71,8 @@ struct CellSweep {
   double efficiency = kUnknown;   // Pmp / (irradiance x area); NaN where there is a doubt
   double resistance_at_isc_ohm = kUnknown;  // -dV/dI at 0 V
   double resistance_at_voc_ohm = kUnknown;  // -dV/dI at Voc
-  // Least ratio of the slope -dI/dV to a larger one at a lower voltage, from 0.3 to 1.1 Voc; 1:
-  // it only rises. An S-shape has less than 0.9.
+  // Least ratio of the slope -dI/dV to a larger one at a lower voltage, from 0.3 to 1.1 Voc past the
+  // knee; 1: it only rises there. An S-shape has less than 0.9.
   double least_slope_ratio = 1;
   std::optional<FitReport> fit;           // of the single-diode model
   std::string no_fit_because;             // empty: there is one, or it was not requested

@@ -17,6 +17,7 @@ namespace lyrefit {
 namespace {
 
 constexpr std::size_t kFewestReadings = 5;
+constexpr double kJudgedFrom = 0.3;  // of Voc: below it a device still settles to the sweep
 
 // Number of the sweep of each reading.
 std::vector<int> SweepNumbers(const IvCurve& curve) {
@@ -141,21 +142,33 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   return sweep;
 }
 
+// By how much the current rises with the voltage between `kJudgedFrom` and Voc.
+double LargestRise(const CellSweep& sweep) {
+  const double voc = sweep.key.open_circuit_voltage_V;
+  double lowest = HUGE_VAL, rise = 0;
+  for (std::size_t k = 0; k < sweep.voltage_V.size(); ++k) {
+    if (!(sweep.voltage_V[k] >= kJudgedFrom * voc && sweep.voltage_V[k] <= voc)) continue;
+    lowest = std::min(lowest, sweep.current_A[k]);
+    rise = std::max(rise, sweep.current_A[k] - lowest);
+  }
+  return rise;
+}
+
 void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const FitReport& fit,
                       std::vector<std::string>* reasons) {
-  constexpr double kSShape = 0.9, kMisfit = 0.01;
+  constexpr double kSShape = 0.9, kMisfit = 0.01, kNoises = 6;
   if (!fit.usable) {
     reasons->push_back(fit.not_usable_because);
     return;
   }
   const double isc = sweep.key.short_circuit_current_A;
-  if (sweep.least_slope_ratio < kSShape) {
+  if (LargestRise(sweep) > std::max(kMisfit * isc, kNoises * sweep.noise_A)) {
+    reasons->emplace_back("the current rises with the voltage: the light or the meter changed");
+  } else if (sweep.least_slope_ratio < kSShape) {
     reasons->push_back(
-        sweep.least_slope_ratio < 0
-            ? std::string("the current rises with the voltage: the light or the meter changed")
-            : fmt::format("S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of "
-                          "what it was at a lower voltage",
-                          100 * sweep.least_slope_ratio));
+        fmt::format("S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of what "
+                    "it was at a lower voltage",
+                    100 * sweep.least_slope_ratio));
   }
   if (fit.rmse.refined.solved_current_A > kMisfit * isc) {
     reasons->push_back(fmt::format("the single diode misses the curve by {:.1f} % of Isc (rms)",
@@ -212,20 +225,22 @@ double ResistanceAtVoc(const Line& line, const KeyPoints& key) {
 
 double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A) {
   constexpr std::size_t kReadings = 5;
-  constexpr double kFrom = 0.3, kTo = 1.1, kErrors = 5, kWindow = 0.08;
+  constexpr double kTo = 1.1, kErrors = 5, kWindow = 0.08;
   const double voc = key.open_circuit_voltage_V;
+  const double mean_slope = key.short_circuit_current_A / voc;
   double ratio = 1, steepest = 0, its_error = 0;
   for (std::size_t k = 0; k + kReadings <= line.x.size(); ++k) {
     std::size_t last = k + kReadings;
     while (last < line.x.size() && line.x[last] - line.x[k] <= kWindow * voc) ++last;
     const Regression fit = Regress(line.x, line.y, k, last);
-    if (!(fit.mean_x >= kFrom * voc && fit.mean_x <= kTo * voc)) continue;
+    if (!(fit.mean_x >= kJudgedFrom * voc && fit.mean_x <= kTo * voc)) continue;
     double xx = 0;
     for (std::size_t i = k; i < last; ++i) xx += std::pow(line.x[i] - fit.mean_x, 2);
     const double slope = -fit.slope;
     const double error = std::max(noise_A / std::sqrt(xx), fit.slope_error);
-    if (slope < steepest && steepest - slope > kErrors * std::hypot(error, its_error)) {
-      ratio = std::min(ratio, slope / steepest);
+    const bool past_knee = steepest >= mean_slope;
+    if (past_knee && steepest - slope > kErrors * std::hypot(error, its_error)) {
+      ratio = std::min(ratio, std::max(slope, 0.0) / steepest);
     }
     if (slope <= steepest) continue;
     steepest = slope;

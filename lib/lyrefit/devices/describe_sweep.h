@@ -32,7 +32,8 @@ double ResistanceAtVoc(const Line& line, const KeyPoints& key);
 
 // See CellSweep::least_slope_ratio. Slopes are of the readings within 8 % of Voc, at least five; a
 // ratio counts if both slopes differ by five times the error of their difference, by `noise_A` or by
-// the scatter around the line.
+// the scatter around the line, and past the knee, where the larger one is above Isc / Voc: slopes of
+// the flat part are of light and devices that settle.
 double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A);
 
 // Fits the single-diode model to a sweep. In the dark, the photocurrent is fixed at 0.

@@ -11,6 +11,7 @@
 #include "lyrefit/diagnose/expectation.h"
 #include "lyrefit/diagnose/reference_causes.h"
 #include "lyrefit/diagnose/reference_rows.h"
+#include "lyrefit/report/side_by_side.h"
 
 namespace lyrefit {
 namespace {
@@ -176,9 +177,9 @@ Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
     }
   }
   if (references.size() < kFewestReferences) {
-    return Fail(fmt::format("{} reference sweeps can be used, a comparison needs {} or more{}",
+    return Fail(fmt::format("{} reference sweeps can be used, a comparison needs {} or more{}; {}",
                             references.size(), kFewestReferences,
-                            left_out.empty() ? "" : " (" + left_out.front() + ")"));
+                            left_out.empty() ? "" : " (" + left_out.front() + ")", kSideBySide));
   }
   TRY(CheckReach(sweep.state, references));
   std::vector<const SweepState*> used;
@@ -209,8 +210,8 @@ Expected<OutlierSweeps> FindOutlierSweeps(const std::vector<IvCurve>& curves,
   }
   const int count = static_cast<int>(sweeps.size());
   if (count <= kFewestReferences) {
-    return Fail(fmt::format("{} sweeps can be compared with each other, that takes {} or more",
-                            count, kFewestReferences + 1));
+    return Fail(fmt::format("{} sweeps can be compared with each other, that takes {} or more; {}",
+                            count, kFewestReferences + 1, kSideBySide));
   }
   // Two rounds: outliers of the first round are no references in the second.
   std::vector<char> outlier(count, 0);

@@ -16,6 +16,7 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/study/best_known.h"
 #include "lyrefit/study/compare_checks.h"
@@ -302,7 +303,7 @@ class Study {
 
 CompareCurve MakeSubject(IvCurve curve, BoundsSpec bounds) {
   CompareCurve subject;
-  subject.curve = std::move(curve);
+  subject.curve = WithoutBeyondVoc(std::move(curve));
   subject.bounds = std::move(bounds);
   return subject;
 }

@@ -15,6 +15,9 @@ namespace lyrefit {
 constexpr int kModelExcess = kTrendParameters;
 constexpr int kFollowed = kTrendParameters + 1;
 
+// Blocks that a trend takes at least.
+constexpr std::size_t kLeastBlocks = 5;
+
 // Whether a row has a say in its block: it is used, or tells the light of a shaded device.
 inline bool CountsInBlocks(const TrendRow& row) {
   return row.state == TrendRowState::kUsed || row.state == TrendRowState::kStepped;

@@ -10,6 +10,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/report/side_by_side.h"
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/operating_rows.h"
 #include "lyrefit/trend/quantities.h"
@@ -18,8 +19,6 @@
 
 namespace lyrefit {
 namespace {
-
-constexpr std::size_t kLeastBlocks = 5;
 
 void CountReasons(const std::vector<TrendRow>& rows, TrendReport* report) {
   std::map<std::string, TrendReason> reasons;
@@ -68,8 +67,8 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   TrendBlocks blocks = MakeBlocks(*series.device, std::move(rows), options);
   if (blocks.size() < kLeastBlocks || blocks.reference_blocks < 1) {
     return Fail(fmt::format(
-        "expected usable measurements at {} times or more, found {}: {} of {} measurements count",
-        kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size()));
+        "expected usable measurements at {} times or more, found {}: {} of {} measurements count; {}",
+        kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size(), kSideBySide));
   }
   DescribeSeries(series, blocks, &report);
   FindParameters(options, &blocks, &report);

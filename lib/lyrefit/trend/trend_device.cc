@@ -200,8 +200,8 @@ Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps) 
   const std::vector<SweepFit> fits = FitAll(sweeps, device.n, SweepFree::kSecondDiode, &fitted);
   if (fits.empty()) {
     return Fail(
-        "expected sweeps with a stated irradiance and temperature that two diodes describe, found "
-        "none among the reference days");
+        "expected sweeps from 0 V to open circuit with their irradiance and temperature, found none "
+        "in the reference days");
   }
   device.resistance_series_ohm =
       MedianOf(fits, [](const SweepFit& fit) { return fit.resistance_series_ohm; });

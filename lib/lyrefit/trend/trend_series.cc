@@ -8,6 +8,8 @@
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/date_time.h"
+#include "lyrefit/report/side_by_side.h"
+#include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/trend_device.h"
 
 namespace lyrefit {
@@ -61,10 +63,16 @@ Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource 
 Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                                      const TrendOptions& options) {
   const std::vector<const IvCurve*> chosen = SweepsForLaw(sweeps, options);
-  TRY(TrendDevice device, DeviceOfSweeps(chosen));
-  if (options.bypass_diodes > 0) device.substrings = options.bypass_diodes;
+  Expected<TrendDevice> device = DeviceOfSweeps(chosen);
+  if (!device && sweeps.size() < kLeastBlocks) {
+    return Fail(fmt::format(
+        "{} sweeps are too few for a trend, which takes usable ones at {} times or more; {} ({})",
+        sweeps.size(), kLeastBlocks, kSideBySide, device.error().message));
+  }
+  if (!device) return tl::unexpected(device.error());
+  if (options.bypass_diodes > 0) device->substrings = options.bypass_diodes;
   TrendSeries series;
-  series.device = std::make_shared<const TrendDevice>(device);
+  series.device = std::make_shared<const TrendDevice>(*device);
   series.law = fmt::format("{} sweeps of the reference days", chosen.size());
   return series;
 }

@@ -4,20 +4,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "lyrefit/curve/keep_readings.h"
+
 namespace lyrefit {
-namespace {
-
-template <typename Value>
-void Keep(const std::vector<int>& kept, std::vector<Value>* values) {
-  if (values->empty()) return;
-  std::vector<Value> few;
-  few.reserve(kept.size());
-  for (const int k : kept) few.push_back((*values)[k]);
-  *values = std::move(few);
-}
-
-}  // namespace
-
 DistinctReadings FindDistinctReadings(const IvCurve& curve) {
   const auto at = [](const std::vector<double>& column, int k) {
     return column.empty() ? 0 : column[k];
@@ -45,14 +34,9 @@ DistinctReadings FindDistinctReadings(const IvCurve& curve) {
   for (int k = 0; k < readings; ++k) {
     if (copies[k] > 0) kept.push_back(k);
   }
-  Keep(kept, &copies);
+  KeepValues(kept, &copies);
   found.copies = std::move(copies);
-  for (std::vector<double>* column :
-       {&found.curve.voltage_V, &found.curve.current_A, &found.curve.sigma_A, &found.curve.time_s,
-        &found.curve.irradiance_W_m2, &found.curve.temperature_C}) {
-    Keep(kept, column);
-  }
-  Keep(kept, &found.curve.sweep);
+  KeepReadings(kept, &found.curve);
   return found;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/estimate/fit/distinct_readings.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
@@ -129,9 +130,10 @@ RefineProblem ProblemOf(const PreparedFit& fit, const std::vector<double>& copie
 
 }  // namespace
 
-Expected<PreparedFit> PrepareFit(const IvCurve& curve, const FitOptions& options) {
-  TRY(Validate(curve));
-  PreparedFit fit{curve, options};
+Expected<PreparedFit> PrepareFit(const IvCurve& given, const FitOptions& options) {
+  TRY(Validate(given));
+  PreparedFit fit{WithoutBeyondVoc(given), options};
+  const IvCurve& curve = fit.curve;
   TRY(fit.doubts, JudgeReadings(curve));
   TRY(CheckOptions(options));
   fit.device = MakeDevice(options.model, curve.conditions, options.constants);

@@ -13,10 +13,10 @@
 
 namespace lyrefit {
 
-// First stage of a fit: its readings, its device and the least-squares problem of both. The curve
-// and the options must outlive it.
+// First stage of a fit: its readings, its device and the least-squares problem of both. The options
+// must outlive it.
 struct PreparedFit {
-  const IvCurve& curve;
+  IvCurve curve;  // WithoutBeyondVoc() of the one that was given
   const FitOptions& options;
   std::vector<std::string> doubts = {};  // about the readings; see JudgeReadings
   Device device = {};

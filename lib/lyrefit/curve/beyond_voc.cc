@@ -1,0 +1,146 @@
+#include "lyrefit/curve/beyond_voc.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "lyrefit/base/dense.h"
+#include "lyrefit/curve/dark.h"
+#include "lyrefit/curve/keep_readings.h"
+#include "lyrefit/curve/key_points.h"
+
+namespace lyrefit {
+namespace {
+
+// The misfit of diode models is 0.05 to 0.3 % of Isc for healthy devices, up to some 2 % for noisy
+// or drifting ones (see WhyNotUsable).
+constexpr double kHealthyMisfit = 0.01;  // of Isc
+constexpr double kWorse = 2;             // of the misfit up to Voc
+constexpr double kKnee = 0.05;           // of Isc: the least junction current that is used
+constexpr std::size_t kFewest = 6;       // readings that three parameters are judged by
+
+// A reading on the diode's side of the knee.
+struct KneeReading {
+  double voltage_V;
+  double forward_A;   // -I
+  double junction_A;  // current of the diode: photocurrent minus I and the shunt's
+};
+
+// Least-squares line of the current over voltage, up to a fraction of Voc: photocurrent and shunt.
+std::pair<double, double> LineUpToKnee(const IvCurve& curve, const KeyPoints& key) {
+  constexpr double kTo = 0.4;  // of Voc, on both sides of 0 V
+  const double to_V = kTo * key.open_circuit_voltage_V;
+  double count = 0, v = 0, i = 0, vv = 0, vi = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (std::fabs(curve.voltage_V[k]) > to_V) continue;
+    count += 1;
+    v += curve.voltage_V[k];
+    i += curve.current_A[k];
+    vv += curve.voltage_V[k] * curve.voltage_V[k];
+    vi += curve.voltage_V[k] * curve.current_A[k];
+  }
+  const double spread = vv - v * v / std::max(count, 1.0);
+  if (!(spread > 0)) return {key.short_circuit_current_A, 0};
+  const double slope = std::min((vi - v * i / count) / spread, 0.0);
+  return {(i - slope * v) / count, slope};
+}
+
+// Readings on the diode's side of the knee, by rising forward current.
+std::vector<KneeReading> KneeOf(const IvCurve& curve, const KeyPoints& key) {
+  const auto [photo_A, slope] = LineUpToKnee(curve, key);
+  std::vector<KneeReading> knee;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const double voltage_V = curve.voltage_V[k], current_A = curve.current_A[k];
+    const double junction_A = photo_A + slope * voltage_V - current_A;
+    if (!(voltage_V > 0) || !(junction_A > kKnee * key.short_circuit_current_A)) continue;
+    knee.push_back({voltage_V, -current_A, junction_A});
+  }
+  std::stable_sort(
+      knee.begin(), knee.end(),
+      [](const KneeReading& a, const KneeReading& b) { return a.forward_A < b.forward_A; });
+  return knee;
+}
+
+// Root mean square of the residuals, in A, of the first `count` readings about the junction that
+// describes them best; infinite if none does. Voltages are regressed, with the weights of currents:
+// dV/dI is Rs + b / J.
+double MisfitOf(const std::vector<KneeReading>& knee, std::size_t count) {
+  constexpr int kRounds = 6;
+  double rs = 0, b = 1;
+  double misfit = HUGE_VAL;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto rows = static_cast<Eigen::Index>(count);
+    for (const bool resistance : {true, false}) {
+      Eigen::MatrixXd a(rows, resistance ? 3 : 2);
+      Eigen::VectorXd y(rows);
+      for (Eigen::Index k = 0; k < rows; ++k) {
+        const KneeReading& one = knee[static_cast<std::size_t>(k)];
+        const double weight = round == 0 ? 1 : 1 / (rs + b / one.junction_A);
+        a(k, 0) = weight;
+        a(k, 1) = weight * std::log(one.junction_A);
+        if (resistance) a(k, 2) = weight * one.forward_A;
+        y(k) = weight * one.voltage_V;
+      }
+      const Eigen::VectorXd found = LeastSquares(a, y);
+      misfit = Residual(y, a, found).norm() / std::sqrt(static_cast<double>(count));
+      if (resistance && !(found(2) >= 0 && found(1) > 0)) continue;
+      if (!(found(1) > 0)) return HUGE_VAL;
+      b = found(1);
+      rs = resistance ? found(2) : 0;
+      break;
+    }
+  }
+  return misfit;
+}
+
+}  // namespace
+
+BeyondVoc FindBeyondVoc(const IvCurve& curve) {
+  BeyondVoc found;
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const double isc_A = key.short_circuit_current_A;
+  if (!(isc_A > 0) || !(key.open_circuit_voltage_V > 0) || curve.suns_voc_A || IsDark(curve)) {
+    return found;
+  }
+  const std::vector<KneeReading> knee = KneeOf(curve, key);
+  if (knee.size() <= kFewest || !(knee.back().forward_A > isc_A)) return found;
+  found.most_A = found.largest_A = knee.back().forward_A;
+  // The readings up to Voc and the first beyond, which Voc is interpolated with.
+  std::size_t to_voc = 0;
+  while (to_voc < knee.size() && knee[to_voc].forward_A <= 0) ++to_voc;
+  to_voc = std::max(to_voc + 1, kFewest);
+  if (to_voc >= knee.size()) return found;
+  const double up_to_voc = MisfitOf(knee, to_voc);
+  if (!(MisfitOf(knee, knee.size()) > std::max(kHealthyMisfit * isc_A, kWorse * up_to_voc))) {
+    return found;
+  }
+  found.most_A = std::max(knee[to_voc - 1].forward_A, 0.0);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (curve.voltage_V[k] > 0 && -curve.current_A[k] > found.most_A) ++found.left_out;
+  }
+  return found;
+}
+
+IvCurve WithoutBeyondVoc(IvCurve curve) {
+  if (curve.as_is) return curve;
+  const BeyondVoc beyond = FindBeyondVoc(curve);
+  if (beyond.left_out == 0) return curve;
+  const double isc_A = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const bool out = curve.voltage_V[k] > 0 && -curve.current_A[k] > beyond.most_A;
+    if (!out) kept.push_back(static_cast<int>(k));
+  }
+  KeepReadings(kept, &curve);
+  curve.assumptions.push_back(fmt::format(
+      "{} readings beyond Voc, with a forward current of up to {:.3g} times Isc, were left out: the "
+      "diode that describes the readings up to there does not describe them (injection, leads or "
+      "another conduction; --as-is takes them)",
+      beyond.left_out, beyond.largest_A / isc_A));
+  return curve;
+}
+
+}  // namespace lyrefit

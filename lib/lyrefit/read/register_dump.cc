@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kFewest = 10;  // readings of a scan
 constexpr std::size_t kMost = 1 << 16;
+constexpr int kLargestHead = 50;  // lines above the registers
 
 // The readings of a scan before the zeros at its end.
 std::size_t LengthOf(const std::vector<double>& voltages, const std::vector<double>& currents) {
@@ -158,6 +159,7 @@ std::optional<RegisterText> ReadAddressed(std::string_view text, char delimiter)
         if (IsOneOf((*fields)[i], {"value", "raw", "raw value", "data", "content"})) value = i;
       }
       if (!address || !value) address = value = std::nullopt;
+      if (!value && lines.number() > kLargestHead) return std::nullopt;
       if (!value) dump.head.append(line).append("\n");
       continue;
     }
@@ -188,6 +190,7 @@ std::optional<RegisterText> ReadList(std::string_view text) {
     });
     const bool begins = numbers && fields->size() >= kFewestInLine;
     if (dump.words.empty() && !begins) {
+      if (lines.number() > kLargestHead) return std::nullopt;
       dump.head.append(line).append("\n");
       continue;
     }

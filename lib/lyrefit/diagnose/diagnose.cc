@@ -9,6 +9,7 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
@@ -197,6 +198,7 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& given, const DiagnoseOptions
   const CurveSet taken = WithoutTraces(given, &disorder);
   TRY(prepared.doubts, JudgeReadings(taken.curves));
   prepared.set = InOrder(taken, &disorder);
+  for (IvCurve& curve : prepared.set.curves) curve = WithoutBeyondVoc(std::move(curve));
   TRY(prepared.measurement, MakeMeasurement(prepared.set));
   std::vector<std::string>& warnings = prepared.measurement.warnings;
   warnings.insert(warnings.begin(), disorder.begin(), disorder.end());

@@ -26,4 +26,10 @@ struct KeyPoints {
 // curve, and if uneven spacing makes the parabola unreliable.
 KeyPoints FindKeyPoints(const std::vector<double>& voltage_V, const std::vector<double>& current_A);
 
+// Index of the hysteresis of a sweep forward and one in reverse, by their powers,
+// (Pmp_rev - Pmp_fwd) / Pmp_rev: doi:10.1021/acsenergylett.8b01627.
+inline double HysteresisIndex(const KeyPoints& forward, const KeyPoints& reverse) {
+  return (reverse.max_power_W - forward.max_power_W) / reverse.max_power_W;
+}
+
 }  // namespace lyrefit

@@ -55,7 +55,7 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const KeyPoints &f = forward.key, &r = reverse.key;
   const Line up = LineOf(forward), down = LineOf(reverse);
   const double isc = r.short_circuit_current_A, voc = r.open_circuit_voltage_V;
-  pair.index_power = (r.max_power_W - f.max_power_W) / r.max_power_W;
+  pair.index_power = HysteresisIndex(f, r);
   const double end = EndOf(up, down, f.open_circuit_voltage_V, voc);
   const double begin = BeginOf(up, down, end);
   pair.index_area = 1 - up.Area(begin, f.open_circuit_voltage_V) / down.Area(begin, voc);

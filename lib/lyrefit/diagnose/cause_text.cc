@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/effect_size.h"
 #include "lyrefit/model/law.h"
 
@@ -150,37 +151,23 @@ std::vector<std::string> OfGradedShunt(const Described& of) {
                   Percent(0.5 * of.p[0]))};
 }
 
-// Currents of a fit in one direction of the sweep, at the voltages of the readings.
-std::vector<double> InDirection(const Described& of, double sign) {
-  Readings readings = of.readings();
-  for (Reading& reading : readings.points) reading.rate = sign * std::fabs(reading.rate);
-  std::vector<double> current(readings.points.size());
-  LawWorkspace workspace;
-  const bool fine =
-      EvaluateLaw(of.fit.law, readings, of.fit.p.data(), &workspace, current.data(), nullptr);
-  return fine ? current : std::vector<double>();
+// Key points of the readings of one direction: 1 up, -1 down.
+KeyPoints InDirection(const Readings& readings, double sign) {
+  std::vector<double> voltage, current;
+  for (const Reading& reading : readings.points) {
+    if (reading.dark || !(sign * reading.rate > 0)) continue;
+    voltage.push_back(reading.voltage);
+    current.push_back(reading.current);
+  }
+  return FindKeyPoints(voltage, current);
 }
 
-// Hysteresis by two usual definitions: of the maximum powers (doi:10.1021/acsenergylett.8b01627)
-// and the difference of the curves.
 std::vector<std::string> OfHysteresis(const Described& of) {
-  const std::vector<double> up = InDirection(of, 1), down = InDirection(of, -1);
-  if (up.empty() || down.empty()) return {};
-  const std::vector<Reading>& points = of.readings().points;
-  double power_up = 0, power_down = 0, square = 0, count = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    power_up = std::max(power_up, points[k].voltage * up[k]);
-    power_down = std::max(power_down, points[k].voltage * down[k]);
-    if (points[k].voltage < 0 || !(up[k] + down[k] > 0)) continue;
-    square += std::pow(up[k] - down[k], 2);
-    count += 1;
-  }
-  if (!(power_down > 0) || count == 0) return {};
-  const double index = (power_down - power_up) / power_down;
+  const double index =
+      HysteresisIndex(InDirection(of.readings(), 1), InDirection(of.readings(), -1));
+  if (!std::isfinite(index)) return {};
   return {fmt::format(
-      "the directions differ by {:.2g} % of Isc (rms); index (Pmax down - up) / "
-      "down = {:.1f} %: {}",
-      Percent(std::sqrt(square / count)), Percent(index),
+      "index (Pmp_rev - Pmp_fwd) / Pmp_rev = {:.1f} %: {}", Percent(index),
       index < 0 ? "inverted, the sweep up gives more" : "normal, the sweep down gives more")};
 }
 

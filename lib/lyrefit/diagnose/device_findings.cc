@@ -11,6 +11,7 @@
 #include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/estimate/fit/usable.h"
 
 namespace lyrefit {
 namespace {
@@ -167,7 +168,8 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
 void AddLowIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
   const int index = IdealityIndex(0);
   const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
-  if (!(n.high_95 < LeastIdeality(device.weighted))) return;
+  const bool at_bound = !(device.errors[index] > 0);  // the readings do not tell it
+  if (at_bound || !(n.high_95 < LeastIdeality(device.weighted))) return;
   findings->push_back(
       {"ideality", "n", n, 1, kUnknown,
        fmt::format("has n = {:.2f} ({:.2f} to {:.2f}), less than any junction has; the number of "
@@ -216,6 +218,11 @@ std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const 
   if (traits.only_dark || !traits.single || !ReachesPastKnee(readings)) return {};
   if (LeftBy(selection.weighted, selection.extended).value >
       std::max(floors.current, kSmallestFloor)) {
+    return {};
+  }
+  // Readings with so much noise tell nothing of the device, and no fit of them is usable.
+  if (RmseOf(selection.weighted, selection.extended.current) >
+      kLargestMisfit * readings.scale.current_A) {
     return {};
   }
   const JudgedDevice device = JudgeDevice(selection, kind);

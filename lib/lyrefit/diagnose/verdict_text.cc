@@ -17,8 +17,10 @@ namespace {
 // Isc.
 constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
 
+constexpr double kLeastShown = 5e-5;  // of Isc
+
 std::string OfIsc(double part) {
-  if (part < 5e-5) return "below 0.01 % of Isc";
+  if (part < kLeastShown) return "below 0.01 % of Isc";
   return fmt::format("{:.2f} % of Isc", 100 * part);
 }
 
@@ -191,8 +193,12 @@ std::string CausesSentence(const Verdict& verdict, const Floors& floors, double 
 // How much the model with the causes misses, against modules without a fault.
 std::string ComparisonText(const Verdict& verdict, const Floors& floors) {
   if (!verdict.found || IsNameless(verdict) || !floors.Any()) return "";
-  return fmt::format("{} with the cause{}, {:.2f} without; healthy modules {}",
-                     OfIsc(verdict.remaining.value), verdict.causes.size() > 1 ? "s" : "",
+  const char* const causes = verdict.causes.size() > 1 ? "causes" : "cause";
+  const std::string with = OfIsc(verdict.remaining.value);
+  if (verdict.lack_of_fit.value < kLeastShown) {
+    return fmt::format("{} with the {} and without; healthy modules {}", with, causes, Usual());
+  }
+  return fmt::format("{} with the {}, {:.2f} without; healthy modules {}", with, causes,
                      100 * verdict.lack_of_fit.value, Usual());
 }
 

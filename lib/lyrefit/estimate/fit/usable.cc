@@ -13,7 +13,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kLargestMisfit = 0.03;  // of Isc
 
 // Residuals of the least-squares line through the points, the baseline of any fit.
 std::vector<double> StraightLineResiduals(const IvCurve& curve) {

@@ -13,6 +13,9 @@ struct UsabilityFacts {
   bool doubtful = false;    // there are doubts about the readings
 };
 
+// Largest misfit of a usable fit, in Isc.
+inline constexpr double kLargestMisfit = 0.03;
+
 // Reason why a fit is not usable; empty: it is. A fit is not usable
 //   - if its solved-current RMSE is not finite,
 //   - if a straight line describes the readings as well: its AICc is no higher,

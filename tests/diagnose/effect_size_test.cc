@@ -230,6 +230,23 @@ TEST(ProbabilityAboveTest, APowerOfOneSweepCountsWhereTheEffectShows) {
   EXPECT_GT(ProbabilityAbove(size, floors), 0.99);
 }
 
+// A law that describes the forward current beyond Voc alone has no power.
+TEST(ProbabilityAboveTest, APowerThatIsNotFiniteDoesNotCount) {
+  const Floors floors = {0.0025, 0.005};
+  EffectSize size;
+  size.current = 0.01;
+  size.reach = 0.1;
+  for (const double power : {kUnknown, kInfinity}) {
+    size.power = size.power_error = power;
+    EXPECT_GT(ProbabilityAbove(size, floors), 0.99);
+  }
+  size.current = 0.0001;
+  for (const double power : {kUnknown, kInfinity}) {
+    size.power = size.power_error = power;
+    EXPECT_LT(ProbabilityAbove(size, floors), 0.01);
+  }
+}
+
 // Two thirds of the module give nothing: the curve ends at a third of the voltage that the repaired
 // module has.
 TEST(FieldDiagnosis, FindsOpenSubstringsAndTheirWatts) {

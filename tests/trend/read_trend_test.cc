@@ -15,7 +15,9 @@
 namespace lyrefit {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::vector<TimedSweep> TenDays() {
   MadeYear year;
@@ -288,7 +290,8 @@ TEST(ReadTrend, RefusesWhatHoldsNoSweep) {
   EXPECT_FALSE(ReadFile(folder.Path("missing.csv")));
   const auto dark = ReadFile(folder.Write(
       "dark.csv", std::string(kSweepsHead) + "2025-03-12,0,20,60,3,0 10 20 30,0 0 0 0\n"));
-  EXPECT_THAT(MessageOf(dark), HasSubstr("expected sweeps with a stated irradiance"));
+  EXPECT_THAT(MessageOf(dark), AllOf(StartsWith("expected sweeps from 0 V to open circuit"),
+                                     HasSubstr("5 times or more, found 1")));
 }
 
 TEST(ReadOperatingPoints, NeedsTheLawOfAModule) {

@@ -182,8 +182,9 @@ TEST(SeriesOfSweeps, SaysWhatToRunOnFewSweepsThatEndBelowOpenCircuit) {
   }
   const std::vector<TimedSweep> few(3, sweep);
   EXPECT_THAT(MessageOf(SeriesOfSweeps(few, {})),
-              AllOf(HasSubstr("3 sweeps are too few"), HasSubstr("lyrefit fit FILES --csv"),
-                    HasSubstr("to open circuit")));
+              AllOf(StartsWith("expected sweeps from 0 V to open circuit"),
+                    HasSubstr("at 5 times or more, found 3; "),
+                    HasSubstr("lyrefit fit FILES --csv")));
   EXPECT_THAT(MessageOf(SeriesOfSweeps(std::vector<TimedSweep>(30, sweep), {})),
               StartsWith("expected sweeps from 0 V to open circuit"));
 }

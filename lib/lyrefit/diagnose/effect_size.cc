@@ -219,14 +219,15 @@ double ProbabilityAbove(const EffectSize& size, const Floors& floors) {
   if (!floors.Any()) return 1;
   const auto above = [](double value, double half, double floor) {
     if (!(half > 0)) return value > floor ? 1.0 : 0.0;
-    return NormalTail((floor - value) * kNormal95 / half);
+    const double below = (floor - value) * kNormal95 / half;
+    return std::isnan(below) ? 0.0 : NormalTail(below);
   };
   const double half = size.current * size.reach;
   const double current = above(size.current, half, floors.current);
   double power = above(std::fabs(size.power), size.power_error, floors.power);
   // The power of one sweep counts only where the effect shows as well.
   if (size.one_sweep) power *= above(size.current, half, kShownPart * floors.current);
-  return std::isfinite(power) ? std::max(current, power) : current;
+  return std::max(current, power);
 }
 
 bool ExceedsFloors(const EffectSize& size, const Floors& floors) {

@@ -53,7 +53,7 @@ Without MakeWithout(const WeightedData& weighted, const LawFit& fit);
 // Size of effect number `index` of a fit, compared with a fit without it.
 struct EffectSize {
   double current = 0;      // fraction of Isc (rms): lack of fit of the law without it
-  double power = 0;        // relative error of Pmax of the law without it
+  double power = 0;        // relative error of Pmax of that law; not finite if it gives no power
   double recoverable = 0;  // relative gain in Pmax of the device without the effect
   double reach = 1;        // half of the current's 95 % interval, relative to it; 1: reaches 0
   // Half of the power's 95 % interval, relative to Pmax. It includes the rough path at the peak,
@@ -64,7 +64,8 @@ struct EffectSize {
 EffectSize SizeOf(const WeightedData& weighted, const LawFit& with, int index,
                   const Without& without);
 
-// Probability that one of its sizes lies above its floor; 1 without floors.
+// Probability that one of its sizes lies above its floor; 1 without floors. A power that is not
+// finite does not count.
 double ProbabilityAbove(const EffectSize& size, const Floors& floors);
 // Whether the whole interval of one of its sizes lies above its floor.
 bool ExceedsFloors(const EffectSize& size, const Floors& floors);

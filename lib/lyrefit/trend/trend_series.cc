@@ -66,8 +66,8 @@ Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
   Expected<TrendDevice> device = DeviceOfSweeps(chosen);
   if (!device && sweeps.size() < kLeastBlocks) {
     return Fail(fmt::format(
-        "{} sweeps are too few for a trend, which takes usable ones at {} times or more; {} ({})",
-        sweeps.size(), kLeastBlocks, kSideBySide, device.error().message));
+        "{}; a trend takes usable sweeps at {} times or more, found {}; {}",
+        device.error().message, kLeastBlocks, sweeps.size(), kSideBySide));
   }
   if (!device) return tl::unexpected(device.error());
   if (options.bypass_diodes > 0) device->substrings = options.bypass_diodes;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
 namespace {
@@ -49,7 +50,8 @@ TEST(BeyondVocTest, AnotherConductionIsLeftOutAndCounted) {
   curve.time_s.resize(curve.size(), 1);
   const BeyondVoc beyond = FindBeyondVoc(curve);
   EXPECT_GT(beyond.left_out, 50);
-  EXPECT_GT(beyond.largest_A, 20 * beyond.most_A);
+  EXPECT_GT(beyond.largest_A, 20 * 2e-3);
+  EXPECT_NEAR(beyond.last_V, 0.66, 0.011);
   const IvCurve kept = WithoutBeyondVoc(curve);
   EXPECT_EQ(kept.size() + static_cast<std::size_t>(beyond.left_out), curve.size());
   EXPECT_EQ(kept.time_s.size(), kept.size());
@@ -58,6 +60,18 @@ TEST(BeyondVocTest, AnotherConductionIsLeftOutAndCounted) {
   ASSERT_EQ(kept.assumptions.size(), 1U);
   EXPECT_THAT(kept.assumptions[0].sentence, testing::HasSubstr("readings beyond Voc"));
   EXPECT_EQ(WithoutBeyondVoc(kept).size(), kept.size()) << "once is enough";
+}
+
+TEST(BeyondVocTest, ASweepUpAndDownKeepsItsVoc) {
+  IvCurve curve = SweptBeyond(1.2, 1);
+  for (std::size_t k = curve.size(); k-- > 0;) {
+    curve.voltage_V.push_back(curve.voltage_V[k] - 0.004);
+    curve.current_A.push_back(curve.current_A[k]);
+  }
+  const IvCurve kept = WithoutBeyondVoc(curve);
+  EXPECT_LT(kept.size(), curve.size());
+  EXPECT_EQ(FindKeyPoints(kept.voltage_V, kept.current_A).open_circuit_voltage_V,
+            FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V);
 }
 
 TEST(BeyondVocTest, BelowIscOrAsItIsOrInTheDarkNothingIsLeftOut) {

@@ -18,8 +18,9 @@ namespace {
 // The misfit of diode models is 0.05 to 0.3 % of Isc for healthy devices, up to some 2 % for noisy
 // or drifting ones (see WhyNotUsable).
 constexpr double kHealthyMisfit = 0.01;  // of Isc
-constexpr double kWorse = 2;             // of the misfit up to Voc
+constexpr double kWorse = 5;             // of the misfit up to Voc
 constexpr double kKnee = 0.05;           // of Isc: the least junction current that is used
+constexpr double kLeastLogarithm = 6;    // ln(Isc / Is) = Voc / n Vt of what is a diode at all
 constexpr std::size_t kFewest = 6;       // readings that three parameters are judged by
 
 // A reading on the diode's side of the knee.
@@ -48,7 +49,7 @@ std::pair<double, double> LineUpToKnee(const IvCurve& curve, const KeyPoints& ke
   return {(i - slope * v) / count, slope};
 }
 
-// Readings on the diode's side of the knee, by rising forward current.
+// Readings on the diode's side of the knee, by rising voltage.
 std::vector<KneeReading> KneeOf(const IvCurve& curve, const KeyPoints& key) {
   const auto [photo_A, slope] = LineUpToKnee(curve, key);
   std::vector<KneeReading> knee;
@@ -58,19 +59,24 @@ std::vector<KneeReading> KneeOf(const IvCurve& curve, const KeyPoints& key) {
     if (!(voltage_V > 0) || !(junction_A > kKnee * key.short_circuit_current_A)) continue;
     knee.push_back({voltage_V, -current_A, junction_A});
   }
-  std::stable_sort(
-      knee.begin(), knee.end(),
-      [](const KneeReading& a, const KneeReading& b) { return a.forward_A < b.forward_A; });
+  std::stable_sort(knee.begin(), knee.end(), [](const KneeReading& a, const KneeReading& b) {
+    return a.voltage_V < b.voltage_V;
+  });
   return knee;
 }
 
-// Root mean square of the residuals, in A, of the first `count` readings about the junction that
-// describes them best; infinite if none does. Voltages are regressed, with the weights of currents:
-// dV/dI is Rs + b / J.
-double MisfitOf(const std::vector<KneeReading>& knee, std::size_t count) {
+// Junction that describes readings best.
+struct Junction {
+  double misfit_A = HUGE_VAL;  // root mean square of the residuals; infinite: none describes them
+  double thermal_V = 0;        // b: n Vt of all cells
+};
+
+// Junction of the first `count` readings. Voltages are regressed, with the weights of currents: dV/dI
+// is Rs + b / J.
+Junction JunctionOf(const std::vector<KneeReading>& knee, std::size_t count) {
   constexpr int kRounds = 6;
   double rs = 0, b = 1;
-  double misfit = HUGE_VAL;
+  Junction junction;
   for (int round = 0; round < kRounds; ++round) {
     const auto rows = static_cast<Eigen::Index>(count);
     for (const bool resistance : {true, false}) {
@@ -85,15 +91,15 @@ double MisfitOf(const std::vector<KneeReading>& knee, std::size_t count) {
         y(k) = weight * one.voltage_V;
       }
       const Eigen::VectorXd found = LeastSquares(a, y);
-      misfit = Residual(y, a, found).norm() / std::sqrt(static_cast<double>(count));
       if (resistance && !(found(2) >= 0 && found(1) > 0)) continue;
-      if (!(found(1) > 0)) return HUGE_VAL;
+      if (!(found(1) > 0)) return {};
       b = found(1);
+      junction = {Residual(y, a, found).norm() / std::sqrt(static_cast<double>(count)), b};
       rs = resistance ? found(2) : 0;
       break;
     }
   }
-  return misfit;
+  return junction;
 }
 
 }  // namespace
@@ -106,21 +112,19 @@ BeyondVoc FindBeyondVoc(const IvCurve& curve) {
     return found;
   }
   const std::vector<KneeReading> knee = KneeOf(curve, key);
-  if (knee.size() <= kFewest || !(knee.back().forward_A > isc_A)) return found;
-  found.most_A = found.largest_A = knee.back().forward_A;
-  // The readings up to Voc and the first beyond, which Voc is interpolated with.
+  for (const KneeReading& one : knee) found.largest_A = std::max(found.largest_A, one.forward_A);
+  if (!(found.largest_A > isc_A)) return found;
+  // The readings up to Voc and the first beyond, by which Voc is interpolated.
   std::size_t to_voc = 0;
-  while (to_voc < knee.size() && knee[to_voc].forward_A <= 0) ++to_voc;
-  to_voc = std::max(to_voc + 1, kFewest);
-  if (to_voc >= knee.size()) return found;
-  const double up_to_voc = MisfitOf(knee, to_voc);
-  if (!(MisfitOf(knee, knee.size()) > std::max(kHealthyMisfit * isc_A, kWorse * up_to_voc))) {
-    return found;
-  }
-  found.most_A = std::max(knee[to_voc - 1].forward_A, 0.0);
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    if (curve.voltage_V[k] > 0 && -curve.current_A[k] > found.most_A) ++found.left_out;
-  }
+  while (to_voc < knee.size() && knee[to_voc].voltage_V < key.open_circuit_voltage_V) ++to_voc;
+  const std::size_t judged = std::max(++to_voc, kFewest);
+  if (judged >= knee.size()) return found;
+  const Junction up_to_voc = JunctionOf(knee, judged);
+  if (!(up_to_voc.thermal_V * kLeastLogarithm < key.open_circuit_voltage_V)) return found;
+  const double most_A = std::max(kHealthyMisfit * isc_A, kWorse * up_to_voc.misfit_A);
+  if (!(JunctionOf(knee, knee.size()).misfit_A > most_A)) return found;
+  found.last_V = knee[to_voc - 1].voltage_V;
+  for (const double voltage_V : curve.voltage_V) found.left_out += voltage_V > found.last_V ? 1 : 0;
   return found;
 }
 
@@ -131,15 +135,15 @@ IvCurve WithoutBeyondVoc(IvCurve curve) {
   const double isc_A = FindKeyPoints(curve.voltage_V, curve.current_A).short_circuit_current_A;
   std::vector<int> kept;
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    const bool out = curve.voltage_V[k] > 0 && -curve.current_A[k] > beyond.most_A;
-    if (!out) kept.push_back(static_cast<int>(k));
+    if (curve.voltage_V[k] <= beyond.last_V) kept.push_back(static_cast<int>(k));
   }
   KeepReadings(kept, &curve);
   curve.assumptions.push_back(fmt::format(
-      "{} readings beyond Voc, with a forward current of up to {:.3g} times Isc, were left out: the "
-      "diode that describes the readings up to there does not describe them (injection, leads or "
-      "another conduction; --as-is takes them)",
-      beyond.left_out, beyond.largest_A / isc_A));
+      "{} readings beyond Voc, above {:.4g} V and with a forward current of up to {:.3g} times "
+      "Isc, "
+      "were left out: the diode that describes the readings up to there does not describe them "
+      "(injection, leads, another conduction or a limit of the instrument; --as-is takes them)",
+      beyond.left_out, beyond.last_V, beyond.largest_A / isc_A));
   return curve;
 }
 

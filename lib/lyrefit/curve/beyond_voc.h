@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
@@ -8,15 +10,17 @@ namespace lyrefit {
 // on until the forward current is many times Isc. There injection, leads and other conduction add
 // to the device, and each reading outweighs all readings up to Voc.
 struct BeyondVoc {
-  double most_A = 0;     // largest forward current of the readings that belong to the diode, >= 0
-  int left_out = 0;      // readings beyond it; 0: all readings belong to the diode
-  double largest_A = 0;  // largest forward current of all readings
+  int left_out = 0;          // readings above `last_V`; 0: all readings belong to the diode
+  double last_V = HUGE_VAL;  // highest voltage of the readings that belong to the diode
+  double largest_A = 0;      // largest forward current of all readings
 };
 
 // Compares a junction with series resistance, V = a + b ln(J) - Rs I, with the readings. All belong
-// to the diode if its misfit stays within 1 % of Isc, or within twice that of the readings up to
-// Voc. Otherwise those up to the first reading beyond Voc do. Sweeps whose forward current stays
-// below Isc keep all readings. So do dark curves and those that do not show Isc and Voc.
+// to the diode if its misfit stays within 1 % of Isc, or within five times that of the readings up
+// to Voc. Otherwise those up to the first reading beyond Voc do. All readings are kept if
+//   - the forward current stays below Isc,
+//   - the curve is dark, or does not show Isc and Voc,
+//   - the readings up to Voc show no diode that could judge the others: Voc is below 6 n Vt.
 BeyondVoc FindBeyondVoc(const IvCurve& curve);
 
 // The curve without these readings. An assumption then tells their number and the reason. A curve

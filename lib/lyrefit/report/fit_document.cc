@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/fit_parts.h"
@@ -224,7 +225,7 @@ Section ParameterSection(const FitReport& report) {
 Section ErrorSection(const FitReport& report) {
   Section section = {"Errors of the readings"};
   if (!report.errors) return section;
-  AddErrorSizes(*report.errors, &section);
+  AddErrorSizes(*report.errors, IsDark(report.curve), &section);
   if (!report.under_errors.empty()) {
     block::Table table = {"lrl", {{"parameter", "std err", "95 % interval under these errors"}}};
     for (const Estimate& e : report.under_errors) {
@@ -269,6 +270,7 @@ Section RmseSection(const FitReport& report) {
 }
 
 Section KeyPointSection(const FitReport& report) {
+  if (IsDark(report.curve)) return {};  // it has none
   const struct {
     const char* name;
     const char* unit;

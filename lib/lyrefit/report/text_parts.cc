@@ -150,7 +150,7 @@ void AddCurve(const IvCurve& curve, Section* section) {
   AddField("conditions", conditions, section);
 }
 
-void AddErrorSizes(const ErrorReport& errors, Section* section) {
+void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section) {
   const char* found = errors.stated ? "stated" : "found";
   const auto add = [section](const char* name, const std::string& size, const char* how,
                              const char* meaning) {
@@ -159,12 +159,17 @@ void AddErrorSizes(const ErrorReport& errors, Section* section) {
   add("current noise", Significant(errors.sizes.current_A, 2) + " A",
       errors.current_stated ? "stated" : found, "every current by itself");
   add("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
-      "of a voltage near Voc, which shows where the curve is steep");
-  add("path", Significant(100 * errors.sizes.path, 2) + " % of Isc", found,
-      "what neighbours share: light that wanders during the sweep, or the device's own departure "
-      "from the model");
+      dark ? "of the junction's voltage, or what changes each current by an equal part"
+           : "of a voltage near Voc, which shows where the curve is steep");
+  add("path", Significant(100 * errors.sizes.path, 2) + (dark ? " % of each current" : " % of Isc"),
+      found,
+      dark ? "what neighbours share: the device's own departure from the model"
+           : "what neighbours share: light that wanders during the sweep, or the device's own "
+             "departure from the model");
   const double length_percent = 100 * errors.sizes.length;
-  add("path length", Significant(length_percent, length_percent < 99.5 ? 2 : 3) + " % of Voc",
+  add("path length",
+      Significant(length_percent, length_percent < 99.5 ? 2 : 3) +
+          (dark ? " % of the largest voltage" : " % of Voc"),
       found, "how far along the sweep they share it");
 }
 

@@ -62,7 +62,7 @@ std::string OptionsText(const std::vector<OptionEcho>& options);
 void AddCurve(const IvCurve& curve, Section* section);
 
 // Adds one field for each size of the errors of the readings, with its meaning.
-void AddErrorSizes(const ErrorReport& errors, Section* section);
+void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section);
 // One sentence on which intervals are reliable.
 std::string WhichToBelieve(const ErrorReport& errors);
 

@@ -26,7 +26,9 @@ const std::vector<double> kSteepTruth = {3.8, 1e-3, 2.7, 0.05, 300};  // n is ab
 TEST(RefutedBound, LeavesNoIntervalThatHoldsUnderItAlone) {
   for (const double noise_A : {0.0, 1e-3}) {
     const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSteepTruth, noise_A);
-    const FitReport report = FitOf(curve);
+    FitOptions stated;
+    stated.bounds.overrides["n"] = {1, 2};
+    const FitReport report = FitOf(curve, stated);
     EXPECT_EQ(report.estimates[2].at_bound, BoundSide::kUpper);
     EXPECT_THAT(report.no_intervals_because, HasSubstr("n1 = 2, its upper bound"));
     EXPECT_THAT(report.no_intervals_because, HasSubstr("--bound n1=1:8"));
@@ -41,6 +43,32 @@ TEST(RefutedBound, LeavesNoIntervalThatHoldsUnderItAlone) {
     EXPECT_EQ(wide.no_intervals_because, "");
     EXPECT_NEAR(wide.refined[2], 2.7, 0.1);
   }
+}
+
+TEST(RefutedBound, GivesWayIfNobodyStatedIt) {
+  const IvCurve curve = ModuleCurve(Model::kSingleDiode, kSteepTruth, 1e-3);
+  const FitReport report = FitOf(curve);
+  EXPECT_EQ(report.no_intervals_because, "");
+  EXPECT_LE(report.estimates[2].low_95, 2.7);
+  EXPECT_GE(report.estimates[2].high_95, 2.7);
+  EXPECT_THAT(SentencesOf(report.curve.assumptions),
+              Contains(HasSubstr("n1 was given room up to 8: the readings refute n1 = 2")));
+  FitOptions two;
+  two.model = Model::kDoubleDiode;
+  EXPECT_LE(FitOf(curve, two).estimates[2].bounds.upper, 2) << "two diodes keep their bounds";
+  FitOptions floor;
+  floor.floor = true;
+  EXPECT_THAT(FitOf(curve, floor).no_intervals_because, HasSubstr("n1 = 2, its upper bound"))
+      << "a floor is that of the bounds";
+}
+
+TEST(RefutedBound, BelowOneNoJunctionIs) {
+  std::vector<double> truth = kSingleTruth;
+  truth[1] *= 1e-4;
+  truth[2] = 0.8;
+  const FitReport report = FitOf(ModuleCurve(Model::kSingleDiode, truth, 1e-3));
+  EXPECT_EQ(report.refined[2], 1);
+  EXPECT_THAT(report.no_intervals_because, HasSubstr("n1 = 1, its lower bound"));
 }
 
 // The n of a stated thin film may be above 2, and the report says what is in it.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/largest.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 
 namespace lyrefit {
@@ -64,55 +66,81 @@ ParameterBounds Linear(double lower, double upper) {
 
 // Current and voltage scales of a curve for the physical bounds.
 struct CurveScales {
-  double current_A;  // largest |current|
-  double voltage_V;  // Voc, or the largest voltage
+  bool dark = false;
+  double current_A = 0;  // largest delivered current; of a dark curve, largest forward current
+  double voltage_V = 0;  // Voc, or the largest voltage
 };
 
 CurveScales ScalesOf(const IvCurve& curve) {
-  CurveScales scales{0, 0};
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const auto highest = std::max_element(curve.voltage_V.begin(), curve.voltage_V.end());
+  CurveScales scales{IsDark(curve) || !(*highest > 0), 0, *highest};
+  // At reverse voltage a junction may break down. Beyond Voc the forward current has no limit.
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    scales.current_A = std::max(scales.current_A, std::fabs(curve.current_A[k]));
-    scales.voltage_V = std::max(scales.voltage_V, curve.voltage_V[k]);
+    const double current_A = curve.current_A[k];
+    const double counted_A =
+        !scales.dark ? current_A : curve.voltage_V[k] > 0 ? std::fabs(current_A) : 0;
+    scales.current_A = std::max(scales.current_A, counted_A);
   }
   // A dark curve crosses zero current at zero voltage, which is not an open-circuit voltage.
-  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
-  const bool lit = key.short_circuit_current_A > 0.01 * scales.current_A;
-  if (lit && key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
-  if (!(scales.voltage_V > 0)) {
-    for (const double v : curve.voltage_V)
-      scales.voltage_V = std::max(scales.voltage_V, std::fabs(v));
-  }
+  if (!scales.dark && key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
+  if (!(scales.voltage_V > 0)) scales.voltage_V = LargestMagnitude(curve.voltage_V);
+  if (!(scales.current_A > 0)) scales.current_A = LargestMagnitude(curve.current_A);
   if (!(scales.current_A > 0)) scales.current_A = 1e-12;
   return scales;
 }
 
-std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve& curve,
-                                            double n_lower, double n_upper) {
-  const CurveScales scales = ScalesOf(curve);
-  const double resistance = scales.voltage_V / scales.current_A;
-  // No single junction reaches 1.5 V. Above it the number of cells was not given and n is that of
-  // all cells together. The range assumes 0.5 to 1.25 V per cell.
+// Range of n, per cell.
+struct IdealityRange {
+  double lower;
+  double upper;
+};
+
+constexpr IdealityRange kAnyIdeality = {0.5, 10};
+
+// No single junction reaches 1.5 V. Above it the number of cells was not given and n is that of all
+// cells together. The range assumes 0.5 to 1.25 V per cell. In the dark the voltage may be that of
+// the series resistance or of one wide gap, so only the upper end moves, and a stated number of
+// cells stands.
+IdealityRange OfAllCells(const CurveScales& scales, const IvCurve& curve, IdealityRange of_cell) {
   const double per_cell_V = scales.voltage_V / curve.conditions.cells_in_series;
-  if (per_cell_V > 1.5) {
-    n_lower *= per_cell_V / 1.25;
-    n_upper *= per_cell_V / 0.5;
-  }
+  if (!(per_cell_V > 1.5) || (scales.dark && curve.cells_known)) return of_cell;
+  const double lower = scales.dark ? 1 : per_cell_V / 1.25;
+  return {of_cell.lower * lower, of_cell.upper * per_cell_V / 0.5};
+}
+
+std::vector<ParameterBounds> PhysicalBounds(const Device& device, const IvCurve& curve,
+                                            const CurveScales& scales, IdealityRange of_cell) {
+  const double resistance = scales.voltage_V / scales.current_A;
+  const IdealityRange n = OfAllCells(scales, curve, of_cell);
   const double vt = device.module_thermal_voltage_V;
-  const auto saturation = [&](double n) {
-    return scales.current_A * std::exp(-std::min(scales.voltage_V / (n * vt), 600.0));
+  const auto saturation = [&](double ideality) {
+    return scales.current_A * std::exp(-std::min(scales.voltage_V / (ideality * vt), 600.0));
   };
   std::vector<ParameterBounds> bounds(device.size());
   bounds[kIph] = Linear(0, 2 * scales.current_A);
   bounds[kRs] = {0, resistance, 0, 0.5 * resistance, SearchScale::kLinear};
   bounds[kRsh] = {0.1 * resistance, 1e12 * resistance, 0.5 * resistance, 1e4 * resistance,
                   SearchScale::kLog};
+  // The series resistance may take nearly all of the last voltage of a dark curve. No saturation
+  // current is above the forward current.
+  const double top = scales.dark ? scales.current_A : 100 * saturation(n.upper);
   for (int d = 0; d < DiodeCount(device); ++d) {
-    const double top = 100 * saturation(n_upper);
-    bounds[SaturationCurrentIndex(d)] = {0, top, 1e-3 * saturation(n_lower), top,
+    bounds[SaturationCurrentIndex(d)] = {0, top, 1e-3 * saturation(n.lower), top,
                                          SearchScale::kLog};
-    bounds[IdealityIndex(d)] = Linear(n_lower, n_upper);
+    bounds[IdealityIndex(d)] = Linear(n.lower, n.upper);
   }
   return bounds;
+}
+
+// n of a junction is 1 to 2 by diffusion and recombination. That of a thin film's curve at light
+// also holds collection, ions and barriers. One diode for a dark curve holds whatever conducts:
+// light-emitting diodes and tunnelling have 2 to 7 (Shah et al., J. Appl. Phys. 94, 2627, 2003).
+IdealityRange PhysicalIdeality(const Device& device, const IvCurve& curve,
+                               const CurveScales& scales) {
+  if (scales.dark && DiodeCount(device) == 1) return kAnyIdeality;
+  constexpr double kSilicon = 2, kThinFilm = 6;
+  return {1, IsThinFilm(curve.notes.technology) ? kThinFilm : kSilicon};
 }
 
 }  // namespace
@@ -125,11 +153,10 @@ Expected<std::vector<ParameterBounds>> MakeBounds(const BoundsSpec& spec, const 
                                                   const IvCurve& curve) {
   std::vector<ParameterBounds> bounds;
   if (spec.name == "physical") {
-    constexpr double kSilicon = 2, kThinFilm = 6;
-    bounds =
-        PhysicalBounds(device, curve, 1, IsThinFilm(curve.notes.technology) ? kThinFilm : kSilicon);
+    const CurveScales scales = ScalesOf(curve);
+    bounds = PhysicalBounds(device, curve, scales, PhysicalIdeality(device, curve, scales));
   } else if (spec.name == "wide") {
-    bounds = PhysicalBounds(device, curve, 0.5, 10);
+    bounds = PhysicalBounds(device, curve, ScalesOf(curve), kAnyIdeality);
   } else {
     // A table may have bounds of diodes that this model lacks, so that one file serves every model.
     const Device largest = MakeDevice(Model::kTripleDiode, curve.conditions);

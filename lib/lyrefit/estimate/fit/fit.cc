@@ -1,5 +1,7 @@
 #include "lyrefit/estimate/fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,10 +9,12 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/judge_fit.h"
 #include "lyrefit/estimate/fit/order_alike.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/refine_fit.h"
+#include "lyrefit/estimate/fit/refuted_bound.h"
 #include "lyrefit/estimate/fit/search_fit.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/fit/usable.h"
@@ -43,8 +47,10 @@ Answer AnswerAt(const PreparedFit& fit, const std::vector<double>& p, bool at_it
   Answer answer{p, BothRmse(fit.device, p, curve), {}};
   ModelResults& results = answer.results;
   results.nNsVth = p[IdealityIndex(0)] * fit.device.module_thermal_voltage_V;
-  results.measured = FindKeyPoints(curve.voltage_V, curve.current_A);
-  results.simulated = ModelKeyPoints(fit.device, p.data());
+  if (!IsDark(curve)) {  // in the dark a current of 0 is at 0 V, or where an offset has it
+    results.measured = FindKeyPoints(curve.voltage_V, curve.current_A);
+    results.simulated = ModelKeyPoints(fit.device, p.data());
+  }
   const bool all = problem.voltage_V.size() == curve.size();
   results.model_current_A = SolveCurrents(
       fit.device, p.data(), all ? problem.points : MakePointSet(curve.voltage_V, curve.current_A),
@@ -116,10 +122,17 @@ RefineReport CourseOf(const RefinedFit& refined, const JudgedFit& judged,
   return course;
 }
 
+// A fit within given bounds, and those of them that its readings refute.
+struct BoundedFit {
+  FitReport report;
+  RefutedBounds refuted;
+};
+
 // Polishes the search's candidates, and judges the end.
-FitReport PolishedReport(FitReport report, const PreparedFit& prepared, const SearchedFit& searched,
-                         const SearchSpace& space, const std::optional<PlainPolish>& plain,
-                         const ProgressReporter& progress) {
+BoundedFit PolishedReport(FitReport report, const PreparedFit& prepared,
+                          const SearchedFit& searched, const SearchSpace& space,
+                          const std::optional<PlainPolish>& plain,
+                          const ProgressReporter& progress) {
   const RefinedFit refined = RefineFit(prepared, searched.candidates, space, progress);
   const PreparedFit& fit = refined.prepared;
   const auto answer_at = [&](const std::vector<double>& p) {
@@ -149,21 +162,21 @@ FitReport PolishedReport(FitReport report, const PreparedFit& prepared, const Se
   report.no_intervals_because = std::move(judged.no_intervals_because);
   report.errors = judged.errors;
   report.under_errors = std::move(judged.under_errors);
-  return WithAnswer(std::move(report), fit, std::move(answer));
+  return {WithAnswer(std::move(report), fit, std::move(answer)), std::move(judged.refuted)};
 }
 
 // Without a polish the best candidate is the answer.
-FitReport UnpolishedReport(FitReport report, const PreparedFit& prepared, const PolishStart& best) {
+BoundedFit UnpolishedReport(FitReport report, const PreparedFit& prepared,
+                            const PolishStart& best) {
   const PreparedFit fit =
       prepared.extended() ? WithVariant(prepared, best.variant, best.p) : prepared;
   report.estimates = EstimatesOf(fit, report.searched, {});
   Answer answer = AnswerAt(fit, report.searched, false);
-  return WithAnswer(std::move(report), fit, std::move(answer));
+  return {WithAnswer(std::move(report), fit, std::move(answer)), {}};
 }
 
-}  // namespace
-
-Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
+Expected<BoundedFit> FitWithinBounds(const IvCurve& curve, const FitOptions& options,
+                                     const Observer& observer) {
   TRY(const PreparedFit prepared, PrepareFit(curve, options));
   const ProgressReporter progress(observer, 0);
   const SearchSpace space = SpaceOf(prepared);
@@ -178,12 +191,38 @@ Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const O
     report.refined_best_candidate = plain->best_candidate;
     report.refine.best_candidate_seconds = plain->best_candidate_seconds;
   }
-  report = options.polish
-               ? PolishedReport(std::move(report), prepared, searched, space, plain, progress)
-               : UnpolishedReport(std::move(report), prepared, best);
-  report.interrupted = progress.stop().requested();
-  report.warnings = FindWarnings(report);
-  return report;
+  BoundedFit fit =
+      options.polish ? PolishedReport(std::move(report), prepared, searched, space, plain, progress)
+                     : UnpolishedReport(std::move(report), prepared, best);
+  fit.report.interrupted = progress.stop().requested();
+  return fit;
+}
+
+// Whether bounds that are refuted give way: an upper one of n of one diode, which lyrefit chose. Two
+// diodes take each other's place in such room. Below the lower one no junction is.
+bool GiveWay(const RefutedBounds& refuted, const FitReport& report, const FitOptions& options) {
+  const bool own = options.bounds.name == "physical" && options.bounds.overrides.empty();
+  return own && !refuted.wider.empty() && !options.floor && options.with.empty() &&
+         options.model == Model::kSingleDiode &&
+         report.estimates[IdealityIndex(0)].at_bound == BoundSide::kUpper;
+}
+
+}  // namespace
+
+Expected<FitReport> Fit(const IvCurve& curve, const FitOptions& options, const Observer& observer) {
+  TRY(BoundedFit fit, FitWithinBounds(curve, options, observer));
+  if (GiveWay(fit.refuted, fit.report, options)) {
+    FitOptions wider = options;
+    wider.bounds.overrides = fit.refuted.wider;
+    IvCurve told = curve;
+    const auto& [symbol, range] = *fit.refuted.wider.begin();
+    told.assumptions.push_back(fmt::format(
+        "{} was given room up to {:g}: {}; check temperature, number of cells and model", symbol,
+        range.second, fit.refuted.test));
+    TRY(fit, FitWithinBounds(told, wider, observer));
+  }
+  fit.report.warnings = FindWarnings(fit.report);
+  return fit.report;
 }
 
 }  // namespace lyrefit

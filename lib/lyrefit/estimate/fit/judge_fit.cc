@@ -9,7 +9,6 @@
 #include "lyrefit/estimate/fit/error_degrees.h"
 #include "lyrefit/estimate/fit/order_alike.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
-#include "lyrefit/estimate/fit/refuted_bound.h"
 
 namespace lyrefit {
 namespace {
@@ -21,8 +20,9 @@ std::string TooFewReadings(const PreparedFit& fit) {
 
 bool IsSaturated(const PreparedFit& fit) { return fit.readings() <= fit.free_parameters; }
 
-std::string WhyNoIntervals(const RefinedFit& refined, bool usable,
-                           const ProgressReporter& progress) {
+// Also finds bounds that are refuted.
+std::string WhyNoIntervals(const RefinedFit& refined, bool usable, const ProgressReporter& progress,
+                           RefutedBounds* refuted) {
   const PreparedFit& fit = refined.prepared;
   if (fit.options.intervals == Intervals::kNone) return "";
   if (!usable) {
@@ -31,7 +31,8 @@ std::string WhyNoIntervals(const RefinedFit& refined, bool usable,
            "interval means anything";
   }
   if (IsSaturated(fit)) return TooFewReadings(fit) + ", and nothing is left over to tell how well";
-  return RefutedBound(refined, progress);
+  *refuted = FindRefutedBounds(refined, progress);
+  return refuted->because;
 }
 
 // Method of the intervals. With many correlated readings that are not averaged, profiles would take
@@ -112,7 +113,7 @@ JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searche
   JudgedFit judged;
   judged.end = refined.end;
   judged.errors = refined.errors;
-  judged.no_intervals_because = WhyNoIntervals(refined, usable, progress);
+  judged.no_intervals_because = WhyNoIntervals(refined, usable, progress, &judged.refuted);
   FindIntervalsAndImprove(refined, searched, progress, &judged);
   if (IsSaturated(refined.prepared)) {
     for (Estimate& e : judged.estimates) {

@@ -6,6 +6,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/fit/intervals.h"
 #include "lyrefit/estimate/fit/refine_fit.h"
+#include "lyrefit/estimate/fit/refuted_bound.h"
 
 namespace lyrefit {
 
@@ -20,6 +21,7 @@ struct JudgedFit {
   std::vector<Estimate> under_errors;  // see FitReport
   FitCovariance covariance;            // see FitReport
   std::string no_intervals_because;    // empty: present, or not requested
+  RefutedBounds refuted;               // the reason for it, if bounds are
 };
 
 // Finds intervals around the refined end. If a profile finds a lower optimum, the polish restarts

@@ -1,8 +1,10 @@
 #include "lyrefit/estimate/fit/reading_errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/fit/average_neighbours.h"
 #include "lyrefit/estimate/refine/curve_model.h"
@@ -15,10 +17,22 @@ namespace {
 constexpr int kSpare = 3;  // least excess of readings over parameters, for three sizes
 constexpr double kExactReadings = 1e-11;
 
-// Open-circuit voltage of the curve; if it is not reached, the largest forward voltage.
-double OpenCircuit(const RefineProblem& problem, const IvCurve& curve) {
-  const double voc = FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V;
-  return voc > 0 ? voc : problem.voltage_scale_V;
+// Largest delivered current and Voc of a lit curve, which its forward current may exceed manyfold.
+// Otherwise the largest current and forward voltage: a dark curve crosses 0 A near 0 V, or where an
+// offset has it.
+struct Scales {
+  double current_A;
+  double voltage_V;
+};
+
+Scales ScalesOf(const RefineProblem& problem, const IvCurve& curve) {
+  Scales scales = {problem.current_scale_A, problem.voltage_scale_V};
+  if (IsDark(curve)) return scales;
+  const KeyPoints key = FindKeyPoints(curve.voltage_V, curve.current_A);
+  const double most_A = *std::max_element(curve.current_A.begin(), curve.current_A.end());
+  if (most_A > 0) scales.current_A = most_A;
+  if (key.open_circuit_voltage_V > 0) scales.voltage_V = key.open_circuit_voltage_V;
+  return scales;
 }
 
 // Path length along the sweep up to each reading, in units of Voc. It is computed from means of
@@ -48,6 +62,7 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
   const std::vector<double> current =
       SolveCurrents(at.device, at.p.data(), MakePointSet(at.voltage_V, at.current_A));
   const std::vector<double> position = PositionsOf(at.voltage_V, at.open_circuit_V);
+  const double junction_V = at.p[IdealityIndex(0)] * at.device.module_thermal_voltage_V;
   shape->position.insert(shape->position.end(), position.begin(), position.end());
   for (std::size_t k = 0; k < current.size(); ++k) {
     const double voltage = at.voltage_V[k];
@@ -57,9 +72,16 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
     const double unit = std::sqrt(at.weight[k]) / (measured ? factor : 1);
     const double slope = std::fabs(point.conductance_S) * factor;
     shape->current.push_back(unit);
-    // The error of a voltage is proportional to the voltage.
-    shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
-    shape->path.push_back(unit * at.p[kIph] * factor);
+    if (at.dark) {
+      // An instrument errs by a part of each reading, over decades of current. So does an error of
+      // the junction's voltage.
+      shape->voltage.push_back(unit * std::fabs(current[k]) / junction_V);
+      shape->path.push_back(unit * std::fabs(current[k]));
+    } else {
+      // The error of a voltage is proportional to the voltage.
+      shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
+      shape->path.push_back(unit * at.p[kIph] * factor);
+    }
     shape->chain.push_back(chain);
   }
 }
@@ -68,7 +90,7 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p) {
   ErrorShape shape;
   AppendErrorShape({problem.device, problem.objective, problem.voltage_V, problem.current_A,
-                    problem.weights, OpenCircuit(problem, curve), p},
+                    problem.weights, ScalesOf(problem, curve).voltage_V, p, IsDark(curve)},
                    0, &shape);
   for (std::size_t k = 0; k < curve.sigma_A.size(); ++k) {
     shape.stated.push_back(shape.current[k] * curve.sigma_A[k]);
@@ -84,11 +106,11 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   const double smallest = kExactReadings * problem.current_scale_A;
   const double rms = now.residual.norm() / std::sqrt(static_cast<double>(now.residual.size()));
   if (spare < kSpare || !(rms > smallest)) return {};
-  const double open_circuit_V = OpenCircuit(problem, curve);
-  const Grouping groups = GroupNeighbours(problem.voltage_V, open_circuit_V);
+  const Scales scales = ScalesOf(problem, curve);
+  const Grouping groups = GroupNeighbours(problem.voltage_V, scales.voltage_V);
   const ErrorShape shape = ShapeOfErrors(problem, curve, end.p);
   FoundErrors found = FindErrorSizes(
-      AverageShape(groups, shape), UsualErrors(problem.current_scale_A, open_circuit_V),
+      AverageShape(groups, shape), UsualErrors(scales.current_A, scales.voltage_V),
       AverageRows(groups, RowMatrix(now.residual)), AverageRows(groups, now.jacobian),
       DifferencesWithin(groups, shape, now.residual));
   if (!curve.sigma_A.empty()) {
@@ -103,7 +125,7 @@ RefineProblem WeighByErrors(const RefineProblem& plain, const IvCurve& curve, co
                             const std::vector<double>& p) {
   // Effects act on single readings, which must not be averaged.
   const Grouping groups = plain.device.effects == nullptr
-                              ? GroupNeighbours(plain.voltage_V, OpenCircuit(plain, curve))
+                              ? GroupNeighbours(plain.voltage_V, ScalesOf(plain, curve).voltage_V)
                               : EachAlone(plain.voltage_V.size());
   RefineProblem weighed = plain;
   if (groups.size() <= plain.voltage_V.size()) weighed = AverageProblem(groups, plain, p);

@@ -20,6 +20,7 @@ struct ReadingsAt {
   const std::vector<double>& weight;  // of the squared residuals, one per reading
   double open_circuit_V;
   const std::vector<double>& p;
+  bool dark = false;  // the curve has no photocurrent
 };
 
 // Error models with a gain (FoundErrors) above this are believed. Independent errors exceed it in

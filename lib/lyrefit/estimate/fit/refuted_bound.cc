@@ -69,12 +69,12 @@ double UnderTheirErrors(const RefinedFit& refined, const RefineProblem& wide, co
 
 }  // namespace
 
-std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& progress) {
-  if (progress.stop().requested()) return "";
+RefutedBounds FindRefutedBounds(const RefinedFit& refined, const ProgressReporter& progress) {
+  if (progress.stop().requested()) return {};
   const PreparedFit& fit = refined.prepared;
   const RefineEnd& end = refined.end;
   const std::vector<int> at_bound = AtBound(fit, end);
-  if (at_bound.empty()) return "";
+  if (at_bound.empty()) return {};
   const RefineProblem wide = WithRoom(refined.problem, at_bound, fit.steepest_n);
   RefineOptions how;
   how.stop = progress.stop();
@@ -89,7 +89,8 @@ std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& prog
   if (p < kRefutedAt && refined.problem.errors == nullptr) {
     p = UnderTheirErrors(refined, wide, free, how, extra, spare, p);
   }
-  if (!(p < kRefutedAt)) return "";
+  if (!(p < kRefutedAt)) return {};
+  RefutedBounds refuted;
   std::string where, room;
   for (const int i : at_bound) {
     const ParameterBounds& bounds = fit.bounds[i];
@@ -97,14 +98,20 @@ std::string RefutedBound(const RefinedFit& refined, const ProgressReporter& prog
     const bool low = end.p[i] <= bounds.lower;
     where += fmt::format("{}{} = {:g}, its {} bound", where.empty() ? "" : ", ", symbol, end.p[i],
                          low ? "lower" : "upper");
-    room += fmt::format("{}--bound {}={:g}:{:g}", room.empty() ? "" : " ", symbol,
-                        low ? wide.lower[i] : bounds.lower, low ? bounds.upper : wide.upper[i]);
+    const std::pair<double, double> wider = {low ? wide.lower[i] : bounds.lower,
+                                             low ? bounds.upper : wide.upper[i]};
+    room += fmt::format("{}--bound {}={:g}:{:g}", room.empty() ? "" : " ", symbol, wider.first,
+                        wider.second);
+    refuted.wider[symbol] = wider;
   }
-  return fmt::format(
-      "the readings refute {} (with more room the RMSE falls from {:.3g} to {:.3g} A, p = {:.1g}): "
-      "the other parameters make up for it, and no interval would hold the truth; allow more with "
-      "{}, or check temperature, number of cells and model",
-      where, std::sqrt(end.mean_square), std::sqrt(free.mean_square), p, room);
+  refuted.test = fmt::format(
+      "the readings refute {} (with more room the RMSE falls from {:.3g} to {:.3g} A, p = {:.1g})",
+      where, std::sqrt(end.mean_square), std::sqrt(free.mean_square), p);
+  refuted.because = fmt::format(
+      "{}: the other parameters make up for it, and no interval would hold the truth; allow more "
+      "with {}, or check temperature, number of cells and model",
+      refuted.test, room);
+  return refuted;
 }
 
 }  // namespace lyrefit

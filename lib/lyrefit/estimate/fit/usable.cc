@@ -7,12 +7,12 @@
 #include <numeric>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/find_step.h"
 #include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
 namespace {
-
 
 // Residuals of the least-squares line through the points, the baseline of any fit.
 std::vector<double> StraightLineResiduals(const IvCurve& curve) {
@@ -41,39 +41,37 @@ double Typical(const std::vector<double>& residuals, bool robust) {
   return std::sqrt(squares / static_cast<double>(residuals.size()));
 }
 
-// Whether a line describes the curve as well as parameters with `misfit`: by AICc, or by BIC if the
-// readings are too few for AICc. An interrupted or unpolished fit does not show what the model can
-// reach, so only its misfit is compared with that of the line.
+// Whether a line describes the curve as well as parameters with `misfit`: by the F-test, since a
+// line is a diode model without its diode. Without spare readings BIC decides. An interrupted or
+// unpolished fit does not show what the model can reach, so only its misfit is compared with that
+// of the line.
 bool LineDoesAsWell(const IvCurve& curve, const InformationCriteria& of_model, double misfit,
                     bool robust, bool at_its_end) {
   constexpr double kRounding = 1e-11;  // of the largest current: smaller residuals are rounding
+  constexpr double kLevel = 0.05;
   constexpr int kLineParameters = 2;
   const double line = Typical(StraightLineResiduals(curve), robust);
   if (!at_its_end) return misfit >= line;
   const double smallest = kRounding * LargestMagnitude(curve.current_A);
-  const auto criteria = [&](double size, int parameters) {
-    const double mean_square = std::pow(std::max(size, smallest), 2);
-    return FindInformation(mean_square, of_model.points, parameters);
-  };
-  const InformationCriteria of_fit = criteria(misfit, of_model.parameters);
-  const InformationCriteria of_line = criteria(line, kLineParameters);
-  if (std::isnan(of_fit.aicc)) return of_line.bic <= of_fit.bic;
-  return of_line.aicc <= of_fit.aicc;
+  const double of_fit = std::pow(std::max(misfit, smallest), 2);
+  const double of_line = std::pow(std::max(line, smallest), 2);
+  const int extra = of_model.parameters - kLineParameters;
+  const int spare = of_model.points - of_model.parameters;
+  if (extra > 0 && spare > 0) return !(FTestPValue(of_line, of_fit, extra, spare) < kLevel);
+  return FindInformation(of_line, of_model.points, kLineParameters).bic <=
+         FindInformation(of_fit, of_model.points, of_model.parameters).bic;
 }
 
-// Scale of the misfit: Isc, or the largest current of a curve with negligible Isc (dark, or taken
-// far beyond open circuit).
+// Scale of the misfit: Isc, or the largest current of a curve without photocurrent.
 struct Scale {
   double current_A = 0;
   const char* name = "Isc";
 };
 
 Scale ScaleOf(const IvCurve& curve, const KeyPoints& measured) {
-  constexpr double kToSpeakOf = 0.1;
-  const double largest = LargestMagnitude(curve.current_A);
   const double isc = measured.short_circuit_current_A;
-  if (isc > kToSpeakOf * largest) return {isc, "Isc"};
-  return {largest, "the largest current"};
+  if (isc > 0 && !IsDark(curve)) return {isc, "Isc"};
+  return {LargestMagnitude(curve.current_A), "the largest current"};
 }
 
 }  // namespace

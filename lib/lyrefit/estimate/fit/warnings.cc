@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/fit/steep_diodes.h"
 
@@ -108,6 +109,7 @@ void WarnOfData(const FitReport& report, Sentences* out) {
     out->push_back(fmt::format("{} points for {} parameters leave {} to judge the fit by",
                                report.criteria.points, report.criteria.parameters, spare));
   }
+  if (IsDark(report.curve)) return;
   if (std::isnan(report.measured.open_circuit_voltage_V)) {
     out->push_back("the curve does not reach open circuit: n, Is and Rs rest on extrapolation");
   }
@@ -120,13 +122,14 @@ void WarnOfData(const FitReport& report, Sentences* out) {
 // passive device.
 void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
   constexpr double kNoises = 6;
-  constexpr double kVisible = 2e-3;  // of the largest current
+  constexpr double kVisible = 2e-3;  // of the largest current; of a lit curve, of those delivered
   const IvCurve& curve = report.curve;
   const double noise = NoiseFromDifferences(curve.voltage_V, report.residual_A);
+  const bool dark = IsDark(curve);
   double lowest = HUGE_VAL, worst = 0, at = 0, largest = 0;
   for (const int k : OrderByVoltage(curve.voltage_V)) {
     lowest = std::min(lowest, curve.current_A[k]);
-    largest = std::max(largest, std::fabs(curve.current_A[k]));
+    largest = std::max(largest, dark ? std::fabs(curve.current_A[k]) : curve.current_A[k]);
     if (curve.current_A[k] - lowest <= worst) continue;
     worst = curve.current_A[k] - lowest;
     at = curve.voltage_V[k];

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -19,7 +20,11 @@ class CurveRefits {
  public:
   CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
               const StopToken& stop)
-      : i_(query.parameter), best_(best), held_(problem), model_(held_) {
+      : i_(query.parameter),
+        best_(best),
+        held_(problem),
+        model_(held_),
+        alike_(AreAlike(problem)) {
     outside_ =
         best.mean_square + kInside * query.t * query.t * query.variance / model_.shape().points;
     how_.small = true;
@@ -48,6 +53,7 @@ class CurveRefits {
       RefineEnd other = RefineFrom(held_, from.p, how_);
       if (other.mean_square < end.mean_square) end = std::move(other);
     }
+    if (OutOfOrder(end.p)) end = RefitInOrder(value);
     end.stopped = how_.stop.requested();
     return end;
   }
@@ -66,7 +72,7 @@ class CurveRefits {
     starts.back()[i_] = value;
     for (const std::vector<double>& from : starts) {
       RefineEnd end = RefineFrom(held_, from, reach);
-      if (end.mean_square > target) continue;
+      if (end.mean_square > target || OutOfOrder(end.p)) continue;
       *there = std::move(end);
       return true;
     }
@@ -79,6 +85,48 @@ class CurveRefits {
     return kind == ParameterKind::kSaturation || kind == ParameterKind::kIdeality;
   }
 
+  // Whether the diodes differ only in their order, which is that of rising n.
+  static bool AreAlike(const RefineProblem& problem) {
+    if (problem.device.effects != nullptr || DiodeCount(problem.device) < 2) return false;
+    for (int d = 1; d < DiodeCount(problem.device); ++d) {
+      for (const auto& index : {IdealityIndex, SaturationCurrentIndex}) {
+        if (problem.lower[index(d)] != problem.lower[index(0)]) return false;
+        if (problem.upper[index(d)] != problem.upper[index(0)]) return false;
+      }
+    }
+    return true;
+  }
+
+  // Whether the diode of this parameter has taken the place of another one.
+  bool OutOfOrder(const std::vector<double>& p) const {
+    if (!alike_ || !OfDiode()) return false;
+    double last_n = 0;
+    for (int d = 0; d < DiodeCount(held_.device); ++d) {
+      if (!(p[SaturationCurrentIndex(d)] > 0)) continue;  // an absent diode has any n
+      if (p[IdealityIndex(d)] < last_n) return true;
+      last_n = p[IdealityIndex(d)];
+    }
+    return false;
+  }
+
+  // The refit from the optimum with the diodes in their order: neighbours on the two sides of the
+  // value that is asked for, or of the middle of their n.
+  RefineEnd RefitInOrder(double value) {
+    RefineProblem ordered = held_;
+    std::vector<double> from = best_.p;
+    from[i_] = value;
+    for (int d = 0; d + 1 < DiodeCount(held_.device); ++d) {
+      const int low = IdealityIndex(d), high = IdealityIndex(d + 1);
+      const bool asked = i_ == low || i_ == high;
+      const double limit = asked ? value : 0.5 * (best_.p[low] + best_.p[high]);
+      if (i_ != low) ordered.upper[low] = std::min(ordered.upper[low], limit);
+      if (i_ != high) ordered.lower[high] = std::max(ordered.lower[high], limit);
+      from[low] = std::min(from[low], ordered.upper[low]);
+      from[high] = std::max(from[high], ordered.lower[high]);
+    }
+    return RefineFrom(ordered, from, how_);
+  }
+
   void Ask(double value, double target, double tolerance) {
     held_.lower[i_] = held_.upper[i_] = value;
     model_.Fix(i_, value);
@@ -88,8 +136,9 @@ class CurveRefits {
 
   const int i_;
   const RefineEnd& best_;
-  RefineProblem held_;
+  RefineProblem held_;  // with the query's parameter fixed
   CurveModel model_;
+  const bool alike_;
   double outside_ = 0;  // mean square of a point outside the interval
   RefineOptions how_;
 };

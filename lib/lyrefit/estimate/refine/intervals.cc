@@ -210,8 +210,10 @@ class Finder {
       Estimate& is = At(i);
       if (!IsSaturation(is)) continue;
       const bool absent = IsDropped(i);
-      const bool may_be_absent = problem_.rules.judge_absent_diodes && is.low_95 <= 0 &&
-                                 is.interval == IntervalMethod::kProfile && !is.fixed;
+      const bool profiled =
+          is.interval == IntervalMethod::kProfile || is.interval == IntervalMethod::kUnsettled;
+      const bool may_be_absent =
+          problem_.rules.judge_absent_diodes && is.low_95 <= 0 && profiled && !is.fixed;
       if (!absent && !may_be_absent) continue;
       is.identifiable = false;
       is.reason =

@@ -58,8 +58,9 @@ ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const 
 ProfileSide FindProfileSide(const FitModel& model, const RefineEnd& best, const ProfileQuery& query,
                             RefineOptions how);
 
-// FindProfileSide for one curve, whose diodes may exchange roles along the profile. `stop` is
-// polled once per iteration of every refit.
+// FindProfileSide for one curve. Diodes that differ only in their order keep it, that of rising n:
+// otherwise each would take the other's place along its profile. `stop` is polled once per iteration
+// of every refit.
 ProfileSide FindProfileSide(const RefineProblem& problem, const RefineEnd& best,
                             const ProfileQuery& query, const StopToken& stop = {});
 

@@ -52,6 +52,26 @@ TEST(SettleConditionsTest, ColumnsStandInForAMissingSidecar) {
   EXPECT_THAT(SentencesOf(curve.assumptions), ElementsAre(kCellsAssumed));
 }
 
+TEST(SettleConditionsTest, NightIsDarkAndSaidOnce) {
+  IvCurve curve;
+  curve.irradiance_W_m2 = {-2, -3, 1};
+  SettleConditions({}, &curve);
+  EXPECT_THAT(curve.irradiance_W_m2, ElementsAre(0, 0, 1));
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              testing::Contains("irradiance below zero in 2 of 3 readings (down to -3 W/m2), as a "
+                                "sensor shows it at night: taken as 0"));
+}
+
+TEST(SettleConditionsTest, NoIrradianceFollowsFromLux) {
+  IvCurve curve;
+  Sidecar sidecar;
+  sidecar.notes.illuminance_lux = 250;
+  SettleConditions(sidecar, &curve);
+  EXPECT_FALSE(curve.irradiance_known);
+  EXPECT_THAT(SentencesOf(curve.assumptions),
+              testing::Contains(testing::HasSubstr("no W/m2 follow from 250 lux")));
+}
+
 Sidecar StandardCell() {
   Sidecar sidecar;
   sidecar.cells_in_series = 1;

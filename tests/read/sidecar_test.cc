@@ -123,7 +123,7 @@ TEST(ReadSidecarTest, ErrorsNameFileKeyAndPlace) {
       {R"({"nominal_temperature_C": 298.15})", "looks like kelvin"},
       {R"({"cell_temperature_C": -200})", "degrees Celsius from -100 to 150"},
       {R"({"cell_temperature_C": "warm"})", "expected a number in \"cell_temperature_C\""},
-      {R"({"nominal_irradiance_Wm2": -5})", "a number from 0 up"},
+      {R"({"nominal_irradiance_Wm2": -25})", "a number from 0 up"},
       {R"({"bypass_diodes": -1})", "a number from 0 up in \"bypass_diodes\""},
       {R"({"bandgap_eV": 0})", "a positive number in \"bandgap_eV\""},
       {R"({"isc_tempco_per_K": {}})", "found an object"},

@@ -48,6 +48,49 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
   }
 }
 
+TEST(ReadHeadLineTest, TakesLightInSunsAndConcentrations) {
+  for (const auto& [line, irradiance] :
+       {std::pair("Light level;50 % sun", 500.0), std::pair("Light Intensity,50,% sun", 500.0),
+        std::pair("Intensity: 0.5 sun", 500.0), std::pair("Illumination,300 suns", 3e5),
+        std::pair("# Geometric concentration: 300X", 3e5), std::pair("Concentration,300", 3e5),
+        std::pair("Light: 50 mW/cm2", 500.0), std::pair("Irradiance: 0.5 kW/m2", 500.0)}) {
+    EXPECT_EQ(Head(line).said.irradiance_W_m2.value_or(0), irradiance) << line;
+  }
+  for (const char* line : {"Light: 50 %", "Doping concentration: 300", "Concentration: 3 mol"}) {
+    EXPECT_FALSE(Head(line).said.irradiance_W_m2) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, LightInLuxStatesNoIrradiance) {
+  for (const char* line :
+       {"Lamp,250 lux (LED 3000 K)", "Illuminance: 250 lx", "光照度：0.25 klux"}) {
+    const TableHead head = Head(line);
+    EXPECT_EQ(head.said.notes.illuminance_lux.value_or(0), 250) << line;
+    EXPECT_FALSE(head.said.irradiance_W_m2) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, UnderstandsOtherLanguages) {
+  for (const char* line :
+       {"Température cellule (°C);47,3", "Temperatura de célula: 47,3 ºC", "Temperatura cella;47,3",
+        "Temperatura da célula (°C);47,3", "Температура ячеек, °C;47,3", "电池温度（℃）：47.3",
+        "モジュール温度：47.3 ℃", "Rückseitentemperatur;47,3"}) {
+    EXPECT_NEAR(Head(line).said.temperature_C.value_or(0), 47.3, 1e-9) << line;
+  }
+  for (const char* line :
+       {"Éclairement (W/m²);912", "Irradiancia: 912 W/m2", "Irraggiamento;912",
+        "Освещённость, Вт/м²;912", "辐照度：912 W/m2", "日射強度（W/m²）：912"}) {
+    EXPECT_EQ(Head(line).said.irradiance_W_m2.value_or(0), 912) << line;
+  }
+  for (const char* line : {"Anzahl der Zellen;60", "Nombre de cellules: 60", "Numero di celle;60",
+                           "Número de celdas: 60", "Число ячеек;60", "直列セル数：60"}) {
+    EXPECT_EQ(Head(line).said.cells_in_series.value_or(0), 60) << line;
+  }
+  for (const char* line : {"Température ambiante;21", "Umgebungstemperatur;21", "环境温度：21"}) {
+    EXPECT_FALSE(Head(line).said.temperature_C) << line;
+  }
+}
+
 TEST(ReadHeadLineTest, AValueForEachPixelCountsIfAllAreEqual) {
   TableHead head;
   ReadHeadLine("active area [cm2]:\t0.16\t0.16\t0.16", 1, HeadLine::kText, &head);

@@ -271,7 +271,16 @@ void LookAtCells(const Examined& look, Findings* out) {
   const bool dim = curve.irradiance_known && curve.conditions.irradiance_W_m2 < kDim_W_m2;
   const int likely = LikelyCells(voc);
   const double highest_V = kHighestCell_V * JunctionsPerCell(curve.notes.technology);
-  if (per_cell > highest_V && !curve.cells_known) {
+  constexpr int kMillivoltFirst = 100;  // cells: more than a module has in series
+  if (per_cell > highest_V && !curve.cells_known && !curve.voltage_unit_known &&
+      likely >= kMillivoltFirst) {
+    out->push_back({"cells",
+                    fmt::format("{} {:.4g} V and the file names no unit: millivolt "
+                                "(--voltage-unit mV)? or some {} cells in series (--cells)?",
+                                reached ? "Voc is" : "the curve goes to", voc, likely),
+                    false,
+                    {}});
+  } else if (per_cell > highest_V && !curve.cells_known) {
     out->push_back(
         {"cells",
          fmt::format("{} {:.4g} V: some {} cells in series{}? give their number (--cells)",

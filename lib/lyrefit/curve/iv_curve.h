@@ -39,6 +39,8 @@ struct DeviceNotes {
   std::optional<double> current_resolution_A;      // current step of the instrument
   std::optional<double> area_cm2;                  // of the cell
   std::optional<double> compliance_A;              // current limit set at the source
+  // Light that is stated in lux. No irradiance follows without its spectrum, hence no efficiency.
+  std::optional<double> illuminance_lux;
   // Light of the top and of the bottom junction of a tandem, as shares of their light under the
   // spectrum that all curves refer to.
   std::optional<double> light_top;

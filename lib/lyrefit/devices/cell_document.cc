@@ -25,7 +25,7 @@ std::vector<std::string> DoubtsOf(const CellReport& report) {
 }
 
 std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
-  if (KnowsArea(report) && sweep.doubt.empty()) {
+  if (KnowsArea(report) && std::isfinite(sweep.efficiency)) {
     return fmt::format("efficiency {} (Jsc {} mA/cm2, Voc {} V, FF {})",
                        PercentText(sweep.efficiency), Significant(sweep.jsc_mA_cm2, 4),
                        Significant(sweep.key.open_circuit_voltage_V, 4),

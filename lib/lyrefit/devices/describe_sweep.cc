@@ -90,10 +90,13 @@ int LeaveOutEqualEnd(IvCurve* curve) {
   return left_out;
 }
 
-std::string NameOf(const CellSweep& sweep) {
+std::string NameOf(const CellSweep& sweep, const DeviceNotes& notes) {
   if (sweep.kind == SweepKind::kSunsVoc) return "Suns-Voc";
   const std::string direction = ToText(sweep.direction);
   if (sweep.kind == SweepKind::kDark) return direction + ", dark";
+  if (!sweep.irradiance_known && notes.illuminance_lux) {
+    return fmt::format("{}, {:.4g} lux", direction, *notes.illuminance_lux);
+  }
   return fmt::format("{}, {:.4g} W/m2{}", direction, sweep.irradiance_W_m2,
                      sweep.irradiance_known ? "" : " (assumed)");
 }
@@ -125,7 +128,7 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.voltage_V = line.x;
   sweep.current_A = line.y;
   sweep.noise_A = NoiseFromDifferences(line.x, line.y);
-  sweep.name = NameOf(sweep);
+  sweep.name = NameOf(sweep, curve.notes);
   const KeyPoints unknown = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
   if (sweep.kind != SweepKind::kLit) return sweep;
@@ -134,7 +137,10 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   if (sweep.doubt.empty()) {
     constexpr double kSquareMetre_cm2 = 1e4;
     sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
-    sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+    // No irradiance follows from a light in lux.
+    const bool lux_alone = curve.notes.illuminance_lux && !curve.irradiance_known;
+    if (!lux_alone)
+      sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
   }
   sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
   sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);

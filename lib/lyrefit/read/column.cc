@@ -28,19 +28,11 @@ constexpr Name kNames[] = {
     {"ewe", ColumnKind::kVoltage},  // working electrode
     {"vf", ColumnKind::kVoltage},   // "full", the measured voltage of potentiostats
     {"vm", ColumnKind::kVoltage},
-    {"spannung", ColumnKind::kVoltage},
-    {"tension", ColumnKind::kVoltage},
-    {"tensione", ColumnKind::kVoltage},
-    {"voltaje", ColumnKind::kVoltage},
     {"i", ColumnKind::kCurrent},
     {"im", ColumnKind::kCurrent},
     {"current", ColumnKind::kCurrent},
     {"currents", ColumnKind::kCurrent},
-    {"strom", ColumnKind::kCurrent},
-    {"stromst\u00e4rke", ColumnKind::kCurrent},
-    {"courant", ColumnKind::kCurrent},
-    {"corrente", ColumnKind::kCurrent},
-    {"corriente", ColumnKind::kCurrent},
+    {"amperage", ColumnKind::kCurrent},  // "intensité", which may also be one of light
     {"sigma", ColumnKind::kSigma},
     {"sigmai", ColumnKind::kSigma},
     {"currentsigma", ColumnKind::kSigma},
@@ -57,8 +49,10 @@ constexpr Name kNames[] = {
     {"sweepdirection", ColumnKind::kSweep},
     {"curve", ColumnKind::kCurve},
     {"irradiance", ColumnKind::kIrradiance},
+    {"irr", ColumnKind::kIrradiance},
     {"irrad", ColumnKind::kIrradiance},
     {"effectiveirradiance", ColumnKind::kIrradiance},
+    {"illuminance", ColumnKind::kIrradiance},
     {"intensity", ColumnKind::kIrradiance},
     {"g", ColumnKind::kIrradiance},
     {"poa", ColumnKind::kIrradiance},
@@ -77,9 +71,9 @@ constexpr Name kNames[] = {
 // Words that say where a quantity was measured, not which one. A single letter may carry them:
 // "Vmeas", "Idc".
 constexpr std::string_view kQualifiers[] = {
-    "pv",   "module", "cell",      "panel",    "array", "string", "load",
-    "bias", "dut",    "device",    "measured", "meas",  "dc",     "output",
-    "in",   "opc",    "electrode", "we",       "smu",   "corr",   "corrected"};
+    "pv",  "module",    "cell",  "panel",    "array", "string",   "load",   "bias",
+    "dut", "device",    "anode", "measured", "meas",  "dc",       "output", "in",
+    "opc", "electrode", "we",    "smu",      "corr",  "corrected"};
 
 // Words that a number makes one of several: "Ch2 voltage", "PV1 current".
 constexpr std::string_view kChannels[] = {"ch",     "channel", "px",   "pixel", "pv",
@@ -240,8 +234,21 @@ void RefuseUnit(const std::string& unit, Column* column) {
                                 Quoted(unit), ExpectedUnits(column->kind));
 }
 
+// Whether a word is the letter of the quantity before it, in front of a unit: the U of "Spannung U/V".
+bool IsSymbolOf(ColumnKind kind, const std::vector<LabelWord>& words, std::size_t at) {
+  if (at + 1 >= words.size() || words[at].marked_as_unit || !words[at + 1].marked_as_unit) {
+    return false;
+  }
+  if (words[at].text == "e") return kind == ColumnKind::kIrradiance;
+  if (words[at].text == "t") return kind == ColumnKind::kTemperature || kind == ColumnKind::kTime;
+  const Name* letter = words[at].text.size() == 1 ? FindName(words[at].text) : nullptr;
+  return letter != nullptr &&
+         (letter->kind == kind || (IsCurrent(letter->kind) && IsCurrent(kind)));
+}
+
 // Interprets the words after the name. False if they turn it into the name of another quantity.
 bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* column) {
+  if (IsSymbolOf(column->kind, words, from)) ++from;
   const std::string rest = JoinWords(words, from, words.size());
   if (rest.empty()) return true;
   if (const Unit* unit = FindUnit(column->kind, rest)) {
@@ -260,17 +267,28 @@ bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* col
   return true;
 }
 
-// A single T is a temperature and a single t a time, unless the unit decides otherwise.
-ColumnKind TimeOrTemperature(const std::vector<LabelWord>& words) {
-  const std::string unit = JoinWords(words, 1, words.size());
-  if (FindUnit(ColumnKind::kTime, unit) != nullptr) return ColumnKind::kTime;
-  if (FindUnit(ColumnKind::kTemperature, unit) != nullptr) return ColumnKind::kTemperature;
-  return words[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
+// The kind of a name of `count` words whose unit decides: a single T is a temperature and a single t
+// a time, unless it is in seconds or degrees; J in ampere is a current; an intensity may be one of
+// light or, in French and its neighbours, a current.
+ColumnKind KindByUnit(const Name& name, const std::vector<LabelWord>& words, std::size_t count) {
+  const std::string unit = JoinWords(words, count, words.size());
+  const auto is_in = [&](ColumnKind kind) { return FindUnit(kind, unit) != nullptr; };
+  if (name.text == "t") {
+    if (is_in(ColumnKind::kTime)) return ColumnKind::kTime;
+    if (is_in(ColumnKind::kTemperature)) return ColumnKind::kTemperature;
+    return words[0].original == "T" ? ColumnKind::kTemperature : ColumnKind::kTime;
+  }
+  if (name.text == "j" && is_in(ColumnKind::kCurrent)) return ColumnKind::kCurrent;
+  if (name.text == "amperage" && is_in(ColumnKind::kIrradiance)) return ColumnKind::kIrradiance;
+  if (name.text != "intensity") return name.kind;
+  const bool current = is_in(ColumnKind::kCurrent) || is_in(ColumnKind::kCurrentDensity);
+  return current ? ColumnKind::kCurrent : name.kind;
 }
 
-// "Intensity" denotes an irradiance only if the unit confirms it.
+// "Intensity" and "illuminance" denote an irradiance only if the unit confirms it.
 bool IsVague(const Column& column, std::string_view name) {
-  return name == "intensity" && (column.unit.empty() || !column.refusal.empty());
+  return (name == "intensity" || name == "illuminance") &&
+         (column.unit.empty() || !column.refusal.empty());
 }
 
 // A current density without a unit is assumed in mA/cm2, the usual unit.
@@ -293,7 +311,7 @@ Column Recognise(std::string_view label, std::vector<LabelWord> words) {
   for (std::size_t count = words.size(); count > 0; --count) {
     const Name* known = FindName(JoinWords(words, 0, count));
     if (known == nullptr) continue;
-    column.kind = known->text == "t" ? TimeOrTemperature(words) : known->kind;
+    column.kind = KindByUnit(*known, words, count);
     const bool named = TakeRest(words, count, &column) && !IsVague(column, known->text);
     if (!named) column.kind = ColumnKind::kUnrecognised;
     SettleDensity(&column);

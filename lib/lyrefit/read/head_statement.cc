@@ -37,44 +37,42 @@ std::optional<double> Converted(const Statement& statement, ColumnKind kind) {
 
 std::optional<double> AsIrradiance(const Statement& statement) {
   const bool named = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "insolation",
-                                        "einstrahlung", "irraggiamento", "eclairement", "intensity",
-                                        "light", "g", "e", "sun", "suns", "pyranometer"}) ||
+                                        "intensity", "light", "illumination", "illuminance", "lamp",
+                                        "g", "e", "sun", "suns", "pyranometer"}) ||
                      statement.name == "powerdensity";
-  if (!named) return std::nullopt;
+  static const std::set<std::string> kConcentrations = {
+      "concentration",      "concentrationratio", "concentrationfactor", "geometricconcentration",
+      "lightconcentration", "solarconcentration", "opticalconcentration"};
+  const bool concentration = kConcentrations.count(statement.name) != 0;
+  if (!named && !concentration) return std::nullopt;
   auto value = Converted(statement, ColumnKind::kIrradiance);
+  const bool times = statement.unit == "x" || (concentration && statement.unit.empty());
+  if (times && statement.value >= 1) value = 1000 * statement.value;
   const bool in_suns = statement.name == "suns" || statement.name == "sun";
   if (in_suns && statement.unit.empty()) value = 1000 * statement.value;
-  const bool plain = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "einstrahlung"});
+  const bool plain = HasAny(statement, {"irradiance", "irr", "irrad", "poa"});
   if (!value && statement.unit.empty() && plain && statement.value >= 20) value = statement.value;
-  if (!value || !(*value >= 0 && *value <= 1e5)) return std::nullopt;
+  constexpr double kMostSuns_W_m2 = 1e7;  // of concentrators
+  if (!value || !(*value >= 0 && *value <= kMostSuns_W_m2)) return std::nullopt;
   return value;
 }
 
+// Light in lux, whatever its name: no other quantity has that unit.
+std::optional<double> AsIlluminance(const Statement& statement) {
+  const bool lux = statement.unit == "lux" || statement.unit == "lx";
+  const bool kilo = statement.unit == "klux" || statement.unit == "klx";
+  if (!(lux || kilo) || !(statement.value >= 0)) return std::nullopt;
+  return (kilo ? 1000 : 1) * statement.value;
+}
+
 std::optional<double> AsTemperature(const Statement& statement) {
-  static const std::set<std::string> kWhole = {"tc",
-                                               "tcell",
-                                               "tmod",
-                                               "tmodule",
-                                               "tpv",
-                                               "temperature",
-                                               "temp",
-                                               "tmodul",
-                                               "tzelle",
-                                               "temperatur",
-                                               "modultemp",
-                                               "zelltemp",
-                                               "celltemp",
-                                               "modultemperatur",
-                                               "zelltemperatur",
-                                               "moduletemp",
-                                               "zellentemperatur",
-                                               "r\u00fcckseitentemperatur"};
+  static const std::set<std::string> kWhole = {"tc",     "tcell",       "tmod",      "tmodule",
+                                               "tpv",    "temperature", "temp",      "tmodul",
+                                               "tzelle", "celltemp",    "moduletemp"};
   const bool whole = kWhole.count(statement.name) != 0;
-  const bool temperature = HasAny(statement, {"temperature", "temp", "temperatur", "t"});
-  const bool place =
-      HasAny(statement, {"cell", "cells", "module", "mod", "pv", "panel", "device", "sample",
-                         "zelle", "zellen", "solarzelle", "modul", "backsheet", "backside",
-                         "r\u00fcckseite", "r\u00fcckseiten", "stage", "chuck"});
+  const bool temperature = HasAny(statement, {"temperature", "temp", "t"});
+  const bool place = HasAny(statement, {"cell", "cells", "module", "mod", "pv", "panel", "device",
+                                        "sample", "backsheet", "backside", "stage", "chuck"});
   if (!whole && !(temperature && place)) return std::nullopt;
   auto value = Converted(statement, ColumnKind::kTemperature);
   if (!value && statement.unit.empty()) value = statement.value;
@@ -86,7 +84,7 @@ std::optional<int> AsCells(const Statement& statement) {
   const bool count = HasAny(statement, {"number", "no", "num", "n", "count", "series", "in", "nr"});
   const bool named = statement.name == "cells" || statement.name == "ns" ||
                      statement.name == "ncells" || statement.name == "nscells" ||
-                     (HasAny(statement, {"cells", "zellen"}) && count);
+                     (HasAny(statement, {"cells"}) && count);
   const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
                      statement.value <= 10000;
   if (!named || !whole || !statement.unit.empty()) return std::nullopt;
@@ -94,7 +92,7 @@ std::optional<int> AsCells(const Statement& statement) {
 }
 
 std::optional<int> AsBypassDiodes(const Statement& statement) {
-  const bool named = HasAny(statement, {"bypass"}) && HasAny(statement, {"diodes", "dioden"});
+  const bool named = HasAny(statement, {"bypass"}) && HasAny(statement, {"diodes"});
   const bool whole = statement.value == std::floor(statement.value) && statement.value >= 0 &&
                      statement.value <= 1000;
   if (!named || !whole || !statement.unit.empty()) return std::nullopt;
@@ -110,7 +108,7 @@ std::optional<int> AsStrings(const Statement& statement) {
 }
 
 std::optional<double> AsArea(const Statement& statement) {
-  if (!HasAny(statement, {"area", "fl\u00e4che", "zellfl\u00e4che", "aperture"})) {
+  if (!HasAny(statement, {"area", "aperture"})) {
     return std::nullopt;
   }
   const auto value = Converted(statement, ColumnKind::kArea);
@@ -179,6 +177,10 @@ bool TakeStatement(const Statement& statement, const std::string& source, TableH
     return true;
   }
   if (statement.name != "powerdensity" && IsAboutOtherThings(statement)) return false;
+  if (TakeFirst(AsIlluminance(statement), "illuminance", " lux", source,
+                &said->notes.illuminance_lux, head)) {
+    return true;
+  }
   return TakeFirst(AsIrradiance(statement), About::kIrradiance, " W/m2", source,
                    &said->irradiance_W_m2, head) ||
          TakeFirst(AsTemperature(statement), About::kTemperature, " C", source,
@@ -221,9 +223,7 @@ bool MayStateTemperature(std::string_view label) {
     named = named || word.text.find("temp") != std::string::npos;
     statement.words.insert(word.text);
   }
-  return named && !IsAboutOtherThings(statement) &&
-         !HasAny(statement, {"umgebung", "umgebungstemperatur", "lufttemperatur", "luft", "room",
-                             "raumtemperatur", "coeff", "koeffizient", "temperaturkoeffizient"});
+  return named && !IsAboutOtherThings(statement) && !HasAny(statement, {"room", "coeff"});
 }
 
 }  // namespace lyrefit

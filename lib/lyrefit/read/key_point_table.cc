@@ -13,7 +13,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/curve_set_builder.h"
-#include "lyrefit/read/label.h"
+#include "lyrefit/read/key_point_names.h"
 #include "lyrefit/read/table_curve.h"
 #include "lyrefit/read/table_head.h"
 #include "lyrefit/read/table_header.h"
@@ -28,47 +28,6 @@ struct LinePlace {
   int line;
   std::string_view text;
 };
-
-enum KeyPoint { kIsc, kVoc, kImp, kVmp, kPmp, kKeyPoints };
-
-constexpr std::pair<std::string_view, KeyPoint> kPointNames[] = {
-    {"isc", kIsc},  {"voc", kVoc}, {"imp", kImp},  {"impp", kImp}, {"vmp", kVmp},
-    {"vmpp", kVmp}, {"pmp", kPmp}, {"pmpp", kPmp}, {"pmax", kPmp}};
-
-// A column of key points and the factor to A, V or W.
-struct KeyPointColumn {
-  KeyPoint point;
-  double factor = 1;
-};
-
-// Factor to watt of a unit of power.
-std::optional<double> PowerFactor(std::string_view unit) {
-  if (unit == "w") return 1;
-  if (unit == "mw") return 1e-3;
-  if (unit == "kw") return 1e3;
-  return std::nullopt;
-}
-
-// Interprets a label such as "i_sc_A" or "Isc (mA)".
-std::optional<KeyPointColumn> AsKeyPoint(std::string_view label) {
-  const std::vector<LabelWord> words = SplitLabel(label);
-  for (std::size_t count = std::min<std::size_t>(words.size(), 2); count > 0; --count) {
-    const std::string name = JoinWords(words, 0, count);
-    const auto* const found = std::find_if(std::begin(kPointNames), std::end(kPointNames),
-                                           [&](const auto& known) { return known.first == name; });
-    if (found == std::end(kPointNames)) continue;
-    const std::string unit = JoinWords(words, count, words.size());
-    if (unit.empty()) return KeyPointColumn{found->second};
-    if (found->second == kPmp) {
-      if (const auto factor = PowerFactor(unit)) return KeyPointColumn{kPmp, *factor};
-      continue;
-    }
-    const bool current = found->second == kIsc || found->second == kImp;
-    const Unit* known = FindUnit(current ? ColumnKind::kCurrent : ColumnKind::kVoltage, unit);
-    if (known != nullptr) return KeyPointColumn{found->second, known->factor};
-  }
-  return std::nullopt;
-}
 
 // One condition while the table is read.
 struct Condition {
@@ -85,12 +44,8 @@ struct KeyPointTable {
 };
 
 // The header of a long table.
-struct LongHeader {
+struct LongHeader : MatrixColumns {
   char delimiter = ',';
-  std::vector<std::optional<KeyPointColumn>> points;
-  Column irradiance, temperature;
-  int irradiance_place = -1;
-  int temperature_place = -1;
   Fields names;
 };
 
@@ -98,26 +53,7 @@ std::optional<LongHeader> AsLongHeader(std::string_view line) {
   for (const char delimiter : kDelimiters) {
     const auto fields = SplitFields(line, delimiter);
     if (!fields) continue;
-    LongHeader header;
-    header.delimiter = delimiter;
-    header.names = *fields;
-    int points = 0;
-    for (int i = 0; i < static_cast<int>(fields->size()); ++i) {
-      header.points.push_back(AsKeyPoint((*fields)[i]));
-      if (header.points.back()) ++points;
-      const Column column = RecogniseColumn((*fields)[i]);
-      if (!column.refusal.empty()) continue;
-      if (column.kind == ColumnKind::kIrradiance && header.irradiance_place == -1) {
-        header.irradiance = column;
-        header.irradiance_place = i;
-      } else if (column.kind == ColumnKind::kTemperature && header.temperature_place == -1) {
-        header.temperature = column;
-        header.temperature_place = i;
-      }
-    }
-    if (points >= 3 && header.irradiance_place != -1 && header.temperature_place != -1) {
-      return header;
-    }
+    if (auto matrix = AsMatrix(*fields)) return LongHeader{std::move(*matrix), delimiter, *fields};
   }
   return std::nullopt;
 }
@@ -263,6 +199,26 @@ Expected<void> CompletePower(const std::string& path, Condition* condition) {
   return {};
 }
 
+// Says how many currents and voltages are quotients of the power.
+std::vector<Assumption> WhatFollowsFromPower(const std::vector<Condition>& conditions) {
+  int currents = 0;
+  int voltages = 0;
+  for (const Condition& condition : conditions) {
+    const auto& [isc, voc, imp, vmp, pmp] = condition.points;
+    if (pmp && vmp && !imp) ++currents;
+    if (pmp && imp && !vmp) ++voltages;
+  }
+  std::vector<Assumption> sentences;
+  for (const auto& [count, law] : {std::pair(currents, "Imp taken as Pmp / Vmp"),
+                                   std::pair(voltages, "Vmp taken as Pmp / Imp")}) {
+    if (count > 0) {
+      sentences.emplace_back(
+          fmt::format("{} at {} condition{}", law, count, count == 1 ? "" : "s"));
+    }
+  }
+  return sentences;
+}
+
 IvCurve CurveOf(const Condition& condition) {
   const auto& [isc, voc, imp, vmp, pmp] = condition.points;
   KeyPoints points;
@@ -295,6 +251,7 @@ Expected<CurveSet> ReadKeyPoints(const DecodedText& text, const std::string& pat
   builder.Assume({fmt::format(
       "key points of {} conditions, each read as the readings (0, Isc), (Vmp, Imp) and (Voc, 0)",
       table.conditions.size())});
+  builder.Assume(WhatFollowsFromPower(table.conditions));
   std::map<std::string, int> ids;
   for (const Condition& condition : table.conditions) {
     Condition complete = condition;

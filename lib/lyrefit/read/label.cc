@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/read/vocabulary.h"
+
 namespace lyrefit {
 namespace {
 
@@ -45,6 +47,11 @@ constexpr Unit kUnits[] = {
     {ColumnKind::kIrradiance, "mwcm2", 10, 0, false},
     {ColumnKind::kIrradiance, "sun", 1e3, 0, false},
     {ColumnKind::kIrradiance, "suns", 1e3, 0, false},
+    {ColumnKind::kIrradiance, "percentsun", 10, 0, false},
+    {ColumnKind::kIrradiance, "percentsuns", 10, 0, false},
+    {ColumnKind::kIrradiance, "percentofsun", 10, 0, false},
+    {ColumnKind::kIrradiance, "percentofonesun", 10, 0, false},
+    {ColumnKind::kIrradiance, "percent1sun", 10, 0, false},
     {ColumnKind::kTemperature, "c", 1, 0, false},
     {ColumnKind::kTemperature, "degc", 1, 0, false},
     {ColumnKind::kTemperature, "celsius", 1, 0, false},
@@ -59,8 +66,9 @@ constexpr Unit kUnits[] = {
 // there is none.
 std::optional<std::pair<std::string_view, std::string_view>> Symbol(std::string_view text) {
   static constexpr std::pair<std::string_view, std::string_view> kSymbols[] = {
-      {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b2", "2"}, {"\u00b0", ""},     {"\u03a9", "ohm"},
-      {"\u207b", ""},  {"\u2212", " "}, {"\u00a0", " "}, {"\u03c3", "sigma"}};
+      {"\u00b5", "u"},   {"\u03bc", "u"},  {"\u00b2", "2"},  {"\u00b0", ""},  {"\u00ba", ""},
+      {"\u03a9", "ohm"}, {"\u207b", ""},   {"\u2212", " "},  {"\u00a0", " "}, {"\u03c3", "sigma"},
+      {"\u2103", "c"},   {"\u33a1", "m2"}, {"\u33a0", "cm2"}};
   for (const auto& symbol : kSymbols) {
     if (text.substr(0, symbol.first.size()) == symbol.first) return symbol;
   }
@@ -69,10 +77,11 @@ std::optional<std::pair<std::string_view, std::string_view>> Symbol(std::string_
 
 }  // namespace
 
-std::vector<LabelWord> SplitLabel(std::string_view label) {
+std::vector<LabelWord> SplitLabel(std::string_view text) {
   constexpr std::size_t kLongestLabel = 300;
   std::vector<LabelWord> words;
-  if (label.size() > kLongestLabel) return words;
+  if (text.size() > kLongestLabel) return words;
+  const std::string label = HalfWidth(text);
   bool inside = false;
   bool marked = false;
   const auto add = [&](std::string_view letters) {
@@ -87,12 +96,12 @@ std::vector<LabelWord> SplitLabel(std::string_view label) {
   for (std::size_t at = 0; at < label.size(); ++at) {
     const char c = label[at];
     const bool alnum = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (const auto symbol = Symbol(label.substr(at))) {
+    if (const auto symbol = Symbol(std::string_view(label).substr(at))) {
       if (symbol->second == " ") inside = false;
       if (symbol->second != " " && !symbol->second.empty()) add(symbol->second);
       at += symbol->first.size() - 1;
     } else if (alnum || static_cast<unsigned char>(c) >= 0x80) {
-      add(label.substr(at, 1));
+      add(std::string_view(label).substr(at, 1));
     } else {
       inside = false;
       if (c == '(' || c == '[' || c == '{' || c == '/' || c == ',') marked = true;
@@ -103,6 +112,7 @@ std::vector<LabelWord> SplitLabel(std::string_view label) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i].text == "vs") words.resize(i);
   }
+  Translate(&words);
   return words;
 }
 

@@ -10,14 +10,14 @@ namespace lyrefit {
 
 // A word of a label such as "Voltage (mV)".
 struct LabelWord {
-  std::string text;      // lower case, letters and digits only
+  std::string text;      // lower case, letters and digits only, in English where it is known
   std::string original;  // as written
   bool marked_as_unit;   // preceded by a bracket, slash or comma
 };
 
-// The words of a label; none if the text is too long for a label. Words after "vs." are dropped:
-// they name the reference of a potential.
-std::vector<LabelWord> SplitLabel(std::string_view label);
+// The words of a label, translated (vocabulary.h); none if the text is too long for a label. Words
+// after "vs." are dropped: they name the reference of a potential.
+std::vector<LabelWord> SplitLabel(std::string_view text);
 
 // Concatenates the words from `from` up to, not including, `to`.
 std::string JoinWords(const std::vector<LabelWord>& words, std::size_t from, std::size_t to);

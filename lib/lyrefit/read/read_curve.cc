@@ -129,7 +129,7 @@ Expected<IvCurve> CurveOfKeyPoints(const DecodedText& text, const std::string& p
     return curve;
   }
   return Fail(fmt::format("expected one curve, found the key points of {} conditions (1 {}, ...): "
-                          "choose one with --curve INDEX",
+                          "choose one with --curve INDEX, or fit all with --family pvsyst",
                           count, Quoted(set.curves.front().name)),
               path);
 }

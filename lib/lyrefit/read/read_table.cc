@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "lyrefit/base/byte_input.h"
@@ -12,6 +13,7 @@
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
+#include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/read/join_sweeps.h"
@@ -298,6 +300,35 @@ void NumberTables(TableReading* reading) {
   }
 }
 
+bool IsZero(const std::vector<double>& column) {
+  return !column.empty() &&
+         std::all_of(column.begin(), column.end(), [](double value) { return value == 0; });
+}
+
+// Whether a current flows at 0 V that only light makes.
+bool IsLit(IvCurve curve) {
+  TurnLoadSign(&curve);
+  curve.irradiance_known = true;
+  curve.conditions.irradiance_W_m2 = 0;
+  return !IsDark(curve);
+}
+
+// Leaves out columns that are 0 throughout where no sensor gave them: a temperature, and the
+// irradiance of a lit curve.
+void LeaveOutDeadSensors(IvCurve* curve) {
+  const bool lit = IsZero(curve->irradiance_W_m2) && IsLit(*curve);
+  for (const auto& [dead, about, column, why] :
+       {std::tuple(IsZero(curve->temperature_C), About::kTemperature, &curve->temperature_C, ""),
+        std::tuple(lit, About::kIrradiance, &curve->irradiance_W_m2, " beside a lit curve")}) {
+    if (!dead) continue;
+    column->clear();
+    curve->assumptions.emplace_back(
+        fmt::format("the column of the {} is 0 throughout{}, as without a sensor: not used",
+                    ToText(about), why),
+        about);
+  }
+}
+
 TableReading Begin(TableLayout layout, const ReadOptions& options) {
   TableReading reading{options, std::move(layout)};
   Table& table = reading.table;
@@ -348,6 +379,7 @@ Expected<void> Finish(std::string_view text, const std::string& file, TableReadi
   TRY(TakeTrace(text, file, *reading, &table));
   TakeUnitOfShortCircuit(&table, reading->layout);
   NumberTables(reading);
+  LeaveOutDeadSensors(&table.curve);
   return {};
 }
 

@@ -57,6 +57,27 @@ const char* const kCellsAssumed =
 const char* const kTemperatureAssumed = "cell temperature not given: assumed 25 C";
 const char* const kIrradianceAssumed = "irradiance not given: assumed 1000 W/m2";
 
+void TakeNightAsDark(std::vector<double>* irradiance_W_m2, std::vector<Assumption>* assumptions) {
+  std::size_t below = 0;
+  double least = 0;
+  for (double& value : *irradiance_W_m2) {
+    if (!(value < 0)) continue;
+    ++below;
+    least = std::min(least, value);
+    value = 0;
+  }
+  if (below == 0) return;
+  const std::string count =
+      irradiance_W_m2->size() == 1
+          ? ""
+          : fmt::format(" in {} of {} readings", below, irradiance_W_m2->size());
+  assumptions->emplace_back(
+      fmt::format("irradiance below zero{} (down to {:.6g} W/m2), as a sensor "
+                  "shows it at night: taken as 0",
+                  count, least),
+      About::kIrradiance);
+}
+
 void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   if (!sidecar.name.empty()) curve->name = sidecar.name;
   curve->notes = sidecar.notes;
@@ -76,16 +97,26 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   curve->temperature_known = temperature_C.has_value();
   conditions.cell_temperature_K = temperature_C.value_or(25) + kZeroCelsius_K;
 
+  TakeNightAsDark(&curve->irradiance_W_m2, &curve->assumptions);
   double brightest = sidecar.irradiance_W_m2.value_or(0);
   for (const double irradiance : curve->irradiance_W_m2)
     brightest = std::max(brightest, irradiance);
   const auto irradiance = Settle({About::kIrradiance, "W/m2", sidecar.irradiance_W_m2,
                                   curve->irradiance_W_m2, 0.02 * brightest},
                                  &curve->assumptions);
-  if (!irradiance) curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
+  if (!irradiance && curve->notes.illuminance_lux) {
+    curve->assumptions.emplace_back(
+        fmt::format("irradiance not given: no W/m2 follow from {:.6g} lux without the spectrum of "
+                    "the light, state them with --irradiance-Wm2",
+                    *curve->notes.illuminance_lux),
+        About::kIrradiance);
+  } else if (!irradiance) {
+    curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
+  }
   curve->irradiance_known = irradiance.has_value();
-  // A sensor in the dark may show slightly negative values.
-  conditions.irradiance_W_m2 = std::max(0.0, irradiance.value_or(1000));
+  std::vector<double> settled = {irradiance.value_or(1000)};
+  TakeNightAsDark(&settled, &curve->assumptions);
+  conditions.irradiance_W_m2 = settled.front();
 }
 
 Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve) {

@@ -8,6 +8,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/text_encoding.h"
 
 namespace lyrefit {
@@ -45,7 +46,12 @@ constexpr const char* kKnownKeys[] = {"name",
 // A text that states that an entry has no single value.
 constexpr const char* kVaried = "varied";
 
-enum class Sign { kAny, kNotNegative, kPositive };
+enum class Sign {
+  kAny,
+  kLight,  // from 0 up, or what a sensor shows at night
+  kNotNegative,
+  kPositive
+};
 
 // State while a sidecar is read; only the first error is kept.
 struct SidecarReading {
@@ -80,7 +86,8 @@ void ReadNumber(SidecarReading* reading, const JsonFields& fields,
   if (sign == Sign::kPositive && !(**number > 0)) {
     return Refuse(reading, fields.Refuse(key, "a positive number").value());
   }
-  if (sign == Sign::kNotNegative && !(**number >= 0)) {
+  const double least = sign == Sign::kLight ? -kLargestDarkOffset_W_m2 : 0;
+  if ((sign == Sign::kNotNegative || sign == Sign::kLight) && !(**number >= least)) {
     return Refuse(reading, fields.Refuse(key, "a number from 0 up").value());
   }
   *target = *number;
@@ -136,7 +143,7 @@ void ReadConditionKeys(SidecarReading* reading) {
   ReadCondition(
       reading,
       {"irradiance_W_m2", "irradiance_Wm2", "nominal_irradiance_Wm2", "nominal_irradiance_W_m2"},
-      Sign::kNotNegative, &reading->sidecar.irradiance_W_m2);
+      Sign::kLight, &reading->sidecar.irradiance_W_m2);
   ReadWhole(reading, {"cells_in_series"}, 1, "at least 1", &reading->sidecar.cells_in_series);
   ReadWhole(reading, {"strings_in_parallel"}, 1, "at least 1",
             &reading->sidecar.strings_in_parallel);
@@ -293,6 +300,7 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&notes.current_resolution_A, common.notes.current_resolution_A);
   fill(&notes.area_cm2, common.notes.area_cm2);
   fill(&notes.compliance_A, common.notes.compliance_A);
+  fill(&notes.illuminance_lux, common.notes.illuminance_lux);
   fill(&notes.light_top, common.notes.light_top);
   fill(&notes.light_bottom, common.notes.light_bottom);
   if (notes.date.empty()) notes.date = common.notes.date;

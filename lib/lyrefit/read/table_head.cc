@@ -12,6 +12,7 @@
 #include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
+#include "lyrefit/read/vocabulary.h"
 
 namespace lyrefit {
 namespace {
@@ -32,12 +33,22 @@ struct Quantity {
   std::string_view unit;
 };
 
+// A unit without the remark in brackets behind it: "lux (LED 3000 K)".
+std::string_view WithoutRemark(std::string_view unit) {
+  const std::size_t begin = unit.find_first_not_of(" \t\"");
+  if (begin == std::string_view::npos) return {};
+  unit.remove_prefix(begin);
+  const std::size_t bracket = unit.find('(');
+  if (bracket != std::string_view::npos && bracket > 0) unit = unit.substr(0, bracket);
+  return unit.substr(0, unit.find_last_not_of(" \t\"") + 1);
+}
+
 std::optional<Quantity> AsQuantity(std::string_view text) {
   text = TrimMarks(text);
   const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
   if (const auto value = ParseNumber(text.substr(0, end), true)) {
     if (!std::isfinite(*value)) return std::nullopt;
-    const std::string_view rest = TrimMarks(text.substr(end));
+    const std::string_view rest = WithoutRemark(text.substr(end));
     const auto words = SplitFields(rest, ' ');
     const bool more =
         words && std::any_of(words->begin(), words->end(), [](const std::string& word) {
@@ -180,9 +191,11 @@ void ReadLine(HeadLineState* state, std::string_view line) {
 
 }  // namespace
 
-void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head) {
+void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* head) {
   constexpr std::size_t kLongestLine = 1000;
-  if (line.size() > kLongestLine) return;  // too long for a statement
+  if (text.size() > kLongestLine) return;  // too long for a statement
+  const std::string half_width = HalfWidth(text);
+  const std::string_view line = half_width;
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));

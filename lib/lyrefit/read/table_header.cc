@@ -56,6 +56,27 @@ void TakeUnitColumns(const Fields& names, const Fields& row, std::vector<Column>
   }
 }
 
+// Takes a first column without a name, beside nothing but currents, as their voltage, unless it
+// counts the rows.
+void TakeUnnamedVoltage(const std::vector<std::string_view>& below, char delimiter,
+                        std::vector<Column>* columns) {
+  const bool only_currents = std::all_of(columns->begin() + 1, columns->end(), [](const Column& c) {
+    return IsCurrent(c.kind) && c.refusal.empty();
+  });
+  if (!columns->front().label.empty() || !only_currents || below.size() < 2) return;
+  bool counts = true;
+  std::optional<double> last;
+  for (const std::string_view line : below) {
+    const auto row = SplitFields(line, delimiter);
+    const auto number =
+        row && !row->empty() ? ParseNumber((*row)[0], delimiter != ',') : std::optional<double>();
+    if (!number) return;
+    counts = counts && (last ? *number == *last + 1 : *number == 0 || *number == 1);
+    last = number;
+  }
+  if (!counts) columns->front().kind = ColumnKind::kVoltage;
+}
+
 std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, char delimiter,
                               const HeaderRules& rules) {
   std::vector<Column> columns = RecogniseAll(fields);
@@ -69,7 +90,9 @@ std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, 
   if (wished && above_numbers) ApplyColumnWishes(rules.options, &columns);
   if (row && !LooksLikeHeader(columns)) TakeUnitColumns(fields, *row, &columns);
   const bool found = LooksLikeHeader(columns) && !FindChannels(columns).empty();
-  if (rules.guess && above_numbers && !found) GuessColumns(&columns);
+  if (rules.guess && above_numbers && !found && !GuessColumns(&columns)) {
+    TakeUnnamedVoltage(rules.below, delimiter, &columns);
+  }
   return columns;
 }
 
@@ -83,6 +106,18 @@ bool RowFits(std::string_view line, const TableLine& header) {
     if (i >= row->size() || !ParseNumber((*row)[i], header.delimiter != ',')) return false;
   }
   return true;
+}
+
+// Whether all lines below are rows of the header at this delimiter.
+bool AllRowsFit(std::size_t names, char delimiter, const std::vector<std::string_view>& below) {
+  return names >= 2 && !below.empty() &&
+         std::all_of(below.begin(), below.end(), [&](std::string_view line) {
+           const auto row = SplitFields(line, delimiter);
+           return row && row->size() <= names &&
+                  std::count_if(row->begin(), row->end(), [&](const std::string& field) {
+                    return IsNumber(field, delimiter);
+                  }) >= 2;
+         });
 }
 
 }  // namespace
@@ -109,11 +144,20 @@ bool HasKind(const std::vector<Column>& columns, ColumnKind kind) {
 
 TableLine AsHeader(std::string_view line, std::string_view next_line, const HeaderRules& rules) {
   TableLine first;
-  for (const char delimiter : kDelimiters) {
+  const auto split = [line](char delimiter) {
     auto fields = SplitFields(line, delimiter);
-    if (!fields) continue;
-    if (fields->size() > kMostColumns) continue;
-    if (delimiter == ' ') fields = JoinBrackets(*fields);
+    if (fields && delimiter == ' ') fields = JoinBrackets(*fields);
+    return fields;
+  };
+  const auto fits_rows = [&](char delimiter) {
+    const auto fields = split(delimiter);
+    return fields && AllRowsFit(fields->size(), delimiter, rules.below);
+  };
+  const bool any_fits = std::any_of(std::begin(kDelimiters), std::end(kDelimiters), fits_rows);
+  for (const char delimiter : kDelimiters) {
+    auto fields = split(delimiter);
+    if (!fields || fields->size() > kMostColumns) continue;
+    if (any_fits && !AllRowsFit(fields->size(), delimiter, rules.below)) continue;
     std::vector<Column> columns = ColumnsOf(*fields, next_line, delimiter, rules);
     if (!LooksLikeHeader(columns)) continue;
     TableLine candidate{delimiter, *fields, columns, false};

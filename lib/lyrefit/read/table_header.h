@@ -31,13 +31,15 @@ bool HasKind(const std::vector<Column>& columns, ColumnKind kind);
 
 // Rules for the recognition of a header.
 struct HeaderRules {
-  const ReadOptions& options;  // names of columns
-  bool guess = false;          // use letters and units of unknown names
+  const ReadOptions& options;                // names of columns
+  bool guess = false;                        // use letters and units of unknown names
+  std::vector<std::string_view> below = {};  // the first lines below the header
 };
 
 // Interprets `line` as a header with at least a voltage and a current. `next_line` helps to select
-// the delimiter, and supplies units that stand in separate columns ("Reading,Unit"). The delimiter
-// is 0 if `line` is no header.
+// the delimiter, and supplies units that stand in separate columns ("Reading,Unit"). A delimiter at
+// which all lines of `rules.below` are rows excludes those at which they are none. The delimiter is 0
+// if `line` is no header.
 TableLine AsHeader(std::string_view line, std::string_view next_line, const HeaderRules& rules);
 
 // Joins a line of names with a line of units below it: "V [mV],I [mA]". Both must have equally many

@@ -10,7 +10,9 @@
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/header_layout.h"
+#include "lyrefit/read/key_point_names.h"
 #include "lyrefit/read/results_above.h"
+#include "lyrefit/read/side_heads.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 
@@ -90,6 +92,7 @@ struct LayoutSearch {
   bool found_header = false;   // a header with numbers below it
   std::optional<Expected<TableLayout>> second_best = {};
   TableHead head = {};
+  std::vector<LineOfHead> head_lines = {};
   ResultsAbove results = {};
   int skipped = 0;  // lines of text, not counting comments
 };
@@ -110,16 +113,28 @@ Expected<TableLayout> Finished(const LayoutSearch& search, Expected<TableLayout>
   layout->first_row_offset = offset;
   layout->first_row_line = lines_before;
   layout->head = search.head;
+  ReadOwnHead(search.head_lines, layout->delimiter, layout->channels, layout->channel(),
+              &layout->head);
   std::vector<Assumption> about_head;
   if (search.skipped > 0) {
     about_head.push_back(fmt::format("{} line{} before the header in line {} skipped",
                                      search.skipped, search.skipped == 1 ? "" : "s",
                                      search.lines.number()));
   }
-  const std::vector<Assumption> sentences = HeadSentences(search.head);
+  const std::vector<Assumption> sentences = HeadSentences(layout->head);
   about_head.insert(about_head.end(), sentences.begin(), sentences.end());
   layout->assumptions.insert(layout->assumptions.begin(), about_head.begin(), about_head.end());
   return layout;
+}
+
+// The first lines with content below a line.
+std::vector<std::string_view> LinesBelow(LineReader lines) {
+  constexpr std::size_t kLooked = 3;
+  std::vector<std::string_view> below;
+  for (std::string_view line; below.size() < kLooked && lines.NextContent(&line);) {
+    below.push_back(line);
+  }
+  return below;
 }
 
 std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
@@ -131,6 +146,7 @@ std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
   const std::string joined = WithUnits(search->line, units);
   if (joined.empty()) return std::nullopt;
   const LineReader below = ahead;
+  search->rules.below = LinesBelow(ahead);
   std::string_view next_line;
   ahead.NextContent(&next_line);
   TableLine header = AsHeader(joined, next_line, search->rules);
@@ -142,13 +158,30 @@ std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
   return Finished(*search, std::move(layout), search->lines.offset(), search->lines.number());
 }
 
+// Refuses names of key points over light and temperature: a matrix is no curve and no Suns-Voc trace.
+std::optional<Expected<TableLayout>> TryMatrix(LayoutSearch* search) {
+  for (const char delimiter : kDelimiters) {
+    const auto fields = SplitFields(search->line, delimiter);
+    if (!fields || !AsMatrix(*fields)) continue;
+    search->found_header = true;
+    return Expected<TableLayout>(
+        Fail(fmt::format("expected the points of a curve, found key points over light and "
+                         "temperature ({}): `lyrefit fit --family pvsyst` takes those of two "
+                         "conditions or more",
+                         ListOf(*fields)),
+             search->file, search->lines.number(), 1));
+  }
+  return std::nullopt;
+}
+
 // Interprets the line as a header, alone or with a line of units below it. A header without numbers
 // below it is kept as second best: its rows produce a more specific error than no header would.
 std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
+  if (auto matrix = TryMatrix(search)) return matrix;
+  search->rules.below = LinesBelow(search->lines);
   if (auto with_units = TryHeaderWithUnits(search)) return with_units;
-  std::string_view next_line;
-  LineReader ahead = search->lines;
-  ahead.NextContent(&next_line);
+  const std::string_view next_line =
+      search->rules.below.empty() ? std::string_view() : search->rules.below.front();
   TableLine header = AsHeader(search->line, next_line, search->rules);
   if (header.delimiter == 0) header = HeaderBelowResults(search->results, search->line, next_line);
   if (header.delimiter == 0 || (!header.fits && search->second_best)) return std::nullopt;
@@ -163,6 +196,11 @@ std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
   return std::nullopt;
 }
 
+void TakeHeadLine(HeadLine kind, LayoutSearch* search) {
+  search->head_lines.push_back({search->line, search->lines.number(), kind});
+  ReadHeadLine(search->line, search->lines.number(), kind, &search->head);
+}
+
 // Moves to the next line with content, like LineReader::NextContent. It also records comments and
 // the offset of the line.
 bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
@@ -173,7 +211,7 @@ bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
     if (first == std::string_view::npos) continue;
     if (!BeginsComment(search->line[first])) return true;
     search->comment = search->line;
-    ReadHeadLine(search->line, search->lines.number(), HeadLine::kComment, &search->head);
+    TakeHeadLine(HeadLine::kComment, search);
   }
 }
 
@@ -182,7 +220,7 @@ void SkipLine(LayoutSearch* search) {
   if (search->skipped++ == 0) search->first_text = search->last_text;
   TakeColumnName(search->line, &search->names);
   if (TakeResults(search->line, search->lines.number(), &search->results, &search->head)) return;
-  ReadHeadLine(search->line, search->lines.number(), HeadLine::kText, &search->head);
+  TakeHeadLine(HeadLine::kText, search);
 }
 
 Expected<TableLayout> LayoutFromRow(const LayoutSearch& search, const TableLine& row) {

@@ -51,6 +51,8 @@ Expected<void> TableRow::CheckLength() const {
   const std::size_t expected = columns_.size();
   while (size > expected && splitter_[size - 1].empty()) --size;
   if (size == expected) return {};
+  // LabVIEW leaves out the field of an empty comment, together with its delimiter.
+  if (size + 1 == expected && LowerCase(columns_.back().label) == "comment") return {};
   std::string hint;
   if (size == 2 * expected && delimiter_ == ',') {
     hint = " (with a decimal comma, separate the columns by ';' or tab)";

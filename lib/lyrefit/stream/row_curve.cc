@@ -15,6 +15,7 @@
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/select_sweep.h"
+#include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_curve.h"
@@ -90,7 +91,7 @@ Expected<void> TakeCondition(const RecordPlace& place, const RecordScalar& scala
                              const Column& column, double number, Sidecar* said) {
   const double value = number * column.factor + column.offset;
   const bool temperature = column.kind == ColumnKind::kTemperature;
-  const bool fits = temperature ? value >= -100 && value <= 150 : value >= 0;
+  const bool fits = temperature ? value >= -100 && value <= 150 : value >= -kLargestDarkOffset_W_m2;
   if (!fits || !std::isfinite(value)) {
     return place.Refuse(
         fmt::format("expected {} in \"{}\", found {}",

@@ -18,6 +18,12 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+TEST(ReadTableTest, ResultsBelowNumbersWithoutAHeadAreLeftAside) {
+  const auto table = ReadTable("0\t3.0\n0.2\t2.9\n0.4\t2.1\nJsc:\t3.0\n\t0.5\nFF:\t0.6\n", "f", {});
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_EQ(table->curve.size(), 3U);
+}
+
 TEST(ReadTableTest, ReadsEveryWayToWriteTheSameTable) {
   for (const char* text : {
            "voltage_V,current_A\n-0.5,2\n0,1.5\n",

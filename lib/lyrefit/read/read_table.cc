@@ -51,6 +51,13 @@ bool IsText(std::string_view line, const TableLayout& layout) {
   return voltage >= fields->size() || !ParseNumber((*fields)[voltage], decimal_comma);
 }
 
+// Whether the field of the voltage is empty, as in a list of results without labels.
+bool LacksVoltage(std::string_view line, const TableLayout& layout) {
+  const auto fields = SplitFields(line, layout.delimiter);
+  const std::size_t voltage = layout.voltage;
+  return fields && voltage < fields->size() && (*fields)[voltage].empty();
+}
+
 // State while a table and the tables below it are read.
 struct TablesBelow {
   std::string_view text;
@@ -61,9 +68,11 @@ struct TablesBelow {
 
 // Whether the lines up to line `before` (0: the end) contain no row of the table.
 bool OnlyText(LineReader lines, int before, const TableLayout& layout) {
+  bool below_text = false;
   for (std::string_view line; lines.NextContent(&line);) {
     if (before != 0 && lines.number() >= before) return true;
-    if (!IsText(line, layout)) return false;
+    if (!IsText(line, layout) && !(below_text && LacksVoltage(line, layout))) return false;
+    below_text = true;
   }
   return true;
 }

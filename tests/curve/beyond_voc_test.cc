@@ -74,6 +74,20 @@ TEST(BeyondVocTest, ASweepUpAndDownKeepsItsVoc) {
             FindKeyPoints(curve.voltage_V, curve.current_A).open_circuit_voltage_V);
 }
 
+// Few readings lie between the knee and Voc. More are needed to judge those beyond, but no more kept.
+TEST(BeyondVocTest, ACoarseSweepEndsAtTheFirstReadingBeyondVoc) {
+  const IvCurve fine = SweptBeyond(1.6, 1);
+  IvCurve curve;
+  for (std::size_t k = 0; k < fine.size(); k += 6) {
+    curve.voltage_V.push_back(fine.voltage_V[k]);
+    curve.current_A.push_back(fine.current_A[k]);
+  }
+  const IvCurve kept = WithoutBeyondVoc(curve);
+  ASSERT_LT(kept.size(), curve.size());
+  EXPECT_LT(kept.current_A.back(), 0);
+  EXPECT_GT(kept.current_A[kept.size() - 2], 0);
+}
+
 TEST(BeyondVocTest, BelowIscOrAsItIsOrInTheDarkNothingIsLeftOut) {
   EXPECT_EQ(FindBeyondVoc(SweptBeyond(0.70, 1)).left_out, 0);
   IvCurve curve = SweptBeyond(1.2, 1);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "estimate/fit/simulated.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/settings/bounds_file.h"
@@ -43,6 +45,55 @@ TEST(MakeBounds, LetsNOfThinFilmsBeAboveTwo) {
   EXPECT_EQ(upper("mono-Si"), 2);
   EXPECT_EQ(upper("Perovskite"), 6);
   EXPECT_EQ(upper("organic, inverted"), 6);
+}
+
+// A diode of n 1.4 and 2e-12 A, swept into a series resistance that takes `drop_V` at the last
+// reading, and into breakdown.
+IvCurve DiodeInTheDark(double drop_V, bool breakdown) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 1;
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const double thermal_V = 1.4 * device.module_thermal_voltage_V;
+  const double top_A = 2e-12 * std::expm1(0.7 / thermal_V);
+  const std::vector<double> truth = {0, 2e-12, 1.4, drop_V / top_A, 1e9};
+  for (int k = 0; k <= 100; ++k) curve.voltage_V.push_back(-1 + 0.01 * k * (1.7 + drop_V));
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  if (breakdown) curve.current_A[0] = 1e3 * top_A;
+  return curve;
+}
+
+TEST(MakeBounds, HoldsTheDiodeOfADarkCurveWhateverItsResistanceTakes) {
+  for (const double drop_V : {0.05, 0.7, 3.3}) {
+    for (const bool breakdown : {false, true}) {
+      for (const bool cells_known : {false, true}) {
+        IvCurve curve = DiodeInTheDark(drop_V, breakdown);
+        curve.cells_known = cells_known;
+        const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+        const auto bounds = *MakeBounds({}, device, curve);
+        const double top_A = -curve.current_A.back();
+        EXPECT_LT(bounds[kIph].upper, 10 * top_A) << "breakdown does not rule";
+        EXPECT_LE(bounds[1].search_lower, 2e-12) << drop_V;
+        EXPECT_GE(bounds[1].search_upper, 2e-12) << drop_V;
+        EXPECT_LE(bounds[2].lower, 1) << drop_V;
+        EXPECT_GE(bounds[2].upper, 1.4) << drop_V;
+        EXPECT_GE(bounds[kRs].upper, drop_V / top_A) << drop_V;
+        if (cells_known) EXPECT_LE(bounds[2].upper, 10) << "a stated number of cells stands";
+      }
+    }
+  }
+}
+
+TEST(MakeBounds, OfALitCurveHangOnWhatItDelivers) {
+  IvCurve curve = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const auto before = *MakeBounds({}, device, curve);
+  curve.voltage_V.push_back(30);
+  curve.current_A.push_back(-500);
+  const auto beyond = *MakeBounds({}, device, curve);
+  for (int i = 0; i < device.size(); ++i) {
+    EXPECT_EQ(before[i].lower, beyond[i].lower) << device.parameters[i].symbol;
+    EXPECT_EQ(before[i].upper, beyond[i].upper) << device.parameters[i].symbol;
+  }
 }
 
 TEST(MakeBounds, LetsATableSpeakForEveryDiodeOrForOne) {

@@ -93,6 +93,42 @@ TEST(UsableTest, ALineIsNoCurveWhetherItFallsOrRises) {
   }
 }
 
+// AICc calls five parameters too many for eight readings, however well they describe them.
+TEST(UsableTest, EightReadingsOfADiodeAreNoLine) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 8;
+  curve.voltage_V = {0, 1, 2, 3, 3.5, 4, 4.3, 4.6};
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const std::vector<double> truth = {0.3, 2e-8, 1.35, 1, 150};
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  RandomStream random(2);
+  for (double& current : curve.current_A) current += 2e-3 * random.Normal();
+  const auto report = Fit(curve, Quick());
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->not_usable_because, "");
+}
+
+TEST(UsableTest, ADarkCurveHasNoKeyPoints) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 1;
+  for (int k = 0; k <= 60; ++k) curve.voltage_V.push_back(-0.2 + 0.05 * k);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const std::vector<double> truth = {0, 1e-18, 1.9, 5, 1e6};
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  RandomStream random(4);
+  for (double& current : curve.current_A) current += 1e-5 * random.Normal() - 1e-6;
+  const auto report = Fit(curve, Quick());
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->usable);
+  EXPECT_NEAR(report->refined[2], 1.9, 0.1);
+  for (const KeyPoints& key : {report->measured, report->simulated}) {
+    EXPECT_TRUE(std::isnan(key.open_circuit_voltage_V) && std::isnan(key.max_power_W));
+  }
+  for (const std::string& warning : report->warnings) {
+    EXPECT_EQ(warning.find("does not reach"), std::string::npos) << warning;
+  }
+}
+
 TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {
   for (const Intervals method : {Intervals::kProfile, Intervals::kSymmetric, Intervals::kNone}) {
     FitOptions options = Quick();

@@ -96,6 +96,26 @@ TEST(FindProfileSide, EndsWhereTheRefittedSumOfSquaresReachesItsThreshold) {
   }
 }
 
+// With the diodes exchanged, each n would be as good at the other's value.
+TEST(FindProfileSide, KeepsAlikeDiodesInTheirOrder) {
+  const RefineProblem problem = ModuleProblem(Model::kDoubleDiode, Model::kDoubleDiode,
+                                              kDoubleTruth, 1e-4, Objective::kSolvedCurrent);
+  const RefineEnd best = Refine(problem, kDoubleTruth);
+  ASSERT_LT(best.p[IdealityIndex(0)], best.p[IdealityIndex(1)]);
+  const int degrees = 33;
+  const Spread spread = SpreadOf(problem, best, degrees);
+  for (const bool second : {false, true}) {
+    const int i = IdealityIndex(second ? 1 : 0);
+    const ProfileSide side = FindProfileSide(
+        problem, best,
+        {i, /*upper=*/!second, 2.03, VarianceOf(problem, best, degrees), spread.standard_error[i]});
+    EXPECT_FALSE(side.at_bound);
+    EXPECT_LT(std::fabs(side.value - best.p[i]), 6 * spread.standard_error[i]);
+    EXPECT_TRUE(second ? side.value > best.p[IdealityIndex(0)]
+                       : side.value < best.p[IdealityIndex(1)]);
+  }
+}
+
 TEST(FindProfileSide, StopsAtTheBoundWhereTheDataDoNotObject) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kDoubleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);

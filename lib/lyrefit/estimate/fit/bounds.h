@@ -13,10 +13,10 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // Box of the search.
-//   physical     derived from the curve: Iph up to twice the largest current, n in [1, 2] or, of a
-//                stated thin film, in [1, 6], Is on a logarithmic scale around the value that Voc
-//                implies, Rs and Rsh from the characteristic resistance V_max / I_max. Is may be 0,
-//                Rsh practically infinite.
+//   physical     derived from the curve: Iph up to twice the largest delivered current; n in [1, 2],
+//                of a stated thin film in [1, 6], of one diode in the dark in [0.5, 10]; Is about
+//                the value that Voc implies, in the dark up to the forward current; Rs and Rsh from
+//                V_max / I_max, without breakdown. Is may be 0, Rsh practically infinite.
 //   wide         as physical, but n in [0.5, 10]: wrong temperature or cell count, unusual devices
 //   a table      symbol -> [lower, upper], as published: linear in every parameter. "Is" and "n"
 //                hold for every diode unless "Is1", "n2" ... are given.

@@ -52,6 +52,8 @@ struct DataSheetRequest {
   std::string gamma;
   std::string name;
   std::string technology;
+  std::optional<double> EgRef_eV;
+  std::optional<double> dEgdT_1_K;
   int cells = 1;
   bool exact = false;
   ConstantSet constants = ConstantSet::kCodata;
@@ -74,11 +76,18 @@ inline constexpr OptionRow<DataSheetRequest> kDataSheetTable[] = {
      &Request::gamma},
     {"cells", "N", "cells in series", &Request::cells, 1, 100000,
      OptionTrait::kQuiet | OptionTrait::kNoDefault},
+    {"technology", "NAME",
+     "of the cells, which sets the band gap: c-Si, HJT, CdTe, CIGS, a-Si, GaAs, perovskite, ...",
+     &Request::technology},
+    {"EgRef", "eV",
+     "band gap at 25 C of De Soto's law (default: of the technology, 1.121 of silicon)",
+     &Request::EgRef_eV, 0.3, 3.0, OptionTrait::kNoDefault},
+    {"dEgdT", "1/K", "its slope with temperature, relative to it", &Request::dEgdT_1_K, -0.01, 0.01,
+     OptionTrait::kNoDefault},
     {"exact", "", "the values are not rounded to the digits given", &Request::exact},
     {"constants", "NAME", "values of k and q", EnumOption<&Request::constants>()},
     OptionRow<Request>("Output"),
     {"name", "TEXT", "of the module, for pvlib (default module)", &Request::name},
-    {"technology", "TEXT", "of the module, for pvlib: Mono-c-Si", &Request::technology},
 };
 
 // The flags of printed values.
@@ -152,7 +161,9 @@ Expected<ModuleSheet> Sheet(const VerbLine& verb, const DataSheetRequest& reques
   if (sheet.cells_in_series == 0) return tl::unexpected(Missing(request, "--cells"));
   if (request.exact) sheet.half_unit = DataSheetValues();
   if (!request.name.empty()) module.name = request.name;
-  if (!request.technology.empty()) module.technology = request.technology;
+  if (!request.technology.empty()) sheet.technology = request.technology;
+  if (request.EgRef_eV) sheet.EgRef_eV = request.EgRef_eV;
+  if (request.dEgdT_1_K) sheet.dEgdT_1_K = request.dEgdT_1_K;
   if (module.name.empty()) module.name = "module";
   if (request.gamma.empty()) return module;
   TRY(const PrintedValue gamma, ParsePrinted("--gamma", request.gamma));
@@ -162,7 +173,7 @@ Expected<ModuleSheet> Sheet(const VerbLine& verb, const DataSheetRequest& reques
 
 Expected<std::string> PvlibText(const ModuleSheet& module, const DataSheetFit& fit) {
   TRY(const auto keywords, PvlibParameters(fit.translation, fit.shared));
-  const auto row = CecRow(fit.translation, fit.shared, module.name, module.technology);
+  const auto row = CecRow(fit.translation, fit.shared, module.name, module.sheet.technology);
   return PvlibJson(module.name, fit.translation.spec.law, keywords, row);
 }
 
@@ -170,11 +181,12 @@ Expected<int> RunDataSheet(VerbLine& verb, DataSheetRequest& request) {
   TRY(verb.CheckFiles());
   TRY(const ModuleSheet module, Sheet(verb, request));
   TRY(DataSheetFit fit, FitDataSheet(module.sheet, request.constants));
-  if (IsThinFilm(module.technology)) {
-    fit.warnings.push_back(
-        fmt::format("the sheet is of {}, the law's band gap of 1.121 eV of silicon: beta_oc picks "
-                    "another device than it would with the right one",
-                    module.technology));
+  for (const std::string& assumption : module.assumptions) fit.warnings.push_back(assumption);
+  if (module.has_model && !(fit.Solved() && fit.usual)) {
+    fit.warnings.push_back(fmt::format(
+        "the file states a device of its own, with its series and shunt resistance and ideality: "
+        "lyrefit simulate --from '{}' takes that",
+        request.file));
   }
   TRY(WriteWanted(request.output.json_file, [&] { return DataSheetJson(fit); }));
   TRY(WriteWanted(request.output.csv_file, [&] { return DataSheetCsv(fit); }));

@@ -42,12 +42,20 @@ Record RecordOf(const SolvedSheet& found) {
 struct SheetOptions {
   std::string name = "module";
   std::string technology;
+  std::optional<double> EgRef_eV;
+  std::optional<double> dEgdT_1_K;
   ConstantSet constants = ConstantSet::kCodata;
 };
 constexpr OptionRow<SheetOptions> kSheetTable[] = {
     {"constants", "NAME", "values of k and q", EnumOption<&SheetOptions::constants>()},
     {"name", "TEXT", "of the module, for pvlib", &SheetOptions::name},
-    {"technology", "TEXT", "of the module, for pvlib: Mono-c-Si", &SheetOptions::technology},
+    {"technology", "NAME",
+     "of the cells, which sets the band gap: Mono-c-Si, CdTe, CIGS, GaAs, ...",
+     &SheetOptions::technology},
+    {"EgRef", "eV", "band gap at 25 C of De Soto's law; else that of the technology",
+     &SheetOptions::EgRef_eV, 0.3, 3.0, OptionTrait::kNoDefault},
+    {"dEgdT", "1/K", "its slope with temperature, relative to it", &SheetOptions::dEgdT_1_K, -0.01,
+     0.01, OptionTrait::kNoDefault},
 };
 
 class DataSheetResult : public Result {
@@ -97,6 +105,9 @@ DataSheetResult FitSheet(py::handle v_mp, py::handle i_mp, py::handle v_oc, py::
   SheetOptions options;
   keywords.Read(kSheetTable, &options);
   keywords.Finish();
+  sheet.technology = options.technology;
+  sheet.EgRef_eV = options.EgRef_eV;
+  sheet.dEgdT_1_K = options.dEgdT_1_K;
   DataSheetFit fit = Must(FitDataSheet(sheet, options.constants));
   WarnUnlessUsable(fit.Solved(), {});
   return {std::make_shared<const DataSheetFit>(std::move(fit)), std::move(options)};

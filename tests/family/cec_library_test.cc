@@ -83,7 +83,7 @@ TEST(ReadModule, TakesBackACecRow) {
   const auto sheet = ReadModuleSheet(folder.Write("module.json", text));
   ASSERT_TRUE(sheet) << sheet.error().ToString();
   EXPECT_EQ(sheet->name, "A module");
-  EXPECT_EQ(sheet->technology, "Mono-c-Si");
+  EXPECT_EQ(sheet->sheet.technology, "Mono-c-Si");
   EXPECT_EQ(sheet->sheet.cells_in_series, 60);
   EXPECT_EQ(sheet->sheet.values.alpha_sc_A_K, 0.0046);
   nlohmann::json bare = nlohmann::json::parse(text)["cec"];
@@ -101,7 +101,7 @@ TEST(ReadModule, TakesBackACecRow) {
 TEST(ReadCecSheet, RepeatsTheDataSheet) {
   const auto module = ReadModuleSheet(kLibrary + "#Invented I-304 M60");
   ASSERT_TRUE(module) << module.error().ToString();
-  EXPECT_EQ(module->technology, "Mono-c-Si");
+  EXPECT_EQ(module->sheet.technology, "Mono-c-Si");
   EXPECT_EQ(module->rated_power_W, 304.2);
   EXPECT_EQ(module->sheet.values.alpha_sc_A_K, 0.00487);  // without Adjust
   EXPECT_EQ(module->sheet.values.beta_oc_V_K, -0.1225);

@@ -181,7 +181,7 @@ TEST(ReadPanSheet, RepeatsTheValuesAndTheirRounding) {
   const auto module = ReadModuleSheet(kInvented);
   ASSERT_TRUE(module) << module.error().ToString();
   EXPECT_EQ(module->name, "Invented I-304 M60");
-  EXPECT_EQ(module->technology, "mtSiMono");
+  EXPECT_EQ(module->sheet.technology, "mtSiMono");
   EXPECT_EQ(module->rated_power_W, 304);
   const DataSheet& sheet = module->sheet;
   EXPECT_EQ(sheet.cells_in_series, 60);
@@ -194,7 +194,13 @@ TEST(ReadPanSheet, RepeatsTheValuesAndTheirRounding) {
   EXPECT_EQ(sheet.gamma_pmp_percent_K, -0.362);
   const auto thin = ReadPanSheet(kThinPan.Text(), "thin.PAN");
   ASSERT_TRUE(thin) << thin.error().ToString();
-  EXPECT_TRUE(std::isnan(thin->sheet.values.beta_oc_V_K));  // 0: not stated
+  // muVocSpec is 0, not stated: beta_oc is that of the file's own model.
+  const auto model = ReadPanParameters(kThinPan.Text(), "thin.PAN");
+  ASSERT_TRUE(model) << model.error().ToString();
+  EXPECT_EQ(thin->sheet.values.beta_oc_V_K,
+            CoefficientsAtReference(model->translation, model->shared).beta_oc_V_K);
+  EXPECT_LT(thin->sheet.values.beta_oc_V_K, 0);
+  EXPECT_THAT(thin->assumptions, ::testing::ElementsAre(HasSubstr("muVocSpec is not stated")));
 }
 
 }  // namespace

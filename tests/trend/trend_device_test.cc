@@ -181,10 +181,10 @@ TEST(SeriesOfSweeps, SaysWhatToRunOnFewSweepsThatEndBelowOpenCircuit) {
     sweep.curve.current_A.push_back(5 - 0.01 * k);
   }
   const std::vector<TimedSweep> few(3, sweep);
-  EXPECT_THAT(MessageOf(SeriesOfSweeps(few, {})),
-              AllOf(StartsWith("expected sweeps from 0 V to open circuit"),
-                    HasSubstr("at 5 times or more, found 3; "),
-                    HasSubstr("lyrefit fit FILES --csv")));
+  EXPECT_THAT(
+      MessageOf(SeriesOfSweeps(few, {})),
+      AllOf(StartsWith("expected sweeps from 0 V to open circuit"),
+            HasSubstr("at 5 times or more, found 3; "), HasSubstr("lyrefit fit FILES --csv")));
   EXPECT_THAT(MessageOf(SeriesOfSweeps(std::vector<TimedSweep>(30, sweep), {})),
               StartsWith("expected sweeps from 0 V to open circuit"));
 }
@@ -193,7 +193,8 @@ TEST(DeviceOfSweeps, NeedsASweepWithItsConditions) {
   const TrendDevice device = MadeDevice();
   IvCurve curve = MadeSweep(device, MadeState(device, 700, 45), 700, 45);
   curve.irradiance_known = false;
-  EXPECT_THAT(MessageOf(DeviceOfSweeps({&curve})), HasSubstr("with their irradiance and temperature"));
+  EXPECT_THAT(MessageOf(DeviceOfSweeps({&curve})),
+              HasSubstr("with their irradiance and temperature"));
   EXPECT_THAT(MessageOf(DeviceOfSweeps({})), HasSubstr("found none"));
 }
 

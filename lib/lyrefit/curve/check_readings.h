@@ -13,7 +13,8 @@ namespace LYREFIT_PUBLIC lyrefit {
 // better than the device.
 struct ReadingFinding {
   std::string id;           // "overflow", "nothing", "sign", "exchanged", "unit", "light", "cells",
-                            // "current", "shape", "temperature", "limit", "head"
+                            // "technology", "current", "efficiency", "shape", "temperature",
+                            // "limit", "head"
   std::string sentence;     // what was found and what to do; no full stop
   bool refuse = false;      // false: a doubt; the readings can be used
   std::vector<int> points;  // positions in the curve; empty: all points
@@ -30,7 +31,9 @@ struct ReadingFinding {
 //              string or 20 kV in any unit
 //   light      a stated irradiance near 0 although the device delivers current
 //   cells      an open-circuit voltage below 0.2 or above 1.6 V a cell, under light
-//   current, shape, temperature   magnitudes that no device has: see CheckPlausibility
+//   technology an open-circuit voltage above that of a cell of the stated technology; of silicon for
+//              a module and a cell of some ampere of which none is stated
+//   current, efficiency, shape, temperature   magnitudes that no device has: see CheckPlausibility
 //   limit      equal readings at an end of the curve where those of a device would differ
 //   head       no temperature is known, but a line of the head speaks of one
 // Real curves have no findings, including dark, coarse, noisy and shaded ones.

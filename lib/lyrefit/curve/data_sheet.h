@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "lyrefit/base/public.h"
 
@@ -25,6 +26,11 @@ struct DataSheet {
   DataSheetValues half_unit;
   std::optional<double> gamma_pmp_percent_K;  // of Pmp; only compared with the result
   int cells_in_series = 1;
+  std::string technology;  // "Mono-c-Si", "mtCdTe", "CIGS"; empty: not stated
+  // Of De Soto's law: the band gap at 25 C and its relative slope; unset: those of the technology,
+  // and silicon's where that is not known.
+  std::optional<double> EgRef_eV;
+  std::optional<double> dEgdT_1_K;
 };
 
 }  // namespace lyrefit

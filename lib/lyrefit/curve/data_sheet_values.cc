@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
+
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/technology.h"
 
 namespace lyrefit {
 namespace {
@@ -24,12 +27,42 @@ Expected<void> CheckAlpha(const DataSheetValues& v) {
 
 Expected<void> CheckBeta(const DataSheetValues& v) {
   const double relative = v.beta_oc_V_K / v.open_circuit_voltage_V;
+  if (v.beta_oc_V_K > 0 && v.alpha_sc_A_K < 0) {
+    return Fail(fmt::format(
+        "expected a negative beta_oc in V/K and an alpha_sc around 0.05 % of Isc, found {} and {}: "
+        "were alpha and beta exchanged?",
+        v.beta_oc_V_K, v.alpha_sc_A_K));
+  }
   if (!(relative < 0) || relative < -kLargestRelativeBeta_1_K) {
     return Fail(fmt::format(
         "expected a negative beta_oc in V/K, found {} beside a Voc of {} V: is it in percent?",
         v.beta_oc_V_K, v.open_circuit_voltage_V));
   }
   return {};
+}
+
+// "66 or 72": usual numbers of cells that bring Voc to what a silicon cell has.
+std::string LikelyNumbers(double voc_V) {
+  constexpr double kLeast_V = 0.58, kMost_V = 0.75;
+  std::string numbers;
+  for (const int cells : {36, 48, 54, 60, 66, 72, 78, 96, 108, 120, 132, 144}) {
+    if (!(voc_V / cells > kLeast_V && voc_V / cells < kMost_V)) continue;
+    numbers += (numbers.empty() ? "" : " or ") + std::to_string(cells);
+  }
+  return numbers;
+}
+
+Expected<void> CheckCurrentOfCell(const DataSheet& sheet) {
+  // The largest wafers, of 441 cm2, give 20 A and 12 W.
+  constexpr double kMost_A = 30, kMostOfCell_W = 15;
+  const DataSheetValues& v = sheet.values;
+  const double cell_W = v.max_power_current_A * v.max_power_voltage_V / sheet.cells_in_series;
+  if (v.short_circuit_current_A <= kMost_A && cell_W <= kMostOfCell_W) return {};
+  return Fail(fmt::format(
+      "Isc of {:g} A and {:.3g} W a cell are more than any cell gives (20 A, 12 W): milliampere? "
+      "write --isc {:g} --imp {:g} then; or is the number of cells ({}) another?",
+      v.short_circuit_current_A, cell_W, v.short_circuit_current_A / 1000,
+      v.max_power_current_A / 1000, sheet.cells_in_series));
 }
 
 Expected<void> CheckNumber(const DataSheet& sheet, const DataSheetRow& row) {
@@ -70,6 +103,37 @@ Expected<void> CheckDataSheetForFamily(const DataSheet& sheet) {
   }
   TRY(CheckDataSheetPoints(sheet.values));
   return CheckAlpha(sheet.values);
+}
+
+int JunctionsOfSheet(const DataSheet& sheet) {
+  const Technology* const known = FindTechnology(sheet.technology);
+  if (known == nullptr) return 1;
+  const double cell_V = sheet.values.open_circuit_voltage_V / sheet.cells_in_series;
+  return cell_V > known->most_Voc_V / known->junctions ? known->junctions : 1;
+}
+
+Expected<void> CheckSheetOfMaterial(const DataSheet& sheet) {
+  const Technology* const known = FindTechnology(sheet.technology);
+  const Technology& of = known != nullptr ? *known : Silicon();
+  const double voc = sheet.values.open_circuit_voltage_V, cell_V = voc / sheet.cells_in_series;
+  const double most_V = sheet.EgRef_eV ? *sheet.EgRef_eV * of.junctions : of.most_Voc_V;
+  if (cell_V <= most_V) return CheckCurrentOfCell(sheet);
+  const std::string found = fmt::format("Voc of {:g} V is {:.3g} V for each of {} cells", voc,
+                                        cell_V, sheet.cells_in_series);
+  if (sheet.EgRef_eV) {
+    return Fail(
+        fmt::format("{}, more than the stated band gap of {:g} eV allows: is the number of "
+                    "cells (--cells) right?",
+                    found, *sheet.EgRef_eV));
+  }
+  const std::string likely = LikelyNumbers(voc);
+  const std::string cells =
+      "--cells" + (likely.empty() || !of.silicon ? "" : " " + likely + " of silicon?");
+  return Fail(fmt::format(
+      "{}, more than {} gives at one sun ({:.2f} V){}: state the number of cells ({}), the "
+      "technology (--technology CdTe, GaAs, perovskite, ...) or its band gap (--EgRef)",
+      found, known != nullptr ? known->name : "silicon", of.most_Voc_V,
+      known != nullptr ? "" : ", and no technology is stated", cells));
 }
 
 Expected<void> CheckDataSheet(const DataSheet& sheet) {

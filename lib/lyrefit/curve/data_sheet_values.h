@@ -28,6 +28,14 @@ Expected<void> CheckDataSheetPoints(const DataSheetValues& v);
 // of cells.
 Expected<void> CheckDataSheetForFamily(const DataSheet& sheet);
 
+// Junctions in each of the cells that a sheet counts: 1 where those of a stack are counted as cells.
+int JunctionsOfSheet(const DataSheet& sheet);
+
+// Checks current and voltage against what a cell of the sheet's technology gives under one sun.
+// Errors: a current in milliampere; a voltage a cell above that of the technology, of silicon where
+// none is stated. A stated band gap stands for any voltage below it.
+Expected<void> CheckSheetOfMaterial(const DataSheet& sheet);
+
 // Checks all values: CheckDataSheetForFamily, and the size and sign of beta_oc and the roundings.
 Expected<void> CheckDataSheet(const DataSheet& sheet);
 

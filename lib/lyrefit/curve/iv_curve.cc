@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string_view>
 
-#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -47,30 +44,7 @@ Expected<void> CheckConditions(const Conditions& conditions) {
   return {};
 }
 
-template <std::size_t N>
-bool HasAny(const std::string& word, const std::string_view (&parts)[N]) {
-  return std::any_of(std::begin(parts), std::end(parts), [&](const std::string_view part) {
-    return word.find(part) != std::string::npos;
-  });
-}
-
 }  // namespace
-
-bool IsThinFilm(const std::string& technology) {
-  constexpr std::string_view kHetero[] = {"hit", "hjt", "heterojunction"};  // wafers
-  constexpr std::string_view kThin[] = {"cdte",    "cadmium",   "cigs",  "cis", "copper indium",
-                                        "a-si",    "amorphous", "thin",  "opv", "perovskite",
-                                        "organic", "dye",       "tandem"};
-  const std::string word = LowerCase(technology);
-  return !HasAny(word, kHetero) && HasAny(word, kThin);
-}
-
-int JunctionsPerCell(const std::string& technology) {
-  constexpr std::string_view kThree[] = {"trip"};
-  constexpr std::string_view kTwo[] = {"tandem", "micromorph", "ucsi_asi", "two-junction"};
-  const std::string word = LowerCase(technology);
-  return HasAny(word, kThree) ? 3 : HasAny(word, kTwo) ? 2 : 1;
-}
 
 void TakeKeyPoints(const KeyPoints& points, IvCurve* curve) {
   const auto add = [curve](double voltage_V, double current_A) {

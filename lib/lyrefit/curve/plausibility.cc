@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "lyrefit/base/largest.h"
 #include "lyrefit/curve/key_points.h"
+#include "lyrefit/curve/technology.h"
 
 namespace lyrefit {
 namespace {
@@ -16,8 +18,17 @@ constexpr double kStandard_W_m2 = 1000;
 constexpr double kLeastLight_W_m2 = 10;
 // The largest cells deliver about 20 A, and the strings of a combiner box are rarely all stated.
 constexpr double kMostOfString_A = 100;
-// Current density of all photons of AM1.5G down to 0.3 eV.
-constexpr double kMostDensity_mA_cm2 = 70;
+// Current densities of all photons of AM1.5G above a gap (Ruehle 2016,
+// doi:10.1016/j.solener.2016.02.015). Areas and spectra are rarely known to better than a fifth.
+constexpr struct {
+  double gap_eV;
+  double density_mA_cm2;
+} kPhotons[] = {{0.3, 70}, {0.66, 60}, {1.0, 48}, {1.12, 44}, {1.42, 32}, {1.75, 21}, {2.3, 9}};
+constexpr double kDensityTolerance = 1.2;
+// Limits of one junction and of three under one sun, and of both under concentration (de Vos 1980,
+// doi:10.1088/0022-3727/13/5/018; Ruehle).
+constexpr double kMostOfJunction = 0.337, kMostOfStack = 0.5;
+constexpr double kMostOfJunctionConcentrated = 0.41, kMostOfStackConcentrated = 0.64;
 constexpr double kLeastOfModule_A = 0.02;
 constexpr int kCellsOfModule = 30;
 constexpr double kLeastLightOfModule_W_m2 = 100;  // excludes dusk
@@ -64,15 +75,31 @@ std::string TooMuchOfString(const IvCurve& curve, double isc_A) {
       *light != '\0' ? light : "or strings in parallel that nobody stated");
 }
 
+// All photons for no known technology; those of several junctions in series share them.
+double MostDensity_mA_cm2(const std::string& technology) {
+  const Technology* const known = FindTechnology(technology);
+  if (known == nullptr) return kPhotons[0].density_mA_cm2;
+  if (known->junctions > 1) return kPhotons[0].density_mA_cm2 / known->junctions;
+  for (std::size_t k = 1; k < std::size(kPhotons); ++k) {
+    const auto &from = kPhotons[k - 1], &to = kPhotons[k];
+    if (known->bandgap_eV > to.gap_eV) continue;
+    const double part = (known->bandgap_eV - from.gap_eV) / (to.gap_eV - from.gap_eV);
+    return kDensityTolerance *
+           (from.density_mA_cm2 + part * (to.density_mA_cm2 - from.density_mA_cm2));
+  }
+  return kPhotons[0].density_mA_cm2;
+}
+
 std::string TooMuchOfArea(const IvCurve& curve, double isc_A) {
   if (!curve.notes.area_cm2 || !(*curve.notes.area_cm2 > 0)) return "";
   const double density_mA_cm2 =
       1e3 * isc_A / curve.conditions.strings_in_parallel / *curve.notes.area_cm2;
-  if (!(density_mA_cm2 > kMostDensity_mA_cm2 * LightOf(curve))) return "";
+  const double most_mA_cm2 = MostDensity_mA_cm2(curve.notes.technology);
+  if (!(density_mA_cm2 > most_mA_cm2 * LightOf(curve))) return "";
   return fmt::format(
       "Isc of {:.4g} A from cells of {:.4g} cm2 is {:.4g} mA/cm2{}, more than sunlight gives "
-      "({:g} mA/cm2 at 1000 W/m2): other units than were read, or the area of another device",
-      isc_A, *curve.notes.area_cm2, density_mA_cm2, AtLight(curve), kMostDensity_mA_cm2);
+      "({:.3g} mA/cm2 at 1000 W/m2): other units than were read, or the area of another device",
+      isc_A, *curve.notes.area_cm2, density_mA_cm2, AtLight(curve), most_mA_cm2);
 }
 
 std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
@@ -85,6 +112,27 @@ std::string TooLittleOfModule(const IvCurve& curve, double isc_A) {
       "Isc of {:.4g} A{} is less than a module of {} cells gives: other units than were read "
       "(ampere written as milliampere?), or a module in the shade",
       isc_A, AtLight(curve), at.cells_in_series);
+}
+
+// The power of a cell over the light on it. The limit of a junction holds where one is stated.
+std::string TooEfficient(const IvCurve& curve, const KeyPoints& key) {
+  constexpr double kConcentrated = 2;
+  if (!curve.notes.area_cm2 || !(*curve.notes.area_cm2 > 0)) return "";
+  const Conditions& at = curve.conditions;
+  const double light_W = kStandard_W_m2 * LightOf(curve) * 1e-4 * *curve.notes.area_cm2;
+  const double part = key.max_power_W / (light_W * at.cells_in_series * at.strings_in_parallel);
+  const Technology* const known = FindTechnology(curve.notes.technology);
+  const bool one = known != nullptr && known->junctions == 1;
+  const double most = LightOf(curve) > kConcentrated
+                          ? (one ? kMostOfJunctionConcentrated : kMostOfStackConcentrated)
+                          : (one ? kMostOfJunction : kMostOfStack);
+  if (!(part > most)) return "";
+  return fmt::format(
+      "{:.4g} W from {:.4g} cm2 a cell are {:.3g} % of the light{}, more than {} can give ({:.3g} "
+      "%): other units than were read, other light, or the area of another device",
+      key.max_power_W, *curve.notes.area_cm2, 100 * part,
+      curve.irradiance_known ? AtLight(curve) : " at the assumed 1000 W/m2",
+      one ? "one junction" : "cells of three junctions", 100 * most);
 }
 
 // Checks the fill factor of the readings themselves: a parabola through few readings may exceed
@@ -147,6 +195,8 @@ std::vector<ReadingFinding> CheckPlausibility(const IvCurve& curve) {
   if (current.empty()) current = TooMuchOfArea(curve, isc_A);
   if (current.empty()) current = TooLittleOfModule(curve, isc_A);
   if (!current.empty()) findings.push_back({"current", current, false, {}});
+  const std::string efficient = isc_A > 0 && current.empty() ? TooEfficient(curve, key) : "";
+  if (!efficient.empty()) findings.push_back({"efficiency", efficient, false, {}});
   const std::string shape = isc_A > 0 ? OddShape(curve, key) : "";
   if (!shape.empty()) findings.push_back({"shape", shape, false, {}});
   const std::string hot = isc_A > 0 ? TooHotForModule(curve) : "";
@@ -159,9 +209,13 @@ std::optional<std::string> PlausibilityProblem(const IvCurve& curve,
   if (rated_power_W) {
     if (auto why = ImplausiblePower(curve, *rated_power_W)) return why;
   }
-  std::vector<ReadingFinding> findings = CheckPlausibility(curve);
-  if (findings.empty()) return std::nullopt;
-  return findings.front().sentence;
+  for (const ReadingFinding& finding : CheckReadings(curve)) {
+    for (const char* const id : {"sign", "exchanged", "unit", "light", "technology", "current",
+                                 "efficiency", "shape", "temperature"}) {
+      if (finding.id == id) return finding.sentence;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace lyrefit

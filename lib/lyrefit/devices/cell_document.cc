@@ -25,11 +25,13 @@ std::vector<std::string> DoubtsOf(const CellReport& report) {
 }
 
 std::string SweepPower(const CellReport& report, const CellSweep& sweep) {
-  if (KnowsArea(report) && std::isfinite(sweep.efficiency)) {
-    return fmt::format("efficiency {} (Jsc {} mA/cm2, Voc {} V, FF {})",
-                       PercentText(sweep.efficiency), Significant(sweep.jsc_mA_cm2, 4),
-                       Significant(sweep.key.open_circuit_voltage_V, 4),
-                       PercentText(sweep.key.fill_factor));
+  if (KnowsArea(report) && sweep.doubt.empty()) {
+    const std::string efficiency = sweep.no_efficiency_because.empty()
+                                       ? "efficiency " + PercentText(sweep.efficiency)
+                                       : "no efficiency, since the light is not known";
+    return fmt::format(
+        "{} (Jsc {} mA/cm2, Voc {} V, FF {})", efficiency, Significant(sweep.jsc_mA_cm2, 4),
+        Significant(sweep.key.open_circuit_voltage_V, 4), PercentText(sweep.key.fill_factor));
   }
   return fmt::format("Pmp {} W (Isc {} A, Voc {} V, FF {})", Significant(sweep.key.max_power_W, 4),
                      Significant(sweep.key.short_circuit_current_A, 4),

@@ -67,8 +67,10 @@ struct CellSweep {
   int limited = 0;                // readings left out at a limit of the current
   KeyPoints key = {};             // of a lit sweep, read off the readings
   std::string doubt;              // why current or area are of no cell (CheckReadings); empty: none
-  double jsc_mA_cm2 = kUnknown;   // Isc / area; NaN where there is a doubt
-  double efficiency = kUnknown;   // Pmp / (irradiance x area); NaN where there is a doubt
+  bool refused = false;           // the doubt allows no figures of the sweep
+  std::string no_efficiency_because;        // the light is not known; empty: it is
+  double jsc_mA_cm2 = kUnknown;             // Isc / area; NaN where there is a doubt
+  double efficiency = kUnknown;             // Pmp / (irradiance x area); NaN where there is a doubt
   double resistance_at_isc_ohm = kUnknown;  // -dV/dI at 0 V
   double resistance_at_voc_ohm = kUnknown;  // -dV/dI at Voc
   // Least ratio of the slope -dI/dV to a larger one at a lower voltage, from 0.3 to 1.1 Voc past the

@@ -9,6 +9,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/devices/family_of_sheet.h"
 #include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/family/key_point_solver.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int kSolvedValues = 5;  // alpha_sc is copied from the sheet, not solved for
 constexpr std::size_t kRangeOfIdeality = 2;
-constexpr double kLowestUsualIdeality = 0.5;
+constexpr double kLowestUsualIdeality = 0.9;  // of a junction, with the rounding of beta_oc
 constexpr double kHighestUsualIdeality = 2.5;
 
 // Adds the printed values beside the values of the fitted device.
@@ -75,9 +76,11 @@ bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit)
   for (const DataSheetValues& corner : corners) {
     const bool possible = CheckDataSheetPoints(corner).has_value();
     const auto solution =
-        possible ? SolveKeyPoints(corner, sheet.cells_in_series, constants) : std::nullopt;
+        possible ? SolveKeyPoints(corner, sheet.cells_in_series, GapOf(sheet), constants)
+                 : std::nullopt;
     all = all && solution && solution->border == Border::kNone;
-    if (solution) solutions.push_back(SharedOf(at, solution->device, corner.alpha_sc_A_K));
+    if (solution)
+      solutions.push_back(SharedOf(at, solution->device, corner.alpha_sc_A_K, GapOf(sheet)));
   }
   for (const int k :
        {at.photocurrent, at.saturation_current, at.n, at.resistance_series, at.resistance_shunt}) {
@@ -91,7 +94,55 @@ bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit)
   return all;
 }
 
-void WarnOfTheSolution(const KeyPointSolution& solution, DataSheetFit* fit) {
+// "the band gap 1.121 eV (assumed, that of silicon; another technology may have the values: state
+// it, or its gap)"
+std::string GapText(const DataSheet& sheet) {
+  const std::string gap = fmt::format("the band gap {:g} eV", GapOf(sheet).eV);
+  if (sheet.EgRef_eV) return gap;
+  const Technology* const known = FindTechnology(sheet.technology);
+  if (known != nullptr) return fmt::format("{} ({})", gap, known->name);
+  return gap +
+         " (assumed, that of silicon; another technology may have the values: state it with "
+         "--technology, or its gap with --EgRef)";
+}
+
+// n of the device against that of a junction, which ties Voc, beta_oc, the gap and the number of
+// cells to each other: beta_oc = Ns (Voc/Ns - n (Eg(0 K) + 3 k T)) / T. False if it is none of a
+// junction.
+bool WarnOfTheDevice(const DataSheet& sheet, DataSheetFit* fit) {
+  constexpr double kGammaMissed = 0.3;  // the law misses that of sound sheets by 15 % at most
+  const Translation& at = fit->translation;
+  const BandGap gap = GapOf(sheet);
+  const int cells = sheet.cells_in_series;
+  const double voc = sheet.values.open_circuit_voltage_V,
+               thermal_V = at.device.module_thermal_voltage_V;
+  const double gap_V = cells * gap.eV * (1 - kReferenceTemperature_K * gap.slope_1_K);
+  const int junctions = JunctionsOfSheet(sheet);
+  const double n = fit->shared[at.n] / junctions;
+  const bool usual = n >= kLowestUsualIdeality && n <= kHighestUsualIdeality;
+  if (!usual) {
+    const double of_one = (voc - junctions * (gap_V + 3 * thermal_V)) / kReferenceTemperature_K;
+    const double percent = 100 / voc;
+    fit->warnings.push_back(fmt::format(
+        "n = {:.3g} is {} that of any junction: at {:.3g} V a cell n = 1 and {} give a beta_oc of "
+        "{:.3g} %/K, the sheet says {:.3g}; are beta_oc, the number of cells ({}) and the "
+        "technology "
+        "as stated?",
+        fit->shared[at.n], n < 1 ? "below" : "far above", voc / cells, GapText(sheet),
+        percent * of_one, percent * sheet.values.beta_oc_V_K, cells));
+  }
+  const DataSheetCheck& gamma = fit->checks.back();
+  if (sheet.gamma_pmp_percent_K && !(std::fabs(gamma.given / gamma.asked - 1) < kGammaMissed)) {
+    fit->warnings.push_back(fmt::format(
+        "the device has a gamma_pmp of {:.3g} %/K, the sheet says {:.3g}: not all of its "
+        "coefficients are of one module, or the band gap is of another technology",
+        gamma.given, gamma.asked));
+  }
+  return usual;
+}
+
+void WarnOfTheSolution(const DataSheet& sheet, const KeyPointSolution& solution,
+                       DataSheetFit* fit) {
   const DataSheetCheck& beta = fit->checks[kSolvedValues - 1];
   const char* reason = "";
   if (solution.border == Border::kNoSeriesResistance)
@@ -101,19 +152,14 @@ void WarnOfTheSolution(const KeyPointSolution& solution, DataSheetFit* fit) {
   if (solution.border == Border::kIdeality) reason = "no ideality of the diode gives that beta_oc";
   if (solution.border != Border::kNone) {
     fit->warnings.push_back(fmt::format(
-        "no physical single diode has all these values: {}; the curve at 25 C is kept, and beta_oc "
-        "comes out as {:.4g} V/K instead of {:.4g}",
-        reason, beta.given, beta.asked));
+        "no physical single diode of {} has all these values: {}; the curve at 25 C is kept, and "
+        "beta_oc comes out as {:.4g} V/K instead of {:.4g}",
+        GapText(sheet), reason, beta.given, beta.asked));
   }
   if (solution.solutions > 1) {
     fit->warnings.push_back(
         fmt::format("{} devices have all these values: the one with n closest to 1.2 was taken",
                     solution.solutions));
-  }
-  if (solution.device.n < kLowestUsualIdeality || solution.device.n > kHighestUsualIdeality) {
-    fit->warnings.push_back(fmt::format(
-        "n = {:.3g} is far from that of any diode: is {} the number of cells in series?",
-        solution.device.n, fit->translation.spec.cells_in_series));
   }
 }
 
@@ -154,16 +200,20 @@ Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole) {
 }
 
 std::vector<double> SharedOf(const DataSheetFit& fit, const DataSheetMember& member) {
-  return SharedOf(fit.translation, DeviceOf(member), fit.shared[fit.translation.alpha_sc]);
+  const Translation& at = fit.translation;
+  return SharedOf(at, DeviceOf(member), fit.shared[at.alpha_sc],
+                  {fit.shared[at.bandgap], fit.shared[at.bandgap_slope]});
 }
 
 Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constants) {
   TRY(CheckDataSheet(sheet));
+  TRY(CheckSheetOfMaterial(sheet));
   TranslationSpec spec;
   spec.cells_in_series = sheet.cells_in_series;
   spec.constants = constants;
   TRY(Translation translation, MakeTranslation(spec));
-  const auto solution = SolveKeyPoints(sheet.values, sheet.cells_in_series, constants);
+  const auto solution =
+      SolveKeyPoints(sheet.values, sheet.cells_in_series, GapOf(sheet), constants);
   if (!solution) {
     const auto family = FindDataSheetFamily(sheet, constants);
     return family ? Fail(fmt::format("no single diode in {} cells has a curve through these points",
@@ -172,9 +222,10 @@ Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constant
   }
   DataSheetFit fit;
   fit.translation = std::move(translation);
-  fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K);
+  fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K, GapOf(sheet));
   AddChecks(sheet, &fit);
-  WarnOfTheSolution(*solution, &fit);
+  WarnOfTheSolution(sheet, *solution, &fit);
+  fit.usual = WarnOfTheDevice(sheet, &fit);
   const bool all_corners = AddRanges(sheet, constants, &fit);
   WarnOfTheRounding(all_corners, &fit);
   const double n = solution->device.n;

@@ -50,6 +50,7 @@ struct DataSheetFit {
   DataSheetFamily family;              // all devices through the sheet's three points; beta_oc
                                        // selects this one
   std::vector<std::string> warnings;
+  bool usual = true;  // n is one of a junction
 
   // Whether the five equations are solved to more digits than any sheet prints.
   bool Solved() const { return largest_relative_error < 1e-6; }
@@ -61,11 +62,12 @@ std::vector<double> SharedOf(const DataSheetFit& fit, const DataSheetMember& mem
 // Finds the five parameters of the single-diode model from a data sheet alone, as pvlib's
 // fit_desoto and SAM do. The curve passes through Isc, Voc and (Vmp, Imp), its power is largest at
 // (Vmp, Imp), and Voc changes by beta_oc per kelvin between 25 and 27 C (De Soto, Klein and Beckman
-// 2006, doi:10.1016/j.solener.2005.06.010; Dobos 2012, doi:10.1115/1.4005759). EgRef is 1.121 eV
-// and dEgdT is -0.0002677 1/K. If no device with Rs >= 0 and Rsh > 0 satisfies all equations, the
+// 2006, doi:10.1016/j.solener.2005.06.010; Dobos 2012, doi:10.1115/1.4005759). The gap is
+// the sheet's. If no device with Rs >= 0 and Rsh > 0 satisfies all equations, the
 // result is the nearest device on that bound: it keeps the curve at 25 C and misses beta_oc, with a
 // warning. Errors: values that no illuminated diode has (Imp above Isc, a fill factor of 0.95),
-// percent where A/K and V/K are expected, no physical curve through the three points.
+// percent where A/K and V/K are expected, a current or a voltage that
+// no cell of its technology gives, no physical curve through the three points.
 Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet,
                                     ConstantSet constants = ConstantSet::kCodata);
 

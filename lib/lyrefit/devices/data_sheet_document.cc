@@ -149,6 +149,11 @@ Document DataSheetDocument(const DataSheetFit& fit) {
            fmt::format("{} in series; constants {}", Plural(spec.cells_in_series, "cell"),
                        ToText(spec.constants)),
            &document.head);
+  if (!fit.Solved() && !fit.usual) {
+    AddField("answer", "none: no device of one junction a cell has these values", &document.head);
+    AddSections({WarningSection(fit.warnings)}, &document);
+    return document;
+  }
   AddSections({SheetParameterSection(fit), CheckSection(fit), FamilySection(fit),
                WarningSection(fit.warnings)},
               &document);

@@ -73,7 +73,8 @@ std::vector<double> KneeCurrents(const DataSheetValues& v) {
 }
 
 std::vector<double> SharedOf(const SheetSolver& solver, const DataSheetMember& member) {
-  return SharedOf(solver.translation, DeviceOf(member), solver.sheet.values.alpha_sc_A_K);
+  return SharedOf(solver.translation, DeviceOf(member), solver.sheet.values.alpha_sc_A_K,
+                  solver.points.gap);
 }
 
 std::vector<double> CurrentsOf(const SheetSolver& solver, const DataSheetMember& member) {
@@ -164,7 +165,8 @@ Expected<SheetSolver> MakeSolver(const DataSheet& sheet, ConstantSet constants) 
   TRY(Translation translation, MakeTranslation(spec));
   const double thermal_V =
       sheet.cells_in_series * ThermalVoltage(kReferenceTemperature_K, constants);
-  return SheetSolver{sheet, std::move(translation), {sheet.values, thermal_V, constants}};
+  return SheetSolver{
+      sheet, std::move(translation), {sheet.values, thermal_V, constants, GapOf(sheet)}};
 }
 
 double LowestIdeality(const KeyPointSheet& sheet) {

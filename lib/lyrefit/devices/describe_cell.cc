@@ -294,6 +294,9 @@ void Warn(CellReport* report) {
   }
   for (const CellSweep& sweep : report->sweeps) {
     if (!sweep.doubt.empty()) warnings.push_back(sweep.name + ": " + sweep.doubt);
+    if (!sweep.no_efficiency_because.empty()) {
+      warnings.push_back(sweep.name + ": " + sweep.no_efficiency_because);
+    }
     if (sweep.limited > 0) {
       warnings.push_back(fmt::format(
           "{}: {} readings beyond Voc have one current: a limit of the source; they are left out",
@@ -325,6 +328,22 @@ Expected<void> CheckIsOneCell(const CurveSet& cell) {
               cell.curves.front().source);
 }
 
+// Leaves out the sweeps whose readings allow no figures, with a warning of each. Error: all are.
+Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
+                               std::vector<std::string>* warnings) {
+  std::vector<MeasuredSweep> kept;
+  for (MeasuredSweep& one : *measured) {
+    const CellSweep& sweep = one.sweep;
+    const std::string why = sweep.doubt + " (--as-is takes the readings as they are)";
+    if (sweep.refused && measured->size() == 1) return Fail(why, sweep.file);
+    if (sweep.refused) warnings->push_back(sweep.name + " is left out: " + why);
+    if (!sweep.refused) kept.push_back(std::move(one));
+  }
+  if (kept.empty()) return Fail(warnings->front(), measured->front().sweep.file);
+  *measured = std::move(kept);
+  return {};
+}
+
 }  // namespace
 
 Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& options,
@@ -349,6 +368,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     }
   }
   if (measured.empty()) return Fail("no sweep has five readings", cell.source);
+  TRY(LeaveOutRefused(&measured, &report.warnings));
   for (MeasuredSweep& one : measured) {
     if (options.fit) FitCellSweep(options, observer, &one);
     report.interrupted = report.interrupted || (one.sweep.fit && one.sweep.fit->interrupted);

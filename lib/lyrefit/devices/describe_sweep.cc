@@ -101,17 +101,38 @@ std::string NameOf(const CellSweep& sweep, const DeviceNotes& notes) {
                      sweep.irradiance_known ? "" : " (assumed)");
 }
 
-// The first finding on the magnitude of voltage and current, the other column, sign or area; empty:
-// none, or the readings are to be taken as they are. The number of cells is no matter of these.
-std::string DoubtOf(IvCurve curve, double area_cm2) {
-  if (curve.as_is) return "";
+// Takes the first finding on the magnitude of voltage and current, the other column, sign or area,
+// unless the readings are to be taken as they are. The number of cells is no matter of these.
+void TakeDoubt(IvCurve curve, double area_cm2, CellSweep* sweep) {
+  if (curve.as_is) return;
   if (std::isfinite(area_cm2)) curve.notes.area_cm2 = area_cm2;
   for (const ReadingFinding& finding : CheckReadings(curve)) {
-    for (const char* const id : {"sign", "exchanged", "unit", "current"}) {
-      if (finding.id == id) return finding.sentence;
+    for (const char* const id :
+         {"sign", "exchanged", "unit", "technology", "current", "efficiency"}) {
+      if (finding.id != id) continue;
+      sweep->doubt = finding.sentence;
+      sweep->refused = finding.refuse;
+      return;
     }
   }
-  return "";
+}
+
+// Why the light is not known well enough for an efficiency; empty: it is. A hundredth of the current
+// of a silicon cell under one sun is of other light, or of a cell that hardly works.
+std::string WhyNoEfficiency(const IvCurve& curve, double jsc_mA_cm2) {
+  constexpr double kLeast_mA_cm2 = 0.4;
+  if (curve.irradiance_known) return "";
+  if (curve.notes.illuminance_lux) {
+    return fmt::format(
+        "no efficiency: {:g} lux are stated, whose power depends on the spectrum of the lamp; give "
+        "the irradiance (--irradiance-Wm2)",
+        *curve.notes.illuminance_lux);
+  }
+  if (!(jsc_mA_cm2 < kLeast_mA_cm2)) return "";
+  return fmt::format(
+      "no efficiency: Jsc of {:.3g} mA/cm2 is far from what the assumed 1000 W/m2 give (some 10 to "
+      "45); give the irradiance (--irradiance-Wm2)",
+      jsc_mA_cm2);
 }
 
 CellSweep Describe(const IvCurve& curve, double area_cm2) {
@@ -133,14 +154,14 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
   if (sweep.kind != SweepKind::kLit) return sweep;
   const KeyPoints& key = sweep.key;
-  sweep.doubt = DoubtOf(curve, area_cm2);
+  TakeDoubt(curve, area_cm2, &sweep);
   if (sweep.doubt.empty()) {
-    constexpr double kSquareMetre_cm2 = 1e4;
     sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
-    // No irradiance follows from a light in lux.
-    const bool lux_alone = curve.notes.illuminance_lux && !curve.irradiance_known;
-    if (!lux_alone)
-      sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
+    sweep.no_efficiency_because = WhyNoEfficiency(curve, sweep.jsc_mA_cm2);
+  }
+  if (sweep.doubt.empty() && sweep.no_efficiency_because.empty()) {
+    constexpr double kSquareMetre_cm2 = 1e4;
+    sweep.efficiency = key.max_power_W / (sweep.irradiance_W_m2 * area_cm2 / kSquareMetre_cm2);
   }
   sweep.resistance_at_isc_ohm = ResistanceAtIsc(line, key);
   sweep.resistance_at_voc_ohm = ResistanceAtVoc(line, key);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 #include "lyrefit/diagnose/verdict_text.h"
@@ -17,7 +18,7 @@ namespace lyrefit {
 namespace {
 
 enum class DeviceClass { kSiliconModule, kSiliconCell, kThinFilm };
-enum class JudgedQuantity { kLeak, kIdeality, kSeriesResistance };
+enum class JudgedQuantity { kLeak, kSeriesResistance };
 
 // Largest values of devices without a fault under standard light. Of silicon modules simulated cell
 // by cell, 1 of 72 without a fault exceeds one of them, and 24 of 30 that were degraded. Single cells
@@ -35,17 +36,23 @@ constexpr HealthyLimit kHealthyLimits[] = {
      "twice that of modules, whose cells are sorted"},
     {JudgedQuantity::kLeak, DeviceClass::kThinFilm, 0.25,
      "doi:10.1038/ncomms7951: no shunt, poor collection"},
-    {JudgedQuantity::kIdeality, DeviceClass::kSiliconModule, 1.25, "72 modules without a fault"},
-    {JudgedQuantity::kIdeality, DeviceClass::kSiliconCell, 1.6,
-     "doi:10.2478/s11772-013-0095-5: edges"},
-    {JudgedQuantity::kIdeality, DeviceClass::kThinFilm, 2.2,
-     "doi:10.1103/PhysRevApplied.14.024031"},
     {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconModule, 0.14,
      "72 modules without a fault"},
     {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconCell, 0.14, "as of modules"},
     {JudgedQuantity::kSeriesResistance, DeviceClass::kThinFilm, 0.25,
      "twice that of modules: contact layers"},
 };
+
+// Cells of modules are sorted; others have what is usual of their technology.
+double LimitOfIdeality(const std::string& technology, const DeviceClass kind) {
+  if (kind == DeviceClass::kSiliconModule) return 1.25;  // 72 modules without a fault
+  const Technology* const known = FindTechnology(technology);
+  const Technology& film = *FindTechnology("CIGS");
+  const Technology& of = known != nullptr                 ? *known
+                         : kind == DeviceClass::kThinFilm ? film
+                                                          : Silicon();
+  return of.junctions * of.most_ideality;
+}
 
 double LimitOf(JudgedQuantity quantity, DeviceClass kind) {
   for (const HealthyLimit& row : kHealthyLimits) {
@@ -64,6 +71,7 @@ struct JudgedDevice {
   const WeightedData& weighted;
   const LawFit& fit;
   DeviceClass of;
+  std::string technology;
   double voltage_V;  // open circuit under standard light
   double current_A;  // short circuit under standard light
   std::vector<double> errors;
@@ -83,6 +91,7 @@ JudgedDevice JudgeDevice(const Selection& selection, const DeviceKind& kind) {
   return {weighted,
           fit,
           ClassOf(kind.technology, traits),
+          kind.technology,
           (measured + to_standard) * readings.scale.cells,
           kind.irradiance_known ? fit.p[kIph] : fit.p[kIph] * light,
           StandardErrors(Linearize(weighted, fit)),
@@ -144,13 +153,39 @@ void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
                    LossText(loss), causes)});
 }
 
+double CellVoltage(const JudgedDevice& device) {
+  return device.voltage_V / device.weighted.readings->scale.cells;
+}
+
+// Whether nobody states the technology and the voltage a cell is none that silicon has under standard
+// light: its modules have 0.57 V and more.
+bool MayBeAnother(const JudgedDevice& device) {
+  constexpr double kLeastOfSilicon_V = 0.56;
+  const double cell_V = CellVoltage(device);
+  return device.technology.empty() &&
+         !(cell_V > kLeastOfSilicon_V && cell_V < Silicon().most_Voc_V);
+}
+
 void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
   if (device.fit.law.model != Model::kSingleDiode) return;  // n1 is then of one of two
   const int index = IdealityIndex(0);
-  const double limit = LimitOf(JudgedQuantity::kIdeality, device.of);
+  const double limit = LimitOfIdeality(device.technology, device.of);
   const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
   if (!IsAbove(n, limit)) return;
   const double loss = LossAgainst(device, index, limit);
+  if (MayBeAnother(device) && !(n.low_95 > FindTechnology("CIGS")->most_ideality)) {
+    findings->push_back(
+        {"ideality", "n", n, limit, loss,
+         fmt::format(
+             "has n = {:.2f} ({:.2f} to {:.2f}) at {:.2g} V a cell: of silicon that would be "
+             "{}{}; CIGS, CdTe, a-Si, organic and perovskite devices have up to {:.3g} "
+             "without a fault: state the technology (--technology)",
+             n.value, n.low_95, n.high_95, CellVoltage(device),
+             Exceeding(device, 1, "have", fmt::format("{:.3g}", limit)), LossText(loss),
+             FindTechnology("CIGS")->most_ideality),
+         true});
+    return;
+  }
   // Recombination in a junction ends at n = 2.
   constexpr double kMostOfJunctions = 2;
   const char* const causes =

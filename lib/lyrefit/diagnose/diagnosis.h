@@ -159,6 +159,7 @@ struct DeviceFinding {
   double healthy_limit = kUnknown;  // largest value of devices without a fault
   double power_loss = kUnknown;     // part of Pmax that the healthy limit would give more
   std::string sentence;             // without its subject: "leaks 3.1 % ..."
+  bool if_silicon = false;          // within range of other technologies; nobody stated which it is
 };
 
 // Conclusion of a diagnosis.

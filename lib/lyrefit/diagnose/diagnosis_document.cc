@@ -293,7 +293,10 @@ Section WholeSection(const Diagnosis& diagnosis) {
   AddIfAny("misfit", verdict.comparison, &section);
   for (const DeviceFinding& finding : diagnosis.device_findings) {
     const bool first = &finding == &diagnosis.device_findings.front();
-    AddField(first ? "out of range" : "", "it " + finding.sentence, &section);
+    AddField(!first               ? ""
+             : finding.if_silicon ? "if silicon"
+                                  : "out of range",
+             "it " + finding.sentence, &section);
   }
   if (verdict.found) AddIfAny("not shown", verdict.not_shown, &section);
   return section;

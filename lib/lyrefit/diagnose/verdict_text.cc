@@ -114,7 +114,12 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors,
         FindEffect("unknown_structure")->separate_by, limits);
   }
   if (!findings.empty()) {
-    std::string text = "No single fault shows, but the device is not as healthy ones are: ";
+    const bool depends = std::all_of(findings.begin(), findings.end(),
+                                     [](const DeviceFinding& one) { return one.if_silicon; });
+    std::string text =
+        depends ? "No single fault shows. Whether the device is healthy depends on its technology, "
+                  "which nobody states (--technology); of silicon it would not be: "
+                : "No single fault shows, but the device is not as healthy ones are: ";
     for (std::size_t k = 0; k < findings.size(); ++k) {
       text += (k > 0 ? ", " : "") + FindingText(findings[k]);
     }

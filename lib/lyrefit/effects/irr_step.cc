@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 
@@ -35,8 +38,13 @@ Effect IrradianceStep() {
   e.momentary = true;
   e.why_not = NeedsOneLitCondition;
   e.probes = [](const DataTraits& traits) {
+    // What shows only in so few readings at an end may as well be wrong readings.
+    constexpr double kFewest = 3, kLeastPart = 0.05;
+    const double from_end = std::max((kFewest + 0.5) / std::max(traits.readings, 1), kLeastPart);
     std::vector<Probe> probes;
-    for (const double x : traits.step_times) probes.push_back({0.01, x});
+    for (const double x : traits.step_times) {
+      if (std::fabs(x) < 0.5 - from_end) probes.push_back({0.01, x});
+    }
     return probes;
   };
   return e;

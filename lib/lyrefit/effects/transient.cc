@@ -55,9 +55,13 @@ Effect Transient() {
     conditions->irradiance = conditions->irradiance * (1.0 - p[0] * exp(-0.5 * power));
   };
   e.momentary = true;
-  // A dip at the turn of a sweep up and down is the difference of the directions.
+  // A dip passes: it begins and ends within the measurement. One at an end is a bend of the device or
+  // a start that settles, and one at the turn of a sweep up and down is the difference of the
+  // directions.
   e.imitates = [](const double* p, const DataTraits& traits) {
-    return std::any_of(traits.turns.begin(), traits.turns.end(),
+    constexpr double kOver = 3;  // widths from the centre to where 1 % of the dip is left
+    return std::fabs(p[1]) + kOver * p[2] > 0.5 ||
+           std::any_of(traits.turns.begin(), traits.turns.end(),
                        [p](double turn) { return std::fabs(p[1] - turn) < 2 * p[2]; });
   };
   e.why_not = NeedsOneLitCondition;

@@ -9,9 +9,9 @@
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/family/family_effects.h"
 #include "lyrefit/model/default_values.h"
-#include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
 
 namespace lyrefit {
@@ -120,8 +120,8 @@ double StatedBandgap(const CurveSet& set) {
     if (curve.notes.bandgap_eV) return *curve.notes.bandgap_eV;
   }
   const std::string& technology = set.curves.front().notes.technology;
-  const auto known = FindPanTechnology(technology);
-  return known && IsThinFilm(technology) ? known->bandgap_eV() : kDefaultBandgap_eV;
+  const Technology* known = FindTechnology(technology);
+  return known != nullptr && !known->silicon ? known->pvsyst_bandgap_eV() : kDefaultBandgap_eV;
 }
 
 double StatedTempco_A(const CurveSet& set, double reference_current_A) {

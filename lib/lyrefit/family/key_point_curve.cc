@@ -60,7 +60,8 @@ ReferenceDevice ToDevice(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   return {c.photocurrent, is, c.n, c.rs, c.conductance};
 }
 
-std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha) {
+std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha,
+                             const BandGap& gap) {
   std::vector<double> shared(at.size());
   shared[at.photocurrent] = device.photocurrent_A;
   shared[at.saturation_current] = device.saturation_current_A;
@@ -68,8 +69,8 @@ std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& devic
   shared[at.resistance_series] = device.resistance_series_ohm;
   shared[at.resistance_shunt] = 1 / device.shunt_conductance_S;  // infinite without a shunt
   shared[at.alpha_sc] = alpha;
-  shared[at.bandgap] = kSiliconBandGap_eV;
-  shared[at.bandgap_slope] = kSiliconBandGapSlope_1_K;
+  shared[at.bandgap] = gap.eV;
+  shared[at.bandgap_slope] = gap.slope_1_K;
   return shared;
 }
 

@@ -38,6 +38,7 @@ struct KeyPointSheet {
   const DataSheetValues& values;
   double thermal_V;  // Ns k T / q of the module
   ConstantSet constants;
+  BandGap gap = {};
 };
 
 // The curve through Isc, Voc and (Vmp, Imp).
@@ -53,8 +54,8 @@ std::optional<KeyPointCurve> PhysicalCurve(const KeyPointSheet& sheet, double n)
 // Converts a curve to device parameters. Is is 0 if it underflows a double.
 ReferenceDevice ToDevice(const KeyPointSheet& sheet, const KeyPointCurve& c);
 
-// A device as shared parameters of De Soto's law with silicon's band gap; Rsh is infinite without a
-// shunt.
-std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha);
+// A device as shared parameters of De Soto's law; Rsh is infinite without a shunt.
+std::vector<double> SharedOf(const Translation& at, const ReferenceDevice& device, double alpha,
+                             const BandGap& gap);
 
 }  // namespace lyrefit

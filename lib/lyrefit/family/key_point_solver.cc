@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/model/translation.h"
 
@@ -23,10 +24,9 @@ double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   const double k_eV = ThermalVoltage(1.0, sheet.constants);
   const double warm_K = kReferenceTemperature_K + kVocStep_K;
   const double ratio = warm_K / kReferenceTemperature_K;
-  const double gap = kSiliconBandGap_eV * (1 + kSiliconBandGapSlope_1_K * kVocStep_K);
-  const double growth = 3 * std::log(ratio) +
-                        kSiliconBandGap_eV / (k_eV * kReferenceTemperature_K) -
-                        gap / (k_eV * warm_K);
+  const double gap = sheet.gap.eV * (1 + sheet.gap.slope_1_K * kVocStep_K);
+  const double growth =
+      3 * std::log(ratio) + sheet.gap.eV / (k_eV * kReferenceTemperature_K) - gap / (k_eV * warm_K);
   const double a = c.n * sheet.thermal_V;
   const double voc = sheet.values.open_circuit_voltage_V;
   const double warm_V = voc + kVocStep_K * sheet.values.beta_oc_V_K;
@@ -84,11 +84,18 @@ KeyPointSolution Nearest(const KeyPointSheet& sheet, const std::vector<KeyPointC
 
 }  // namespace
 
+BandGap GapOf(const DataSheet& sheet) {
+  const Technology* const known = FindTechnology(sheet.technology);
+  const Technology& of = known != nullptr ? *known : Silicon();
+  // A stated gap has the slope of silicon's unless its technology or its own is stated.
+  return {sheet.EgRef_eV.value_or(of.bandgap_eV), sheet.dEgdT_1_K.value_or(of.bandgap_slope_per_K)};
+}
+
 std::optional<KeyPointSolution> SolveKeyPoints(const DataSheetValues& values, int cells_in_series,
-                                               ConstantSet constants) {
+                                               const BandGap& gap, ConstantSet constants) {
   const double thermal_V = cells_in_series * ThermalVoltage(kReferenceTemperature_K, constants);
   const double voc_in_thermal = values.open_circuit_voltage_V / thermal_V;
-  const KeyPointSheet sheet{values, thermal_V, constants};
+  const KeyPointSheet sheet{values, thermal_V, constants, gap};
   const std::vector<KeyPointCurve> curves = PhysicalCurves(
       sheet, voc_in_thermal / kLargestExponentAtVoc, voc_in_thermal / kSmallestExponentAtVoc);
   if (curves.empty()) return std::nullopt;

@@ -4,12 +4,20 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/curve/data_sheet.h"
+#include "lyrefit/model/default_values.h"
 
 namespace lyrefit {
 
-constexpr double kSiliconBandGap_eV = 1.121;
-constexpr double kSiliconBandGapSlope_1_K = -0.0002677;
 constexpr double kVocStep_K = 2;  // step of the secant beta_oc, as in fit_desoto
+
+// The band gap of De Soto's law at 25 C and its relative slope.
+struct BandGap {
+  double eV = kDefaultBandgap_eV;
+  double slope_1_K = kDefaultBandgapSlope_per_K;
+};
+
+// The gap that a sheet states, or that of its technology; silicon's where that is not known.
+BandGap GapOf(const DataSheet& sheet);
 
 // The five parameters at the reference conditions.
 struct ReferenceDevice {
@@ -33,6 +41,6 @@ struct KeyPointSolution {
 // and 1/Rsh. The slope at the maximum power point then determines Rs for every n, and beta_oc
 // determines n. None if no n gives a physical curve through the points.
 std::optional<KeyPointSolution> SolveKeyPoints(const DataSheetValues& values, int cells_in_series,
-                                               ConstantSet constants);
+                                               const BandGap& gap, ConstantSet constants);
 
 }  // namespace lyrefit

@@ -179,8 +179,9 @@ Expected<ModuleSheet> ReadCecSheet(const std::string& text, const std::string& p
   TRY(const LibraryRow row, FindRow(text, path, row_name));
   ModuleSheet module;
   module.name = row.Text("Name");
-  module.technology = row.Text("Technology");
+  module.has_model = true;
   DataSheet& sheet = module.sheet;
+  sheet.technology = row.Text("Technology");
   TRY(sheet.cells_in_series, LibraryCells(row));
   const struct {
     const char* column;

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/technology.h"
 
 namespace lyrefit {
 namespace {
@@ -31,6 +32,10 @@ Expected<void> CheckConditions(const ConditionOptions& stated) {
     return Fail(fmt::format("irradiance-Wm2: expected at least 0 W/m2, found {}",
                             NumberText(*stated.irradiance_W_m2)));
   }
+  if (!stated.technology.empty() && FindTechnology(stated.technology) == nullptr) {
+    return Fail(fmt::format("technology: '{}' is not known: expected one of {}", stated.technology,
+                            TechnologyNames()));
+  }
   return {};
 }
 
@@ -39,6 +44,7 @@ Expected<void> CheckConditions(const ConditionOptions& stated) {
 Expected<void> ApplyConditions(const ConditionOptions& stated, IvCurve* curve) {
   TRY(CheckConditions(stated));
   curve->as_is = stated.as_is;
+  if (!stated.technology.empty()) curve->notes.technology = stated.technology;
   if (stated.cells) {
     curve->conditions.cells_in_series = *stated.cells;
     curve->cells_known = true;

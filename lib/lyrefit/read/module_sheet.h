@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/data_sheet.h"
@@ -11,10 +12,11 @@ namespace LYREFIT_PUBLIC lyrefit {
 
 // The data sheet of a module as a file of another program repeats it.
 struct ModuleSheet {
-  std::string name;        // manufacturer and model; empty: not stated
-  std::string technology;  // as the file names it: "mtSiMono", "Mono-c-Si"
-  DataSheet sheet;         // values that are not stated are NaN; rounded as their digits say
+  std::string name;  // manufacturer and model; empty: not stated
+  DataSheet sheet;   // values that are not stated are NaN; rounded as their digits say
   std::optional<double> rated_power_W;
+  bool has_model = false;                // the file states a device of its own too
+  std::vector<std::string> assumptions;  // how values that it does not state were found
 };
 
 }  // namespace lyrefit

@@ -83,7 +83,7 @@ Expected<ModuleSheet> ReadJsonSheet(const ModuleText& module) {
   const auto known = [](const std::optional<double>& value) { return value.value_or(kUnknown); };
   found.sheet.values = {known(isc), known(voc), known(imp), known(vmp), known(alpha), known(beta)};
   found.name = name.value_or("");
-  found.technology = technology.value_or("");
+  found.sheet.technology = technology.value_or("");
   return found;
 }
 

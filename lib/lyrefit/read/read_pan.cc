@@ -8,9 +8,10 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/model/coefficients.h"
+#include "lyrefit/model/default_values.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/read/pan_object.h"
 #include "lyrefit/read/pan_values.h"
@@ -108,17 +109,17 @@ Expected<NamedParameters> ReadPanParameters(const std::string& text, const std::
   p[at.shunt_exponent] = exponent.value_or(kPvlibShuntExponent);
   TRY(p[at.alpha_sc], TakeCurrentTempco(pan, points.isc));
   const std::string technology = pan.Text("Technol");
-  const auto known = FindPanTechnology(technology);
-  if (!known) {
+  const auto known = FindTechnology(technology);
+  if (known == nullptr) {
     module.warnings.push_back(
         fmt::format("The technology {} of {} is not known: it counts as silicon.",
                     Quoted(technology), module.name));
   }
-  const PanTechnology usual = known.value_or(*FindPanTechnology("si"));
-  p[at.bandgap] = usual.bandgap_eV();
+  const Technology& usual = known != nullptr ? *known : Silicon();
+  p[at.bandgap] = usual.pvsyst_bandgap_eV();
   if (spec.recombination) {
     p[at.recombination] = *loss;
-    p[at.built_in_voltage] = spec.cells_in_series * usual.built_in_V();
+    p[at.built_in_voltage] = spec.cells_in_series * usual.junctions * kDefaultBuiltIn_V;
   }
   TRY(SolveCurrents(pan, points, &module));
   if (const auto same = PvlibParameters(at, p); !same) return Fail(same.error().message, path);

@@ -25,7 +25,7 @@ namespace lyrefit {
 //   Isc = I_L (1 - r(Isc RSerie)) - I_o (exp(Isc RSerie / a) - 1) - Isc RSerie / RShunt
 //   0   = I_L (1 - r(Voc))        - I_o (exp(Voc / a) - 1)        - Voc / RShunt
 //
-// The technology (Technol) gives EgRef and NsVbi: see pan_technology.h; an unknown one counts as
+// The technology (Technol) gives EgRef and NsVbi: see curve/technology.h; an unknown one counts as
 // silicon, with a warning. Further warnings: Pmp differs from Imp Vmp by more than 1 %, or its
 // temperature coefficient from muPmpReq by more than 0.05 %/K; a muISC so small that it is likely
 // in percent. Errors, with line and column: a missing key; a value that is no number or that no
@@ -33,7 +33,7 @@ namespace lyrefit {
 Expected<NamedParameters> ReadPanParameters(const std::string& text, const std::string& path);
 
 // Reads what the data sheet behind a .PAN file prints: Isc, Voc, Imp, Vmp, muISC, muVocSpec (mV/K;
-// 0 stands for not stated), muPmpReq (%/K), PNom (W), NCelS. Errors: as for ReadPanParameters, of
+// 0 stands for not stated: that of the file's own model), muPmpReq (%/K), PNom (W), NCelS. Errors: as for ReadPanParameters, of
 // these keys alone.
 Expected<ModuleSheet> ReadPanSheet(const std::string& text, const std::string& path);
 

@@ -9,6 +9,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/left_temperature.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
@@ -111,6 +112,28 @@ void TakeDate(HeadLineState* state, std::string_view text) {
   state->understood = true;
 }
 
+bool IsTechnology(std::string_view label) {
+  const std::vector<LabelWord> words = SplitLabel(label);
+  const std::string name = JoinWords(words, 0, words.size());
+  for (const char* const known :
+       {"technology", "celltechnology", "moduletechnology", "pvtechnology", "celltype",
+        "typeofcell", "material", "cellmaterial", "absorber", "technologie", "zelltechnologie",
+        "zelltyp"}) {
+    if (name == known) return true;
+  }
+  return false;
+}
+
+void TakeTechnology(HeadLineState* state, std::string_view text) {
+  std::string& technology = state->head->said.notes.technology;
+  const std::string value(TrimMarks(text));
+  if (!technology.empty() || FindTechnology(value) == nullptr) return;
+  technology = value;
+  state->understood = true;
+  state->head->assumptions.emplace_back(
+      fmt::format("technology {} taken from {}", value, state->source));
+}
+
 // Reads a statement such as "Label: 47.3 C" or "Label = 47.3".
 bool ReadPart(HeadLineState* state, std::string_view text) {
   const std::size_t at = text.find_first_of(":=");
@@ -121,6 +144,7 @@ bool ReadPart(HeadLineState* state, std::string_view text) {
     TakeDate(state, value);
     return true;
   }
+  if (IsTechnology(text.substr(0, at))) TakeTechnology(state, value);
   const auto quantity = AsQuantity(value);
   if (quantity) TakeQuantity(state, text.substr(0, at), *quantity);
   return quantity.has_value();
@@ -139,6 +163,7 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
       quantities.insert(quantities.end(), list.begin(), list.end());
     } else {
       if (IsDate(label) && quantities.empty()) TakeDate(state, field);
+      if (IsTechnology(label) && quantities.empty()) TakeTechnology(state, field);
       label += (label.empty() ? "" : " ") + field;
     }
   }

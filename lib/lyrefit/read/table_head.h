@@ -38,7 +38,7 @@ enum class HeadLine {
 };
 
 // Records the statements of `line`: irradiance, cell temperature, number of cells, bypass
-// diodes, area, compliance, date. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". The
+// diodes, area, compliance, date, technology. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". The
 // first of two statements about one quantity is kept.
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head);
 

@@ -8,9 +8,10 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/model/coefficients.h"
+#include "lyrefit/model/default_values.h"
 #include "lyrefit/model/model_points.h"
-#include "lyrefit/model/pan_technology.h"
 #include "lyrefit/model/pvlib_parameters.h"
 
 namespace lyrefit {
@@ -41,26 +42,26 @@ std::string OnOneLine(std::string text) {
 }
 
 // The technology that the file names: the stated one, or a usual one with this band gap.
-Expected<PanTechnology> TechnologyOf(const PanNotes& notes, double gap_eV) {
-  std::optional<PanTechnology> named = FindPanTechnology(notes.technology);
+Expected<Technology> TechnologyOf(const PanNotes& notes, double gap_eV) {
+  const Technology* named = FindTechnology(notes.technology);
   for (const char* word : {"si", "cis", "cdte", "ucsi_asi"}) {
-    const auto usual = FindPanTechnology(word);
-    if (!named && SameValue(usual->bandgap_eV(), gap_eV)) named = usual;
+    const Technology* usual = FindTechnology(word);
+    if (named == nullptr && SameValue(usual->pvsyst_bandgap_eV(), gap_eV)) named = usual;
   }
-  if (!named) {
+  if (named == nullptr) {
     return Fail(fmt::format(
         "a PAN file implies EgRef = 1.12 eV (silicon), 1.03 (CIS) or 1.5 (CdTe), found {:g}: fit "
         "with EgRef fixed there",
         gap_eV));
   }
-  if (named->technol == nullptr) {
+  if (named->pvsyst_name == nullptr) {
     return Fail("PVsyst's name of the technology " + notes.technology + " is not known");
   }
-  if (SameValue(named->bandgap_eV(), gap_eV)) return *named;
+  if (SameValue(named->pvsyst_bandgap_eV(), gap_eV)) return *named;
   return Fail(fmt::format(
       "a PAN file implies EgRef = {:g} eV by its technology {}, found {:g}: fit with EgRef fixed "
       "there",
-      named->bandgap_eV(), named->technol, gap_eV));
+      named->pvsyst_bandgap_eV(), named->pvsyst_name, gap_eV));
 }
 
 struct PanLines {
@@ -92,7 +93,8 @@ void AddCommercial(const PanNotes& notes, PanLines* lines) {
 }  // namespace
 
 double PanBandgap_eV(const std::string& technology) {
-  return FindPanTechnology(technology).value_or(*FindPanTechnology("si")).bandgap_eV();
+  const Technology* known = FindTechnology(technology);
+  return (known != nullptr ? *known : Silicon()).pvsyst_bandgap_eV();
 }
 
 PanNotes NotesOf(const std::string& name, const DeviceNotes& device) {
@@ -112,13 +114,13 @@ Expected<std::string> PanText(const Translation& translation, const std::vector<
   TRY(const auto named, PvlibParameters(at, shared));
   std::map<std::string, double> values;
   for (const NamedValue& value : named) values[value.name] = value.value;
-  TRY(const PanTechnology technology, TechnologyOf(notes, values["EgRef"]));
-  const double built_in_V = at.spec.cells_in_series * technology.built_in_V();
+  TRY(const Technology technology, TechnologyOf(notes, values["EgRef"]));
+  const double built_in_V = at.spec.cells_in_series * technology.junctions * kDefaultBuiltIn_V;
   if (at.recombination >= 0 && !SameValue(values["NsVbi"], built_in_V)) {
     return Fail(fmt::format(
         "a PAN file implies NsVbi = {:g} V by its technology {}, found {:g}: fit with NsVbi fixed "
         "there",
-        built_in_V, technology.technol, values["NsVbi"]));
+        built_in_V, technology.pvsyst_name, values["NsVbi"]));
   }
   const TranslatedDevice reference =
       TranslateTo(at, shared, kReferenceIrradiance_W_m2, kReferenceTemperature_K);
@@ -127,7 +129,7 @@ Expected<std::string> PanText(const Translation& translation, const std::vector<
   const TemperatureCoefficients slopes = CoefficientsAtReference(at, shared);
   PanLines lines;
   AddCommercial(notes, &lines);
-  lines.Add("  Technol=" + std::string(technology.technol));
+  lines.Add("  Technol=" + std::string(technology.pvsyst_name));
   lines.Number("NCelS", at.spec.cells_in_series);
   lines.Number("NCelP", 1);
   if (notes.bypass_diodes) lines.Number("NDiode", *notes.bypass_diodes);

@@ -32,7 +32,7 @@ double PanBandgap_eV(const std::string& technology);
 // is their power; muISC is alpha_sc (mA/K), muVocSpec (mV/K) and muPmpReq (%/K) are the model's.
 // Written as PVsyst 6.8 does, in UTF-8 with CR LF; not tried in PVsyst itself. Errors: those of
 // PvlibParameters; a law other than PVsyst's; a band gap that is not that of the technology
-// (pan_technology.h), which such a file cannot state; a built-in voltage that it cannot state; a
+// (curve/technology.h), which such a file cannot state; a built-in voltage that it cannot state; a
 // device that gives no power.
 Expected<std::string> PanText(const Translation& translation, const std::vector<double>& shared,
                               const PanNotes& notes);

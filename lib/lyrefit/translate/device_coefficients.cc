@@ -11,6 +11,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/json_text.h"
 
@@ -18,31 +19,6 @@ namespace lyrefit {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 20;
-
-// Band gaps and their slopes are those of pvlib's calcparams_desoto (c-Si, CdTe, CIGS). Alpha, beta
-// and gamma are typical of data sheets of each technology.
-constexpr TechnologyCoefficients kTechnologies[] = {
-    {"c-Si", 0.05, 0.02, -0.31, 0.03, -0.41, 1.121, -0.0002677, true},
-    {"PERC", 0.05, 0.015, -0.28, 0.02, -0.36, 1.121, -0.0002677, true},
-    {"TOPCon", 0.045, 0.015, -0.25, 0.015, -0.31, 1.121, -0.0002677, true},
-    {"HJT", 0.04, 0.015, -0.25, 0.02, -0.26, 1.121, -0.0002677, true},
-    {"CdTe", 0.04, 0.02, -0.28, 0.03, -0.29, 1.475, -0.0003, false},
-    {"CIGS", 0.01, 0.02, -0.30, 0.04, -0.36, 1.15, -0.00011, false},
-    {"a-Si", 0.09, 0.03, -0.31, 0.03, -0.22, 1.75, -0.0003, false},
-    {"perovskite", 0.0, 0.05, -0.15, 0.08, -0.2, 1.6, 0.0003, false},
-};
-
-struct Spelling {
-  const char* part;  // of the name, in lower case
-  const char* name;
-};
-// The first match is used.
-constexpr Spelling kSpellings[] = {
-    {"perc", "PERC"},      {"topcon", "TOPCon"}, {"hjt", "HJT"},     {"hit", "HJT"},
-    {"heterojunc", "HJT"}, {"cdte", "CdTe"},     {"cigs", "CIGS"},   {"cis", "CIGS"},
-    {"a-si", "a-Si"},      {"asi", "a-Si"},      {"amorph", "a-Si"}, {"perovsk", "perovskite"},
-    {"c-si", "c-Si"},      {"mono", "c-Si"},     {"multi", "c-Si"},  {"poly", "c-Si"},
-    {"crystal", "c-Si"},   {"silicon", "c-Si"},  {"ibc", "PERC"},    {"al-bsf", "c-Si"}};
 
 constexpr double kEpsilon_V = 1.232;  // n Eg / q of crystalline silicon, IEC 60891:2021
 
@@ -125,18 +101,19 @@ class Settling {
            const PreparedCurve& curve, TranslationInputs values)
       : stated_(stated) {
     settled_.values = values;
-    const auto* known = FindTechnology(technology);
-    if (known == nullptr) {
-      Assume(fmt::format("the technology '{}' is not known: coefficients are those of c-Si",
-                         technology));
-      known = FindTechnology("");
-    } else if (technology.empty()) {
+    const Technology* const known = FindTechnology(technology);
+    if (technology.empty()) {
       Assume("nobody stated the technology: crystalline silicon was assumed");
+    } else if (known == nullptr || std::isnan(known->sheets.beta_percent_K)) {
+      Assume(fmt::format("usual coefficients of '{}' are not known: they are those of c-Si",
+                         technology));
     }
-    usual_ = *known;
-    settled_.usual_gamma_percent_K = known->gamma_percent_K;
-    settled_.usual_of = known->name;
-    settled_.crystalline_silicon = known->crystalline_silicon;
+    technology_ = known != nullptr ? *known : Silicon();
+    const bool sheets = !std::isnan(technology_.sheets.beta_percent_K);
+    usual_ = sheets ? technology_.sheets : Silicon().sheets;
+    settled_.usual_gamma_percent_K = usual_.gamma_percent_K;
+    settled_.usual_of = sheets ? technology_.name : Silicon().name;
+    settled_.crystalline_silicon = technology_.silicon;
     const CurvePoints points = TruePoints(curve.points, values);
     key_ = KeyPointsBy(KeyPointMethod::kInterpolated, points);
     const double t1_K = values.temperature_C + kZeroCelsius_K;
@@ -170,12 +147,12 @@ class Settling {
     if (!stated_.alpha_A_K && !stated_.alpha_percent_K) {
       settled_.alpha_scatter = usual_.alpha_scatter / std::max(0.01, std::fabs(alpha_percent));
       Assume(fmt::format("nobody stated alpha: {:g} +- {:g} %/K, as {} has it",
-                         usual_.alpha_percent_K, usual_.alpha_scatter, usual_.name));
+                         usual_.alpha_percent_K, usual_.alpha_scatter, settled_.usual_of));
     }
     if (!stated_.beta_V_K && !stated_.beta_percent_K) {
       settled_.beta_scatter = usual_.beta_scatter / std::fabs(usual_.beta_percent_K);
       Assume(fmt::format("nobody stated beta: {:g} +- {:g} %/K, as {} has it",
-                         usual_.beta_percent_K, usual_.beta_scatter, usual_.name));
+                         usual_.beta_percent_K, usual_.beta_scatter, settled_.usual_of));
     }
   }
 
@@ -206,8 +183,8 @@ class Settling {
   void Junction() {
     TranslationInputs& at = settled_.values;
     at.epsilon_V = stated_.epsilon_V.value_or(kEpsilon_V);
-    at.EgRef_eV = stated_.EgRef_eV.value_or(usual_.EgRef_eV);
-    at.dEgdT_1_K = stated_.dEgdT_1_K.value_or(usual_.dEgdT_1_K);
+    at.EgRef_eV = stated_.EgRef_eV.value_or(technology_.bandgap_eV);
+    at.dEgdT_1_K = stated_.dEgdT_1_K.value_or(technology_.bandgap_slope_per_K);
     at.mu_gamma_1_K = stated_.mu_gamma_1_K.value_or(0);
     settled_.bandgap_stated = stated_.EgRef_eV.has_value();
     settled_.mu_gamma_stated = stated_.mu_gamma_1_K.has_value();
@@ -215,7 +192,8 @@ class Settling {
 
   const StatedCoefficients& stated_;
   SettledInputs settled_;
-  TechnologyCoefficients usual_{};
+  Technology technology_ = Silicon();
+  SheetCoefficients usual_;
   KeyPoints key_{};
   std::optional<SingleDiodeFit> diode_;
   double thermal_V_ = 0;
@@ -263,17 +241,6 @@ Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coe
   KeepOr(read.dEgdT_1_K, &kept.dEgdT_1_K);
   KeepOr(read.mu_gamma_1_K, &kept.mu_gamma_1_K);
   return {};
-}
-
-const TechnologyCoefficients* FindTechnology(const std::string& text) {
-  const std::string wanted = text.empty() ? "c-si" : LowerCase(text);
-  for (const Spelling& spelling : kSpellings) {
-    if (wanted.find(spelling.part) == std::string::npos) continue;
-    for (const TechnologyCoefficients& technology : kTechnologies) {
-      if (std::string(technology.name) == spelling.name) return &technology;
-    }
-  }
-  return nullptr;
 }
 
 SettledInputs SettleInputs(const StatedCoefficients& stated, const std::string& technology,

@@ -68,25 +68,6 @@ inline constexpr OptionRow<StatedCoefficients> kCoefficientTable[] = {
 // Errors: no JSON object, a value that is no number, no coefficient at all.
 Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coefficients);
 
-// Typical coefficients of a technology at standard conditions, and their standard deviations among
-// modules of that technology.
-struct TechnologyCoefficients {
-  const char* name;  // "c-Si"
-  double alpha_percent_K;
-  double alpha_scatter;  // standard deviation, in percent per kelvin
-  double beta_percent_K;
-  double beta_scatter;     // standard deviation, in percent per kelvin
-  double gamma_percent_K;  // of Pmax
-  double EgRef_eV;
-  double dEgdT_1_K;
-  bool crystalline_silicon;  // procedure 4 applies
-};
-
-// Typical coefficients by a technology name as commonly spelled: "mono-Si", "Multi-c-Si", "PERC",
-// "TOPCon", "HJT", "HIT-Si", "CdTe", "CIGS", "a-Si", "perovskite". An empty text is crystalline
-// silicon; an unknown one gives nullptr.
-const TechnologyCoefficients* FindTechnology(const std::string& text);
-
 // Values of all inputs of a translation, and their origin.
 struct SettledInputs {
   TranslationInputs values;

@@ -253,7 +253,7 @@ Expected<Preparation> Prepare(const IvCurve& read, const TranslateOptions& optio
     made.fit = std::move(*fit);
   }
   const std::string technology =
-      options.technology.empty() ? curve.notes.technology : options.technology;
+      curve.notes.technology.empty() ? options.technology : curve.notes.technology;
   made.inputs =
       SettleInputs(options.coefficients, technology, made.curve, MeasuredInputs(curve, options));
   made.inputs.cell_correction_K =

@@ -57,7 +57,7 @@ Expected<void> TakeSheet(const std::string& file, TranslateOptions* options) {
   if (!test.power_coefficient_percent_K) {
     test.power_coefficient_percent_K = module.sheet.gamma_pmp_percent_K;
   }
-  if (options->technology.empty()) options->technology = module.technology;
+  if (options->technology.empty()) options->technology = module.sheet.technology;
   const auto known = [](double value) { return !std::isnan(value); };
   if (!stated.alpha_A_K && !stated.alpha_percent_K && known(values.alpha_sc_A_K)) {
     stated.alpha_A_K = values.alpha_sc_A_K;

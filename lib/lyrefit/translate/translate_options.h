@@ -26,7 +26,7 @@ struct TranslateOptions {
   double lead_resistance_ohm = 0;
   double rear_irradiance_W_m2 = 0;
   double bifaciality_isc = 0;
-  std::string technology;  // empty: from the curve's notes
+  std::string technology;  // of the module's sheet, where the curve states none
   StatedCoefficients coefficients;
   std::vector<IvCurve> further;  // of the same device under other conditions, procedure 3
   UncertaintyOptions uncertainty;
@@ -68,8 +68,6 @@ inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {
      &TranslateOptions::rear_irradiance_W_m2, 0, 2000},
     {"bifaciality", "PHI", "Isc under light from the back / from the front",
      &TranslateOptions::bifaciality_isc, 0, 1.5},
-    {"technology", "NAME", "c-Si, PERC, TOPCon, HJT, CdTe, CIGS, a-Si or perovskite",
-     &TranslateOptions::technology},
     {"coefficients", "", "alpha, beta, ...",
      NestedOptions<&TranslateOptions::coefficients, kCoefficientTable>()},
     {"uncertainty", "", "how sure the inputs are",

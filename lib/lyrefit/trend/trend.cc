@@ -67,7 +67,8 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
   TrendBlocks blocks = MakeBlocks(*series.device, std::move(rows), options);
   if (blocks.size() < kLeastBlocks || blocks.reference_blocks < 1) {
     return Fail(fmt::format(
-        "expected usable measurements at {} times or more, found {}: {} of {} measurements count; {}",
+        "expected usable measurements at {} times or more, found {}: {} of {} measurements count; "
+        "{}",
         kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size(), kSideBySide));
   }
   DescribeSeries(series, blocks, &report);

@@ -200,7 +200,8 @@ Expected<TrendDevice> DeviceOfSweeps(const std::vector<const IvCurve*>& sweeps) 
   const std::vector<SweepFit> fits = FitAll(sweeps, device.n, SweepFree::kSecondDiode, &fitted);
   if (fits.empty()) {
     return Fail(
-        "expected sweeps from 0 V to open circuit with their irradiance and temperature, found none "
+        "expected sweeps from 0 V to open circuit with their irradiance and temperature, found "
+        "none "
         "in the reference days");
   }
   device.resistance_series_ohm =

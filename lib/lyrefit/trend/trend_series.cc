@@ -65,9 +65,8 @@ Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
   const std::vector<const IvCurve*> chosen = SweepsForLaw(sweeps, options);
   Expected<TrendDevice> device = DeviceOfSweeps(chosen);
   if (!device && sweeps.size() < kLeastBlocks) {
-    return Fail(fmt::format(
-        "{}; a trend takes usable sweeps at {} times or more, found {}; {}",
-        device.error().message, kLeastBlocks, sweeps.size(), kSideBySide));
+    return Fail(fmt::format("{}; a trend takes usable sweeps at {} times or more, found {}; {}",
+                            device.error().message, kLeastBlocks, sweeps.size(), kSideBySide));
   }
   if (!device) return tl::unexpected(device.error());
   if (options.bypass_diodes > 0) device->substrings = options.bypass_diodes;

@@ -78,8 +78,9 @@ CurveScales ScalesOf(const IvCurve& curve) {
   // At reverse voltage a junction may break down. Beyond Voc the forward current has no limit.
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double current_A = curve.current_A[k];
-    const double counted_A =
-        !scales.dark ? current_A : curve.voltage_V[k] > 0 ? std::fabs(current_A) : 0;
+    const double counted_A = !scales.dark             ? current_A
+                             : curve.voltage_V[k] > 0 ? std::fabs(current_A)
+                                                      : 0;
     scales.current_A = std::max(scales.current_A, counted_A);
   }
   // A dark curve crosses zero current at zero voltage, which is not an open-circuit voltage.

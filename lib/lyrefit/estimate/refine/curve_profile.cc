@@ -20,11 +20,7 @@ class CurveRefits {
  public:
   CurveRefits(const RefineProblem& problem, const RefineEnd& best, const ProfileQuery& query,
               const StopToken& stop)
-      : i_(query.parameter),
-        best_(best),
-        held_(problem),
-        model_(held_),
-        alike_(AreAlike(problem)) {
+      : i_(query.parameter), best_(best), held_(problem), model_(held_), alike_(AreAlike(problem)) {
     outside_ =
         best.mean_square + kInside * query.t * query.t * query.variance / model_.shape().points;
     how_.small = true;

@@ -30,6 +30,7 @@ lyrefit_module(devices LINK family WITH Boost::boost Eigen3::Eigen fmt::fmt glog
 lyrefit_module(diagnose LINK effects report WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(translate LINK diagnose WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(trend LINK report stream WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
+lyrefit_module(inspect LINK report stream WITH fmt::fmt nlohmann_json::nlohmann_json TEXT)
 
 # On top: many curves, comparisons of searches and audits.
 lyrefit_module(batch LINK certify devices stream translate trend

@@ -68,7 +68,7 @@ int ExitOf(const CellReport& report) {
 
 Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
   if (request.files.empty()) return Fail("FILE is required: the measurements of a cell");
-  if (request.list_columns) return PrintColumns(request.files, request.reading);
+  if (request.list_columns) return PrintInspections(request.files, request.reading);
   const ReportFlags& output = request.output;
   TRY(verb.CheckFiles());
   TRY(const CurveSet cell, ReadFlaggedCell(request));

@@ -47,7 +47,7 @@ bool AllCertified(const Certificate& certificate) {
 Expected<int> RunCertify(VerbLine& verb, CertifyRequest& request) {
   const ReportFlags& output = request.output;
   if (request.curve.list_columns) {
-    return PrintColumns({request.curve.file}, request.curve.reading);
+    return PrintInspections({request.curve.file}, request.curve.reading);
   }
   TRY(verb.CheckFiles());
   TRY(const IvCurve curve, ReadFlaggedCurve(request.curve));

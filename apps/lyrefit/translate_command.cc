@@ -76,7 +76,8 @@ Expected<void> ReadFurther(const TranslateRequest& request, TranslateOptions* op
 }
 
 Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
-  if (request.curve.list_columns) return PrintColumns({request.curve.file}, request.curve.reading);
+  if (request.curve.list_columns)
+    return PrintInspections({request.curve.file}, request.curve.reading);
   TRY(verb.CheckFiles());
   TranslateOptions& options = request.options;
   options.uncertainty.seed = options.diagnosis.seed;

@@ -113,6 +113,12 @@ std::vector<SchemaCase> SchemaCases() {
       {"Sensitivity", "sensitivity " + rtc + "--models sd --runs 2 --json FILE" + kSearch,
        "comparison"},
       {"Audit", "audit " + kData + "paper/rows.csv --json FILE", "audit"},
+      {"Inspection", "inspect " + kData + "formats/head_tracer.csv --json FILE --quiet",
+       "inspection"},
+      {"InspectionOfSeveral",
+       "inspect " + kData + "formats " + kData + "formats/other_names.csv " + kData +
+           "formats/current_first.txt " + kData + "formats/matrix_sam.csv --json FILE --quiet",
+       "inspection"},
       {"AuditOfClaims", "audit " + kData + "published/rows.csv --json FILE", "audit"},
   };
 }

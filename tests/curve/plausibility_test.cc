@@ -47,10 +47,12 @@ TEST(Plausibility, DoubtsACurrentThatNoCellGives) {
 
 TEST(Plausibility, DoubtsACurrentThatTheStatedLightDoesNotGive) {
   IvCurve curve = ModuleWith(8);
-  for (const double light_W_m2 : {0.0, 5.0, 50.0}) {
+  for (const double light_W_m2 : {0.0, 5.0}) {
     curve.conditions.irradiance_W_m2 = light_W_m2;
-    EXPECT_THAT(Said(curve), HasSubstr("less light than there was")) << light_W_m2;
+    EXPECT_THAT(Said(curve), HasSubstr("which of the two is right")) << light_W_m2;
   }
+  curve.conditions.irradiance_W_m2 = 50;
+  EXPECT_THAT(Said(curve), HasSubstr("less light than there was"));
   curve.irradiance_known = false;
   EXPECT_EQ(Said(curve), "") << "nobody stated it";
   curve = ModuleWith(0.02);

@@ -17,6 +17,9 @@ struct Question {
 
 const std::vector<Question>& Questions() {
   static const std::vector<Question> questions = {
+      {"What does my file hold?",
+       {{"inspect", "columns, units, curves, what is missing and which flag says it",
+         "lyrefit inspect module.csv"}}},
       {"What are the parameters of my cell or module?",
        {{"fit", "from a measured curve", "lyrefit fit module.csv --cells 60 --temperature-C 45"},
         {"datasheet", "from what its data sheet prints",

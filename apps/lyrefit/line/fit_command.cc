@@ -179,7 +179,7 @@ Expected<int> RunMany(const VerbLine& verb, const FitArguments& fit) {
 
 Expected<int> RunFit(VerbLine& verb, FitRequest& request) {
   FitArguments& fit = request.fit;
-  if (fit.curve.list_columns) return PrintColumns(fit.files, fit.curve.reading);
+  if (fit.curve.list_columns) return PrintInspections(fit.files, fit.curve.reading);
   for (auto kind = request.kinds.rbegin(); kind != request.kinds.rend(); ++kind) {
     TRY(const bool asked, (*kind)->IsAsked(verb));
     if (asked) return (*kind)->Run(verb, &fit);

@@ -5,6 +5,7 @@
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/inspect/inspect.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/plots.h"
@@ -78,18 +79,16 @@ Expected<void> ApplyConditionFlags(const ConditionOptions& flags, CurveSet* set)
 void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns) {
   AddTableFlags(verb, kReadOptionTable, options);
   verb->AddSwitch("--list-columns", list_columns,
-                  "list the columns of the table and what each is read as, and stop")
+                  "say what the file holds and what each column is read as, as lyrefit inspect "
+                  "does, and stop")
       .Group("Reading");
 }
 
-Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOptions& options) {
+Expected<int> PrintInspections(const std::vector<std::string>& files, const ReadOptions& options) {
   std::string text;
   for (const std::string& file : files) {
-    TRY(const auto columns, ListColumns(file, options));
-    if (files.size() > 1) text += file + ":\n";
-    for (const ColumnNote& column : columns) {
-      text += fmt::format("{:>4}  {:<32}  {}\n", column.place, column.name, column.use);
-    }
+    TRY(const Inspection found, Inspect(file, options));
+    text += (text.empty() ? "" : "\n") + InspectionText(found);
   }
   TRY(WriteOutput("-", text));
   return kExitFine;

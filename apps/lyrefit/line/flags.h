@@ -181,9 +181,8 @@ struct CurveFlags {
 // current densities to currents.
 void AddColumnFlags(VerbLine* verb, ReadOptions* options, bool* list_columns);
 
-// Prints the columns of every file and their interpretation to standard output; returns the exit
-// code.
-Expected<int> PrintColumns(const std::vector<std::string>& files, const ReadOptions& options);
+// Prints what every file holds to standard output, as the verb inspect does; returns the exit code.
+Expected<int> PrintInspections(const std::vector<std::string>& files, const ReadOptions& options);
 
 // A curve from a file or folder, or from standard input if `file` is "-".
 Expected<IvCurve> ReadCurveOrInput(const std::string& file, const ReadOptions& options);

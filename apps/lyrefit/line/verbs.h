@@ -7,6 +7,7 @@
 namespace lyrefit {
 
 // The verbs, each defined in its own file NAME_command.cc.
+extern const Verb kInspectVerb;
 extern const Verb kFitVerb;
 extern const Verb kSimulateVerb;
 extern const Verb kCertifyVerb;

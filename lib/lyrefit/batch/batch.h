@@ -48,6 +48,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct ReasonCount {
   std::int64_t rows = 0;  // number of rows
   std::string where;      // location of the first of these rows
+  std::string first;      // its reason; empty: of many reasons
 };
 
 // Summary of a run.

@@ -6,6 +6,7 @@
 
 #include "lyrefit/batch/batch.h"
 #include "lyrefit/batch/campaign_document.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/sample_document.h"
 
 namespace lyrefit {
@@ -57,7 +58,8 @@ Section Reasons(const BatchSummary& summary) {
   Section section = {"Why rows are not fine"};
   block::Table table = {"rlw", {{"rows", "first", "reason"}}};
   for (const auto& [reason, count] : Ordered(summary.reasons, RowsOf)) {
-    table.rows.push_back({std::to_string(count.rows), count.where, reason});
+    table.rows.push_back(
+        {std::to_string(count.rows), count.where, reason == kOthers ? reason : count.first});
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
   return section;

@@ -1,14 +1,11 @@
 #include "lyrefit/batch/count_rows.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "lyrefit/base/reasons.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr char kOthers[] = "other reasons";
-
-bool IsNumeral(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 template <class T>
 const T* In(const ResultRow& row, std::size_t column) {
@@ -54,29 +51,9 @@ void RowCounter::Count(const ResultRow& row) {
   if (reasons.count(kind) == 0 && reasons.size() >= kMostReasons) kind = kOthers;
   ReasonCount& count = reasons[kind];
   const auto* const where = In<std::string>(row, where_);
-  if (count.rows++ == 0 && where != nullptr) count.where = *where;
-}
-
-std::string WithoutNumbers(const std::string& sentence) {
-  std::string text;
-  for (std::size_t i = 0; i < sentence.size();) {
-    const char c = sentence[i];
-    const std::size_t close = c == '\'' ? sentence.find('\'', i + 1) : std::string::npos;
-    if (close != std::string::npos) {  // a quoted text, usually the found value
-      text += "'N'";
-      i = close + 1;
-    } else if (IsNumeral(c)) {
-      const std::size_t end = sentence.find_first_not_of("0123456789.,eE+-", i);
-      std::size_t last = std::min(end, sentence.size());
-      while (!IsNumeral(sentence[last - 1])) --last;  // keeps the full stop of the sentence
-      text += 'N';
-      i = last;
-    } else {
-      text += c;
-      ++i;
-    }
-  }
-  return text;
+  if (count.rows++ > 0) return;
+  count.first = *reason;
+  if (where != nullptr) count.where = *where;
 }
 
 }  // namespace lyrefit

@@ -9,6 +9,8 @@
 
 namespace lyrefit {
 
+constexpr char kOthers[] = "other reasons";  // the key of those beyond kMostReasons
+
 // Counts rows for the summary of a run, in constant memory.
 class RowCounter {
  public:
@@ -24,8 +26,5 @@ class RowCounter {
 
 // Position of a column; the number of columns if there is none of the name.
 std::size_t ColumnPlace(const std::vector<ResultColumn>& columns, const char* name);
-
-// `sentence` with every number, and every quoted text, replaced by "N".
-std::string WithoutNumbers(const std::string& sentence);
 
 }  // namespace lyrefit

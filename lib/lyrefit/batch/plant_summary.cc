@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/reasons.h"
+
 namespace lyrefit {
 namespace {
 
@@ -191,7 +193,9 @@ void PlantCounter::CountWords(const PlantRow& row, const std::string& status, bo
                               bool to_repeat) {
   Count(status, row, &sum_.status);
   if (!IsFine(status)) {
-    Count(row.reason.empty() ? "no reason given" : row.reason, row, &sum_.reasons);
+    const std::string reason = row.reason.empty() ? "no reason given" : row.reason;
+    const auto first = first_reasons_.try_emplace(WithoutNumbers(reason), reason).first;
+    Count(first->second, row, &sum_.reasons);
     if (sum_.broken.size() < kPlantListed) sum_.broken.push_back(row);
     return;
   }

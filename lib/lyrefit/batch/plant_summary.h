@@ -149,7 +149,8 @@ class PlantCounter {
 
   std::array<int, kColumns> places_{};
   PlantSummary sum_;
-  std::size_t deepest_ = 8;  // number of tree levels that are counted
+  std::map<std::string, std::string> first_reasons_;  // of each kind (base/reasons.h)
+  std::size_t deepest_ = 8;                           // number of tree levels that are counted
   Ranked worst_, outliers_, scaled_;
   PlantSampler sampler_;
   PlantLossCounter losses_;

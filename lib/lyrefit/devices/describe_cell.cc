@@ -315,19 +315,6 @@ void Warn(CellReport* report) {
   }
 }
 
-// Several lit curves of one file under one light are several devices.
-Expected<void> CheckIsOneCell(const CurveSet& cell) {
-  if (!HoldsSeveralCells(cell, UnstatedDark::kDark)) return {};
-  std::string names;
-  for (const CellCurves& one : SplitIntoCells(cell)) {
-    names += (names.empty() ? "" : ", ") + one.name;
-  }
-  return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME, or "
-                          "describe each with lyrefit batch --task cell",
-                          names),
-              cell.curves.front().source);
-}
-
 // Leaves out the sweeps whose readings allow no figures, with a warning of each. Error: all are.
 Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
                                std::vector<std::string>* warnings) {
@@ -350,7 +337,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
                                   const Observer& observer) {
   TRY(ValidateOptions(options, kCellOptionTable));
   if (cell.curves.empty()) return Fail("no curve to describe", cell.source);
-  TRY(CheckIsOneCell(cell));
+  TRY(CheckIsOneCell(cell, "batch --task cell"));
   CellReport report;
   const IvCurve& first = cell.curves.front();
   report.version = Version();

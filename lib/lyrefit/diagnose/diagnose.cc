@@ -11,6 +11,7 @@
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
+#include "lyrefit/curve/curve_kind.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
@@ -29,6 +30,7 @@
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/error_sizes.h"
+#include "lyrefit/read/cells.h"
 
 namespace lyrefit {
 namespace {
@@ -347,6 +349,23 @@ void MarkInterrupted(Diagnosis* diagnosis) {
                                    : "Stopped early: nothing was found so far.";
 }
 
+// Devices side by side, or in a column of their own, are not one. The curves of a table that numbers
+// them may be.
+Expected<void> CheckIsOneDevice(const CurveSet& set) {
+  const bool numbered = std::all_of(set.curves.begin(), set.curves.end(), [](const IvCurve& curve) {
+    return curve.name.find_first_not_of("0123456789") == std::string::npos;
+  });
+  if (numbered || SplitIntoCells(set).size() < 2) return {};
+  return CheckIsOneCell(set, "batch --task diagnose");
+}
+
+// Says what kind a single curve is where it is no plain sweep.
+void AddKind(const CurveSet& set, Evidence* evidence) {
+  if (set.curves.size() != 1) return;
+  const KindOfMeasurement kind = KindOf(set.curves.front());
+  if (!kind.words.empty() && kind.kind != CurveKind::kDark) evidence->kind += ", " + kind.words;
+}
+
 }  // namespace
 
 Expected<void> ReadBaseModel(const std::string& text, DiagnoseOptions* options,
@@ -377,6 +396,7 @@ std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options) {
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {
   const Instant begin = Now();
+  TRY(CheckIsOneDevice(taken));
   TRY(const PreparedDiagnosis prepared, Prepare(taken, options));
   const ProgressReporter progress(observer, kPollPeriod_s);
   progress.Begin("base fit", 3);
@@ -388,6 +408,7 @@ Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& optio
                                                      : ": no diode model fits these readings"));
   }
   Diagnosis diagnosis = Describe(prepared, selected);
+  AddKind(taken, &diagnosis.evidence);
   if (options.plan && !progress.Stopped()) {
     diagnosis.plan = MakePlan(found, options.seed, options.threads);
   }

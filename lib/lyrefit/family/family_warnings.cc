@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/reasons.h"
 #include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
@@ -133,13 +134,15 @@ std::vector<std::string> FamilyWarnings(const FamilyReport& report, const Family
   for (const NamedParameters& other : options.against) {
     warnings.insert(warnings.end(), other.warnings.begin(), other.warnings.end());
   }
+  std::vector<std::string> left;
   for (const RejectedCurve& rejected : report.rejected) {
-    warnings.push_back("Not read: " + rejected.error.ToString());
+    left.push_back("Not read: " + rejected.error.ToString());
   }
   for (const FamilyCurve& curve : report.curves) {
     if (curve.role != CurveRole::kLeftOut || curve.reason == "left out as asked") continue;
-    warnings.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
+    left.push_back(fmt::format("Curve {} is left out: {}.", curve.id, curve.reason));
   }
+  for (std::string& once : OncePerKind(left)) warnings.push_back(std::move(once));
   WarnOfOutlierCurves(report, &warnings);
   if (report.estimates.empty()) return warnings;
   const Misfit misfit = MisfitOf(report);

@@ -1,5 +1,7 @@
 #include "lyrefit/read/cells.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -66,6 +68,18 @@ std::vector<CellCurves> SplitIntoCells(CurveSet set) {
   }
   for (CellCurves& cell : cells) PutBrightestFirst(&cell.curves);
   return cells;
+}
+
+Expected<void> CheckIsOneCell(const CurveSet& set, const char* each) {
+  if (!HoldsSeveralCells(set, UnstatedDark::kDark)) return {};
+  std::string names;
+  for (const CellCurves& one : SplitIntoCells(set)) {
+    names += (names.empty() ? "" : ", ") + one.name;
+  }
+  return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME, or "
+                          "take each with lyrefit {}",
+                          names, each),
+              set.curves.front().source);
 }
 
 std::string SampleOfCell(const std::string& id, const std::string& where) {

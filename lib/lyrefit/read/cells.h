@@ -30,6 +30,9 @@ struct CellCurves {
 // does not hold several cells (kDead) is one.
 std::vector<CellCurves> SplitIntoCells(CurveSet set);
 
+// Error that lists the cells of a set that holds several. `each`: the command that takes them all.
+Expected<void> CheckIsOneCell(const CurveSet& set, const char* each);
+
 // Sample that the cell with this id of a batch belongs to. `where` is the place of the cell in the
 // input (BatchItem::where). From the last level of the id a pixel at its end is taken off, with the
 // mark in front of it (one of "_-. "): a letter, a number of at most two digits, or one of them after

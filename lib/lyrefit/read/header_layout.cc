@@ -141,12 +141,10 @@ bool IsOfChannel(const TableLayout& layout, int column) {
 }
 
 void SayWhatWasAssumed(TableLayout* layout) {
-  Fields unused;
   for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
     const Column& column = layout->columns[i];
-    if (!IsUsed(*layout, i)) {
-      if (!column.label.empty() && !IsOfChannel(*layout, i)) unused.push_back(column.label);
-    } else if (column.kind == ColumnKind::kTemperature && column.offset != 0) {
+    if (!IsUsed(*layout, i)) continue;
+    if (column.kind == ColumnKind::kTemperature && column.offset != 0) {
       layout->assumptions.push_back(
           fmt::format("column {} converted from kelvin to degrees Celsius", Quoted(column.label)));
     } else if (column.factor != 1 && !column.unit.empty()) {
@@ -173,10 +171,6 @@ void SayWhatWasAssumed(TableLayout* layout) {
       });
   if (others > 0) {
     layout->assumptions.push_back(fmt::format("one of {} measurements side by side", others + 1));
-  }
-  if (!unused.empty()) {
-    layout->assumptions.push_back(
-        fmt::format("column{} not used: {}", unused.size() == 1 ? "" : "s", ListOf(unused)));
   }
 }
 
@@ -212,9 +206,20 @@ std::string ListOf(const Fields& names) {
   return list;
 }
 
+void SayWhatIsNotUsed(TableLayout* layout) {
+  Fields unused;
+  for (int i = 0; i < static_cast<int>(layout->columns.size()); ++i) {
+    const std::string& label = layout->columns[i].label;
+    if (!label.empty() && !IsUsed(*layout, i) && !IsOfChannel(*layout, i)) unused.push_back(label);
+  }
+  if (unused.empty()) return;
+  layout->assumptions.push_back(
+      fmt::format("column{} not used: {}", unused.size() == 1 ? "" : "s", ListOf(unused)));
+}
+
 bool IsUsed(const TableLayout& layout, int column) {
   for (const int used : {layout.voltage, layout.current, layout.sigma, layout.time, layout.sweep,
-                         layout.irradiance, layout.temperature}) {
+                         layout.irradiance, layout.temperature, layout.device_column}) {
     if (used == column) return true;
   }
   return std::any_of(layout.more.begin(), layout.more.end(), [column](const ColumnPair& pair) {

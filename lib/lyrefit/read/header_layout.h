@@ -32,6 +32,9 @@ Expected<TableLayout> LayoutOfHeader(const TableLine& header, const HeaderPlace&
 Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlace& place,
                                           const ReadOptions& options);
 
+// Adds the sentence on the columns that are not used.
+void SayWhatIsNotUsed(TableLayout* layout);
+
 // Whether values of this column are read.
 bool IsUsed(const TableLayout& layout, int column);
 

@@ -16,10 +16,8 @@
 #include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/multi_flash.h"
 #include "lyrefit/read/read_ivcurves_json.h"
-#include "lyrefit/read/rewrite_table.h"
 #include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/table_curve.h"
-#include "lyrefit/read/table_layout.h"
 
 namespace lyrefit {
 namespace {
@@ -181,16 +179,6 @@ Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
   raw.curve.name = name;
   raw.curve.source = name;
   return FinishCurve(std::move(raw), options);
-}
-
-Expected<std::vector<ColumnNote>> ListColumns(const std::string& path, const ReadOptions& options) {
-  const fs::path inside = IsFolder(path) ? CurveInFolder(path) : fs::path(path);
-  if (inside.empty()) return Fail("expected a file, found a folder", path);
-  TRY(const DecodedText text, ReadDecodedFile(inside.string(), options.largest_file_bytes));
-  if (IsMultiFlash(text.text)) {
-    return Fail("flashes at fixed loads, not columns: --curve chooses one of their curves", path);
-  }
-  return ListTableColumns(RewriteTable(text).text, inside.string(), options);
 }
 
 }  // namespace lyrefit

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
@@ -104,13 +105,19 @@ Expected<IvCurve> ReadCurveText(std::string text, const std::string& name,
 
 // A column of a table and its interpretation.
 struct ColumnNote {
-  int place;         // from 1
-  std::string name;  // as in the file
-  std::string use;   // "voltage", "current of curve 2", "not used", ...
+  int place = 0;                        // from 1
+  std::string name;                     // as in the file
+  std::string use;                      // "voltage", "current of curve 2", "not used", ...
+  std::string unit;                     // as recognised; empty if the name has none
+  int numbers = 0;                      // rows that have a number here
+  double least = kUnknown;              // of the numbers, as written
+  double largest = kUnknown;            // of the numbers, as written
+  std::vector<std::string> first = {};  // its first values, as written
 };
 
-// Columns of a table, for a user who must select among them. Errors: a folder without a curve of
-// its own, an unreadable file, a file without a table.
+// Columns of a table, for a user who must select among them, also where the header is not
+// understood. Errors: a folder without a curve of its own, an unreadable file, a file without a
+// table.
 Expected<std::vector<ColumnNote>> ListColumns(const std::string& path,
                                               const ReadOptions& options = {});
 

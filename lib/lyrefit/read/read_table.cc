@@ -348,7 +348,10 @@ TableReading Begin(TableLayout layout, const ReadOptions& options) {
   table.head = found.head.said;
   TakeLight(found.columns[found.current], &table.curve, &table.head);
   table.per_area = found.per_area();
-  table.name = ChannelName(found.columns, found.channel());
+  table.name = found.device.empty()
+                   ? ChannelName(found.columns, found.channel())
+                   : fmt::format("{} {}", found.columns[found.device_column].label, found.device);
+  table.of_device = !found.device.empty();
   table.holds_curves =
       found.sweep != kNoColumn && found.columns[found.sweep].kind == ColumnKind::kCurve;
   return reading;
@@ -392,6 +395,11 @@ Expected<void> Finish(std::string_view text, const std::string& file, TableReadi
   return {};
 }
 
+Expected<void> CheckIsNoLog(std::string_view text, const std::string& file) {
+  if (auto words = FindOperatingLog(text)) return Fail(std::move(*words), file);
+  return {};
+}
+
 Expected<std::vector<Table>> ReadAll(std::string_view text, const std::string& file,
                                      std::vector<TableReading> readings, BrokenRows broken_rows) {
   TablesBelow rows{text, file, broken_rows, std::move(readings)};
@@ -417,6 +425,7 @@ Expected<std::vector<Table>> ReadAll(std::string_view text, const std::string& f
 Expected<Table> ReadTable(std::string_view text, const std::string& file,
                           const ReadOptions& options, BrokenRows broken_rows) {
   TRY(CheckUtf8(text, file));
+  TRY(CheckIsNoLog(text, file));
   TRY(TableLayout layout, FindTableLayout(text, file, options));
   TRY(std::vector<Table> tables,
       ReadAll(text, file, {Begin(std::move(layout), options)}, broken_rows));
@@ -427,14 +436,18 @@ Expected<Table> ReadTable(std::string_view text, const std::string& file,
 Expected<std::vector<Table>> ReadTables(std::string_view text, const std::string& file,
                                         const ReadOptions& options, BrokenRows broken_rows) {
   TRY(CheckUtf8(text, file));
+  TRY(CheckIsNoLog(text, file));
   ReadOptions one = options;
-  if (options.column.empty()) one.column = "1";
-  TRY(const TableLayout first, FindTableLayout(text, file, one));
-  const std::size_t count = options.column.empty() ? first.channels.size() : 1;
-  std::vector<TableReading> readings = {Begin(first, one)};
-  while (readings.size() < count) {
+  std::vector<std::string> wanted = {options.column};
+  if (options.column.empty()) {
+    one.column = "1";
+    TRY(const TableLayout first, FindTableLayout(text, file, one));
+    wanted = MeasurementsOf(first);
+  }
+  std::vector<TableReading> readings;
+  for (const std::string& column : wanted) {
     if (StoppableReads::Stopped()) return FailAsStopped(file);
-    one.column = std::to_string(readings.size() + 1);
+    one.column = column;
     TRY(TableLayout layout, FindTableLayout(text, file, one));
     readings.push_back(Begin(std::move(layout), one));
   }

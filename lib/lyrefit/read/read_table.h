@@ -23,7 +23,8 @@ struct Table {
   std::map<int, Error> broken;  // first error of each sweep with an invalid row
   Sidecar head;                 // conditions stated in lines before the header
   bool per_area = false;        // the currents are in A/cm2
-  std::string name;             // of the measurement, by its columns: ChannelName
+  std::string name;             // of the measurement, by its columns: ChannelName; or its device
+  bool of_device = false;       // the rows of one device of several
   std::optional<Error> error;   // why the measurement cannot be used, though others beside it can
 };
 

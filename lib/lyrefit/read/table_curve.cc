@@ -88,7 +88,9 @@ Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string
   if (!rewritten.remark.empty()) {
     raw.curve.assumptions.insert(raw.curve.assumptions.begin(), rewritten.remark);
   }
-  if (auto selected = SelectSweep(options.curve, table.holds_curves, &raw.curve); !selected) {
+  const bool chosen = table.of_device && options.column.empty();  // --curve chose the device
+  const auto wanted = chosen ? std::nullopt : options.curve;
+  if (auto selected = SelectSweep(wanted, table.holds_curves, &raw.curve); !selected) {
     return Fail(selected.error().message, path);
   }
   TurnLoadSign(&raw.curve);

@@ -9,6 +9,7 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/device_column.h"
 #include "lyrefit/read/header_layout.h"
 #include "lyrefit/read/key_point_names.h"
 #include "lyrefit/read/results_above.h"
@@ -20,24 +21,6 @@ namespace lyrefit {
 namespace {
 
 constexpr int kLargestPreamble = 200;  // lines of text before the header
-
-const char* NameOf(ColumnKind kind) {
-  switch (kind) {
-    case ColumnKind::kSigma:
-      return "standard deviation of the current";
-    case ColumnKind::kTime:
-      return "time";
-    case ColumnKind::kSweep:
-    case ColumnKind::kCurve:
-      return "number of the sweep or curve";
-    case ColumnKind::kIrradiance:
-      return "irradiance";
-    case ColumnKind::kTemperature:
-      return "cell temperature";
-    default:
-      return "used";
-  }
-}
 
 // Error for a file without a recognised table, at the line most similar to a header. The message
 // lists the line's fields, split at the first delimiter that yields several.
@@ -115,6 +98,10 @@ Expected<TableLayout> Finished(const LayoutSearch& search, Expected<TableLayout>
   layout->head = search.head;
   ReadOwnHead(search.head_lines, layout->delimiter, layout->channels, layout->channel(),
               &layout->head);
+  LineReader rows = search.lines;
+  if (rows.offset() != offset) rows.StepBack(offset);
+  FindDevices(rows, &*layout);
+  SayWhatIsNotUsed(&*layout);
   std::vector<Assumption> about_head;
   if (search.skipped > 0) {
     about_head.push_back(fmt::format("{} line{} before the header in line {} skipped",
@@ -268,8 +255,10 @@ Expected<TableLayout> FindLayout(LayoutSearch* search) {
 
 }  // namespace
 
-Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
-                                      const ReadOptions& options) {
+namespace {
+
+Expected<TableLayout> FindAnyLayout(std::string_view text, const std::string& file,
+                                    const ReadOptions& options) {
   LayoutSearch known{LineReader(text), file, {options, false}};
   Expected<TableLayout> layout = FindLayout(&known);
   if (layout) return layout;
@@ -278,39 +267,68 @@ Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& 
   return guess || guessed.found_header ? guess : layout;
 }
 
+// Chooses one of several devices by its name, else by its place.
+Expected<TableLayout> WithDevice(TableLayout layout, const std::string& file,
+                                 const std::string& wish) {
+  const std::vector<std::string>& devices = layout.devices;
+  const std::string label = layout.columns[layout.device_column].label + " ";
+  const auto named = std::find_if(devices.begin(), devices.end(), [&](const std::string& device) {
+    return device == wish || label + device == wish;
+  });
+  const auto place = ParseNumber(wish);
+  if (named != devices.end()) layout.device = *named;
+  for (std::size_t i = 0; i < devices.size() && place && layout.device.empty(); ++i) {
+    if (*place == static_cast<double>(i + 1)) layout.device = devices[i];
+  }
+  if (!layout.device.empty()) {
+    layout.assumptions.push_back(fmt::format("device {} of the {} in column {}",
+                                             Quoted(layout.device), devices.size(),
+                                             Quoted(layout.columns[layout.device_column].label)));
+    return layout;
+  }
+  const std::string found =
+      fmt::format("{} in column {}: {}", devices.size(),
+                  Quoted(layout.columns[layout.device_column].label), ListOf(devices));
+  if (wish.empty()) {
+    return Fail(
+        fmt::format("expected one device, found {}; choose one with --column NAME|N", found), file,
+        layout.first_row_line);
+  }
+  return Fail(fmt::format("column {} was asked for, but the table has {}", Quoted(wish), found),
+              file, layout.first_row_line);
+}
+
+}  // namespace
+
+Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& file,
+                                      const ReadOptions& options) {
+  Expected<TableLayout> layout = FindAnyLayout(text, file, options);
+  if (layout && layout->devices.empty()) return layout;
+  if (!layout) {
+    if (options.column.empty()) return layout;
+    ReadOptions any = options;
+    any.column.clear();
+    Expected<TableLayout> whole = FindAnyLayout(text, file, any);
+    if (!whole || whole->devices.empty()) return layout;
+    layout = std::move(whole);
+  }
+  const bool by_curve = options.column.empty() && options.curve;
+  return WithDevice(std::move(*layout), file,
+                    by_curve ? std::to_string(*options.curve) : options.column);
+}
+
+std::vector<std::string> MeasurementsOf(const TableLayout& layout) {
+  if (!layout.devices.empty()) return layout.devices;
+  std::vector<std::string> places;
+  for (std::size_t i = 1; i <= layout.channels.size(); ++i) places.push_back(std::to_string(i));
+  return places;
+}
+
 Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
                                      const ReadOptions& options) {
   LayoutSearch search{lines, file, {options, false}};
   search.demand_header = true;
   return FindLayout(&search);
-}
-
-Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
-                                                   const ReadOptions& options) {
-  ReadOptions any = options;
-  if (any.column.empty()) any.column = "1";
-  TRY(const TableLayout layout, FindTableLayout(text, file, any));
-  std::vector<ColumnNote> notes;
-  for (int i = 0; i < static_cast<int>(layout.columns.size()); ++i) {
-    std::string use;
-    const bool several = layout.channels.size() > 1;
-    for (std::size_t k = 0; k < layout.channels.size() && use.empty(); ++k) {
-      const Channel& channel = layout.channels[k];
-      const bool shared = several && layout.channels[0].voltage == layout.channels[1].voltage;
-      std::vector<ColumnPair> sweeps = {channel};
-      sweeps.insert(sweeps.end(), channel.more.begin(), channel.more.end());
-      for (std::size_t n = 0; n < sweeps.size() && use.empty(); ++n) {
-        std::string which = several ? fmt::format(" {}", k + 1) : "";
-        if (sweeps[n].voltage == i) use = "voltage" + (shared ? "" : which);
-        if (sweeps.size() > 1) which += fmt::format(", sweep {}", n + 1);
-        if (sweeps[n].current == i)
-          use = (layout.per_area() ? "current density" : "current") + which;
-      }
-    }
-    if (use.empty()) use = IsUsed(layout, i) ? NameOf(layout.columns[i].kind) : "not used";
-    notes.push_back({i + 1, layout.columns[i].label, use});
-  }
-  return notes;
 }
 
 }  // namespace lyrefit

@@ -31,7 +31,10 @@ struct TableLayout {
   int sweep = kNoColumn;  // a `sweep` or `curve` column
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
-  TableHead head;  // statements of the lines before the header
+  int device_column = kNoColumn;     // tells several devices apart: see device_column.h
+  std::vector<std::string> devices;  // its values
+  std::string device;                // the one that is read
+  TableHead head;                    // statements of the lines before the header
   std::vector<Assumption> assumptions;
 
   // The measurement that is read.
@@ -53,8 +56,8 @@ Expected<TableLayout> FindTableLayout(std::string_view text, const std::string& 
 Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
                                      const ReadOptions& options);
 
-// Columns of a table and the interpretation of each.
-Expected<std::vector<ColumnNote>> ListTableColumns(std::string_view text, const std::string& file,
-                                                   const ReadOptions& options);
+// The measurements of a table, channels side by side or devices one below the other, by the values
+// of ReadOptions::column that choose them.
+std::vector<std::string> MeasurementsOf(const TableLayout& layout);
 
 }  // namespace lyrefit

@@ -71,6 +71,7 @@ Expected<bool> TakeRow(TableRow* row, TableReading* reading) {
   const bool ended = side_by_side && IsPastEnd(*row, first);
   if (ended && layout.more.empty()) return false;
   TRY(row->CheckLength());
+  if (!layout.device.empty() && (*row)[layout.device_column] != layout.device) return true;
   bool taken = !ended;
   for (std::size_t i = 0; i < layout.more.size(); ++i) {
     TRY(const bool further, TakeFurther(layout.more[i], row, reading, &reading->further[i]));

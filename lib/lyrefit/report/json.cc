@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/curve/curve_kind.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
@@ -22,6 +23,7 @@ void to_json(Json& j, const IvCurve& curve) {
   j = {{"name", curve.name},
        {"source", curve.source},
        {"points", curve.size()},
+       {"kind", curve.size() > 0 ? ToText(KindOf(curve).kind) : ""},
        {"conditions",
         {{"cells_in_series", c.cells_in_series},
          {"strings_in_parallel", c.strings_in_parallel},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/curve/curve_kind.h"
 #include "lyrefit/report/text_layout.h"
 
 namespace lyrefit {
@@ -141,6 +142,8 @@ void AddCurve(const IvCurve& curve, Section* section) {
     text += fmt::format(", {} points from {:.6g} to {:.6g} V", curve.size(), *low, *high);
   }
   if (!curve.source.empty()) text += fmt::format(" ({})", curve.source);
+  const std::string kind = curve.size() > 0 ? KindOf(curve).words : "";
+  if (!kind.empty()) text += "; " + kind;
   const Conditions& c = curve.conditions;
   const std::string conditions =
       fmt::format("{:.6g} C, {:.6g} W/m2, {} in series, {} in parallel",

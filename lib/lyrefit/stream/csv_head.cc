@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <set>
 #include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
+#include "lyrefit/curve/date_time.h"
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/spreadsheet_text.h"
 #include "lyrefit/read/table_columns.h"
@@ -21,7 +23,7 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kLookedAtRows = 20;
+constexpr std::size_t kLookedAtRows = 20;
 
 std::vector<std::string> Split(std::string_view line, char delimiter) {
   LineSplitter splitter(delimiter);
@@ -66,8 +68,8 @@ CsvShape ShapeOfRows(const CsvHead& head, const std::vector<Column>& columns,
                      const std::vector<std::string_view>& rows) {
   const std::vector<Channel> channels = FindChannels(columns);
   int single = 0;
-  for (const std::string_view row : rows) {
-    const std::vector<std::string> fields = Split(row, head.delimiter);
+  for (std::size_t k = 0; k < std::min(kLookedAtRows, rows.size()); ++k) {
+    const std::vector<std::string> fields = Split(rows[k], head.delimiter);
     for (std::size_t i = 0; i < fields.size() && i < head.names.size(); ++i) {
       Records pairs;
       const bool may_be = MeaningOf(head.names[i]).pairs || fields[i].find('#') < fields[i].size();
@@ -138,8 +140,10 @@ std::string Unquoted(std::string_view field) {
 }
 
 // Adds a field to the lists or to the scalars.
-Expected<void> TakeCsvField(const std::string& name, std::string_view text, int column,
-                            char delimiter, const ReadOptions& options, Records* fields) {
+Expected<void> TakeCsvField(const CsvHead& head, std::size_t place, std::string_view text,
+                            int column, Records* fields) {
+  const std::string& name = head.names[place];
+  const char delimiter = head.delimiter;
   const NameMeaning& meaning = MeaningOf(name);
   const std::string_view trimmed = TrimBlanks(text);
   if (meaning.more && !trimmed.empty() && trimmed.front() == '{') {
@@ -148,12 +152,10 @@ Expected<void> TakeCsvField(const std::string& name, std::string_view text, int 
     return {};
   }
   if (meaning.pairs && ParsePairs(text, column, fields)) return {};
-  const bool said =
-      !name.empty() && (name == options.voltage_column || name == options.current_column);
-  const bool reading = meaning.column.kind != ColumnKind::kUnrecognised && IsList(text) &&
-                       !(delimiter != ',' && ParseNumber(trimmed, true));
+  const bool named = meaning.column.kind != ColumnKind::kUnrecognised || head.readings[place];
+  const bool reading = named && IsList(text) && !(delimiter != ',' && ParseNumber(trimmed, true));
   const bool electrical = IsElectrical(meaning.column.kind) && !trimmed.empty();
-  if (said || reading || electrical) {
+  if (reading || electrical) {
     Record list;
     list.name = name;
     list.column = column;
@@ -182,6 +184,34 @@ std::string AsUtf8(std::string_view text) {
   return decoded ? decoded->text : std::string();
 }
 
+namespace {
+
+// Completes an id that stands in several rows by their times, if these tell them apart.
+void CompleteId(const std::vector<std::string_view>& rows, CsvHead* head) {
+  const auto are_unique = [&](const CsvHead& of) {
+    std::set<std::string> ids;
+    return std::all_of(rows.begin(), rows.end(), [&](std::string_view row) {
+      return ids.insert(IdOfCsvRow(row, of)).second;
+    });
+  };
+  if (head->id_columns.empty() || are_unique(*head)) return;
+  for (std::size_t i = 0; i < head->names.size(); ++i) {
+    const bool times = std::all_of(rows.begin(), rows.end(), [&](std::string_view row) {
+      const std::vector<std::string> fields = Split(row, head->delimiter);
+      return i < fields.size() && ReadDateTime(fields[i]);
+    });
+    if (!times) continue;
+    CsvHead completed = *head;
+    completed.time_column = static_cast<int>(i);
+    completed.id_columns.push_back(completed.time_column);
+    if (!are_unique(completed)) continue;
+    *head = std::move(completed);
+    return;
+  }
+}
+
+}  // namespace
+
 CsvHead FindCsvHead(std::string_view text, const ReadOptions& options) {
   LineReader lines(text);
   std::string_view line;
@@ -190,9 +220,10 @@ CsvHead FindCsvHead(std::string_view text, const ReadOptions& options) {
   head.line = lines.number();
   std::vector<std::string_view> rows;
   std::string_view row;
-  while (rows.size() < kLookedAtRows && lines.Next(&row)) {
+  while (lines.Next(&row)) {
     if (!TrimBlanks(row).empty()) rows.push_back(row);
   }
+  if (rows.size() > kLookedAtRows) rows.pop_back();  // it may end in the midst
   for (const char delimiter : {'\t', ';', ','}) {
     CsvHead candidate = head;
     candidate.delimiter = delimiter;
@@ -201,7 +232,10 @@ CsvHead FindCsvHead(std::string_view text, const ReadOptions& options) {
     const std::vector<Column> columns = ColumnsOf(candidate.names, options);
     candidate.id_columns = IdColumns(candidate.names);
     candidate.shape = ShapeOfRows(candidate, columns, rows);
-    if (candidate.shape != CsvShape::kNone) return candidate;
+    if (candidate.shape == CsvShape::kNone) continue;
+    for (const Column& column : columns) candidate.readings.push_back(IsElectrical(column.kind));
+    if (candidate.shape == CsvShape::kRows) CompleteId(rows, &candidate);
+    return candidate;
   }
   if (IsRowWithoutHead(line)) head.shape = CsvShape::kNoHead;
   return head;
@@ -231,8 +265,7 @@ std::string IdOfCsvRow(std::string_view row, const CsvHead& head, std::size_t* l
   return id;
 }
 
-Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, const ReadOptions& options,
-                           Records* fields) {
+Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, Records* fields) {
   if (const std::size_t zero = row.find('\0'); zero != std::string_view::npos) {
     return Fail("expected text, found a zero byte", "", 0, static_cast<int>(zero) + 1);
   }
@@ -248,7 +281,7 @@ Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, const Read
   std::size_t at = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const int column = static_cast<int>(at) + 1;
-    TRY(TakeCsvField(head.names[i], splitter[i], column, head.delimiter, options, fields));
+    TRY(TakeCsvField(head, i, splitter[i], column, fields));
     if (at != std::string_view::npos) TakeField(row, head.delimiter, &at);
   }
   return {};

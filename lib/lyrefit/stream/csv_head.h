@@ -25,7 +25,9 @@ struct CsvHead {
   CsvShape shape = CsvShape::kNone;
   char delimiter = ',';
   std::vector<std::string> names;
+  std::vector<bool> readings;   // columns of voltages and currents, also by other names
   std::vector<int> id_columns;  // in the order of the parts of the id
+  int time_column = -1;         // the last part of the id, where the others repeat; -1: none
   std::int64_t line = 0;        // its line in the file
 };
 
@@ -39,8 +41,7 @@ CsvHead FindCsvHead(std::string_view text, const ReadOptions& options);
 std::string IdOfCsvRow(std::string_view row, const CsvHead& head, std::size_t* looked_at = nullptr);
 
 // Parses a row. Errors: a sentence and the column.
-Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, const ReadOptions& options,
-                           Records* fields);
+Expected<void> ParseCsvRow(std::string_view row, const CsvHead& head, Records* fields);
 
 // A field that is not a reading. A decimal comma becomes a point if the delimiter allows decimal
 // commas.

@@ -169,7 +169,7 @@ bool HoldsMeasurements(std::string_view head, const std::string& path, const Rea
   first.column = "1";
   const std::string text = RewriteTable({std::string(head), ""}).text;
   const auto layout = FindTableLayout(text, path, first);
-  return layout ? layout->channels.size() > 1 : HoldsKeyPoints(text, path);
+  return layout ? MeasurementsOf(*layout).size() > 1 : HoldsKeyPoints(text, path);
 }
 
 Expected<std::unique_ptr<BatchInput>> OpenText(const LookedAt& file, std::string_view head) {

@@ -64,7 +64,7 @@ tl::unexpected<Error> RefuseNames(const RowReading& reading) {
   if (current && !has(ColumnKind::kVoltage)) missing = "no voltage";
   return reading.place.Refuse(
       fmt::format("expected lists of voltage and current, such as voltage_V and current_A, found "
-                  "{} among {}",
+                  "{} among {}; name the columns with --voltage-column and --current-column",
                   missing, NamesOf(reading.fields)));
 }
 

@@ -83,7 +83,7 @@ class CsvRows : public RowsInput {
     Records fields;
     BatchCurve curve;
     curve.id = item.id;
-    const auto parsed = ParseCsvRow(item.bytes, head_, options_, &fields);
+    const auto parsed = ParseCsvRow(item.bytes, head_, &fields);
     if (!parsed) {
       curve.curve = place.Refuse(parsed.error().message, parsed.error().column);
       return curve;
@@ -91,6 +91,12 @@ class CsvRows : public RowsInput {
     curve.beside = BesideOfRow(fields);
     curve.curve = CurveOfRow(fields, place, item.id, options_);
     return curve;
+  }
+
+  void AddRemarks(std::vector<std::string>* remarks) const override {
+    if (head_.time_column < 0) return;
+    remarks->push_back(fmt::format("{}: an id stands in several rows: completed by column {}",
+                                   path_, Quoted(head_.names[head_.time_column])));
   }
 
  protected:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "lyrefit/base/reasons.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
@@ -24,9 +25,8 @@ void CountReasons(const std::vector<TrendRow>& rows, TrendReport* report) {
   std::map<std::string, TrendReason> reasons;
   for (const TrendRow& row : rows) {
     if (row.reason.empty()) continue;
-    TrendReason& reason = reasons[row.reason];
-    reason.reason = row.reason;
-    ++reason.rows;
+    TrendReason& reason = reasons[WithoutNumbers(row.reason)];
+    if (reason.rows++ == 0) reason.reason = row.reason;
   }
   for (const auto& [text, reason] : reasons) report->reasons.push_back(reason);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "error_of.h"
+#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/read/read_module.h"
 #include "read/pan_text.h"

@@ -55,22 +55,6 @@ TEST(Coefficients, RefuseFilesThatHoldNone) {
   EXPECT_FALSE(ReadCoefficients(folder.Path("none.json"), &c));
 }
 
-TEST(Technology, IsKnownByWhatPeopleWrite) {
-  for (const auto& [text, name] :
-       std::vector<std::pair<std::string, std::string>>{{"", "c-Si"},
-                                                        {"Multi-c-Si", "c-Si"},
-                                                        {"mono PERC", "PERC"},
-                                                        {"n-TOPCon", "TOPCon"},
-                                                        {"HIT-Si", "HJT"},
-                                                        {"CdTe", "CdTe"},
-                                                        {"CIGS", "CIGS"}}) {
-    const auto* found = FindTechnology(text);
-    ASSERT_NE(found, nullptr) << text;
-    EXPECT_EQ(found->name, name) << text;
-  }
-  EXPECT_EQ(FindTechnology("dye"), nullptr);
-}
-
 // Coefficients that are not stated are derived from the curve and are near the true ones.
 TEST(SettledInputs, AreNearTheTruthOfAModule) {
   const SyntheticModule module;

@@ -44,7 +44,7 @@ constexpr Technology kTechnologies[] = {
      nullptr, 1.7},
     {"CdTe", "cdte|cadmium", false, 1, 1.475, -0.0003, kFilmN, 1.22, "mtCdTe", 1.5,
      {0.04, 0.02, -0.28, 0.03, -0.29}},
-    {"CIGS", "cigs|cis|cise|copper indium|chalcopyrit", false, 1, 1.15, -0.00011, kFilmN, 1.0, "mtCIS", 1.03,
+    {"CIGS", "cigs|cis|copper indium|chalcopyrit", false, 1, 1.15, -0.00011, kFilmN, 1.0, "mtCIS", 1.03,
      {0.01, 0.02, -0.30, 0.04, -0.36}},
     {"a-Si", "a-si|asi|asih|asih_single|amorph", false, 1, 1.75, -0.0003, kFilmN, 1.1, nullptr, 1.7,
      {0.09, 0.03, -0.31, 0.03, -0.22}},

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -108,7 +109,11 @@ TEST(InspectTest, LinesAboveATableAreUnderstoodOrNot) {
 
 TEST(InspectTest, WhereNoNameIsUnderstoodItTriesThePairsOfColumns) {
   const TempFolder folder;
-  const std::string file = folder.Write("names.csv", "Bod;Napeti;Proud\n" + ModuleRows("7;{};{}"));
+  std::string rows = "Bod;Napeti;Proud\n";
+  std::istringstream lines(ModuleRows("{};{}"));
+  int place = 0;  // a counter, which falls in a straight line beside the voltage
+  for (std::string line; std::getline(lines, line);) rows += fmt::format("{};{}\n", place++, line);
+  const std::string file = folder.Write("names.csv", rows);
   const Inspection found = Inspected(file);
   EXPECT_THAT(UsesOf(found), Each("not understood"));
   EXPECT_THAT(found.refusal, HasSubstr("found neither among 'Bod', 'Napeti', 'Proud'"));

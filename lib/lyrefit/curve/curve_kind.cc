@@ -68,8 +68,8 @@ void TakeExtent(const IvCurve& curve, KindOfMeasurement* found) {
   }
   if (-last_A > points.short_circuit_current_A) {
     add(CurveKind::kFarBeyondVoc,
-        fmt::format("goes beyond Voc to {:.3g} A into the device, more than its Isc of {:.3g} A",
-                    -last_A, points.short_circuit_current_A));
+        fmt::format("goes to {:.3g} A into the device, more than its Isc of {:.3g} A", -last_A,
+                    points.short_circuit_current_A));
   }
 }
 

@@ -43,7 +43,7 @@ struct EnumTable<CurveKind> {
 // A kind and its sentence part: "dark: no current flows at 0 V". Empty for kLit.
 struct KindOfMeasurement {
   CurveKind kind = CurveKind::kLit;
-  std::string words;
+  std::string words;  // what the sweep lacks or has too much of
 };
 
 // The kind of a curve that passes Validate. Of several that hold, the last of the list above counts;

@@ -156,7 +156,8 @@ bool AreOfADevice(const CurveSet& set) {
     const KeyPoints points = FindKeyPoints(curve.voltage_V, curve.current_A);
     const bool meets_axis = points.open_circuit_voltage_V > 0 || points.short_circuit_current_A > 0;
     const auto findings = CheckReadings(curve);
-    return meets_axis && FindTurns(curve.voltage_V).size() <= 4 &&
+    constexpr double kLine = 0.27;  // a straight line, such as a counter, has a fill factor of 0.25
+    return meets_axis && !(points.fill_factor < kLine) && FindTurns(curve.voltage_V).size() <= 4 &&
            std::all_of(findings.begin(), findings.end(), [&](const ReadingFinding& one) {
              const bool module = one.id == "cells" && points.open_circuit_voltage_V > kOneCell_V;
              return !one.refuse && (module || one.id == "head");

@@ -179,8 +179,6 @@ Json JsonOf(const Inspection& found) {
           {"next", found.next}};
 }
 
-}  // namespace
-
 Document InspectionDocument(const Inspection& found) {
   Document document;
   document.head = HeadOf(found);
@@ -190,6 +188,8 @@ Document InspectionDocument(const Inspection& found) {
               &document);
   return document;
 }
+
+}  // namespace
 
 std::string InspectionText(const Inspection& found) { return DrawText(InspectionDocument(found)); }
 

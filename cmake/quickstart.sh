@@ -38,7 +38,7 @@ EOT
 if [[ ${1:-} == --fit-only ]]; then
   cat << EOT
 
-It has the verb fit, for curves one by one. All verbs (diagnose, translate, batch, certify, ...):
+It has the verbs fit, for curves one by one, and inspect. All verbs (diagnose, translate, batch, certify, ...):
 
     cmake --build build --target lyrefit_app
 EOT

@@ -89,10 +89,10 @@ inline DrawnEffect DrawEffect(const Device& device, const Effect& effect, Random
 
 // Noise in ampere for which the effect stands out by 10 to 50 standard deviations. `misfit`: root
 // of the sum of squares that a fit of the diodes alone leaves. The noise is limited to 2e-5 to 5e-3
-// of the largest current.
-inline double NoiseFor(double misfit, double largest_A, RandomStream* random) {
+// of the short-circuit current, which a usable fit keeps to as well.
+inline double NoiseFor(double misfit, double isc_A, RandomStream* random) {
   const double noise = misfit / LogUniform(random, 10, 50);
-  return std::min(std::max(noise, 2e-5 * largest_A), 5e-3 * largest_A);
+  return std::min(std::max(noise, 2e-5 * isc_A), 5e-3 * isc_A);
 }
 
 struct WalkRow {
@@ -114,7 +114,7 @@ void CountFit(const Expected<Report>& report, std::chrono::duration<double, std:
   if (!report || !report->usable) {
     ++row->failed;
     ADD_FAILURE() << DescribeUse(drawn.truth) << ": "
-                  << (report ? "not usable" : report.error().ToString());
+                  << (report ? "not usable: " + report->not_usable_because : report.error().ToString());
     return;
   }
   const Estimate& e =

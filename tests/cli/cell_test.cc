@@ -85,7 +85,7 @@ TEST(CellCommand, DescribesTheCellThatIsNamedLitAndDark) {
 TEST(CellCommand, RefusesWhatIsNotOneCell) {
   ExpectRefusals("cell ", {{"", "FILE is required"},
                            {"'" + DataFolder("formats/pixels_names_units.txt") + "'",
-                            "describe each with lyrefit batch --task cell"},
+                            "take each with lyrefit batch --task cell"},
                            {"nowhere.csv", "nowhere.csv"}});
 }
 

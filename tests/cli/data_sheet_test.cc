@@ -78,7 +78,7 @@ TEST(DataSheetVerb, ShowsAndDrawsTheFamily) {
   EXPECT_EQ(j["family"]["rounding"]["low"]["n"], j["parameters"]["n"]["low"]);
   ExpectRefusals("", {{kSheet + " --plot x.pdf", ".svg or .png"},
                       {"datasheet --isc 1 --voc 1 --imp 0.9972 --vmp 0.6764 --alpha 0.0004 --beta "
-                       "-0.003 --cells 1",
+                       "-0.003 --cells 1 --technology GaAs",
                        "n would have to be below"}});
 }
 
@@ -108,13 +108,17 @@ TEST(DataSheetVerb, TakesTheSheetOfAModuleFile) {
   EXPECT_FALSE(said["parameters"]["R_s"]["low"].is_null());
   const json exact = json::parse(RunApp(pan + " --exact --json -").out, nullptr, false);
   EXPECT_TRUE(exact["parameters"]["R_s"]["low"].is_null());
-  EXPECT_THAT(RunApp(kSheet + " --technology CdTe").out, HasSubstr("the sheet is of CdTe"));
+  EXPECT_THAT(RunApp(kSheet + " --technology CdTe").out, HasSubstr("the band gap 1.475 eV"));
   const std::string library = DataFolder("datasheet/invented_cec.csv");
   EXPECT_EQ(RunApp("datasheet '" + library + "#Invented I-304 M60' --quiet").exit_code, 0);
   const TempFolder folder;
   const std::string text = FileText(DataFolder("datasheet/invented.PAN"));
-  const std::string bare =
-      folder.Write("bare.PAN", std::string(text).replace(text.find("-122.5"), 6, "0.0"));
+  const std::string unstated = std::string(text).replace(text.find("-122.5"), 6, "0.0");
+  EXPECT_THAT(
+      RunApp("datasheet '" + folder.Write("unstated.PAN", unstated) + "'").out,
+      HasSubstr("muVocSpec is not stated: beta_oc of -0.1222 V/K is that of the file's own"));
+  const std::string bare = folder.Write(
+      "bare.PAN", std::string(unstated).replace(unstated.find("RSerie=0.218"), 12, "RNone=0"));
   const std::string copy = folder.Write("copy.csv", FileText(library));
   ExpectRefusals(
       "datasheet ",

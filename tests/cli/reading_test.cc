@@ -44,8 +44,9 @@ TEST(ReadingFlags, RefusalsNameThem) {
 TEST(ReadingFlags, ColumnsAreListed) {
   const AppResult result = RunApp("fit --list-columns " + kFormats + "wide.csv");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("   1  Voltage (V)                       voltage\n"));
-  EXPECT_THAT(result.out, HasSubstr("   3  Current 2 (A)                     current 2\n"));
+  EXPECT_EQ(result.out, RunApp("inspect " + kFormats + "wide.csv").out);
+  EXPECT_THAT(result.out, HasSubstr("  1  Voltage (V)    voltage    V "));
+  EXPECT_THAT(result.out, HasSubstr("  3  Current 2 (A)  current 2  A "));
 }
 
 TEST(ReadingFlags, StandardInputIsRead) {

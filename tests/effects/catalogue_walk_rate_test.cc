@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "catalogue_walk.h"
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/estimate/fit/fit.h"
 #include "lyrefit/estimate/fit/simulate.h"
@@ -101,6 +102,15 @@ struct Case {
   DrawnEffect drawn;
 };
 
+// Whether a source meter drives the device as far: a reverse current of 28 times Isc, which drawn
+// breakdowns reach, destroys it.
+bool IsWithinASource(const IvCurve& clean) {
+  constexpr double kMost = 5;  // of Isc
+  const KeyPoints points = FindKeyPoints(clean.voltage_V, clean.current_A);
+  return *std::max_element(clean.current_A.begin(), clean.current_A.end()) <
+         kMost * points.short_circuit_current_A;
+}
+
 double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
   FitOptions alone;
   alone.model = model;
@@ -110,8 +120,8 @@ double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
   const auto base = Fit(clean, alone);
   const double count = static_cast<double>(clean.size());
   const double misfit = base ? base->rmse.refined.solved_current_A * std::sqrt(count) : 0;
-  return NoiseFor(misfit, *std::max_element(clean.current_A.begin(), clean.current_A.end()),
-                  random);
+  const KeyPoints points = FindKeyPoints(clean.voltage_V, clean.current_A);
+  return NoiseFor(misfit, points.short_circuit_current_A, random);
 }
 
 // Empty if data of this kind cannot show the effect in this device.
@@ -128,7 +138,7 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   device.with = {made.drawn.truth};
   device.taken = *taken;
   const auto clean = Simulate(device);
-  if (!clean) return std::nullopt;
+  if (!clean || !IsWithinASource(*clean)) return std::nullopt;
   device.noise_A = DrawNoise(*clean, device.model, random);
   device.seed = random->Bits() >> 12;
   made.curve = *Simulate(device);

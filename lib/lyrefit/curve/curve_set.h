@@ -15,7 +15,7 @@ struct RejectedCurve {
   Error error;
 };
 
-// Curves of one device at different irradiances and temperatures. IvCurve::name is the curve's id,
+// Curves of one device at different irradiances and temperatures, unless `several_devices`. IvCurve::name is the curve's id,
 // unique within the set.
 struct CurveSet {
   std::string name;    // "sandia_pvue125"
@@ -23,6 +23,7 @@ struct CurveSet {
   std::vector<IvCurve> curves;
   std::vector<RejectedCurve> rejected;  // curves that could not be read
   std::vector<Assumption> assumptions;  // assumptions shared by all curves
+  bool several_devices = false;         // a column of their table tells devices apart
 };
 
 // A set of one curve.

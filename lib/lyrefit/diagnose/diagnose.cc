@@ -349,16 +349,6 @@ void MarkInterrupted(Diagnosis* diagnosis) {
                                    : "Stopped early: nothing was found so far.";
 }
 
-// Devices side by side, or in a column of their own, are not one. The curves of a table that numbers
-// them may be.
-Expected<void> CheckIsOneDevice(const CurveSet& set) {
-  const bool numbered = std::all_of(set.curves.begin(), set.curves.end(), [](const IvCurve& curve) {
-    return curve.name.find_first_not_of("0123456789") == std::string::npos;
-  });
-  if (numbered || SplitIntoCells(set).size() < 2) return {};
-  return CheckIsOneCell(set, "batch --task diagnose");
-}
-
 // Says what kind a single curve is where it is no plain sweep.
 void AddKind(const CurveSet& set, Evidence* evidence) {
   if (set.curves.size() != 1) return;
@@ -396,7 +386,7 @@ std::vector<std::string> OwnEffectIds(const DiagnoseOptions& options) {
 Expected<Diagnosis> Diagnose(const CurveSet& taken, const DiagnoseOptions& options,
                              const Observer& observer) {
   const Instant begin = Now();
-  TRY(CheckIsOneDevice(taken));
+  if (taken.several_devices) TRY(CheckIsOneCell(taken, "batch --task diagnose"));
   TRY(const PreparedDiagnosis prepared, Prepare(taken, options));
   const ProgressReporter progress(observer, kPollPeriod_s);
   progress.Begin("base fit", 3);

@@ -71,7 +71,7 @@ std::vector<CellCurves> SplitIntoCells(CurveSet set) {
 }
 
 Expected<void> CheckIsOneCell(const CurveSet& set, const char* each) {
-  if (!HoldsSeveralCells(set, UnstatedDark::kDark)) return {};
+  if (!set.several_devices && !HoldsSeveralCells(set, UnstatedDark::kDark)) return {};
   std::string names;
   for (const CellCurves& one : SplitIntoCells(set)) {
     names += (names.empty() ? "" : ", ") + one.name;

@@ -130,12 +130,15 @@ Expected<CurveSet> SetFromTable(const DecodedText& decoded, const std::string& p
   }
   TRY(std::vector<Table> tables, std::move(read));
   TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
+  const bool several_devices = tables.size() > 1 && tables.front().of_device;
   if (tables.size() > 1) {
     AddChannels(std::move(tables), path, &builder);
   } else {
     TRY(AddSweeps(tables.front(), path, index, &builder));
   }
-  return builder.Finish();
+  TRY(CurveSet set, builder.Finish());
+  set.several_devices = several_devices;
+  return set;
 }
 
 Expected<CurveSet> ReadSetFromTable(const std::string& path, const std::string& source,

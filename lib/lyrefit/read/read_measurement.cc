@@ -63,6 +63,7 @@ Expected<CurveSet> ReadMeasurement(const std::vector<std::string>& paths,
   for (const std::string& path : paths) {
     TRY(CurveSet set, ReadMeasurement(path, options));
     all.name += (all.name.empty() ? "" : " + ") + set.name;
+    all.several_devices = all.several_devices || set.several_devices;
     all.source += (all.source.empty() ? "" : ", ") + set.source;
     for (IvCurve& curve : set.curves) all.curves.push_back(std::move(curve));
     for (RejectedCurve& bad : set.rejected) all.rejected.push_back(std::move(bad));

@@ -61,6 +61,18 @@ TEST(ParseNumberTest, ThousandsMayBeSetApartWhereADecimalPartShowsThem) {
   }
 }
 
+TEST(ParseNumberTest, ThousandsMayBeSetApartByBlanksAndApostrophes) {
+  EXPECT_EQ(ParseNumber("8'892.6"), 8892.6);
+  EXPECT_EQ(ParseNumber("-1'234'567"), -1234567);
+  EXPECT_EQ(ParseNumber("8 892.6"), 8892.6);
+  EXPECT_EQ(ParseNumber("8\u00a0892,6", true), 8892.6);
+  EXPECT_EQ(ParseNumber("1\u202f234\u202f567"), 1234567);
+  for (const char* text :
+       {"8 892", "8 89.6", "8888'892", "'892", "8'8926", "8'", "0.5 123.4", "8''892", "1 2"}) {
+    EXPECT_FALSE(ParseNumber(text)) << text;
+  }
+}
+
 TEST(ParseNumberTest, LeavesNotANumberToTheCaller) {
   ASSERT_TRUE(ParseNumber("nan"));
   EXPECT_TRUE(std::isnan(*ParseNumber("nan")));

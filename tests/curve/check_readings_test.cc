@@ -180,6 +180,15 @@ TEST(CheckReadingsTest, NamesWhatCannotBeAndSaysWhatToDo) {
          c->conditions.cells_in_series = 1;
          c->cells_known = false;
        }},
+      {"a cell in millivolt without a unit",
+       "cells",
+       false,
+       {"millivolt (--voltage-unit mV)? or some", "cells in series (--cells)?"},
+       [](IvCurve* c) {
+         c->conditions.cells_in_series = 1;
+         c->cells_known = c->voltage_unit_known = false;
+         for (double& v : c->voltage_V) v *= 1e3 / 60;
+       }},
       {"one stated cell with the voltage of two junctions",
        "cells",
        true,

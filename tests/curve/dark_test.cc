@@ -35,6 +35,27 @@ TEST(DarkTest, WhatIsStatedAsDarkMayHaveAnOffset) {
   EXPECT_FALSE(IsDark(assumed));
 }
 
+TEST(DarkTest, NothingButNoiseIsNightWhereNoLightIsStated) {
+  IvCurve curve;
+  RandomStream random(3);
+  for (int k = 0; k < 40; ++k) {
+    curve.voltage_V.push_back(0.1 * k);
+    curve.current_A.push_back(2e-3 * random.Normal());
+  }
+  curve.current_A[0] = 4e-3;
+  for (const double irradiance : {0.0, 3.0}) {
+    curve.conditions.irradiance_W_m2 = irradiance;
+    EXPECT_TRUE(IsNight(curve)) << irradiance;
+    EXPECT_TRUE(IsDark(curve)) << irradiance;
+  }
+  curve.conditions.irradiance_W_m2 = 800;
+  EXPECT_FALSE(IsNight(curve)) << "a device that is off, or a dead channel";
+  curve.conditions.irradiance_W_m2 = 0;
+  curve.current_A.back() = -1;
+  EXPECT_FALSE(IsNight(curve)) << "driven forward";
+  EXPECT_FALSE(IsNight(Falling(0, 0))) << "too few readings tell no noise";
+}
+
 // A photodiode from -1 to 1 V with 50 mA forward. Noise of the currents: constant.
 IvCurve Photodiode(double photo_A, double noise_A, double loop_A = 0) {
   IvCurve curve;

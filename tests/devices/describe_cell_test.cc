@@ -61,6 +61,14 @@ TEST(DescribeCell, GivesNoEfficiencyOfAnImpossibleCurrentAreaOrSign) {
   EXPECT_GT(Described({other_area}).sweeps[0].efficiency, 1);
 }
 
+TEST(DescribeCell, NamesCurvesThatCouldNotBeRead) {
+  CurveSet cell = CellOf({CellSweepOf(kCellTruth, 1000, false, kNoise)});
+  cell.rejected.push_back({"px dark", Error{"expected a number", "a.csv", 7, 2}});
+  const auto report = DescribeCell(cell, {});
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_THAT(report->warnings, Contains("px dark left out: a.csv:7:2: expected a number"));
+}
+
 TEST(DescribeCell, LightAndDarkCurvesOfOneDiodeSuperpose) {
   const CellReport report = Described(
       {CellSweepOf(kCellTruth, 1000, false, kNoise), CellSweepOf(kCellTruth, 0, false, kNoise)});

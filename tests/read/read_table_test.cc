@@ -270,6 +270,43 @@ TEST(ReadTableTest, ADarkMeasurementHasNoLight) {
             std::nullopt);
 }
 
+TEST(ReadTableTest, TheLightOfARoomInTheHeadOfAPairHasNoIrradiance) {
+  const char* const text =
+      "Run\tA\tRun\tB\nLight\t1 sun\tLight\tRoom light\nIrradiance [W/m2]\t1000\tIrradiance "
+      "[W/m2]\t1000\nV [V]\tI [A]\tV [V]\tI [A]\n0\t2\t0\t1\n1\t0\t1\t0\n";
+  ReadOptions options;
+  options.column = "1";
+  const auto sun = ReadTable(text, "f", options);
+  ASSERT_TRUE(sun) << sun.error().ToString();
+  EXPECT_EQ(sun->head.irradiance_W_m2, 1000);
+  options.column = "2";
+  const auto room = ReadTable(text, "f", options);
+  ASSERT_TRUE(room) << room.error().ToString();
+  EXPECT_EQ(room->head.irradiance_W_m2, std::nullopt);
+  EXPECT_EQ(room->head.light, "line 2 'Room light'");
+}
+
+TEST(ReadTableTest, AStatedJscBelowGivesTheUnitOfACurrentWithoutHeader) {
+  const auto table = ReadTable("0 21.3\n0.5 20\n0.8 0.1\n\nJsc: 21.3\nFF: 0.6\n", "f", {});
+  ASSERT_TRUE(table) << table.error().ToString();
+  EXPECT_TRUE(table->per_area);
+  EXPECT_THAT(table->curve.current_A, ElementsAre(21.3e-3, 20e-3, 0.1e-3));
+  EXPECT_THAT(SentencesOf(table->curve.assumptions),
+              Contains(HasSubstr("in the unit of line 5 'Jsc: 21.3', with which it agrees")));
+  const auto amperes = ReadTable("V,J\n0,0.0213\n0.8,0\n\nJsc: 21.3 mA/cm2\n", "f", {});
+  ASSERT_TRUE(amperes) << amperes.error().ToString();
+  EXPECT_NEAR(amperes->curve.current_A[0], 21.3e-3, 1e-12);
+  EXPECT_TRUE(amperes->curve.current_unit_known);
+  EXPECT_THAT(SentencesOf(amperes->curve.assumptions),
+              Contains(HasSubstr("taken in A/cm2 by line 5 'Jsc: 21.3 mA/cm2'")));
+  const auto current = ReadTable("V,I\n0,0.0213\n0.8,0\n\nJsc: 21.3 mA/cm2\n", "f", {});
+  ASSERT_TRUE(current);
+  EXPECT_FALSE(current->per_area) << "a current, of 1 cm2";
+  const auto other = ReadTable("0 21.3\n0.5 20\n0.8 0.1\n\nJsc: 35\n", "f", {});
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(other->per_area);
+}
+
 TEST(ReadTables, ReadsMeasurementsSideBySideInOnePass) {
   const char* const text =
       "V1,I1,V2,I2,V3,I3\n0,2,0,1,,\n0.4,1.5,0.3,x,,\n0.5,1,0.4,0.5,,\n0.6,0,,,,\nend: ok\n";

@@ -72,6 +72,38 @@ TEST(SettleConditionsTest, NoIrradianceFollowsFromLux) {
               testing::Contains(testing::HasSubstr("no W/m2 follow from 250 lux")));
 }
 
+TEST(SettleConditionsTest, TheLightOfARoomStatesNoIrradiance) {
+  IvCurve curve;
+  Sidecar sidecar;
+  sidecar.light = "line 2 'Room light'";
+  SettleConditions(sidecar, &curve);
+  EXPECT_FALSE(curve.irradiance_known);
+  EXPECT_THAT(
+      SentencesOf(curve.assumptions),
+      testing::Contains(testing::HasSubstr("line 2 'Room light' states a light whose W/m2")));
+}
+
+TEST(SettleConditionsTest, AsksForTheUnitOfADensityThatFitsTwo) {
+  ReadOptions options;
+  options.area_cm2 = 0.1;
+  IvCurve curve;
+  curve.voltage_V = {0, 0.5};
+  curve.current_A = {21e-6, 0};  // 0.021 in the file, taken as mA/cm2
+  curve.current_unit_known = false;
+  const auto settled = SettleArea(options, {}, &curve);
+  ASSERT_FALSE(settled);
+  EXPECT_THAT(settled.error().message, testing::HasSubstr("0.021"));
+  EXPECT_THAT(settled.error().message, testing::HasSubstr("--current-unit A/cm2"));
+  Sidecar room;
+  room.light = "line 2 'Room light'";
+  IvCurve dim = curve, bright = curve, named = curve;
+  EXPECT_TRUE(SettleArea(options, room, &dim));
+  bright.current_A[0] = 21e-3;
+  EXPECT_TRUE(SettleArea(options, {}, &bright));
+  named.current_unit_known = true;
+  EXPECT_TRUE(SettleArea(options, {}, &named));
+}
+
 Sidecar StandardCell() {
   Sidecar sidecar;
   sidecar.cells_in_series = 1;

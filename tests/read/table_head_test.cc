@@ -37,7 +37,7 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
     EXPECT_FALSE(Head(line).said.cells_in_series) << line;
   }
   for (const char* line : {"Cell area (cm2)\t4", "Device Area = 4 cm2", "area_mm2: 400",
-                           "AREA\tQUANT\t4.00000E+000\tSample Area (cm^2)"}) {
+                           "Size [cm2]\t4", "AREA\tQUANT\t4.00000E+000\tSample Area (cm^2)"}) {
     EXPECT_NEAR(Head(line).said.notes.area_cm2.value_or(0), 4, 1e-9) << line;
   }
   for (const char* line : {"Compliance (mA): 100", "Current limit: 0.1 A"}) {
@@ -68,6 +68,36 @@ TEST(ReadHeadLineTest, LightInLuxStatesNoIrradiance) {
     EXPECT_EQ(head.said.notes.illuminance_lux.value_or(0), 250) << line;
     EXPECT_FALSE(head.said.irradiance_W_m2) << line;
   }
+}
+
+TEST(ReadHeadLineTest, WordsMayStateTheLight) {
+  for (const char* line : {"Illumination: room light", "Light source;ambient light (tubes)",
+                           "Light\tindoor", "Lamp: office lighting", "Beleuchtung: Raumlicht"}) {
+    const TableHead head = Head(line);
+    EXPECT_THAT(head.said.light, HasSubstr("line 3")) << line;
+    EXPECT_FALSE(head.said.irradiance_W_m2) << line;
+  }
+  for (const char* line : {"Illumination: dark", "Light: off", "Lamp,light off"}) {
+    EXPECT_EQ(Head(line).said.irradiance_W_m2, 0) << line;
+  }
+  for (const char* line :
+       {"Ambient temperature: 21", "Place: office 4", "Light source: class AAA"}) {
+    EXPECT_EQ(Head(line).said.light, "") << line;
+    EXPECT_FALSE(Head(line).said.irradiance_W_m2) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, TheIrradianceOfASunIsNoneOfARoom) {
+  TableHead head;
+  ReadHeadLine("Irradiance (W/m2): 1000", 2, HeadLine::kText, &head);
+  ReadHeadLine("Light: room light", 3, HeadLine::kText, &head);
+  EXPECT_FALSE(head.said.irradiance_W_m2);
+  EXPECT_THAT(SentencesOf(head.assumptions),
+              ElementsAre(HasSubstr("irradiance of 1000 W/m2 not used, since line 3")));
+  head = {};
+  ReadHeadLine("Irradiance (W/m2): 3.2", 2, HeadLine::kText, &head);
+  ReadHeadLine("Light: room light", 3, HeadLine::kText, &head);
+  EXPECT_EQ(head.said.irradiance_W_m2, 3.2);
 }
 
 TEST(ReadHeadLineTest, UnderstandsOtherLanguages) {

@@ -74,7 +74,19 @@ TEST(FindTableLayoutTest, WithoutHeaderTheFirstTwoColumnsCount) {
   EXPECT_EQ(layout->current, 1);
   EXPECT_EQ(layout->first_row_line, 1);
   EXPECT_THAT(SentencesOf(layout->assumptions),
-              ElementsAre(HasSubstr("no header line"), HasSubstr("1 further columns not used")));
+              ElementsAre(HasSubstr("no header line"), "column 2 names no unit: taken as A",
+                          HasSubstr("1 further columns not used")));
+}
+
+TEST(FindTableLayoutTest, TheUnitsInALabViewHeadAreNoHeader) {
+  const std::string head =
+      "LabVIEW Measurement\t\n***End_of_Header***\t\nChannels\t2\t\nSamples\t2\t2\n"
+      "Y_Unit_Label\tVolts\tAmps\nX0\t0.0\t0.0\nDelta_X\t1.0\t1.0\n***End_of_Header***\t\t\n";
+  const auto layout =
+      FindTableLayout(head + "X_Value\tVoltage\tCurrent\tComment\n0\t0.1\t2\n1\t0.2\t1\n", "");
+  ASSERT_TRUE(layout) << layout.error().ToString();
+  EXPECT_EQ(layout->first_row_line, 9);
+  EXPECT_FALSE(FindTableLayout(head + "X_Value\tCurrent\tComment\n0\t2\n1\t1\n", ""));
 }
 
 TEST(FindTableLayoutTest, HeaderMayHideInAComment) {

@@ -41,6 +41,15 @@ TEST(LineReaderTest, ContentIsNeitherBlankNorComment) {
   EXPECT_FALSE(lines.NextContent(&line));
 }
 
+TEST(LineReaderTest, RulesBetweenHeadAndRowsAreNoContent) {
+  LineReader lines("|---|:-:|\n----+----\n====\n-1 | 2\n--\n");
+  std::string_view line;
+  ASSERT_TRUE(lines.NextContent(&line));
+  EXPECT_EQ(line, "-1 | 2");
+  ASSERT_TRUE(lines.NextContent(&line));
+  EXPECT_EQ(line, "--");  // a missing reading, perhaps
+}
+
 TEST(LineReaderTest, GoesOnFromAnOffset) {
   const std::string text = "one\ntwo\nthree";
   LineReader lines(text, 4, 1);

@@ -42,6 +42,37 @@ std::optional<double> Convert(std::string_view text) {
   return ConvertPlain(text);
 }
 
+// Removes the blanks and apostrophes between thousands: "8 892,6", "8'892.6". A plain blank may also
+// lie between two numbers, so it is one only in front of a decimal part. Returns other text unchanged.
+std::string WithoutSpacedThousands(const std::string& text) {
+  std::string plain;
+  std::size_t digits = 0;  // since the last mark
+  bool marked = false, blank = false;
+  std::size_t at = text[0] == '+' || text[0] == '-' ? 1 : 0;
+  plain.append(text, 0, at);
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c >= '0' && c <= '9') {
+      plain += text[at++];
+      ++digits;
+      continue;
+    }
+    std::size_t length = 0;
+    for (const std::string_view mark : {" ", "'", "\u00a0", "\u2009", "\u202f", "\u2019"}) {
+      if (text.compare(at, mark.size(), mark) == 0) length = mark.size();
+    }
+    if (length == 0) break;
+    if (digits == 0 || digits > 3 || (marked && digits != 3)) return text;
+    blank = blank || c == ' ';
+    marked = true;
+    digits = 0;
+    at += length;
+  }
+  const bool decimal = at < text.size() && (text[at] == '.' || text[at] == ',');
+  if (!marked || digits != 3 || (blank && !decimal)) return text;
+  return plain + text.substr(at);
+}
+
 // Removes the separators of thousands from "8,892.6"; returns other text unchanged.
 std::string WithoutThousands(std::string text, bool decimal_comma) {
   const std::size_t point = text.find_last_of(".,");
@@ -98,6 +129,7 @@ std::optional<double> ParseNumber(std::string_view text, bool decimal_comma) {
   for (std::size_t at; (at = plain.find(minus)) != std::string::npos;) {
     plain.replace(at, minus.size(), "-");
   }
+  if (!plain.empty()) plain = WithoutSpacedThousands(plain);
   plain = WithoutThousands(std::move(plain), decimal_comma);
   if (decimal_comma && plain.find('.') == std::string::npos) {
     if (const std::size_t at = plain.find(','); at != std::string::npos) plain[at] = '.';

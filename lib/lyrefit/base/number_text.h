@@ -9,11 +9,11 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Parses a decimal number, independent of the locale: "1.5", "+1.5e-3", "-.5", with U+2212 as minus
-// and with blanks around it. `decimal_comma` also allows "1,5". Separators of thousands are allowed
-// if a decimal part identifies them: "8,892.6", with `decimal_comma` also "8.892,6". nullopt for
-// any other text and for numbers beyond double. "nan" and "inf" are returned as numbers, so that
-// the caller can report them.
+// Parses a decimal number, independent of the locale: "1.5", "+1.5e-3", "-.5", U+2212 as minus,
+// blanks around it. `decimal_comma` also allows "1,5". Separators of thousands are allowed if a
+// decimal part identifies them: "8,892.6", "8 892.6", with `decimal_comma` "8.892,6"; apostrophes
+// and unbreakable blanks always. nullopt for any other text and for numbers beyond double. "nan"
+// and "inf" are returned as numbers, so that the caller can report them.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
 // Half a unit of the last printed digit: 0.005 for "1.23", 5e-9 for "1.23E-06".

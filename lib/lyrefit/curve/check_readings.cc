@@ -384,7 +384,8 @@ std::vector<ReadingFinding> CheckReadings(const IvCurve& curve) {
   Findings findings;
   LookForOverflow(curve, &findings);
   LookForNothing(curve, &findings);
-  if (!findings.empty()) return findings;  // such values allow no other check
+  // Such values allow no other check.
+  if (!findings.empty() || IsNight(curve)) return findings;
   const Examined look = Examine(curve);
   LookAtSigns(look, &findings);
   if (findings.empty()) LookForExchange(look, &findings);

@@ -11,6 +11,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kLitFrom_W_m2 = 20;  // a sensor may show less in the dark
+
 // Indices of the readings next to 0 V. Those of reverse bias alone if there are enough: the current
 // is nearly a line there.
 std::vector<int> NextToZero(const IvCurve& curve, std::size_t count) {
@@ -67,16 +69,24 @@ bool IsStatedDark(const IvCurve& curve) {
   return curve.irradiance_known && curve.conditions.irradiance_W_m2 <= 0;
 }
 
+bool IsNight(const IvCurve& curve) {
+  if (!curve.irradiance_known || curve.conditions.irradiance_W_m2 > kLitFrom_W_m2) return false;
+  // Of a thousand readings none exceeds 3.3 times their noise, which nine of them may show as a third.
+  constexpr double kMost = 10;
+  const double noise_A = NoiseNearZero(curve);
+  return std::isfinite(noise_A) && LargestMagnitude(curve.current_A) <= kMost * noise_A;
+}
+
 bool IsDark(const IvCurve& curve) {
   constexpr double kOffset = 0.05, kNothing = 0.002;  // of the largest current
   constexpr double kNoises = 30, kNoisesAtLight = 5;
-  constexpr double kLight_W_m2 = 20;  // a sensor may show less in the dark
   if (curve.size() == 0) return false;
+  if (IsNight(curve)) return true;
   const double at_zero_A = curve.current_A[NextToZero(curve, 1).front()];
   const double largest_A = LargestMagnitude(curve.current_A);
   if (IsStatedDark(curve)) return at_zero_A <= kOffset * largest_A;
   if (!(at_zero_A > 0) || at_zero_A > kNothing * largest_A) return !(at_zero_A > 0);
-  const bool light = curve.irradiance_known && curve.conditions.irradiance_W_m2 > kLight_W_m2;
+  const bool light = curve.irradiance_known && curve.conditions.irradiance_W_m2 > kLitFrom_W_m2;
   return at_zero_A <= (light ? kNoisesAtLight : kNoises) * NoiseNearZero(curve);
 }
 

@@ -13,6 +13,11 @@ namespace lyrefit {
 //     20 times their noise in the same range.
 bool IsDark(const IvCurve& curve);
 
+// Whether a curve was logged without light and without a current driven into the device, as at night:
+// the stated irradiance is at most 20 W/m2, and no current exceeds 10 times the noise of the readings
+// next to 0 V.
+bool IsNight(const IvCurve& curve);
+
 // Whether the irradiance is stated, and as 0.
 bool IsStatedDark(const IvCurve& curve);
 

@@ -394,6 +394,10 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
       if (!known) report.assumptions.push_back(assumption);
     }
   }
+  for (const RejectedCurve& rejected : cell.rejected) {
+    report.warnings.push_back(
+        fmt::format("{} left out: {}", rejected.id, rejected.error.ToString()));
+  }
   report.non_default_options = NonDefaults(options, kCellOptionTable);
   Warn(&report);
   return report;

@@ -108,7 +108,7 @@ void TakeDoubt(IvCurve curve, double area_cm2, CellSweep* sweep) {
   if (std::isfinite(area_cm2)) curve.notes.area_cm2 = area_cm2;
   for (const ReadingFinding& finding : CheckReadings(curve)) {
     for (const char* const id :
-         {"sign", "exchanged", "unit", "technology", "current", "efficiency"}) {
+         {"sign", "exchanged", "unit", "light", "technology", "current", "efficiency"}) {
       if (finding.id != id) continue;
       sweep->doubt = finding.sentence;
       sweep->refused = finding.refuse;

@@ -19,6 +19,8 @@ std::string NameOfSeparator(char delimiter) {
       return "semicolon";
     case ',':
       return "comma";
+    case '|':
+      return "stroke";
     case ' ':
       return "blanks";
     default:

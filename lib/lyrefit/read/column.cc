@@ -8,215 +8,19 @@
 #include <vector>
 
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/column_names.h"
+#include "lyrefit/read/column_tag.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {
 
-struct Name {
-  std::string_view text;  // letters and digits only, lower case
-  ColumnKind kind;
-};
-
-constexpr Name kNames[] = {
-    {"v", ColumnKind::kVoltage},
-    {"u", ColumnKind::kVoltage},
-    {"voltage", ColumnKind::kVoltage},
-    {"voltages", ColumnKind::kVoltage},
-    {"potential", ColumnKind::kVoltage},
-    {"ewe", ColumnKind::kVoltage},  // working electrode
-    {"vf", ColumnKind::kVoltage},   // "full", the measured voltage of potentiostats
-    {"vm", ColumnKind::kVoltage},
-    {"i", ColumnKind::kCurrent},
-    {"im", ColumnKind::kCurrent},
-    {"current", ColumnKind::kCurrent},
-    {"currents", ColumnKind::kCurrent},
-    {"amperage", ColumnKind::kCurrent},  // "intensité", which may also be one of light
-    {"sigma", ColumnKind::kSigma},
-    {"sigmai", ColumnKind::kSigma},
-    {"currentsigma", ColumnKind::kSigma},
-    {"sigmacurrent", ColumnKind::kSigma},
-    {"uncertainty", ColumnKind::kSigma},
-    {"currentuncertainty", ColumnKind::kSigma},
-    {"time", ColumnKind::kTime},
-    {"elapsedtime", ColumnKind::kTime},
-    {"t", ColumnKind::kTime},
-    {"sweep", ColumnKind::kSweep},
-    {"scan", ColumnKind::kSweep},
-    {"direction", ColumnKind::kSweep},
-    {"scandirection", ColumnKind::kSweep},
-    {"sweepdirection", ColumnKind::kSweep},
-    {"curve", ColumnKind::kCurve},
-    {"irradiance", ColumnKind::kIrradiance},
-    {"irr", ColumnKind::kIrradiance},
-    {"irrad", ColumnKind::kIrradiance},
-    {"effectiveirradiance", ColumnKind::kIrradiance},
-    {"illuminance", ColumnKind::kIrradiance},
-    {"intensity", ColumnKind::kIrradiance},
-    {"g", ColumnKind::kIrradiance},
-    {"poa", ColumnKind::kIrradiance},
-    {"poairradiance", ColumnKind::kIrradiance},
-    {"irradiancepoa", ColumnKind::kIrradiance},
-    {"temperature", ColumnKind::kTemperature},
-    {"temp", ColumnKind::kTemperature},
-    {"tcell", ColumnKind::kTemperature},
-    {"tc", ColumnKind::kTemperature},
-    {"tmodule", ColumnKind::kTemperature},
-    {"modt", ColumnKind::kTemperature},
-    {"j", ColumnKind::kCurrentDensity},
-    {"currentdensity", ColumnKind::kCurrentDensity},
-};
-
-// Words that say where a quantity was measured, not which one. A single letter may carry them:
-// "Vmeas", "Idc".
-constexpr std::string_view kQualifiers[] = {
-    "pv",  "module",    "cell",  "panel",    "array", "string",   "load",   "bias",
-    "dut", "device",    "anode", "measured", "meas",  "dc",       "output", "in",
-    "opc", "electrode", "we",    "smu",      "corr",  "corrected"};
-
-// Words that a number makes one of several: "Ch2 voltage", "PV1 current".
-constexpr std::string_view kChannels[] = {"ch",     "channel", "px",   "pixel", "pv",
-                                          "string", "str",     "mppt", "input"};
-
 // Unsupported units. They mark "voltage_percent" as a voltage with a wrong unit; "voltage_set" is
 // no voltage.
 constexpr std::string_view kForeignUnits[] = {"percent", "pct", "pu",  "w",         "mw", "kw",
                                               "ohm",     "db",  "f",   "degf",      "h",  "lux",
                                               "adc",     "raw", "bit", "fahrenheit"};
-
-template <std::size_t N>
-bool IsAmong(const std::string_view (&list)[N], std::string_view text) {
-  return std::find(std::begin(list), std::end(list), text) != std::end(list);
-}
-
-bool IsDigits(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-const Name* FindName(std::string_view text) {
-  for (const Name& name : kNames) {
-    if (name.text == text) return &name;
-  }
-  return nullptr;
-}
-
-void DropQualifiers(std::vector<LabelWord>* words) {
-  if (words->size() < 2) return;
-  std::vector<LabelWord> kept;
-  for (const LabelWord& word : *words) {
-    if (!IsAmong(kQualifiers, word.text)) kept.push_back(word);
-  }
-  if (!kept.empty()) *words = kept;
-}
-
-// Shortens "vmeas" to "v", since "meas" is a qualifier.
-void CutQualifierOffLetter(LabelWord* word) {
-  if (word->text.size() < 3 || FindName(word->text) != nullptr) return;
-  const Name* letter = FindName(word->text.substr(0, 1));
-  if (letter == nullptr || !IsElectrical(letter->kind)) return;
-  if (IsAmong(kQualifiers, std::string_view(word->text).substr(1))) word->text.resize(1);
-}
-
-// Removes the number of a pixel, channel or unit from the words and returns it: "I1", "Ch2
-// voltage", "Current 1 (A)". The 2 of "mA cm-2" is not such a number.
-std::string TakeNumber(std::vector<LabelWord>* words) {
-  std::string number;
-  const auto add = [&number](std::string_view digits) {
-    if (!number.empty()) number += '.';
-    number += digits;
-  };
-  std::vector<LabelWord> kept;
-  for (LabelWord word : *words) {
-    const bool of_a_unit = !kept.empty() && (kept.back().text == "cm" || kept.back().text == "m" ||
-                                             kept.back().text == "mm");
-    if (IsDigits(word.text) && !of_a_unit) {
-      add(word.text);
-      continue;
-    }
-    const std::size_t letters = word.text.find_last_not_of("0123456789") + 1;
-    LabelWord cut = {word.text.substr(0, letters), "", false};
-    CutQualifierOffLetter(&cut);  // "vpv1" is a "v" with a number
-    const std::string front = cut.text;
-    const bool channel = IsAmong(kChannels, front);
-    const Name* name = FindName(front);
-    const bool named = name != nullptr && IsElectrical(name->kind);
-    if (letters < word.text.size() && (named || channel)) {
-      add(std::string_view(word.text).substr(letters));
-      word.text = front;
-    }
-    if (!channel) kept.push_back(word);
-  }
-  if (kept.empty()) return "";
-  *words = kept;
-  return number;
-}
-
-// Directions, lights and averages, as labels name them. "up" and "down" also stand alone.
-constexpr std::pair<std::string_view, SweepDirection> kDirections[] = {
-    {"forward", SweepDirection::kForward},  {"fwd", SweepDirection::kForward},
-    {"for", SweepDirection::kForward},      {"fw", SweepDirection::kForward},
-    {"up", SweepDirection::kForward},       {"reverse", SweepDirection::kReverse},
-    {"backward", SweepDirection::kReverse}, {"back", SweepDirection::kReverse},
-    {"bwd", SweepDirection::kReverse},      {"rev", SweepDirection::kReverse},
-    {"rv", SweepDirection::kReverse},       {"down", SweepDirection::kReverse}};
-constexpr std::pair<std::string_view, SweepLight> kLights[] = {
-    {"dark", SweepLight::kDark},          {"light", SweepLight::kLight},
-    {"lit", SweepLight::kLight},          {"illuminated", SweepLight::kLight},
-    {"illumination", SweepLight::kLight}, {"sunsvoc", SweepLight::kSunsVoc}};
-constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
-
-template <class T, std::size_t N>
-const T* FindWord(const std::pair<std::string_view, T> (&list)[N], std::string_view text) {
-  for (const auto& [word, value] : list) {
-    if (word == text) return &value;
-  }
-  return nullptr;
-}
-
-// Records one word of a tag; false if it is none. "forD" is a direction with the letter of a light.
-bool TakeTagWord(const LabelWord& word, ColumnTag* tag) {
-  if (const auto* direction = FindWord(kDirections, word.text)) {
-    tag->direction = *direction;
-    return true;
-  }
-  if (const auto* light = FindWord(kLights, word.text)) {
-    tag->light = *light;
-    return true;
-  }
-  if (IsAmong(kAverages, word.text)) return tag->average = true;
-  const std::string_view original = word.original;
-  if (original.size() < 3 || (original.back() != 'D' && original.back() != 'L')) return false;
-  const auto* direction = FindWord(kDirections, word.text.substr(0, word.text.size() - 1));
-  if (direction == nullptr) return false;
-  tag->direction = *direction;
-  tag->light = original.back() == 'D' ? SweepLight::kDark : SweepLight::kLight;
-  return true;
-}
-
-// Removes the words of direction, light and average, also those joined to a letter: "Vdark".
-ColumnTag TakeTag(std::vector<LabelWord>* words) {
-  ColumnTag tag;
-  std::vector<LabelWord> kept;
-  for (std::size_t i = 0; i < words->size(); ++i) {
-    LabelWord word = (*words)[i];
-    const bool suns_voc = word.text == "suns" && i + 1 < words->size() && !word.marked_as_unit &&
-                          (*words)[i + 1].text == "voc";
-    if (suns_voc) word = {"sunsvoc", "SunsVoc", false};
-    if (suns_voc) ++i;
-    if (TakeTagWord(word, &tag)) continue;
-    const Name* letter = FindName(std::string_view(word.text).substr(0, 1));
-    const bool electrical = letter != nullptr && IsElectrical(letter->kind);
-    if (electrical && word.text.size() > 3 && FindName(word.text) == nullptr &&
-        TakeTagWord({word.text.substr(1), word.original.substr(1), false}, &tag)) {
-      word.text.resize(1);
-      word.original.resize(1);
-    }
-    kept.push_back(word);
-  }
-  *words = kept;
-  return tag;
-}
 
 void TakeUnit(const Unit& unit, Column* column) {
   column->unit = unit.text;
@@ -241,7 +45,7 @@ bool IsSymbolOf(ColumnKind kind, const std::vector<LabelWord>& words, std::size_
   }
   if (words[at].text == "e") return kind == ColumnKind::kIrradiance;
   if (words[at].text == "t") return kind == ColumnKind::kTemperature || kind == ColumnKind::kTime;
-  const Name* letter = words[at].text.size() == 1 ? FindName(words[at].text) : nullptr;
+  const ColumnName* letter = words[at].text.size() == 1 ? FindName(words[at].text) : nullptr;
   return letter != nullptr &&
          (letter->kind == kind || (IsCurrent(letter->kind) && IsCurrent(kind)));
 }
@@ -251,6 +55,9 @@ bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* col
   if (IsSymbolOf(column->kind, words, from)) ++from;
   const std::string rest = JoinWords(words, from, words.size());
   if (rest.empty()) return true;
+  const bool letter_and_unit = rest.size() == 2 && words.size() == from + 2 &&
+                               !words[from].marked_as_unit && words[from + 1].marked_as_unit;
+  if (letter_and_unit) return false;  // "V_d (V)" is no decivolt
   if (const Unit* unit = FindUnit(column->kind, rest)) {
     TakeUnit(*unit, column);
     return true;
@@ -270,7 +77,8 @@ bool TakeRest(const std::vector<LabelWord>& words, std::size_t from, Column* col
 // The kind of a name of `count` words whose unit decides: a single T is a temperature and a single t
 // a time, unless it is in seconds or degrees; J in ampere is a current; an intensity may be one of
 // light or, in French and its neighbours, a current.
-ColumnKind KindByUnit(const Name& name, const std::vector<LabelWord>& words, std::size_t count) {
+ColumnKind KindByUnit(const ColumnName& name, const std::vector<LabelWord>& words,
+                      std::size_t count) {
   const std::string unit = JoinWords(words, count, words.size());
   const auto is_in = [&](ColumnKind kind) { return FindUnit(kind, unit) != nullptr; };
   if (name.text == "t") {
@@ -309,7 +117,7 @@ Column Recognise(std::string_view label, std::vector<LabelWord> words) {
   }
   if (!words.empty()) CutQualifierOffLetter(&words.front());
   for (std::size_t count = words.size(); count > 0; --count) {
-    const Name* known = FindName(JoinWords(words, 0, count));
+    const ColumnName* known = FindName(JoinWords(words, 0, count));
     if (known == nullptr) continue;
     column.kind = KindByUnit(*known, words, count);
     const bool named = TakeRest(words, count, &column) && !IsVague(column, known->text);
@@ -345,7 +153,7 @@ Column RecogniseTagged(std::string_view label, const std::vector<LabelWord>& wor
   };
   const Unit* unit = nullptr;
   for (std::size_t count = words.size(); count > 0; --count) {
-    const Name* known = FindName(JoinWords(words, 0, count));
+    const ColumnName* known = FindName(JoinWords(words, 0, count));
     if (known == nullptr || !IsElectrical(known->kind)) continue;
     for (const ColumnKind kind : {known->kind, ColumnKind::kCurrentDensity}) {
       if (kind != known->kind && known->kind != ColumnKind::kCurrent) continue;
@@ -386,20 +194,6 @@ std::optional<Column> AsLightOfTrace(std::string_view label, const std::vector<L
   return column;
 }
 
-}  // namespace
-
-ColumnTag ReadTag(std::string_view text) {
-  std::vector<LabelWord> words = SplitLabel(text);
-  ColumnTag tag = TakeTag(&words);
-  for (const LabelWord& word : words) {
-    if (word.text == "txt" || word.text == "csv" || word.text == "dat") continue;
-    tag.device += (tag.device.empty() ? "" : " ") + word.original;
-  }
-  return tag;
-}
-
-namespace {
-
 Column RecogniseUnscaled(std::string_view label) {
   std::vector<LabelWord> words = SplitLabel(label);
   DropQualifiers(&words);
@@ -432,6 +226,15 @@ Column RecogniseColumn(std::string_view label) {
   column.factor *= scaled.scale;
   if (column.unit.empty()) column.unit = column.kind == ColumnKind::kVoltage ? "v" : "a";
   return column;
+}
+
+void Become(ColumnKind kind, const Unit* unit, Column* column) {
+  Column made;
+  made.kind = kind;
+  made.label = std::move(column->label);
+  if (unit != nullptr) TakeUnit(*unit, &made);
+  SettleDensity(&made);
+  *column = std::move(made);
 }
 
 Column ColumnSaidToBe(ColumnKind kind, std::string_view label) {

@@ -5,6 +5,8 @@
 
 namespace lyrefit {
 
+struct Unit;  // label.h
+
 enum class ColumnKind {
   kUnrecognised,
   kVoltage,
@@ -41,7 +43,8 @@ struct ColumnTag {
   std::string device;  // "a", "Pixel 2", "1"; empty if the label names none
   SweepDirection direction = SweepDirection::kUnknown;
   SweepLight light = SweepLight::kUnknown;
-  bool average = false;  // of other columns
+  bool average = false;    // of other columns
+  bool by_letter = false;  // the light is stated by a letter: "Jd" beside "Jl"
 };
 
 // Direction and light that the words of a text state. The other words, joined by blanks, are the
@@ -69,6 +72,9 @@ struct Column {
 // Recognises labels such as "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)". Case and
 // punctuation are ignored, except that a lone t is a time and a lone T a temperature.
 Column RecogniseColumn(std::string_view label);
+
+// Makes a column one of another kind, in a unit. nullptr: none is named, V or A, or mA/cm2 of a density.
+void Become(ColumnKind kind, const Unit* unit, Column* column);
 
 // Interprets the label of a column that the user has declared a voltage or a current. Only the unit
 // is read from the label.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lyrefit/read/label.h"
+#include "lyrefit/read/letter_names.h"
 #include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_columns.h"
 
@@ -56,16 +57,6 @@ Guess GuessAt(std::string_view label) {
                     (IsCurrent(guess.by_unit) && IsCurrent(by_letter));
   if (!guess.suffix.empty() && fits) guess.by_letter = by_letter;
   return guess;
-}
-
-void Become(ColumnKind kind, const Unit* unit, Column* column) {
-  const std::string label = column->label;
-  *column = {};
-  column->label = label;
-  column->kind = kind;
-  if (unit == nullptr) return;
-  column->unit = unit->text;
-  column->factor = unit->factor;
 }
 
 // Sets the two columns as voltage and current; other columns of these kinds are no longer used.
@@ -207,9 +198,9 @@ bool GuessBesideVoltage(const std::vector<Guess>& guesses, std::vector<Column>* 
 bool GuessColumns(std::vector<Column>* columns) {
   std::vector<Guess> guesses;
   for (const Column& column : *columns) guesses.push_back(GuessAt(column.label));
-  return GuessByLetter(guesses, columns) || GuessByVoltageName(columns) ||
-         GuessByUnit(guesses, columns) || GuessSunsVoc(columns) ||
-         GuessBesideVoltage(guesses, columns);
+  return TakeDarkLitLetters(columns) || GuessByLetter(guesses, columns) ||
+         GuessByVoltageName(columns) || TakeNamedPairs(columns) || GuessByUnit(guesses, columns) ||
+         GuessSunsVoc(columns) || GuessBesideVoltage(guesses, columns);
 }
 
 }  // namespace lyrefit

@@ -108,9 +108,9 @@ std::optional<int> AsStrings(const Statement& statement) {
 }
 
 std::optional<double> AsArea(const Statement& statement) {
-  if (!HasAny(statement, {"area", "aperture"})) {
-    return std::nullopt;
-  }
+  static const std::set<std::string> kSizes = {"size", "cellsize", "devicesize", "pixelsize"};
+  const bool named = HasAny(statement, {"area", "aperture"}) || kSizes.count(statement.name) != 0;
+  if (!named) return std::nullopt;
   const auto value = Converted(statement, ColumnKind::kArea);
   if (!value || !(*value > 0)) return std::nullopt;
   return value;
@@ -152,6 +152,10 @@ bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
 void NoteShortCircuit(const Statement& statement, const std::string& source, TableHead* head) {
   const bool named = statement.name == "isc" || statement.name == "jsc";
   if (!named || head->short_circuit || statement.value == 0) return;
+  if (statement.unit.empty() && statement.name == "jsc") {
+    const Unit* const usual = FindUnit(ColumnKind::kCurrentDensity, "macm2");
+    head->short_circuit = {statement.value, usual->kind, usual->factor, source};
+  }
   for (const ColumnKind kind : {ColumnKind::kCurrent, ColumnKind::kCurrentDensity}) {
     const Unit* unit = FindUnit(kind, statement.unit);
     if (unit == nullptr) continue;
@@ -214,6 +218,22 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
   statement.name = JoinWords(words, 0, end);
   for (std::size_t i = 0; i < end; ++i) statement.words.insert(words[i].text);
   return statement;
+}
+
+bool IsRoomLight(std::string_view text) {
+  Statement statement;
+  for (const LabelWord& word : SplitLabel(text)) statement.words.insert(word.text);
+  const bool alone = statement.words.size() == 1;
+  return HasAny(statement, {"room", "roomlight", "ambient", "indoor", "indoors", "office"}) &&
+         (alone || HasAny(statement, {"light", "lights", "lighting", "lamp", "lamps", "led",
+                                      "roomlight", "illumination", "fluorescent"}));
+}
+
+bool NamesLight(std::string_view label) {
+  Statement statement;
+  for (const LabelWord& word : SplitLabel(label)) statement.words.insert(word.text);
+  return HasAny(statement, {"light", "lightsource", "illumination", "lamp", "illuminance",
+                            "irradiance", "lighting"});
 }
 
 bool MayStateTemperature(std::string_view label) {

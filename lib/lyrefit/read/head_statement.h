@@ -27,6 +27,12 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
 // have yet, with an assumption that names `source`. False if it gives none.
 bool TakeStatement(const Statement& statement, const std::string& source, TableHead* head);
 
+// Whether words name the light of a room, which has no certain irradiance: "Room light", "indoor".
+bool IsRoomLight(std::string_view text);
+
+// Whether a label names the light: "Light source", "Illumination".
+bool NamesLight(std::string_view label);
+
 // Whether a line that was not understood may state the temperature of the device: a word of its label
 // names one, and none another thing.
 bool MayStateTemperature(std::string_view label);

@@ -128,15 +128,14 @@ void DropTextColumns(std::string_view row, TableLayout* layout) {
   if (names_direction && !stated) layout->sweep = kNoColumn;
 }
 
-// Whether a column belongs to one of several measurements with two sweeps or more side by side.
-// Their number is said in place of their columns.
+// Whether a column belongs to one of the measurements side by side. Their number is said in place of
+// their columns.
 bool IsOfChannel(const TableLayout& layout, int column) {
   return std::any_of(layout.channels.begin(), layout.channels.end(), [&](const Channel& channel) {
     const auto holds = [column](const ColumnPair& pair) {
       return pair.voltage == column || pair.current == column;
     };
-    return !channel.more.empty() &&
-           (holds(channel) || std::any_of(channel.more.begin(), channel.more.end(), holds));
+    return holds(channel) || std::any_of(channel.more.begin(), channel.more.end(), holds);
   });
 }
 
@@ -165,12 +164,8 @@ void SayWhatWasAssumed(TableLayout* layout) {
     layout->assumptions.emplace_back(
         fmt::format("column {} names no unit: taken as {}", Quoted(column.label), unit), about);
   }
-  const auto others =
-      std::count_if(layout->channels.begin(), layout->channels.end(), [&](const Channel& channel) {
-        return !channel.more.empty() && channel.current != layout->current;
-      });
-  if (others > 0) {
-    layout->assumptions.push_back(fmt::format("one of {} measurements side by side", others + 1));
+  if (const std::size_t count = layout->channels.size(); count > 1) {
+    layout->assumptions.push_back(fmt::format("one of {} measurements side by side", count));
   }
 }
 
@@ -260,10 +255,16 @@ Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlac
   layout.channels = {channel};
   layout.voltage = channel.voltage;
   layout.current = channel.current;
+  const std::string& unit = options.current_unit;
   layout.assumptions.push_back(fmt::format(
-      "no header line: column {} taken as the voltage in {}, column {} as the current in {}",
+      "no header line: column {} taken as the voltage in {}, column {} as the current{}",
       layout.voltage + 1, options.voltage_unit.empty() ? "V" : options.voltage_unit,
-      layout.current + 1, options.current_unit.empty() ? "A" : options.current_unit));
+      layout.current + 1, unit.empty() ? "" : " in " + unit));
+  if (unit.empty()) {
+    layout.assumptions.emplace_back(
+        fmt::format("column {} names no unit: taken as A", layout.current + 1),
+        About::kCurrentUnit);
+  }
   if (row.fields.size() > 2) {
     layout.assumptions.push_back(fmt::format("{} further columns not used", row.fields.size() - 2));
   }

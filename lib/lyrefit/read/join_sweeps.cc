@@ -41,11 +41,17 @@ void Turn(IvCurve* sweep, std::vector<int>* lines) {
 }  // namespace
 
 void TakeLight(const Column& current, IvCurve* curve, Sidecar* stated) {
-  if (current.tag.light != SweepLight::kDark) return;
+  const bool dark = current.tag.light == SweepLight::kDark;
+  if (current.tag.by_letter && !dark) {
+    curve->assumptions.push_back(
+        fmt::format("column {} taken as lit (L beside D)", Quoted(current.label)));
+  }
+  if (!dark) return;
   Forget(About::kIrradiance, &curve->assumptions);
   stated->irradiance_W_m2 = 0;
   curve->assumptions.emplace_back(
-      fmt::format("irradiance 0 W/m2, since column {} is dark", Quoted(current.label)),
+      fmt::format("irradiance 0 W/m2, since column {} is dark{}", Quoted(current.label),
+                  current.tag.by_letter ? " (D beside L)" : ""),
       About::kIrradiance);
 }
 

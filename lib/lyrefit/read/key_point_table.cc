@@ -107,7 +107,7 @@ class WideReader {
 
   // True if the line belongs to a wide table.
   bool Take(const LinePlace& at) {
-    for (const char delimiter : {'\t', ';', ','}) {
+    for (const char delimiter : kFieldMarks) {
       const auto fields = SplitFields(at.text, delimiter);
       if (!fields || fields->empty()) continue;
       if (fields->size() == 1) {

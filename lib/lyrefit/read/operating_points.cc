@@ -71,7 +71,7 @@ int KindOf(const std::string& label, Column* column) {
 OperatingLayout LayoutOf(std::string_view header) {
   OperatingLayout best;
   best.at.fill(-1);
-  for (const char delimiter : {'\t', ';', ','}) {
+  for (const char delimiter : kFieldMarks) {
     const auto fields = SplitFields(header, delimiter);
     if (!fields || fields->size() < kOperating) continue;
     OperatingLayout layout;

@@ -82,6 +82,8 @@ Expected<CurveSet> ReadCell(const std::vector<std::string>& files, const ReadOpt
     TRY(CurveSet set, ReadFile(file, with_isc));
     Append(std::move(set), &all);
   }
+  const bool all_dark = std::all_of(all.curves.begin(), all.curves.end(), IsDark);
+  if (all_dark && !all.rejected.empty()) return tl::unexpected(all.rejected.front().error);
   for (IvCurve& curve : all.curves) {
     if (options.area_cm2) curve.notes.area_cm2 = options.area_cm2;
   }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/try.h"
+
 namespace lyrefit {
 namespace {
 
@@ -110,6 +112,12 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
                     "the light, state them with --irradiance-Wm2",
                     *curve->notes.illuminance_lux),
         About::kIrradiance);
+  } else if (!irradiance && !sidecar.light.empty()) {
+    curve->assumptions.emplace_back(
+        fmt::format("irradiance not given: {} states a light whose W/m2 are not known; 1000 W/m2 "
+                    "assumed, state the true value with --irradiance-Wm2",
+                    sidecar.light),
+        About::kIrradiance);
   } else if (!irradiance) {
     curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
   }
@@ -118,6 +126,30 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   TakeNightAsDark(&settled, &curve->assumptions);
   conditions.irradiance_W_m2 = settled.front();
 }
+
+namespace {
+
+// Asks for the unit of current densities without one. They are taken in mA/cm2, but at the lit cell's
+// short circuit they have the size of A/cm2 under the sun, which mA/cm2 have under the light of a room.
+Expected<void> AskForUnitOfDensity(const Sidecar& sidecar, const IvCurve& curve) {
+  constexpr double kLeast = 1e-6, kMost = 70e-6;  // a thousandth of 1 to 70 mA/cm2
+  constexpr double kDim_W_m2 = 100;
+  const bool dim = sidecar.irradiance_W_m2.value_or(1000) < kDim_W_m2 || !sidecar.light.empty() ||
+                   sidecar.notes.illuminance_lux;
+  if (curve.current_unit_known || dim || curve.size() == 0) return {};
+  const auto nearest =
+      std::min_element(curve.voltage_V.begin(), curve.voltage_V.end(),
+                       [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const double shown = std::abs(curve.current_A[nearest - curve.voltage_V.begin()]);
+  if (!(shown >= kLeast && shown <= kMost)) return {};
+  return Fail(fmt::format(
+      "the current density names no unit, and the reading next to 0 V is {:.3g}: a cell under the "
+      "sun in A/cm2, or one under the light of a room in mA/cm2? say which with --current-unit "
+      "A/cm2 or --current-unit mA/cm2",
+      1e3 * shown));
+}
+
+}  // namespace
 
 Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, IvCurve* curve) {
   const std::optional<double> area_cm2 =
@@ -130,6 +162,7 @@ Expected<void> SettleArea(const ReadOptions& options, const Sidecar& sidecar, Iv
   if (!(*area_cm2 > 0 && std::isfinite(*area_cm2))) {
     return Fail(fmt::format("expected a positive area in cm2, found {}", *area_cm2));
   }
+  TRY(AskForUnitOfDensity(sidecar, *curve));
   for (double& current : curve->current_A) current *= *area_cm2;
   for (double& sigma : curve->sigma_A) sigma *= *area_cm2;
   curve->assumptions.push_back(

@@ -53,28 +53,10 @@ std::string Joined(const Fields& fields, char delimiter) {
   return line;
 }
 
-bool IsRoomLight(std::string_view text) {
-  const std::vector<LabelWord> words = SplitLabel(text);
-  const std::string name = JoinWords(words, 0, words.size());
-  return name == "roomlight" || name == "ambientlight" || name == "indoorlight" || name == "indoor";
-}
-
-void StateLight(double irradiance_W_m2, const std::string& sentence, TableHead* head) {
-  Forget(About::kIrradiance, &head->assumptions);
-  head->said.irradiance_W_m2 = irradiance_W_m2;
-  head->assumptions.emplace_back(sentence, About::kIrradiance);
-}
-
-// Takes what the value of a line without a number says of the light.
+// Takes what the value of a line without a number says of the light, whatever its label.
 void TakeLightOf(const Fields& fields, int number, TableHead* head) {
   for (std::size_t i = 1; i < fields.size(); ++i) {
-    const std::string where = fmt::format("line {} says {}", number, Quoted(fields[i]));
-    if (ReadTag(fields[i]).light == SweepLight::kDark) {
-      StateLight(0, "irradiance 0 W/m2, since " + where, head);
-    } else if (IsRoomLight(fields[i])) {
-      StateLight(0, where + ": what other lines state of the irradiance is not used", head);
-      head->said.irradiance_W_m2.reset();
-    }
+    TakeLight(fields[i], fmt::format("line {} {}", number, Quoted(fields[i])), head);
   }
 }
 

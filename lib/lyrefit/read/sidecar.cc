@@ -286,6 +286,7 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   if (own.name.empty()) own.name = common.name;
   fill(&own.temperature_C, common.temperature_C);
   fill(&own.irradiance_W_m2, common.irradiance_W_m2);
+  if (own.light.empty()) own.light = common.light;
   fill(&own.cells_in_series, common.cells_in_series);
   fill(&own.strings_in_parallel, common.strings_in_parallel);
   DeviceNotes& notes = own.notes;

@@ -16,6 +16,7 @@ struct Sidecar {
   std::string name;
   std::optional<double> temperature_C;
   std::optional<double> irradiance_W_m2;
+  std::string light;  // what states a light without its irradiance: "line 2 'Light: room'"
   std::optional<int> cells_in_series;
   std::optional<int> strings_in_parallel;
   DeviceNotes notes;

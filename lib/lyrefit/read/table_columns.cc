@@ -172,9 +172,10 @@ std::vector<Channel> FindChannels(const std::vector<Column>& columns) {
 
 std::string ChannelName(const std::vector<Column>& columns, const Channel& channel) {
   const Column& current = columns[channel.current];
-  if (channel.more.empty()) return current.label;
+  if (channel.more.empty() && !current.tag.by_letter) return current.label;
   std::string name = current.tag.device;
-  if (current.tag.direction == SweepDirection::kUnknown) name.clear();  // of two averaged columns
+  const bool averaged = !channel.more.empty() && current.tag.direction == SweepDirection::kUnknown;
+  if (averaged) name.clear();
   if (current.tag.light == SweepLight::kDark) name += name.empty() ? "dark" : " dark";
   if (current.tag.light == SweepLight::kLight) name += name.empty() ? "light" : " light";
   return name.empty() ? current.label : name;

@@ -53,7 +53,8 @@ bool IsLightOfTrace(const std::vector<Column>& columns, int light);
 Expected<Channel> ChooseChannel(const std::vector<Column>& columns,
                                 const std::vector<Channel>& channels, const std::string& wish);
 
-// Name of a channel: the label of its current; of several sweeps the device and the light.
+// Name of a channel: the label of its current; of several sweeps, and where a letter
+// states the light, the device and the light.
 std::string ChannelName(const std::vector<Column>& columns, const Channel& channel);
 
 // The channels as text: "1 'Current 1 (A)', 2 'Current 2 (A)'".

@@ -13,6 +13,7 @@
 #include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
+#include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/vocabulary.h"
 
 namespace lyrefit {
@@ -134,6 +135,11 @@ void TakeTechnology(HeadLineState* state, std::string_view text) {
       fmt::format("technology {} taken from {}", value, state->source));
 }
 
+void TakeLight(HeadLineState* state, std::string_view text) {
+  const std::string words = "light " + std::string(TrimMarks(text));  // "off"
+  state->understood = TakeLight(words, state->source, state->head) || state->understood;
+}
+
 // Reads a statement such as "Label: 47.3 C" or "Label = 47.3".
 bool ReadPart(HeadLineState* state, std::string_view text) {
   const std::size_t at = text.find_first_of(":=");
@@ -145,6 +151,7 @@ bool ReadPart(HeadLineState* state, std::string_view text) {
     return true;
   }
   if (IsTechnology(text.substr(0, at))) TakeTechnology(state, value);
+  if (NamesLight(text.substr(0, at))) TakeLight(state, value);
   const auto quantity = AsQuantity(value);
   if (quantity) TakeQuantity(state, text.substr(0, at), *quantity);
   return quantity.has_value();
@@ -164,6 +171,7 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
     } else {
       if (IsDate(label) && quantities.empty()) TakeDate(state, field);
       if (IsTechnology(label) && quantities.empty()) TakeTechnology(state, field);
+      if (NamesLight(label) && quantities.empty()) TakeLight(state, field);
       label += (label.empty() ? "" : " ") + field;
     }
   }
@@ -205,7 +213,7 @@ bool HoldsOneQuantity(std::string_view line) {
 }
 
 void ReadLine(HeadLineState* state, std::string_view line) {
-  for (const char delimiter : {'\t', ';', ','}) {
+  for (const char delimiter : kFieldMarks) {
     const auto fields = SplitFields(line, delimiter);
     if (!fields || fields->size() < 2) continue;
     if (delimiter == ',' && HoldsOneQuantity(line)) break;
@@ -226,7 +234,7 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
   ReadLine(&state, TrimMarks(line));
   if (!state.holds_number) TakeColumnNames(line, &head->column_names);
   if (!state.holds_number || state.understood) return;
-  const std::string_view label = line.substr(0, line.find_first_of(":=\t;,"));
+  const std::string_view label = line.substr(0, line.find_first_of(":=\t;,|"));
   if (MayStateTemperature(TrimMarks(label))) head->left_temperatures.push_back(source);
   if (kind == HeadLine::kText) {
     const bool is_result = IsResult(label);
@@ -235,6 +243,30 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
       head->result_lines.push_back(ReadResultLine(line, head->column_names, source));
     }
   }
+}
+
+bool TakeLight(std::string_view words, const std::string& source, TableHead* head) {
+  constexpr double kBrightRoom_W_m2 = 100;  // no room but a greenhouse has more
+  std::optional<double>& irradiance = head->said.irradiance_W_m2;
+  const bool dark = ReadTag(words).light == SweepLight::kDark;
+  if (!dark && !IsRoomLight(words)) return false;
+  if (!dark && irradiance && *irradiance < kBrightRoom_W_m2) return true;
+  Forget(About::kIrradiance, &head->assumptions);
+  if (irradiance && *irradiance > 0) {
+    head->assumptions.emplace_back(
+        fmt::format("irradiance of {:.6g} W/m2 not used, since {} states other light", *irradiance,
+                    source),
+        About::kIrradiance);
+  }
+  irradiance.reset();
+  if (dark) {
+    irradiance = 0;
+    head->assumptions.emplace_back("irradiance 0 W/m2, since " + source + " is dark",
+                                   About::kIrradiance);
+  } else {
+    head->said.light = source;
+  }
+  return true;
 }
 
 bool TakeStatement(std::string_view label, double value, const std::string& source,

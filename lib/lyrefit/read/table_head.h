@@ -42,6 +42,10 @@ enum class HeadLine {
 // first of two statements about one quantity is kept.
 void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head);
 
+// Records what words say of the light: the dark, or that of a room, of which no irradiance is known.
+// A stated irradiance that cannot be that of the words gives way. False if they say nothing of it.
+bool TakeLight(std::string_view words, const std::string& source, TableHead* head);
+
 // Records a named value, as JSON files state it. False if it was not understood.
 bool TakeStatement(std::string_view label, double value, const std::string& source,
                    TableHead* head);

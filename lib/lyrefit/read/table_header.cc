@@ -80,6 +80,10 @@ void TakeUnnamedVoltage(const std::vector<std::string_view>& below, char delimit
 std::vector<Column> ColumnsOf(const Fields& fields, std::string_view next_line, char delimiter,
                               const HeaderRules& rules) {
   std::vector<Column> columns = RecogniseAll(fields);
+  if (rules.x_is_voltage && columns.size() > 1 && columns[0].label == "X_Value" &&
+      !HasKind(columns, ColumnKind::kVoltage)) {
+    columns[0].kind = ColumnKind::kVoltage;
+  }
   const auto row = SplitFields(next_line, delimiter);
   const bool wished =
       !rules.options.voltage_column.empty() || !rules.options.current_column.empty();
@@ -169,7 +173,7 @@ TableLine AsHeader(std::string_view line, std::string_view next_line, const Head
 }
 
 std::string WithUnits(std::string_view names, std::string_view units) {
-  for (const char delimiter : {'\t', ';', ','}) {
+  for (const char delimiter : kFieldMarks) {
     const auto above = SplitFields(names, delimiter);
     const auto below = SplitFields(units, delimiter);
     if (!above || !below || above->size() < 2 || above->size() != below->size()) continue;

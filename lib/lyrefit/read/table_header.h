@@ -12,7 +12,7 @@ namespace lyrefit {
 
 using Fields = std::vector<std::string>;
 
-constexpr char kDelimiters[] = {'\t', ';', ',', ' '};  // in the order of trial
+constexpr char kDelimiters[] = {'\t', ';', ',', '|', ' '};  // in the order of trial
 
 // One line of a table, split at the best-fitting delimiter.
 struct TableLine {
@@ -34,6 +34,7 @@ struct HeaderRules {
   const ReadOptions& options;                // names of columns
   bool guess = false;                        // use letters and units of unknown names
   std::vector<std::string_view> below = {};  // the first lines below the header
+  bool x_is_voltage = false;                 // the head says so of the column X_Value
 };
 
 // Interprets `line` as a header with at least a voltage and a current. `next_line` helps to select

@@ -129,7 +129,7 @@ std::optional<Expected<TableLayout>> TryHeaderWithUnits(LayoutSearch* search) {
   std::string_view units;
   do {
     if (!ahead.Next(&units)) return std::nullopt;
-  } while (units.find_first_not_of(" \t") == std::string_view::npos);
+  } while (IsBlankOrRule(units));
   const std::string joined = WithUnits(search->line, units);
   if (joined.empty()) return std::nullopt;
   const LineReader below = ahead;
@@ -161,11 +161,25 @@ std::optional<Expected<TableLayout>> TryMatrix(LayoutSearch* search) {
   return std::nullopt;
 }
 
+// Whether the end of a LabVIEW head follows, without a row before it: "Y_Unit_Label Volts Amps" in it
+// is no header.
+bool IsInHeadOfLabView(LineReader lines) {
+  constexpr int kLooked = 10;
+  constexpr std::string_view kMark = "***End_of_Header***";
+  std::string_view line;
+  for (int i = 0; i < kLooked && lines.NextContent(&line); ++i) {
+    if (line.substr(0, kMark.size()) == kMark) return true;
+    if (AsRow(line).delimiter != 0) return false;
+  }
+  return false;
+}
+
 // Interprets the line as a header, alone or with a line of units below it. A header without numbers
 // below it is kept as second best: its rows produce a more specific error than no header would.
 std::optional<Expected<TableLayout>> TryHeader(LayoutSearch* search) {
   if (auto matrix = TryMatrix(search)) return matrix;
   search->rules.below = LinesBelow(search->lines);
+  if (IsInHeadOfLabView(search->lines)) return std::nullopt;
   if (auto with_units = TryHeaderWithUnits(search)) return with_units;
   const std::string_view next_line =
       search->rules.below.empty() ? std::string_view() : search->rules.below.front();
@@ -194,18 +208,25 @@ bool NextLineOf(LayoutSearch* search, std::size_t* offset) {
   while (true) {
     *offset = search->lines.offset();
     if (!search->lines.Next(&search->line)) return false;
-    const std::size_t first = search->line.find_first_not_of(" \t");
-    if (first == std::string_view::npos) continue;
-    if (!BeginsComment(search->line[first])) return true;
+    if (IsBlankOrRule(search->line)) continue;
+    if (!BeginsComment(search->line[search->line.find_first_not_of(" \t")])) return true;
     search->comment = search->line;
     TakeHeadLine(HeadLine::kComment, search);
   }
+}
+
+// Whether the head of a LabVIEW file states that its X_Value is a voltage.
+bool StatesVoltageOfX(std::string_view line) {
+  const auto fields = SplitFields(line, '\t');
+  return fields && fields->size() > 1 && (*fields)[0] == "X_Dimension" &&
+         LowerCase((*fields)[1]) == "electric_potential";
 }
 
 void SkipLine(LayoutSearch* search) {
   search->last_text = {search->line, search->lines.number()};
   if (search->skipped++ == 0) search->first_text = search->last_text;
   TakeColumnName(search->line, &search->names);
+  if (StatesVoltageOfX(search->line)) search->rules.x_is_voltage = true;
   if (TakeResults(search->line, search->lines.number(), &search->results, &search->head)) return;
   TakeHeadLine(HeadLine::kText, search);
 }

@@ -13,6 +13,16 @@ int NoSpace(unsigned char) { return 0; }
 
 }  // namespace
 
+bool IsBlankOrRule(std::string_view line) {
+  std::size_t dashes = 0;
+  for (const char c : line) {
+    if (c == '-' || c == '=') ++dashes;
+    const bool drawn = IsBlank(c) || c == '-' || c == '=' || c == '|' || c == '+' || c == ':';
+    if (!drawn) return false;
+  }
+  return dashes >= 3 || line.find_first_not_of(" \t") == std::string_view::npos;
+}
+
 LineReader::LineReader(std::string_view text, std::size_t offset, int lines_before)
     : text_(text), at_(offset), number_(lines_before) {
   if (text.find('\n') == std::string_view::npos) end_ = '\r';
@@ -35,8 +45,8 @@ bool LineReader::NextContent(std::string_view* line) {
 
 bool LineReader::NextContent(std::string_view* line, std::size_t* offset) {
   for (*offset = at_; Next(line); *offset = at_) {
-    const auto first = std::find_if_not(line->begin(), line->end(), IsBlank);
-    if (first != line->end() && !BeginsComment(*first)) return true;
+    if (IsBlankOrRule(*line)) continue;
+    if (!BeginsComment(*std::find_if_not(line->begin(), line->end(), IsBlank))) return true;
   }
   return false;
 }

@@ -8,8 +8,13 @@
 
 namespace lyrefit {
 
+constexpr char kFieldMarks[] = {'\t', ';', ',', '|'};  // between fields, in the order of trial
+
 // Whether a line that begins with this character is a comment.
 constexpr bool BeginsComment(char c) { return c == '#' || c == '%'; }
+
+// Whether a line is blank or a rule drawn between head and rows: "|---|---|", "-----+-----", "====".
+bool IsBlankOrRule(std::string_view line);
 
 // Reads the lines of a text, numbered from 1. Line ends are LF, CRLF or, in a text without LF, CR.
 class LineReader {
@@ -20,7 +25,7 @@ class LineReader {
   // Reads the next line, without its line end; false at the end of the text.
   bool Next(std::string_view* line);
 
-  // Reads the next line that is neither blank nor a comment ('#' or '%').
+  // Reads the next line that is neither blank, a rule, nor a comment ('#' or '%').
   bool NextContent(std::string_view* line);
 
   // Also returns in `offset` where the line begins.

@@ -72,6 +72,12 @@ Expected<double> TableRow::Value(int field) {
                     ColumnName(field), more + 1),
         field);
   }
+  if (!number && delimiter_ == ',' && ParseNumber(text, true)) {
+    return RefuseField(
+        field,
+        "a number without a comma (leave out marks of thousands; with a decimal comma, "
+        "separate the columns by ';' or tab)");
+  }
   if (!number) return RefuseField(field, "a number");
   if (!std::isfinite(*number)) return RefuseMissing(field, "a finite number");
   TRY(CheckSeparator(field, text));

@@ -92,7 +92,7 @@ CsvShape ShapeOfRows(const CsvHead& head, const std::vector<Column>& columns,
 
 // True if a first line is already a row, since it holds a list.
 bool IsRowWithoutHead(std::string_view line) {
-  for (const char delimiter : {'\t', ';', ','}) {
+  for (const char delimiter : kFieldMarks) {
     const std::vector<std::string> fields = Split(line, delimiter);
     if (fields.size() < 2) continue;
     const auto lists = std::count_if(fields.begin(), fields.end(),
@@ -224,7 +224,7 @@ CsvHead FindCsvHead(std::string_view text, const ReadOptions& options) {
     if (!TrimBlanks(row).empty()) rows.push_back(row);
   }
   if (rows.size() > kLookedAtRows) rows.pop_back();  // it may end in the midst
-  for (const char delimiter : {'\t', ';', ','}) {
+  for (const char delimiter : kFieldMarks) {
     CsvHead candidate = head;
     candidate.delimiter = delimiter;
     candidate.names = Split(AsUtf8(line), delimiter);

@@ -93,6 +93,21 @@ TEST(UsableTest, ALineIsNoCurveWhetherItFallsOrRises) {
   }
 }
 
+TEST(UsableTest, ARowLoggedAtNightSaysSo) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 60;
+  curve.conditions.irradiance_W_m2 = 0;
+  RandomStream random(2, 0);
+  for (int k = 0; k < 40; ++k) {
+    curve.voltage_V.push_back(0.02 * k);
+    curve.current_A.push_back(2e-3 * random.Normal());
+  }
+  const auto report = Fit(curve, Quick());
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_THAT(report->not_usable_because, StartsWith("night: 0 W/m2 are stated"));
+  EXPECT_THAT(report->doubts, IsEmpty());
+}
+
 // AICc calls five parameters too many for eight readings, however well they describe them.
 TEST(UsableTest, EightReadingsOfADiodeAreNoLine) {
   IvCurve curve;

@@ -79,6 +79,10 @@ Scale ScaleOf(const IvCurve& curve, const KeyPoints& measured) {
 std::string WhyNotUsable(const IvCurve& curve, const ModelResults& results,
                          const UsabilityFacts& facts) {
   if (!std::isfinite(facts.rmse_A)) return "the model gives no finite current at these readings";
+  if (IsNight(curve)) {
+    return fmt::format("night: {:.3g} W/m2 are stated, and no current is above the noise",
+                       curve.conditions.irradiance_W_m2);
+  }
   const Scale scale = ScaleOf(curve, results.measured);
   const double misfit = facts.robust ? RobustScale(results.residual_A) : facts.rmse_A;
   if (LineDoesAsWell(curve, results.criteria, misfit, facts.robust, facts.at_its_end)) {

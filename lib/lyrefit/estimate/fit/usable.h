@@ -18,6 +18,7 @@ inline constexpr double kLargestMisfit = 0.03;
 
 // Reason why a fit is not usable; empty: it is. A fit is not usable
 //   - if its solved-current RMSE is not finite,
+//   - if the curve was logged at night: IsNight(),
 //   - if a straight line describes the readings as well: by the F-test at 5 %,
 //   - if it was polished to convergence and its misfit is above 3 % of Isc. The misfit of diode
 //     models is 0.05 to 0.3 % for healthy cells and modules, up to some 2 % for noisy or drifting

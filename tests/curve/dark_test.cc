@@ -86,5 +86,33 @@ TEST(DarkTest, APhotocurrentAboveItsNoiseIsLightHoweverLargeTheForwardCurrentIs)
   EXPECT_TRUE(IsDark(stated)) << "darkness is stated";
 }
 
+// 60 readings from `from_V`: currents of `photo_A` up to 0.4 V, then a diode to 1 A, with noise.
+IvCurve Coarse(double from_V, double photo_A, double noise_A, std::uint64_t seed) {
+  IvCurve curve;
+  curve.irradiance_known = false;
+  RandomStream random(seed);
+  for (int k = 0; k < 60; ++k) {
+    const double voltage_V = from_V + (0.8 - from_V) * k / 59;
+    curve.voltage_V.push_back(voltage_V);
+    curve.current_A.push_back(photo_A - std::expm1(voltage_V / 0.04) / std::expm1(20.0) +
+                              noise_A * random.Normal());
+  }
+  return curve;
+}
+
+TEST(DarkTest, NoiseOfEitherSignIsNoPhotocurrent) {
+  int dark = 0;
+  constexpr int kDraws = 100;
+  for (int seed = 0; seed < kDraws; ++seed) {
+    dark += IsDark(Coarse(-0.3, 0, 6e-3, seed)) ? 1 : 0;
+    for (const double from_V : {-0.3, 0.0}) {
+      EXPECT_FALSE(IsDark(Coarse(from_V, 0.02, 3e-3, seed))) << from_V;
+      EXPECT_FALSE(IsDark(Coarse(from_V, 0.003, 1e-4, seed))) << from_V;
+      EXPECT_FALSE(IsDark(Coarse(from_V, 0.3, 0.03, seed))) << from_V;
+    }
+  }
+  EXPECT_GE(dark, kDraws - 2);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -1,3 +1,4 @@
+#include "error_of.h"
 #include "lyrefit/devices/data_sheet.h"
 
 #include <gmock/gmock.h>
@@ -179,9 +180,11 @@ TEST(FitDataSheet, DoubtsTheNumberOfCellsWhereNoDiodeHasThatIdeality) {
   DataSheet sheet = Kc200gt();
   sheet.half_unit = {};
   sheet.cells_in_series = 1;
+  EXPECT_THAT(MessageOf(FitDataSheet(sheet)), HasSubstr("--cells 48 or 54 of silicon?"));
+  sheet.cells_in_series = 90;  // 0.37 V a cell
   const auto fit = FitDataSheet(sheet);
   ASSERT_TRUE(fit.has_value()) << fit.error().message;
-  EXPECT_TRUE(Warns(*fit, "number of cells in series"));
+  EXPECT_TRUE(Warns(*fit, "number of cells (90)"));
   for (const double value : fit->shared) EXPECT_TRUE(std::isfinite(value) || value > 0);
 }
 

@@ -1,3 +1,4 @@
+#include "error_of.h"
 #include "lyrefit/devices/describe_cell.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +51,9 @@ TEST(DescribeCell, GivesNoEfficiencyOfAnImpossibleCurrentAreaOrSign) {
   for (double& i : milliampere.current_A) i *= 1000;
   other_area.notes.area_cm2 = 0.025;
   for (double& v : reversed.voltage_V) v = -v;
-  for (const IvCurve& wrong : {milliampere, other_area, reversed}) {
+  EXPECT_THAT(MessageOf(DescribeCell(CellOf({reversed}), {})), HasSubstr("the wrong sign?"));
+  EXPECT_THAT(Described({sound, reversed}).warnings, Contains(HasSubstr("is left out")));
+  for (const IvCurve& wrong : {milliampere, other_area}) {
     CellReport report = Described({wrong});
     const CellSweep& sweep = report.sweeps[0];
     EXPECT_NE(sweep.doubt, "");

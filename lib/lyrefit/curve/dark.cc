@@ -13,20 +13,35 @@ namespace {
 
 constexpr double kLitFrom_W_m2 = 20;  // a sensor may show less in the dark
 
-// Indices of the readings next to 0 V. Those of reverse bias alone if there are enough: the current
-// is nearly a line there.
-std::vector<int> NextToZero(const IvCurve& curve, std::size_t count) {
+// Indices of the readings next to 0 V. `reverse_alone`: those of reverse bias if there are enough,
+// where the current is nearly a line.
+std::vector<int> NextToZero(const IvCurve& curve, std::size_t count, bool reverse_alone) {
   std::vector<int> all, reverse;
   for (int k = 0; k < static_cast<int>(curve.size()); ++k) {
     all.push_back(k);
     if (curve.voltage_V[k] <= 0) reverse.push_back(k);
   }
-  std::vector<int>& from = reverse.size() >= count ? reverse : all;
+  std::vector<int>& from = reverse_alone && reverse.size() >= count ? reverse : all;
   std::stable_sort(from.begin(), from.end(), [&](int a, int b) {
     return std::fabs(curve.voltage_V[a]) < std::fabs(curve.voltage_V[b]);
   });
   from.resize(std::min(from.size(), count));
   return from;
+}
+
+// Whether the readings next to 0 V are of either sign by turns, as noise is. A photocurrent changes
+// its sign once, at Voc.
+bool AreNoise(const IvCurve& curve) {
+  constexpr std::size_t kReadings = 15;
+  constexpr int kFewestChanges = 3;
+  std::vector<int> next = NextToZero(curve, kReadings, /*reverse_alone=*/false);
+  std::stable_sort(next.begin(), next.end(),
+                   [&](int a, int b) { return curve.voltage_V[a] < curve.voltage_V[b]; });
+  int changes = 0;
+  for (std::size_t k = 1; k < next.size(); ++k) {
+    changes += (curve.current_A[next[k - 1]] > 0) != (curve.current_A[next[k]] > 0) ? 1 : 0;
+  }
+  return changes >= kFewestChanges;
 }
 
 // Smallest step between currents, which bounds the resolution of the instrument.
@@ -44,7 +59,7 @@ double SmallestStep(std::vector<double> values) {
 double NoiseNearZero(const IvCurve& curve) {
   constexpr std::size_t kReadings = 9;
   constexpr double kToSigma = 1.4826;  // of the median of |normal values|
-  const std::vector<int> next = NextToZero(curve, kReadings);
+  const std::vector<int> next = NextToZero(curve, kReadings, /*reverse_alone=*/true);
   if (next.size() < kReadings) return HUGE_VAL;
   double v = 0, i = 0, vv = 0, vi = 0;
   for (const int k : next) {
@@ -82,11 +97,14 @@ bool IsDark(const IvCurve& curve) {
   constexpr double kNoises = 30, kNoisesAtLight = 5;
   if (curve.size() == 0) return false;
   if (IsNight(curve)) return true;
-  const double at_zero_A = curve.current_A[NextToZero(curve, 1).front()];
+  const double at_zero_A = curve.current_A[NextToZero(curve, 1, /*reverse_alone=*/true).front()];
   const double largest_A = LargestMagnitude(curve.current_A);
   if (IsStatedDark(curve)) return at_zero_A <= kOffset * largest_A;
-  if (!(at_zero_A > 0) || at_zero_A > kNothing * largest_A) return !(at_zero_A > 0);
+  if (!(at_zero_A > 0)) return true;
   const bool light = curve.irradiance_known && curve.conditions.irradiance_W_m2 > kLitFrom_W_m2;
+  if (at_zero_A > kNothing * largest_A) {
+    return !light && at_zero_A <= kOffset * largest_A && AreNoise(curve);
+  }
   return at_zero_A <= (light ? kNoisesAtLight : kNoises) * NoiseNearZero(curve);
 }
 

@@ -8,7 +8,8 @@ namespace lyrefit {
 // current, in generator sign, at the voltage nearest to 0 V. It counts as one
 //   - of a curve stated as dark (irradiance 0): above 5 % of the largest |current|, since less may
 //     be an offset of the meter,
-//   - of any other: above 0.2 % of it, or above 30 times the noise of the readings next to 0 V (5
+//   - of any other: above 0.2 % of it (5 %, if the readings next to 0 V change their sign by turns,
+//     as noise does, and no light is stated), or above 30 times the noise of the readings next to 0 V (5
 //     times, if light of more than 20 W/m2 is stated). Specified offsets of meters are up to some
 //     20 times their noise in the same range.
 bool IsDark(const IvCurve& curve);

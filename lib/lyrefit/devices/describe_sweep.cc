@@ -203,10 +203,12 @@ void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const 
   }
   for (const Estimate& e : fit.estimates) {
     if (e.info.symbol[0] == 'n' && e.refined > options.ideal_n) {
-      reasons->push_back(
-          fmt::format("n = {:.3g} of the fit is above {:.3g}: collection that depends on voltage, "
-                      "ions, a barrier or a second junction is in it",
-                      e.refined, options.ideal_n));
+      reasons->push_back(fmt::format(
+          "n = {:.3g} of the fit is above {:.3g}: {}, a barrier or a second junction is in "
+          "it",
+          e.refined, options.ideal_n,
+          sweep.kind == SweepKind::kDark ? "tunnelling"
+                                         : "collection that depends on voltage, ions"));
     }
   }
 }

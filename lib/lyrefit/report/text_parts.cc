@@ -164,6 +164,7 @@ void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section) {
   add("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
       dark ? "of the junction's voltage, or what changes each current by an equal part"
            : "of a voltage near Voc, which shows where the curve is steep");
+  if (!(errors.sizes.path > 0)) return;
   add("path", Significant(100 * errors.sizes.path, 2) + (dark ? " % of each current" : " % of Isc"),
       found,
       dark ? "what neighbours share: the device's own departure from the model"
@@ -186,6 +187,12 @@ std::string WhichToBelieve(const ErrorReport& errors) {
     return fmt::format(
         "The residuals do not ask for more than independent errors ({}): the intervals above are "
         "to be believed.",
+        gain);
+  }
+  if (!(errors.sizes.path > 0)) {
+    return fmt::format(
+        "The residuals say clearly that errors are not equal ({}): believe these intervals, not "
+        "those above, which take every reading for equally exact.",
         gain);
   }
   return fmt::format(

@@ -77,7 +77,9 @@ TEST(MakeBounds, HoldsTheDiodeOfADarkCurveWhateverItsResistanceTakes) {
         EXPECT_LE(bounds[2].lower, 1) << drop_V;
         EXPECT_GE(bounds[2].upper, 1.4) << drop_V;
         EXPECT_GE(bounds[kRs].upper, drop_V / top_A) << drop_V;
-        if (cells_known) EXPECT_LE(bounds[2].upper, 10) << "a stated number of cells stands";
+        if (cells_known) {
+          EXPECT_LE(bounds[2].upper, 10) << "a stated number of cells stands";
+        }
       }
     }
   }

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
@@ -17,7 +19,7 @@
 namespace lyrefit {
 namespace {
 
-enum class DarkNoise { kOfRange, kOfReading };
+enum class DarkNoise { kOfRange, kOfReading, kOfRanges };
 
 struct DarkCase {
   IvCurve curve;
@@ -57,6 +59,35 @@ std::vector<double> DarkVoltages(const Device& device, const std::vector<double>
   return voltages;
 }
 
+// The least noise of a reading is that of its range; the offset of the range is of its size.
+void Measure(DarkNoise noise, double size, double top_A, RandomStream* random, IvCurve* curve) {
+  const double floor_A = (noise == DarkNoise::kOfRange ? size : 1e-6) * top_A;
+  const double offset_A =
+      floor_A * random->Normal() / std::sqrt(static_cast<double>(curve->size()));
+  for (double& current : curve->current_A) {
+    const double reading = noise == DarkNoise::kOfReading ? size * current : 0;
+    current += std::hypot(floor_A, reading) * random->Normal() + offset_A;
+  }
+}
+
+// Readings of a source-measure unit that takes the smallest decade of range for each: noise of the
+// reading and of the range, and for each range an offset and a gain of its own. Half of what the
+// data sheet of the Keithley 2450 allows at most, 0.025 % of the reading and 0.006 % of the range,
+// is taken as a standard deviation.
+void MeasureInRanges(double size, RandomStream* random, IvCurve* curve) {
+  constexpr double kLeast_A = 1e-8, kNoise = 4e-6, kGain = 1.2e-4, kOffset = 3e-5;
+  std::map<double, std::pair<double, double>> of_range;  // gain and offset
+  for (double& current : curve->current_A) {
+    const double decade = std::ceil(std::log10(std::max(std::fabs(current), kLeast_A)));
+    const double range_A = std::pow(10.0, decade);
+    const auto [at, is_new] = of_range.try_emplace(decade);
+    if (is_new) at->second = {kGain * random->Normal(), kOffset * range_A * random->Normal()};
+    const auto [gain, offset_A] = at->second;
+    const double noise_A = std::hypot(size * current, kNoise * range_A);
+    current += gain * current + offset_A + noise_A * random->Normal();
+  }
+}
+
 // n 0.9 to 3; the drop over Rs at the last reading is 0.1 to 10 times the junction's voltage, up to
 // 4 V in all. Every third is an LED, every third a photodiode with reverse bias and a shunt.
 DarkCase MakeDarkCase(std::uint64_t seed, DarkNoise noise) {
@@ -90,12 +121,10 @@ DarkCase MakeDarkCase(std::uint64_t seed, DarkNoise noise) {
   curve.voltage_V = DarkVoltages(device, truth, from_V, to_V, points, by_current);
   curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
   const double size = LogBetween(&random, 1e-4, 1e-2);
-  // The least noise of a reading is that of its range; the offset of the range is of its size.
-  const double floor_A = (noise == DarkNoise::kOfRange ? size : 1e-6) * top_A;
-  const double offset_A = floor_A * random.Normal() / std::sqrt(points);
-  for (double& current : curve.current_A) {
-    const double reading = noise == DarkNoise::kOfReading ? size * current : 0;
-    current += std::hypot(floor_A, reading) * random.Normal() + offset_A;
+  if (noise == DarkNoise::kOfRanges) {
+    MeasureInRanges(size, &random, &curve);
+  } else {
+    Measure(noise, size, top_A, &random, &curve);
   }
   made.text = fmt::format(
       "seed {} n {:.3f} Vj {:.2f} drop {:.2f} top {:.2g} A from {:.2f} V {} points {} noise {:.2g} "
@@ -107,7 +136,7 @@ DarkCase MakeDarkCase(std::uint64_t seed, DarkNoise noise) {
 }
 
 struct DarkTally {
-  int curves = 0, none = 0, refused = 0, holds = 0;
+  int curves = 0, none = 0, refused = 0, holds = 0, unconverged = 0;
   int with() const { return curves - none - refused; }
   double Percent() const { return 100.0 * holds / std::max(with(), 1); }
   double Without() const { return 100.0 * (none + refused) / curves; }
@@ -133,6 +162,7 @@ void Count(const DarkCase& made, bool verbose, DarkTally* tally) {
     tell("none (" + report->no_intervals_because + ")");
     return;
   }
+  tally->unconverged += report->refine.termination == "no convergence" ? 1 : 0;
   const bool holds = n.low_95 <= made.n && made.n <= n.high_95;
   tally->holds += holds ? 1 : 0;
   if (!holds) {
@@ -156,16 +186,23 @@ TEST_P(DarkDiodes, TheIntervalOfNHoldsTheTruth) {
     Count(MakeDarkCase(first + static_cast<std::uint64_t>(k), GetParam()), seeds != nullptr,
           &tally);
   }
-  fmt::print("noise of {}: {} curves, refused {}, without interval {}, n held in {:.1f} % of {}\n",
-             GetParam() == DarkNoise::kOfRange ? "the range" : "each reading", tally.curves,
-             tally.refused, tally.none, tally.Percent(), tally.with());
-  // Two standard errors of a share of 95 % are 1.4 % of 1,000 curves, 5.6 % of 60.
+  const char* const names[] = {"the range", "each reading", "changing ranges"};
+  fmt::print(
+      "noise of {}: {} curves, refused {}, without interval {}, n held in {:.1f} % of {}, not "
+      "converged {}\n",
+      names[static_cast<int>(GetParam())], tally.curves, tally.refused, tally.none, tally.Percent(),
+      tally.with(), tally.unconverged);
+  // The share is to be 93 to 97 %. Two standard errors of 95 % are 1.4 % of 1,000 curves, 5.6 % of
+  // 60; of 97 % they are 1.1 % of 1,000. Errors that are equal parts of each current come out at 97 %.
   EXPECT_GE(tally.Percent(), AtNight() ? 93 : 88);
-  EXPECT_LE(tally.Without(), AtNight() ? 5 : 10);
+  EXPECT_LE(tally.Percent(), AtNight() ? 98.1 : 100);
+  EXPECT_LE(tally.Without(), AtNight() ? 2 : 5);
+  EXPECT_LE(tally.unconverged, curves / 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, DarkDiodes,
-                         ::testing::Values(DarkNoise::kOfRange, DarkNoise::kOfReading));
+                         ::testing::Values(DarkNoise::kOfRange, DarkNoise::kOfReading,
+                                           DarkNoise::kOfRanges));
 
 }  // namespace
 }  // namespace lyrefit

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/model/kernel.h"
 #include "lyrefit/read/read_curve.h"
 #include "simulated.h"
 
@@ -62,6 +64,35 @@ TEST(RefutedBound, GivesWayIfNobodyStatedIt) {
       << "a floor is that of the bounds";
 }
 
+// A diode of n 1.3 in the dark, to 1.6 V, of which Rs takes 1.1 V.
+TEST(RefutedBound, AnyThatTheUserStatesMayBeRefuted) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 1;
+  for (int k = 0; k <= 120; ++k) curve.voltage_V.push_back(-0.8 + 0.02 * k);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const std::vector<double> truth = {0, 3e-9, 1.3, 8, 4e4};
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  RandomStream random(3);
+  for (double& current : curve.current_A) current += 2e-7 * random.Normal();
+  const std::pair<const char*, std::pair<double, double>> refuted[] = {
+      {"Rs", {0, 5}}, {"Rs", {9, 20}}, {"Is", {0, 1e-10}}, {"Rsh", {10, 2e4}}, {"n", {1.4, 8}}};
+  for (const auto& [symbol, range] : refuted) {
+    FitOptions stated;
+    stated.bounds.overrides[symbol] = range;
+    const FitReport report = FitOf(curve, stated);
+    EXPECT_THAT(report.no_intervals_because, HasSubstr(std::string("--bound ") + symbol));
+    EXPECT_TRUE(std::isnan(report.estimates[2].low_95)) << symbol;
+  }
+  for (const auto& [symbol, range] :
+       {std::pair{"Rs", std::pair{0.0, 20.0}}, std::pair{"Rsh", std::pair{10.0, 1e6}}}) {
+    FitOptions stated;
+    stated.bounds.overrides[symbol] = range;
+    const FitReport report = FitOf(curve, stated);
+    EXPECT_EQ(report.no_intervals_because, "") << symbol;
+    EXPECT_NEAR(report.refined[2], 1.3, 1e-3) << symbol;
+  }
+}
+
 TEST(RefutedBound, BelowOneNoJunctionIs) {
   std::vector<double> truth = kSingleTruth;
   truth[1] *= 1e-4;
@@ -79,6 +110,9 @@ TEST(RefutedBound, ThinFilmsHaveRoomAboveIt) {
   EXPECT_EQ(report.no_intervals_because, "");
   EXPECT_NEAR(report.refined[2], 2.7, 0.1);
   EXPECT_THAT(report.warnings, Contains(HasSubstr("is above 2: collection, ions, a barrier")));
+  IvCurve beyond = ModuleCurve(Model::kSingleDiode, {3.8, 0.22, 8, 0.05, 300}, 1e-4);
+  beyond.notes.technology = "organic";
+  EXPECT_THAT(FitOf(beyond).no_intervals_because, HasSubstr("n1 = 6, its upper bound"));
 }
 
 TEST(RefutedBound, ASecondDiodeAtTwoKeepsItsIntervals) {

@@ -15,8 +15,10 @@ namespace lyrefit {
 namespace {
 
 using ::testing::AnyOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 FitOptions Quick() {
@@ -142,6 +144,25 @@ TEST(UsableTest, ADarkCurveHasNoKeyPoints) {
   for (const std::string& warning : report->warnings) {
     EXPECT_EQ(warning.find("does not reach"), std::string::npos) << warning;
   }
+}
+
+TEST(UsableTest, NoLightIsBlamedForADarkCurve) {
+  IvCurve curve;
+  curve.conditions.cells_in_series = 1;
+  curve.cells_known = true;
+  for (int k = 0; k <= 90; ++k) curve.voltage_V.push_back(-0.2 + 0.04 * k);
+  const Device device = MakeDevice(Model::kSingleDiode, curve.conditions);
+  const std::vector<double> truth = {0, 1e-18, 2.7, 9, 1e7};
+  curve.current_A = SolveCurrents(device, truth.data(), curve.voltage_V);
+  for (std::size_t k = 0; k < curve.size(); ++k) {  // a shape that no diode has
+    curve.current_A[k] *= 1 + 3e-3 * std::sin(0.3 * static_cast<double>(k));
+  }
+  const auto report = Fit(curve, Quick());
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->refine.termination, "converged");
+  EXPECT_THAT(report->warnings, Contains(HasSubstr("tunnelling, a barrier or another junction")));
+  EXPECT_THAT(report->warnings, Contains(HasSubstr("or the device warmed")));
+  EXPECT_THAT(report->warnings, Not(Contains(AnyOf(HasSubstr("light"), HasSubstr("collection")))));
 }
 
 TEST(UsableTest, NoIntervalsAreFoundAroundAFitThatIsNot) {

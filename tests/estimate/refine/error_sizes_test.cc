@@ -127,6 +127,28 @@ TEST(ErrorSizes, WithoutInformationThePriorIsTheAnswer) {
   EXPECT_NEAR(found.sizes.path / prior.center.path, 1, 0.01);
 }
 
+TEST(ErrorSizes, APathThatIsNotUsualHasToShow) {
+  const ErrorShape shape = SyntheticShape(100);
+  const RowMatrix jacobian = SyntheticJacobian(100);
+  ErrorPrior prior = UsualErrors(kIsc, kVoc);
+  prior.path_is_usual = false;
+  constexpr int kDraws = 40;
+  int shown = 0, without = 0;
+  double voltage = 0;  // mean square
+  for (int seed = 0; seed < kDraws; ++seed) {
+    const auto find = [&](const ErrorSizes& truth) {
+      return FindErrorSizes(shape, prior, DrawErrors(shape, truth, seed), jacobian);
+    };
+    const FoundErrors independent = find({8e-4, 0.012, 0});
+    without += independent.sizes.path == 0 ? 1 : 0;
+    voltage += std::pow(independent.sizes.voltage_V / 0.012, 2) / kDraws;
+    shown += find({8e-4, 0.012, 3e-3}).sizes.path > 0 ? 1 : 0;
+  }
+  EXPECT_GE(without, 0.9 * kDraws);
+  EXPECT_GE(shown, 0.9 * kDraws);
+  EXPECT_NEAR(voltage, 1, 0.2);
+}
+
 TEST(ErrorSizes, StatedSizesOfCurrentsAreBelieved) {
   ErrorShape shape = SyntheticShape(150);
   shape.stated.assign(150, 2e-3);

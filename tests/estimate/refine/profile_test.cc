@@ -116,6 +116,21 @@ TEST(FindProfileSide, KeepsAlikeDiodesInTheirOrder) {
   }
 }
 
+// One of two diodes may be absent: the second. The first, whose place it could take, keeps its n.
+TEST(FindProfileSide, OfTwoDiodesTheLastMayBeAbsent) {
+  const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kDoubleDiode,
+                                              kSingleTruth, 3e-3, Objective::kSolvedCurrent);
+  const RefineEnd best = RefineFrom(problem, {3.8, 1e-8, 1.15, 0.25, 300, 1e-7, 1.6});
+  ASSERT_GT(best.p[SaturationCurrentIndex(0)], 0);
+  const Spread spread = SpreadOf(problem, best, 33);
+  const auto side = [&](int i, bool upper) {
+    return FindProfileSide(
+        problem, best, {i, upper, 2.03, VarianceOf(problem, best, 33), spread.standard_error[i]});
+  };
+  EXPECT_TRUE(side(SaturationCurrentIndex(1), false).at_bound);
+  EXPECT_FALSE(side(IdealityIndex(0), true).at_bound);
+}
+
 TEST(FindProfileSide, StopsAtTheBoundWhereTheDataDoNotObject) {
   const RefineProblem problem = ModuleProblem(Model::kSingleDiode, Model::kDoubleDiode,
                                               kSingleTruth, 3e-3, Objective::kSolvedCurrent);

@@ -199,11 +199,12 @@ Expected<BoundedFit> FitWithinBounds(const IvCurve& curve, const FitOptions& opt
 }
 
 // Whether bounds that are refuted give way: an upper one of n of one diode, which lyrefit chose. Two
-// diodes take each other's place in such room. Below the lower one no junction is.
+// diodes take each other's place in such room. Below the lower one no junction is. The range of a
+// thin film holds collection and barriers already.
 bool GiveWay(const RefutedBounds& refuted, const FitReport& report, const FitOptions& options) {
   const bool own = options.bounds.name == "physical" && options.bounds.overrides.empty();
   return own && !refuted.wider.empty() && !options.floor && options.with.empty() &&
-         options.model == Model::kSingleDiode &&
+         options.model == Model::kSingleDiode && !IsThinFilm(report.curve.notes.technology) &&
          report.estimates[IdealityIndex(0)].at_bound == BoundSide::kUpper;
 }
 

@@ -109,10 +109,11 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   const Scales scales = ScalesOf(problem, curve);
   const Grouping groups = GroupNeighbours(problem.voltage_V, scales.voltage_V);
   const ErrorShape shape = ShapeOfErrors(problem, curve, end.p);
+  ErrorPrior prior = UsualErrors(scales.current_A, scales.voltage_V);
+  prior.path_is_usual = !IsDark(curve);
   FoundErrors found = FindErrorSizes(
-      AverageShape(groups, shape), UsualErrors(scales.current_A, scales.voltage_V),
-      AverageRows(groups, RowMatrix(now.residual)), AverageRows(groups, now.jacobian),
-      DifferencesWithin(groups, shape, now.residual));
+      AverageShape(groups, shape), prior, AverageRows(groups, RowMatrix(now.residual)),
+      AverageRows(groups, now.jacobian), DifferencesWithin(groups, shape, now.residual));
   if (!curve.sigma_A.empty()) {
     double squares = 0;
     for (const double sigma : curve.sigma_A) squares += sigma * sigma;

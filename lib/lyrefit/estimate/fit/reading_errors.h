@@ -23,10 +23,6 @@ struct ReadingsAt {
   bool dark = false;  // the curve has no photocurrent
 };
 
-// Error models with a gain (FoundErrors) above this are believed. Independent errors exceed it in
-// some 3 % of curves.
-constexpr double kGainToBelieve = 5;
-
 // Appends the effect of reading errors on the weighted residuals. The noise of a voltage has its
 // nominal size at Voc and is proportional to the voltage elsewhere. The path runs along the
 // readings in the order of measurement, in units of Voc. Effects in addition to the diodes are
@@ -38,7 +34,8 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p);
 
 // Error sizes estimated from the residuals at the end of a fit. None if there are too few readings
-// or the residuals are only rounding.
+// or the residuals are only rounding. The usual path is that of modules at light: a dark curve has
+// to show one of its own.
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
                                       const RefineEnd& end);
 

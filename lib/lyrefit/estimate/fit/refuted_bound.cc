@@ -16,27 +16,46 @@ namespace {
 
 constexpr double kRefutedAt = 0.05;
 
-// Indices of the idealities at a bound that can be widened. Below `steepest_n` a diode is a step in
-// the current (model/term.h), so that bound is excluded.
+// Whether the bounds of a parameter are a choice that readings may refute: those of an ideality, and
+// all that are not lyrefit's own.
+bool AreAChoice(const PreparedFit& fit, int i) {
+  const ParameterBounds& bounds = fit.bounds[i];
+  if (fit.problem.fixed(i)) return false;
+  if (fit.device.parameters[i].kind == ParameterKind::kIdeality) return true;
+  const Device device = MakeDevice(fit.options.model, fit.curve.conditions, fit.options.constants);
+  const auto own = MakeBounds({}, device, fit.curve);
+  return own && ((*own)[i].lower != bounds.lower || (*own)[i].upper != bounds.upper);
+}
+
+// Indices of the diodes' parameters at a bound that can be widened. Below `steepest_n` a diode is a
+// step in the current (model/term.h), and nothing is below 0, so these bounds are excluded.
 std::vector<int> AtBound(const PreparedFit& fit, const RefineEnd& end) {
+  const int diodes = DiodeCount(fit.device);
+  std::vector<bool> absent(fit.device.size(), false);
+  for (int d = 0; d < diodes; ++d) {
+    absent[IdealityIndex(d)] = !(end.p[SaturationCurrentIndex(d)] > 0);
+  }
   std::vector<int> found;
-  for (int d = 0; d < DiodeCount(fit.device); ++d) {
-    const int i = IdealityIndex(d);
-    const ParameterBounds& bounds = fit.bounds[i];
-    const bool absent = !(end.p[SaturationCurrentIndex(d)] > 0);
-    if (absent || bounds.lower == bounds.upper) continue;
-    const bool low = end.p[i] <= bounds.lower && bounds.lower != fit.steepest_n;
-    if (low || end.p[i] >= bounds.upper) found.push_back(i);
+  for (int i = 0; i < 3 + 2 * diodes; ++i) {
+    const double lower = fit.bounds[i].lower;
+    const bool low = end.p[i] <= lower && lower > 0 && lower != fit.steepest_n;
+    const bool at_bound = low || end.p[i] >= fit.bounds[i].upper;
+    if (at_bound && !absent[i] && AreAChoice(fit, i)) found.push_back(i);
   }
   return found;
 }
 
+// Saturation currents and shunts span decades.
 RefineProblem WithRoom(RefineProblem problem, const std::vector<int>& at_bound, double steepest) {
-  constexpr double kRoom = 4;
   for (const int i : at_bound) {
-    problem.lower[i] /= kRoom;
-    if (steepest > 0) problem.lower[i] = std::max(problem.lower[i], steepest);
-    problem.upper[i] *= kRoom;
+    const ParameterKind kind = problem.device.parameters[i].kind;
+    const bool decades = kind == ParameterKind::kSaturation || kind == ParameterKind::kShunt;
+    const double room = decades ? 1e6 : 4;
+    problem.lower[i] /= room;
+    if (kind == ParameterKind::kIdeality && steepest > 0) {
+      problem.lower[i] = std::max(problem.lower[i], steepest);
+    }
+    problem.upper[i] *= room;
   }
   return problem;
 }

@@ -54,10 +54,12 @@ void WarnOfIdeality(const FitReport& report, Sentences* out) {
   if (!report.curve.cells_known) return;  // then it is that of all cells together
   for (const Estimate& e : report.estimates) {
     if (e.info.symbol[0] != 'n' || !(e.refined > kMost) || e.at_bound != BoundSide::kNone) continue;
-    out->push_back(
-        fmt::format("{} = {:.3g} is above 2: collection, ions, a barrier or another junction is in "
-                    "it; Voc over light, or the dark curve, has the ideality of the junction",
-                    e.info.symbol, e.refined));
+    out->push_back(fmt::format(
+        "{} = {:.3g} is above 2: {}", e.info.symbol, e.refined,
+        IsDark(report.curve)
+            ? "tunnelling, a barrier or another junction is in it"
+            : "collection, ions, a barrier or another junction is in it; Voc over light, "
+              "or the dark curve, has the ideality of the junction"));
   }
 }
 
@@ -137,8 +139,8 @@ void WarnOfRisingCurrent(const FitReport& report, Sentences* out) {
   if (worst <= kNoises * noise || worst <= kVisible * largest) return;
   out->push_back(
       fmt::format("the current rises with voltage by {:.2g} A up to {:.4g} V, which no passive "
-                  "device does: the light or the instrument changed during the sweep",
-                  worst, at));
+                  "device does: {} changed during the sweep",
+                  worst, at, dark ? "the instrument" : "the light or the instrument"));
 }
 
 void WarnOfResiduals(const FitReport& report, Sentences* out) {
@@ -149,9 +151,9 @@ void WarnOfResiduals(const FitReport& report, Sentences* out) {
                                            : "; the intervals are too narrow";
   out->push_back(fmt::format(
       "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): "
-      "the model misses something, or the light wandered{}",
+      "the model misses something, or {}{}",
       report.residuals.runs, report.residuals.expected_runs, report.residuals.runs_p_value,
-      of_intervals));
+      IsDark(report.curve) ? "the device warmed" : "the light wandered", of_intervals));
 }
 
 }  // namespace

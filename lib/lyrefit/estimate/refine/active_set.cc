@@ -85,10 +85,10 @@ class ActiveSet {
   }
 
   // The bounded solve has no bounds for a saturation current whose n is free. A diode moved to such
-  // a bound keeps its current at V0 as far as its n can compensate.
+  // a bound keeps its current at the largest voltage as far as its n can compensate.
   void StepBackInside() {
     std::vector<double>& p = now_.at.p;
-    const double pivot = shape_.voltage_scale_V / shape_.thermal_voltage_V;
+    const double pivot = shape_.junction_V(p) / shape_.thermal_voltage_V;
     bool outside = false;
     for (int i = 0; i < size(); ++i) {
       const ParameterRange range = BoundsAt(shape_, i, p);

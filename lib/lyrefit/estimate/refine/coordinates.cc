@@ -22,7 +22,10 @@ double StepOf(const ModelShape& shape, const FitParameter& parameter) {
 }  // namespace
 
 Coordinates::Coordinates(const ModelShape& shape, std::vector<double> p, std::vector<bool> active)
-    : shape_(&shape), p_(std::move(p)), slot_(p_.size(), -1) {
+    : shape_(&shape),
+      p_(std::move(p)),
+      pivot_(shape.junction_V(p_) / shape.thermal_voltage_V),
+      slot_(p_.size(), -1) {
   for (int i = 0; i < shape.size(); ++i) {
     if (active[i]) continue;
     slot_[i] = size();
@@ -32,7 +35,7 @@ Coordinates::Coordinates(const ModelShape& shape, std::vector<double> p, std::ve
     const int i = moving_[k];
     const bool saturation = shape.parameters[i].kind == ParameterKind::kSaturation;
     const int n = shape.parameters[i].with[0];
-    const double shift = saturation ? Pivot() / p_[n] : 0;
+    const double shift = saturation ? pivot_ / p_[n] : 0;
     const bool none = saturation && Moves(n);
     lower_.push_back(none ? -HUGE_VAL : OwnLower(k) + shift);
     upper_.push_back(none ? HUGE_VAL : OwnUpper(k) + shift);
@@ -48,7 +51,7 @@ std::vector<double> Coordinates::Start() const {
 double Coordinates::Forward(int i, double value) const {
   const FitParameter& parameter = shape_->parameters[i];
   const double own = OwnForward(i, value);
-  return parameter.kind == ParameterKind::kSaturation ? own + Pivot() / p_[parameter.with[0]] : own;
+  return parameter.kind == ParameterKind::kSaturation ? own + pivot_ / p_[parameter.with[0]] : own;
 }
 
 double Coordinates::OwnForward(int i, double value) const {
@@ -92,7 +95,7 @@ void Coordinates::ToParameters(const double* theta, double* p) const {
     const FitParameter& parameter = shape_->parameters[i];
     const int with = parameter.with[0];
     if (parameter.kind == ParameterKind::kSaturation && Moves(i)) {
-      p[i] = shape_->current_scale_A * std::exp(theta[slot_[i]] - Pivot() / p[with]);
+      p[i] = shape_->current_scale_A * std::exp(theta[slot_[i]] - pivot_ / p[with]);
     } else if (FollowsShunt(i)) {
       p[i] = p[with] / (Moves(i) ? theta[slot_[i]] : p_[with] / p_[i]);
     }
@@ -113,7 +116,7 @@ std::vector<Coordinates::Slope> Coordinates::Slopes(const double* p) const {
       continue;
     } else if (parameter.kind == ParameterKind::kSaturation) {
       slopes.push_back({i, k, p[i]});
-      if (Moves(with)) slopes.push_back({i, slot_[with], -Pivot() * p[i]});
+      if (Moves(with)) slopes.push_back({i, slot_[with], -pivot_ * p[i]});
     } else if (parameter.kind == ParameterKind::kIdeality) {
       slopes.push_back({i, k, -p[i] * p[i]});
     } else if (parameter.kind == ParameterKind::kShunt) {
@@ -129,7 +132,7 @@ double Coordinates::Own(int coordinate, const std::vector<double>& theta) const 
   const FitParameter& parameter = shape_->parameters[moving_[coordinate]];
   if (parameter.kind != ParameterKind::kSaturation) return theta[coordinate];
   const int n = parameter.with[0];
-  return theta[coordinate] - Pivot() * (Moves(n) ? theta[slot_[n]] : 1 / p_[n]);
+  return theta[coordinate] - pivot_ * (Moves(n) ? theta[slot_[n]] : 1 / p_[n]);
 }
 
 double Coordinates::OwnLower(int coordinate) const {

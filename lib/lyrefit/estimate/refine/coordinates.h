@@ -13,8 +13,9 @@ namespace lyrefit {
 //   shunt                          R0 / Rsh, so that a perfect shunt is 0
 //   dark shunt                     Rsh / Rsh0, between exp(-Rexp) and 1; at a bound it
 //                                  keeps that ratio
-//   saturation current             ln(Is / I0) + V0 / (n Ns Vt), the logarithm of the diode's
-//                                  current at V0
+//   saturation current             ln(Is / I0) + V / (n Ns Vt), the logarithm of the diode's
+//                                  current at V, its own voltage at V0 for the parameters passed
+//                                  to the constructor
 // Each coordinate changes one parameter, with two exceptions: the saturation current also depends
 // on its n, and the dark shunt on its shunt.
 class Coordinates {
@@ -56,12 +57,12 @@ class Coordinates {
  private:
   double Forward(int i, double value) const;
   double OwnForward(int i, double value) const;
-  double Pivot() const { return shape_->voltage_scale_V / shape_->thermal_voltage_V; }
   bool Moves(int i) const { return slot_[i] >= 0; }
   bool FollowsShunt(int i) const;
 
   const ModelShape* shape_;
   std::vector<double> p_;
+  double pivot_;             // V / (Ns Vt)
   std::vector<int> moving_;  // parameter of each coordinate
   std::vector<int> slot_;    // coordinate of each parameter, -1 at an active bound
   std::vector<double> lower_;

@@ -1,11 +1,25 @@
 #include "lyrefit/estimate/refine/curve_model.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "lyrefit/estimate/refine/coarsen.h"
 
 namespace lyrefit {
 namespace {
+
+// The current at the highest voltage; 0 if it is not above those that the device delivers.
+double ForwardCurrent(const RefineProblem& problem) {
+  double highest_V = 0, forward_A = 0, delivered_A = 0;
+  for (std::size_t k = 0; k < problem.voltage_V.size(); ++k) {
+    if (!(problem.voltage_V[k] > 0)) continue;
+    delivered_A = std::max(delivered_A, problem.current_A[k]);
+    if (!(problem.voltage_V[k] > highest_V)) continue;
+    highest_V = problem.voltage_V[k];
+    forward_A = -problem.current_A[k];
+  }
+  return forward_A > delivered_A ? forward_A : 0;
+}
 
 ModelShape ShapeOf(const RefineProblem& problem) {
   ModelShape shape;
@@ -14,6 +28,7 @@ ModelShape ShapeOf(const RefineProblem& problem) {
   shape.points = static_cast<double>(problem.voltage_V.size());
   shape.current_scale_A = problem.current_scale_A;
   shape.voltage_scale_V = problem.voltage_scale_V;
+  shape.forward_A = ForwardCurrent(problem);
   shape.thermal_voltage_V = problem.device.module_thermal_voltage_V;
   return shape;
 }

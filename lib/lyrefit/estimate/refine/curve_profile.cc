@@ -98,7 +98,10 @@ class CurveRefits {
     if (!alike_ || !OfDiode()) return false;
     double last_n = 0;
     for (int d = 0; d < DiodeCount(held_.device); ++d) {
-      if (!(p[SaturationCurrentIndex(d)] > 0)) continue;  // an absent diode has any n
+      if (!(p[SaturationCurrentIndex(d)] > 0)) {  // absent diodes have any n and come last
+        last_n = HUGE_VAL;
+        continue;
+      }
       if (p[IdealityIndex(d)] < last_n) return true;
       last_n = p[IdealityIndex(d)];
     }

@@ -13,9 +13,9 @@ namespace {
 constexpr double kFaded = 1e-9;
 constexpr int kSteps = 24;  // over the range of n
 
-// exp(V0 / (n Ns Vt)): ratio of a diode's current at the largest voltage to its saturation current.
-double Growth(const ModelShape& shape, double n) {
-  return std::exp(std::min(shape.voltage_scale_V / (n * shape.thermal_voltage_V), 600.0));
+// Ratio of a diode's current at the largest voltage to its saturation current.
+double Growth(const ModelShape& shape, const std::vector<double>& p, double n) {
+  return std::exp(std::min(shape.junction_V(p) / (n * shape.thermal_voltage_V), 600.0));
 }
 
 DiodeToAdd Try(const FitModel& model, FitPoint trial, int is, double n) {
@@ -23,7 +23,7 @@ DiodeToAdd Try(const FitModel& model, FitPoint trial, int is, double n) {
   std::vector<bool> active(shape.size(), true);
   active[is] = false;
   trial.p[shape.parameters[is].with[0]] = n;
-  trial.p[is] = kFaded * shape.current_scale_A / Growth(shape, n);
+  trial.p[is] = kFaded * shape.current_scale_A / Growth(shape, trial.p, n);
   const Linearization now = Linearize(model, trial, active);
   const double norm = now.jacobian.col(0).norm();
   const double slope = now.jacobian.col(0).dot(now.residual);
@@ -47,7 +47,7 @@ bool RemoveFaded(const ModelShape& shape, std::vector<double>* p, std::vector<bo
   for (int i = 0; i < shape.size(); ++i) {
     const FitParameter& parameter = shape.parameters[i];
     if (!parameter.may_vanish || (*active)[i]) continue;
-    const double strongest = (*p)[i] * Growth(shape, (*p)[parameter.with[0]]);
+    const double strongest = (*p)[i] * Growth(shape, *p, (*p)[parameter.with[0]]);
     if (strongest > kFaded * shape.current_scale_A) continue;
     (*p)[i] = 0;
     any = true;

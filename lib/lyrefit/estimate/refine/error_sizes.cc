@@ -17,7 +17,7 @@ namespace {
 constexpr double kLengthWidth = 8;
 constexpr double kLongerWidth = 0.5;
 
-using Logs = std::vector<double>;  // ln of current_A, voltage_V, path, length
+using Logs = std::vector<double>;  // ln of current_A, voltage_V and, with a path, path, length
 
 Logs LogsOf(const ErrorSizes& sizes) {
   return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path),
@@ -25,6 +25,7 @@ Logs LogsOf(const ErrorSizes& sizes) {
 }
 
 ErrorSizes SizesAt(const Logs& at) {
+  if (at.size() == 2) return {std::exp(at[0]), std::exp(at[1]), 0, 1};
   return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), std::exp(at[3])};
 }
 
@@ -130,7 +131,7 @@ double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
   const ErrorSizes sizes = SizesAt(at);
   double sum =
       LogLikelihood(rows.shape, sizes, rows.columns) + LogLikelihood(rows.differences, sizes);
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
     const bool longer = i == 3 && at[i] > center[i];
     sum -= 0.5 * std::pow((at[i] - center[i]) / (longer ? kLongerWidth : width[i]), 2);
   }
@@ -167,15 +168,16 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   return highest > -HUGE_VAL ? best : usual;
 }
 
-// 0 if the matrix is not positive definite.
+// Of the first sizes; 0 for the others, and if the matrix is not positive definite.
 Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
+  const Eigen::Index size = curvature.rows();
   Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
-  for (int j = 0; j < 4; ++j) {
+  for (Eigen::Index j = 0; j < size; ++j) {
     Eigen::VectorXd column;
-    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(4, j), &column)) {
+    if (!SolvePositive(curvature, Eigen::VectorXd::Unit(size, j), &column)) {
       return Eigen::Matrix4d::Zero();
     }
-    inverse.col(j) = column;
+    inverse.col(j).head(size) = column;
   }
   return inverse;
 }
@@ -261,7 +263,16 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   FoundErrors found;
   found.sizes = SizesAt(LongestAllowed(value, top, std::log(prior.center.length)));
   found.uncertainty = InverseOf(-CurvatureAt(value, top));
-  const double likely = LogLikelihood(shape, found.sizes, all.columns);
+  double likely = LogLikelihood(shape, found.sizes, all.columns);
+  if (!prior.path_is_usual) {
+    const Logs alone = NewtonAscent(value, {top[0], top[1]}, kMostSteps);
+    const double without = LogLikelihood(shape, SizesAt(alone), all.columns);
+    if (2 * (likely - without) <= kGainToBelieve) {
+      found.sizes = SizesAt(alone);
+      found.uncertainty = InverseOf(-CurvatureAt(value, alone));
+      likely = without;
+    }
+  }
   found.gain = 2 * (likely - WhiteLogLikelihood(all));
   return found;
 }

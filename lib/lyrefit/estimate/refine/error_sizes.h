@@ -23,11 +23,18 @@ struct ErrorShape {
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes);
 
+// Error models with a gain (FoundErrors) above this are believed. Independent errors exceed it in
+// some 3 % of curves.
+constexpr double kGainToBelieve = 5;
+
 // Prior of the sizes: their logarithms are normal about those of `center` with the standard
 // deviations `width`.
 struct ErrorPrior {
   ErrorSizes center;
   ErrorSizes width;
+  // Whether devices of this kind are known to have a path of the prior's size. Otherwise a path that
+  // gains less than kGainToBelieve over independent errors of both kinds is 0.
+  bool path_is_usual = true;
 };
 
 // The prior of a curve of this Isc and Voc. Path: healthy modules depart from the model by 0.98 to

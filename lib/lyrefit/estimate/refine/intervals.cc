@@ -203,18 +203,34 @@ class Finder {
     }
   }
 
+  bool MayBeAbsent(int i) const {
+    const Estimate& is = At(i);
+    const bool profiled =
+        is.interval == IntervalMethod::kProfile || is.interval == IntervalMethod::kUnsettled;
+    return problem_.rules.judge_absent_diodes && is.low_95 <= 0 && profiled && !is.fixed;
+  }
+
   // Marks diodes that the data allow to be absent as not identifiable; their n may then have any
-  // value.
+  // value. Of several, each may be absent where another can take its place, but not all: the first
+  // remains.
   void MarkAbsentDiodes() {
+    int diodes = 0;
+    bool remains = false;
+    for (int i = 0; i < size_; ++i) {
+      if (!IsSaturation(At(i))) continue;
+      ++diodes;
+      remains = remains || (!IsDropped(i) && !MayBeAbsent(i));
+    }
+    remains = remains || diodes < 2;
     for (int i = 0; i < size_; ++i) {
       Estimate& is = At(i);
       if (!IsSaturation(is)) continue;
       const bool absent = IsDropped(i);
-      const bool profiled =
-          is.interval == IntervalMethod::kProfile || is.interval == IntervalMethod::kUnsettled;
-      const bool may_be_absent =
-          problem_.rules.judge_absent_diodes && is.low_95 <= 0 && profiled && !is.fixed;
-      if (!absent && !may_be_absent) continue;
+      if (!absent && !remains) {
+        remains = true;
+        continue;
+      }
+      if (!absent && !MayBeAbsent(i)) continue;
       is.identifiable = false;
       is.reason =
           absent ? "the best fit has no such diode" : "the data allow this diode to be absent";

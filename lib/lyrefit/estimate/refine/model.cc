@@ -11,6 +11,14 @@ int ModelShape::locals() const {
   return count;
 }
 
+double ModelShape::junction_V(const std::vector<double>& p) const {
+  double left_V = voltage_scale_V;
+  for (int i = 0; i < size(); ++i) {
+    if (parameters[i].kind == ParameterKind::kSeries) left_V -= forward_A * p[i];
+  }
+  return std::max(left_V, thermal_voltage_V);
+}
+
 std::vector<FitParameter> MakeFitParameters(const std::vector<ParameterInfo>& infos,
                                             const std::vector<double>& lower,
                                             const std::vector<double>& upper) {

@@ -36,11 +36,15 @@ struct ModelShape {
   double points = 1;  // divisor of the mean square: residuals without those of priors
   double current_scale_A = 1;
   double voltage_scale_V = 1;
+  double forward_A = 0;          // at voltage_scale_V, if above what the device delivers
   double thermal_voltage_V = 1;  // n times this is the voltage scale of a diode of ideality n
 
   int size() const { return static_cast<int>(parameters.size()); }
   double resistance_scale() const { return voltage_scale_V / current_scale_A; }
   int locals() const;  // of all blocks
+  // The diodes' own voltage at voltage_scale_V: what the series resistance of `p` leaves of it, at
+  // least thermal_voltage_V.
+  double junction_V(const std::vector<double>& p) const;
 };
 
 // A shunt of resistance_scale() / this counts as perfect; finite, so that the equations can compute

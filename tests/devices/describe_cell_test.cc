@@ -230,5 +230,15 @@ TEST(DescribeCell, WithoutFitsTheKeyPointsStay) {
   EXPECT_THAT(report.series_resistance[0].missing, HasSubstr("no fit was requested"));
 }
 
+// With both signs turned no current flows the way that a lit cell delivers it; no dark curve either.
+TEST(DescribeCell, GivesNoFiguresOfACurveTurnedInBothSigns) {
+  IvCurve turned = CellSweepOf(kCellTruth, 1000, false, kNoise);
+  for (double& v : turned.voltage_V) v = -v;
+  for (double& i : turned.current_A) i = -i;
+  const auto report = DescribeCell(CellOf({turned}), {});
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().ToString(), HasSubstr("turn it in the file"));
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -115,6 +115,21 @@ TEST(DeviceFindings, AgedCellsAndContactsAreSaid) {
   EXPECT_NEAR(contacts.device_findings.front().power_loss, 0.08, 0.02);
 }
 
+// Without a technology n of 1.9 may be that of a sound thin film of the same voltage a cell.
+TEST(DeviceFindings, AnIdealityThatThinFilmsHaveAsksForTheTechnology) {
+  Ill ill;
+  ill.n = 1.9;
+  IvCurve curve = SweepOf(ill);
+  const Diagnosis d = DiagnoseOrFail(curve);
+  ASSERT_EQ(d.device_findings.size(), 1U) << d.verdict.sentence;
+  EXPECT_TRUE(d.device_findings.front().if_silicon);
+  EXPECT_THAT(d.device_findings.front().sentence, HasSubstr("--technology"));
+  EXPECT_THAT(d.verdict.sentence, HasSubstr("depends on its technology"));
+  curve.notes.technology = "c-Si";
+  EXPECT_THAT(DiagnoseOrFail(curve).verdict.sentence,
+              HasSubstr("not as healthy ones are: n = 1.9"));
+}
+
 TEST(DeviceFindings, AreNoneOfASweepThatEndsBeforeItsKnee) {
   Ill ill;
   ill.n = 1.8;

@@ -53,8 +53,8 @@ double Sum(const Hypotheses& hypotheses) {
 
 IvCurve WithStep(double step_A) {
   IvCurve curve = SyntheticCurve({});
-  const double place = SyntheticData(OnTheData(curve)).measurement.readings.traits.step_times[10];
   const SyntheticData made = OnTheData(curve);
+  const double place = FindEffect("irr_step")->probes(made.measurement.readings.traits)[10][1];
   for (std::size_t k = 0; k < curve.size(); ++k) {
     if (made.measurement.readings.points[k].x > place) curve.current_A[k] += step_A;
   }

@@ -92,6 +92,45 @@ TEST(SelectCausesTest, LeavesAWrongReadingOut) {
   EXPECT_EQ(selection.weighted.used[17], 0);
 }
 
+// Of a table by hand Voc was read later, on a colder module. No substring is open because of it.
+TEST(SelectCausesTest, ALastReadingThatAloneIsOffIsWrong) {
+  Recipe recipe;
+  recipe.cells = 36;
+  recipe.points = 24;
+  recipe.to_V = 0.6;
+  IvCurve curve = SyntheticCurve(recipe);
+  curve.voltage_V.push_back(1.07 * 36 * 0.613);
+  curve.current_A.push_back(0);
+  SelectOptions options;
+  options.floors = {0.0025, 0.005};
+  const Selection selection = SelectFor(curve, options).selection;
+  EXPECT_THAT(selection.outliers, ElementsAre(24));
+  EXPECT_THAT(selection.causes, IsEmpty());
+}
+
+// What the directions of a hysteretic device differ by is not described to the last: a start that
+// settles beside it is no drift of the light.
+TEST(SelectCausesTest, WhatIsSmallBesideHysteresisIsNoCause) {
+  Recipe up, down;
+  up.points = down.points = 50;
+  IvCurve curve = SyntheticCurve(up);
+  const IvCurve back = SyntheticCurve(down);
+  const auto n = static_cast<int>(curve.size());
+  for (int k = 0; k < n; ++k) {
+    const double bent = 1 - 0.3 * std::pow(curve.voltage_V[k] / 0.645, 2);
+    curve.current_A[k] = curve.current_A[k] * bent + 0.3 * std::exp(-k / 6.0);
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    curve.voltage_V.push_back(back.voltage_V[k]);
+    curve.current_A.push_back(back.current_A[k]);
+  }
+  for (int k = 0; k < 2 * n; ++k) curve.sweep.push_back(k < n ? 0 : 1);
+  SelectOptions options;
+  options.floors = {0.0025, 0.005};
+  const Selected selected = SelectFor(curve, options);
+  EXPECT_THAT(selected.Ids(), ElementsAre("hysteresis"));
+}
+
 // The limit is read off the values; clipped readings are excluded from the fit.
 TEST(SelectCausesTest, TakesClippingFromTheValues) {
   IvCurve curve = SyntheticCurve({});

@@ -227,6 +227,14 @@ TEST(FindBinsTest, TakesSetVoltagesForWhatTheyAre) {
   EXPECT_THAT(Look(curve).bin_rounding, Each(0));
 }
 
+// A person sets a few round voltages, closer at the knee.
+TEST(FindBinsTest, AFewRoundVoltagesAreNoBins) {
+  IvCurve curve = SyntheticCurve({});
+  curve.voltage_V = {0, 0.2, 0.4, 0.5, 0.55, 0.6, 0.62, 0.64, 0.66, 0.67};
+  curve.current_A = {8, 7.99, 7.95, 7.6, 6.9, 5.1, 4.1, 2.6, 1.0, 0.2};
+  EXPECT_EQ(Look(curve).voltage_bin, 0);
+}
+
 TEST(LookAtValuesTest, FindsALimitOfTheVoltage) {
   IvCurve curve = SyntheticCurve({});
   const double limit = curve.voltage_V[curve.size() - 7];

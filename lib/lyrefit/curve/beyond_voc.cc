@@ -49,14 +49,27 @@ std::pair<double, double> LineUpToKnee(const IvCurve& curve, const KeyPoints& ke
   return {(i - slope * v) / count, slope};
 }
 
+// Largest forward current that is not held: three readings and more at the same one are a limit of
+// the source, which says nothing of the diode.
+double LargestNotHeld_A(const IvCurve& curve, double isc_A) {
+  constexpr double kEqual = 2e-4;  // of Isc
+  constexpr int kFewest = 3;
+  const double least_A = *std::min_element(curve.current_A.begin(), curve.current_A.end());
+  const auto held = std::count_if(curve.current_A.begin(), curve.current_A.end(),
+                                  [&](double i_A) { return i_A < least_A + kEqual * isc_A; });
+  return held < kFewest ? HUGE_VAL : -least_A - kEqual * isc_A;
+}
+
 // Readings on the diode's side of the knee, by rising voltage.
 std::vector<KneeReading> KneeOf(const IvCurve& curve, const KeyPoints& key) {
   const auto [photo_A, slope] = LineUpToKnee(curve, key);
+  const double most_A = LargestNotHeld_A(curve, key.short_circuit_current_A);
   std::vector<KneeReading> knee;
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double voltage_V = curve.voltage_V[k], current_A = curve.current_A[k];
     const double junction_A = photo_A + slope * voltage_V - current_A;
     if (!(voltage_V > 0) || !(junction_A > kKnee * key.short_circuit_current_A)) continue;
+    if (-current_A > most_A) continue;
     knee.push_back({voltage_V, -current_A, junction_A});
   }
   std::stable_sort(knee.begin(), knee.end(), [](const KneeReading& a, const KneeReading& b) {
@@ -142,7 +155,8 @@ IvCurve WithoutBeyondVoc(IvCurve curve) {
       "{} readings beyond Voc, above {:.4g} V and with a forward current of up to {:.3g} times "
       "Isc, "
       "were left out: the diode that describes the readings up to there does not describe them "
-      "(injection, leads, another conduction or a limit of the instrument; --as-is takes them)",
+      "(injection, leads, another conduction, a limit of the instrument or wrong readings; --as-is "
+      "takes them)",
       beyond.left_out, beyond.last_V, beyond.largest_A / isc_A));
   return curve;
 }

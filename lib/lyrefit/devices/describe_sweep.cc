@@ -152,9 +152,12 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.name = NameOf(sweep, curve.notes);
   const KeyPoints unknown = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
-  if (sweep.kind != SweepKind::kLit) return sweep;
+  if (sweep.kind != SweepKind::kSunsVoc) TakeDoubt(curve, area_cm2, &sweep);
+  if (sweep.kind != SweepKind::kLit) {
+    if (!sweep.refused) sweep.doubt.clear();  // of figures that only a lit sweep has
+    return sweep;
+  }
   const KeyPoints& key = sweep.key;
-  TakeDoubt(curve, area_cm2, &sweep);
   if (sweep.doubt.empty()) {
     sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
     sweep.no_efficiency_because = WhyNoEfficiency(curve, sweep.jsc_mA_cm2);

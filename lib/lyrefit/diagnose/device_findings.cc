@@ -157,13 +157,16 @@ double CellVoltage(const JudgedDevice& device) {
   return device.voltage_V / device.weighted.readings->scale.cells;
 }
 
-// Whether nobody states the technology and the voltage a cell is none that silicon has under standard
-// light: its modules have 0.57 V and more.
-bool MayBeAnother(const JudgedDevice& device) {
+// Whether nobody states the technology and another one than silicon has such an ideality: the voltage
+// a cell is none that silicon has under standard light, whose modules have 0.57 V and more, or n is
+// above that of all its cells.
+bool MayBeAnother(const JudgedDevice& device, const Sized& n) {
   constexpr double kLeastOfSilicon_V = 0.56;
   const double cell_V = CellVoltage(device);
-  return device.technology.empty() &&
-         !(cell_V > kLeastOfSilicon_V && cell_V < Silicon().most_Voc_V);
+  const bool of_silicon = cell_V > kLeastOfSilicon_V && cell_V < Silicon().most_Voc_V &&
+                          !IsAbove(n, Silicon().most_ideality);
+  return device.technology.empty() && !of_silicon &&
+         !IsAbove(n, FindTechnology("CIGS")->most_ideality);
 }
 
 void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
@@ -173,7 +176,7 @@ void AddIdeality(const JudgedDevice& device, std::vector<DeviceFinding>* finding
   const Sized n = About(device.fit.p[index], device.spread * device.errors[index]);
   if (!IsAbove(n, limit)) return;
   const double loss = LossAgainst(device, index, limit);
-  if (MayBeAnother(device) && !(n.low_95 > FindTechnology("CIGS")->most_ideality)) {
+  if (MayBeAnother(device, n)) {
     findings->push_back(
         {"ideality", "n", n, limit, loss,
          fmt::format(

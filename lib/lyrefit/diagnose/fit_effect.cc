@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "lyrefit/diagnose/imitation.h"
 #include "lyrefit/estimate/refine/multistart.h"
 
 namespace lyrefit {
@@ -65,19 +66,6 @@ double Penalised(const WeightedData& weighted, const LawFit& fit) {
   return fit.sum + FreedomOf(weighted, fit.law) * NoiseVariance(weighted, fit);
 }
 
-// Whether the last effect of a fit stays off the bounds at which it would imitate another effect.
-bool IsItself(const Effect& effect, const LawFit& fit, const DataTraits& traits) {
-  const std::size_t first = fit.p.size() - effect.parameters.size();
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& parameter = effect.parameters[k];
-    const double slack = 1e-3 * (parameter.upper - parameter.lower);
-    const double value = fit.p[first + k];
-    if (parameter.above_lower && value < parameter.lower + slack) return false;
-    if (parameter.below_upper && value > parameter.upper - slack) return false;
-  }
-  return effect.imitates == nullptr || !effect.imitates(fit.p.data() + first, traits);
-}
-
 // Whether the root mean square misfit of the used readings exceeds `part` of Isc.
 bool Misses(const WeightedData& weighted, const LawFit& fit, double part) {
   double sum = 0;
@@ -134,7 +122,7 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     if (!end.usable) return;
     at->value = Penalised(data, end);
     at->fit = std::move(end);
-    if (!last || !IsItself(effect, at->fit, readings.traits)) return;
+    if (!last || !IsItself(weighted, at->fit)) return;
     if (!best->usable || at->value < Penalised(weighted, *best)) *best = at->fit;
   };
   Multistart<ShapeEnd> run;
@@ -226,13 +214,13 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
   if (!best.usable) return best;
   if (effort == Effort::kFull) DescendInProbes(weighted, effect, probes, &best);
   LawFit end = FitLaw(weighted, best.law, best.p, kForRanking);
-  if (!end.usable || !IsItself(effect, end, weighted.readings->traits)) return {};
+  if (!end.usable || !IsItself(weighted, end)) return {};
   return end;
 }
 
 LawFit FitOnwards(const WeightedData& weighted, const LawFit& met) {
   LawFit end = FitLaw(weighted, met.law, met.p, kForRanking);
-  if (!end.usable || !IsItself(*met.law.effects.back(), end, weighted.readings->traits)) return {};
+  if (!end.usable || !IsItself(weighted, end)) return {};
   return end;
 }
 

@@ -9,6 +9,7 @@
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/fit_effect.h"
 #include "lyrefit/diagnose/selection_state.h"
+#include "lyrefit/diagnose/verdict_text.h"
 #include "lyrefit/effects/catalogue.h"
 
 namespace lyrefit {
@@ -121,15 +122,18 @@ double NothingMaterial(const Hypotheses& step) {
   return std::min(probability, 1.0);  // a sum of shares may exceed one by rounding
 }
 
-// Least current by which one more cause must change a sweep of one direction. Unlike cells and light
-// that moves are described in part: what is small beside them may be how they are in detail.
+// Least current by which one more cause must change a sweep. In one direction unlike cells and light
+// that moves are described in part, in both a device that depends on its past, which settles in time
+// as well: what is small beside them may be how they are in detail.
 double LeastOfAnother(const SelectionState& now) {
   const DataTraits& traits = now.weighted.readings->traits;
+  const bool both = !traits.turns.empty();
   const bool in_part =
-      std::any_of(now.causes.begin(), now.causes.end(), [](const ChosenCause& cause) {
-        return cause.effect->groups || cause.effect->where == Where::kSweep;
+      std::any_of(now.causes.begin(), now.causes.end(), [both](const ChosenCause& cause) {
+        const Effect& effect = *cause.effect;
+        return both ? effect.by_sweep : effect.groups || effect.where == Where::kSweep;
       });
-  if (!in_part || !traits.single || !traits.turns.empty()) return 0;
+  if (!in_part || !traits.single) return 0;
   return kLeastPartOfAnother * LackOfFit(now.weighted, now.base, now.fit.current);
 }
 
@@ -180,6 +184,61 @@ bool LeaveOutWrong(std::vector<Score> scores, const Hypotheses& step, SelectionS
   return any;
 }
 
+// The first or the last `count` used readings of the stretch of which reading k is an end; empty if k
+// is none.
+std::vector<int> EndAt(const WeightedData& weighted, int k, int count, int inwards) {
+  const std::vector<Reading>& points = weighted.readings->points;
+  const auto within = [&](int i) {
+    return i >= 0 && i < static_cast<int>(points.size()) && points[i].segment == points[k].segment;
+  };
+  std::vector<int> end;
+  if (within(k - inwards)) return end;
+  for (int i = k; within(i) && static_cast<int>(end.size()) < count; i += inwards) {
+    if (weighted.used[i] != 0) end.push_back(i);
+  }
+  return end;
+}
+
+// Leaves out the first or the last readings of a stretch if the most probable cause shows in them
+// alone: the base law describes the others, and no cause is as probable for them. By hand, Isc and
+// Voc are often taken apart from the others, and at the end of a sweep instruments slip. Of a sweep
+// up and down, the other direction tells what the device does there.
+bool LeaveOutEnd(const FittedCandidate& best, SelectionState* now) {
+  const DataTraits& traits = now->weighted.readings->traits;
+  if (!now->fit.law.effects.empty() || !traits.single || !traits.turns.empty()) return false;
+  constexpr int kMost = 3;
+  constexpr double kPartLeft = 0.5;  // of the misfit, noise included
+  const JudgeOptions& judge = now->options.judge;
+  const int points = static_cast<int>(now->weighted.used.size());
+  const int left_out = static_cast<int>(now->wrong.readings.size());
+  const int most = std::min(kMost, std::max(1, static_cast<int>(kMostWrong * points)) - left_out);
+  for (int count = 1; count <= most; ++count) {
+    for (int place = 0; place < 2 * points; ++place) {
+      const std::vector<int> end = EndAt(now->weighted, place / 2, count, place % 2 == 0 ? 1 : -1);
+      if (end.empty()) continue;
+      WeightedData others = now->weighted;
+      for (const int k : end) others.used[k] = 0;
+      LawFit none = FitBase(others, now->fit.law);
+      if (others.progress.Stopped()) return false;
+      const bool described = none.usable &&
+                             LeftBy(others, none).value < now->options.floors.current &&
+                             MissedBy(others, none) < kPartLeft * MissedBy(now->weighted, now->fit);
+      if (!described) continue;
+      const LawFit with = FitLaw(others, best.fit.law, best.fit.p);
+      const double alone = LogTotal(EvidenceOf(others, none, judge, none));
+      const double caused =
+          LogTotal(EvidenceOf(others, none, judge, with)) + LogPriorOdds(*best.score.effect, judge);
+      if (!with.usable || alone < caused) continue;
+      now->weighted = std::move(others);
+      now->fit = std::move(none);
+      now->wrong.readings.insert(now->wrong.readings.end(), end.begin(), end.end());
+      SettleNoise(now);
+      return true;
+    }
+  }
+  return false;
+}
+
 void Extend(SelectionState* now, Selection* selection) {
   const int most = now->options.largest_causes + static_cast<int>(now->causes.size());
   const double least = std::log(now->options.probability / (1 - now->options.probability));
@@ -213,6 +272,7 @@ void Extend(SelectionState* now, Selection* selection) {
       return;
     }
     if (floors.Any() && size.current < LeastOfAnother(*now)) return;
+    if (LeaveOutEnd(best, now)) continue;
     Accept(best, now);
     SwapCauses(now);
     if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);

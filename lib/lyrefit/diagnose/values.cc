@@ -208,6 +208,9 @@ bool ComeRegularly(const std::vector<int>& places) {
 
 VoltageBins FindBins(const Readings& readings) {
   constexpr double kUneven = 0.25, kRepeated = 0.1;  // fractions of the steps
+  // By hand one sets a dozen round voltages, closer where the curve bends: no mark of an instrument.
+  constexpr std::size_t kFewest = 16;
+  if (readings.points.size() < kFewest) return {};
   std::vector<double> voltages;
   for (const Reading& r : readings.points) voltages.push_back(r.voltage);
   const double step = FindGrid(voltages);

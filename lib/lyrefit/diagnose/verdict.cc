@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
@@ -58,6 +59,14 @@ bool Remains(const Selection& selection, double whiteness_after) {
          selection.weighted.correlation >= 0.5;
 }
 
+// Whether nothing but wrong readings is named, and the model misses the others nearly as much: wrong
+// are a few among many that it describes.
+bool AreWrongReadingsAmongMisses(const Verdict& verdict, const Sized& left) {
+  constexpr double kNearly = 0.5;
+  return verdict.causes.size() == 1 && verdict.causes.front().id == "outliers" &&
+         left.value > kNearly * verdict.lack_of_fit.value;
+}
+
 }  // namespace
 
 Verdict Decide(const Measurement& measurement, const Selection& selection, const AtReadings& at,
@@ -86,8 +95,13 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     }
   }
   const bool unknown = exceeds && (selection.incomplete > 0.5 || whiteness_after < kNeverNoise);
-  const bool nameless = unknown && verdict.causes.empty();
-  if (nameless) {
+  if (exceeds && AreWrongReadingsAmongMisses(verdict, left)) {
+    Cause cause = UnknownCause(selection, whiteness_after);
+    cause.probability = 1;  // its size is above the floor by more than its error
+    for (const std::string& words : verdict.causes.front().in_words) cause.sentence += "; " + words;
+    verdict.causes = {cause};
+    verdict.unexplained = true;
+  } else if (unknown && verdict.causes.empty()) {
     verdict.unexplained = true;
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }

@@ -30,6 +30,19 @@ bool IsAlone(const WeightedData& weighted, const LawFit& fit, int reading) {
   return neighbours == 2;
 }
 
+// Whether in a sweep up and down a neighbour is off alike: the device settles, or its state changes.
+bool Settles(const WeightedData& weighted, const LawFit& fit, int reading) {
+  constexpr double kShared = 0.35;
+  const std::vector<Reading>& points = weighted.readings->points;
+  if (weighted.readings->traits.turns.empty()) return false;
+  for (const int k : {reading - 1, reading + 1}) {
+    const bool there = k >= 0 && k < static_cast<int>(points.size());
+    if (!there || points[k].segment != points[reading].segment || weighted.used[k] == 0) continue;
+    if (Off(weighted, fit, k) / Off(weighted, fit, reading) > kShared) return true;
+  }
+  return false;
+}
+
 // Whether a reading at an end of its stretch agrees with the law at zero sweep rate. At the start,
 // turn or end of a sweep, the rate computed from neighbours is wrong. An effect that depends on the
 // rate then misses such a reading, although the reading is correct.
@@ -64,12 +77,11 @@ double LogOdds(const WeightedData& weighted, const LawFit& fit, const Score& fur
 
 bool LeaveOutFurthest(const std::vector<Score>& scores, const Hypotheses& step,
                       WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
-  constexpr double kMostOfAll = 0.05;
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
   if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return false;
   const double odds = LogOdds(*weighted, *fit, *furthest);
-  if (!(odds > 0)) return false;
-  const double most = std::max(1.0, kMostOfAll * static_cast<double>(weighted->used.size()));
+  if (!(odds > 0) || Settles(*weighted, *fit, furthest->outlier)) return false;
+  const double most = std::max(1.0, kMostWrong * static_cast<double>(weighted->used.size()));
   if (static_cast<double>(wrong->readings.size()) >= most) return false;
   if (!step.candidates.empty()) {
     const FittedCandidate& best = *MostProbable(step.candidates);

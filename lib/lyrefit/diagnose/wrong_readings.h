@@ -12,6 +12,8 @@ struct WrongReadings {
   std::vector<int> at_rest;  // not wrong, but the voltage stood still: ends of monotone stretches
 };
 
+inline constexpr double kMostWrong = 0.05;  // of all readings
+
 // Leaves out the reading that is furthest off and repeats the fit, if that is more probable than no
 // cause and than the best of the candidates, or if it is isolated where that one is momentary. At
 // most a twentieth of all readings is left out. Returns whether a reading was left out.

@@ -1,0 +1,146 @@
+#include "lyrefit/diagnose/imitation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/model/effect.h"
+
+namespace lyrefit {
+namespace {
+
+constexpr int kBeside = 4;  // readings on either side of a jump
+
+bool StaysOffBounds(const Effect& effect, const double* p) {
+  for (int k = 0; k < effect.size(); ++k) {
+    const EffectParameter& parameter = effect.parameters[k];
+    const double slack = 1e-3 * (parameter.upper - parameter.lower);
+    if (parameter.above_lower && p[k] < parameter.lower + slack) return false;
+    if (parameter.below_upper && p[k] > parameter.upper - slack) return false;
+  }
+  return true;
+}
+
+// What the last effect adds to the current of each reading. Empty if the law without it cannot be
+// evaluated.
+std::vector<double> AddedBy(const WeightedData& weighted, const LawFit& fit) {
+  const LawFit rest = TakenOut(fit, static_cast<int>(fit.law.effects.size()) - 1);
+  std::vector<double> added(fit.current.size());
+  LawWorkspace workspace;
+  if (!EvaluateLaw(rest.law, *weighted.readings, rest.p.data(), &workspace, added.data(),
+                   nullptr)) {
+    return {};
+  }
+  for (std::size_t k = 0; k < added.size(); ++k) added[k] = fit.current[k] - added[k];
+  return added;
+}
+
+// The first of the two neighbours between which the added current changes by more than half of its
+// range; -1 if there are none.
+int JumpOf(const std::vector<Reading>& points, const std::vector<double>& added) {
+  constexpr double kSudden = 0.5;
+  const auto [least, most] = std::minmax_element(added.begin(), added.end());
+  double largest = kSudden * (*most - *least);
+  int at = -1;
+  for (int k = 0; k + 1 < static_cast<int>(points.size()); ++k) {
+    if (points[k].segment != points[k + 1].segment) continue;
+    const double change = std::fabs(added[k + 1] - added[k]);
+    if (!(change > largest)) continue;
+    largest = change;
+    at = k;
+  }
+  return at;
+}
+
+// Takes a straight line along the voltage out of values, all of equal weight.
+void TakeOutLine(const std::vector<double>& voltage, std::vector<double>* values) {
+  const auto n = static_cast<double>(values->size());
+  double mean = 0, middle = 0, along = 0, moment = 0;
+  for (std::size_t k = 0; k < values->size(); ++k) {
+    mean += (*values)[k] / n;
+    middle += voltage[k] / n;
+  }
+  for (std::size_t k = 0; k < values->size(); ++k) {
+    along += (voltage[k] - middle) * ((*values)[k] - mean);
+    moment += (voltage[k] - middle) * (voltage[k] - middle);
+  }
+  for (std::size_t k = 0; k < values->size(); ++k) {
+    (*values)[k] -= mean + (moment > 0 ? along / moment * (voltage[k] - middle) : 0);
+  }
+}
+
+// Whether the readings beside a jump show it. A bend of the device that a jump describes from afar
+// is smooth there.
+bool Jumps(const WeightedData& weighted, const LawFit& fit, const std::vector<double>& added,
+           int at) {
+  constexpr int kFewest = 5;
+  constexpr double kLeastPart = 0.5, kSure = 2;  // of the jump; standard errors
+  const std::vector<Reading>& points = weighted.readings->points;
+  const int last = std::min(at + kBeside, static_cast<int>(points.size()) - 1);
+  std::vector<double> voltage, jump, seen;
+  double variance = 0;
+  for (int k = std::max(0, at + 1 - kBeside); k <= last; ++k) {
+    if (points[k].segment != points[at].segment || weighted.used[k] == 0) continue;
+    voltage.push_back(points[k].voltage);
+    jump.push_back(added[k]);
+    seen.push_back(points[k].current - fit.current[k] + added[k]);
+    variance = std::max(variance, weighted.sigma[k] * weighted.sigma[k]);
+  }
+  if (static_cast<int>(voltage.size()) < kFewest) return true;
+  TakeOutLine(voltage, &jump);
+  TakeOutLine(voltage, &seen);
+  double square = 0, product = 0;
+  for (std::size_t k = 0; k < jump.size(); ++k) {
+    square += jump[k] * jump[k];
+    product += jump[k] * seen[k];
+  }
+  const double part = product / square;
+  const double error = std::sqrt(variance * NoiseVariance(weighted, fit) / square);
+  return !(part < kLeastPart && part + kSure * error < 1);
+}
+
+// Whether an effect begins or acts where devices bend by themselves: at 0 V of a sweep from deep
+// reverse, where the field in the junction grows and with it the current that is collected, and, of
+// a moment of light, at open circuit of a single cell, where contacts of new materials block or begin
+// to inject. `jump`: of JumpOf.
+bool LiesAtABend(const Readings& readings, const std::vector<double>& added, int jump) {
+  constexpr double kHeld = 0.1;  // of the largest change
+  const DataTraits& traits = readings.traits;
+  const bool deep = traits.open_circuit > 0 && traits.lowest_voltage < -traits.open_circuit;
+  double largest = 0;
+  for (const double change : added) largest = std::max(largest, std::fabs(change));
+  const std::vector<Reading>& points = readings.points;
+  for (int k = 0; k + 1 < static_cast<int>(points.size()); ++k) {
+    const Reading &a = points[k], &b = points[k + 1];
+    const bool held =
+        jump < 0 ? std::fabs(added[k]) > kHeld * largest : std::abs(k - jump) < kBeside;
+    if (a.segment != b.segment || !held) continue;
+    if (deep && (a.voltage < 0) != (b.voltage < 0)) return true;
+    if (jump < 0 && !traits.module && (a.current < 0) != (b.current < 0)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool IsItself(const WeightedData& weighted, const LawFit& fit) {
+  const Effect& effect = *fit.law.effects.back();
+  const Readings& readings = *weighted.readings;
+  const double* const p = fit.p.data() + fit.p.size() - effect.parameters.size();
+  if (!StaysOffBounds(effect, p)) return false;
+  if (effect.imitates != nullptr && effect.imitates(p, readings.traits)) return false;
+  if (effect.where == Where::kDevice || effect.size() == 0) return true;
+  const std::vector<double> added = AddedBy(weighted, fit);
+  if (added.empty()) return true;
+  const int jump = JumpOf(readings.points, added);
+  if (jump >= 0 && !Jumps(weighted, fit, added, jump)) return false;
+  // No junction has more: what bends such a curve is of the device.
+  constexpr double kMostIdeality = 2.2;
+  if (effect.momentary && Ideality(fit) > kMostIdeality) return false;
+  const bool at_moment = effect.momentary || jump >= 0;
+  return !(at_moment && LiesAtABend(readings, added, jump));
+}
+
+}  // namespace lyrefit

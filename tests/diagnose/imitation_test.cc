@@ -1,0 +1,70 @@
+#include "lyrefit/diagnose/imitation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lyrefit/diagnose/fit_effect.h"
+#include "synthetic_data.h"
+
+namespace lyrefit {
+namespace {
+
+// Whether an effect can be fitted to a curve.
+bool Fits(const char* id, const IvCurve& curve) {
+  const SyntheticData made = OnTheData(curve);
+  const LawFit base = FitBase(made.weighted, Law());
+  Signatures signatures;
+  const std::vector<Score> scores =
+      ScoreEffects(made.weighted, base, {FindEffect(id)}, &signatures);
+  return FitEffect(made.weighted, base, scores.front()).usable;
+}
+
+// From reading 20 on the light is 5 % weaker, at once or over `readings`.
+IvCurve Weaker(int readings) {
+  IvCurve curve = SyntheticCurve({});
+  for (int k = 20; k < static_cast<int>(curve.size()); ++k) {
+    curve.current_A[k] -= 0.4 * std::min(1.0, (k - 19.0) / readings);
+  }
+  return curve;
+}
+
+TEST(ImitationTest, AStepOfTheLightJumps) {
+  EXPECT_TRUE(Fits("irr_step", Weaker(1)));
+  EXPECT_FALSE(Fits("irr_step", Weaker(12)));
+}
+
+// At 0 V a photodiode bends, whose current grows with the reverse voltage; at -1.5 V light dips.
+TEST(ImitationTest, NoMomentOfLightAtZeroOfASweepFromDeepReverse) {
+  for (const double centre_V : {-1.5, 0.0}) {
+    Recipe recipe;
+    recipe.from_V = -3;
+    recipe.points = 120;
+    IvCurve curve = SyntheticCurve(recipe);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      const double from = (curve.voltage_V[k] - centre_V) / 0.12;
+      curve.current_A[k] -= 0.4 * std::exp(-0.5 * from * from);
+    }
+    EXPECT_EQ(Fits("transient", curve), centre_V < 0);
+  }
+}
+
+// A bump at open circuit of a single cell is of its contacts; elsewhere it may be of the light.
+TEST(ImitationTest, NoMomentOfLightAtOpenCircuitOfACell) {
+  for (const bool at_voc : {false, true}) {
+    Recipe recipe;
+    recipe.to_V = 0.7;
+    IvCurve curve = SyntheticCurve(recipe);
+    const auto negative = [](double current) { return current < 0; };
+    const auto voc = std::find_if(curve.current_A.begin(), curve.current_A.end(), negative);
+    const auto centre = at_voc ? voc - curve.current_A.begin() : 30;
+    for (int k = 0; k < static_cast<int>(curve.size()); ++k) {
+      curve.current_A[k] -= 0.4 * std::exp(-0.5 * std::pow((k - centre) / 1.2, 2));
+    }
+    EXPECT_EQ(Fits("transient", curve), !at_voc);
+  }
+}
+
+}  // namespace
+}  // namespace lyrefit

@@ -1,5 +1,5 @@
-#include "error_of.h"
 #include "lyrefit/devices/describe_cell.h"
+#include "error_of.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

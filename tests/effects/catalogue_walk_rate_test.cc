@@ -102,13 +102,22 @@ struct Case {
   DrawnEffect drawn;
 };
 
-// Whether a source meter drives the device as far: a reverse current of 28 times Isc, which drawn
-// breakdowns reach, destroys it.
-bool IsWithinASource(const IvCurve& clean) {
+// Takes out the readings to which no source meter drives the device: a reverse current of 28 times
+// Isc, which drawn breakdowns reach, destroys it.
+void KeepWithinASource(const IvCurve& clean, IvCurve* taken) {
   constexpr double kMost = 5;  // of Isc
-  const KeyPoints points = FindKeyPoints(clean.voltage_V, clean.current_A);
-  return *std::max_element(clean.current_A.begin(), clean.current_A.end()) <
-         kMost * points.short_circuit_current_A;
+  const double isc_A = FindKeyPoints(clean.voltage_V, clean.current_A).short_circuit_current_A;
+  IvCurve kept = *taken;
+  kept.voltage_V.clear();
+  kept.current_A.clear();
+  kept.time_s.clear();
+  for (std::size_t k = 0; k < clean.size(); ++k) {
+    if (clean.current_A[k] > kMost * isc_A) continue;
+    kept.voltage_V.push_back(taken->voltage_V[k]);
+    kept.current_A.push_back(taken->current_A[k]);
+    kept.time_s.push_back(taken->time_s[k]);
+  }
+  *taken = std::move(kept);
 }
 
 double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
@@ -127,7 +136,7 @@ double DrawNoise(const IvCurve& clean, Model model, RandomStream* random) {
 // Empty if data of this kind cannot show the effect in this device.
 std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   SimulateOptions device = DrawDevice(*place.effect, random);
-  const auto taken = Take(device, *place.sweep);
+  auto taken = Take(device, *place.sweep);
   if (!taken) return std::nullopt;
   const Device base = MakeDevice(device.model, device.conditions);
   const auto extended = Extend(base, device.model, device.constants, *taken, {{place.effect, {}}},
@@ -137,8 +146,12 @@ std::optional<Case> DrawCase(const Place& place, RandomStream* random) {
   made.drawn = DrawEffect(*extended, *place.effect, random);
   device.with = {made.drawn.truth};
   device.taken = *taken;
-  const auto clean = Simulate(device);
-  if (!clean || !IsWithinASource(*clean)) return std::nullopt;
+  auto clean = Simulate(device);
+  if (!clean) return std::nullopt;
+  KeepWithinASource(*clean, &*taken);
+  device.taken = *taken;
+  clean = Simulate(device);
+  if (!clean) return std::nullopt;
   device.noise_A = DrawNoise(*clean, device.model, random);
   device.seed = random->Bits() >> 12;
   made.curve = *Simulate(device);

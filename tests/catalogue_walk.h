@@ -114,8 +114,7 @@ void CountFit(const Expected<Report>& report, std::chrono::duration<double, std:
   if (!report || !report->usable) {
     ++row->failed;
     ADD_FAILURE() << DescribeUse(drawn.truth) << ": "
-                  << (report ? "not usable: " + report->not_usable_because
-                             : report.error().ToString());
+                  << (report ? "not usable" : report.error().ToString());
     return;
   }
   const Estimate& e =

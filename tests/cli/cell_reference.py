@@ -444,7 +444,12 @@ def check_joint(joint, sweeps, thermal):
         _, sizes, v = np.linalg.svd(stacked / scale)
         if len(sizes) < len(free) or sizes[-1] < 1e-9 * sizes[0]:
             return None
-        return np.sqrt(((v.T / sizes) ** 2).sum(axis=1)) / scale
+        # Differences do not make a Jacobian exactly singular: what is smaller than their own error
+        # determines no parameter that has a part in it.
+        told = sizes > 1e-6 * sizes[0]
+        variance = ((v[told].T / sizes[told]) ** 2).sum(axis=1)
+        untold = (np.abs(v[~told]) > 1e-4).any(axis=0)
+        return np.where(untold, math.inf, np.sqrt(variance) / scale)
 
     own = standard_errors(jacobians)
     inside = [k for k, name in enumerate(free) if not estimates[name]["at_bound"]]
@@ -458,7 +463,6 @@ def check_joint(joint, sweeps, thermal):
             if others is None:
                 continue
             expected = others[free.index(name)] / own[free.index(name)]
-            # Differences do not make a Jacobian exactly singular.
             same("standard error without", ratio, expected if expected < 1e5 else math.inf, 1e-2)
 
 

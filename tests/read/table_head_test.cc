@@ -132,6 +132,9 @@ TEST(ReadHeadLineTest, AValueForEachPixelCountsIfAllAreEqual) {
   }
   EXPECT_FALSE(Head("active area [cm2]:\t0.16\t0.2").said.notes.area_cm2);
   EXPECT_EQ(Head("Power Density (mW/cm^2)\t100").said.irradiance_W_m2, 1000);
+  EXPECT_EQ(Head("Incident Power (mW/cm^2): 90 mW/cm^2").said.irradiance_W_m2, 900);
+  EXPECT_EQ(Head("Pin [W/m2];1000").said.irradiance_W_m2, 1000);
+  EXPECT_FALSE(Head("Input power (mW): 100").said.irradiance_W_m2.has_value());
   EXPECT_EQ(Head("Parallel_Strings: 2").said.strings_in_parallel, 2);
 }
 

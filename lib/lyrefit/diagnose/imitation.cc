@@ -106,7 +106,7 @@ bool Jumps(const WeightedData& weighted, const LawFit& fit, const std::vector<do
 // a moment of light, at open circuit of a single cell, where contacts of new materials block or begin
 // to inject. `jump`: of JumpOf.
 bool LiesAtABend(const Readings& readings, const std::vector<double>& added, int jump) {
-  constexpr double kHeld = 0.1;  // of the largest change
+  constexpr double kBegun = 0.1, kHalf = 0.5;  // of the largest change
   const DataTraits& traits = readings.traits;
   const bool deep = traits.open_circuit > 0 && traits.lowest_voltage < -traits.open_circuit;
   double largest = 0;
@@ -114,11 +114,13 @@ bool LiesAtABend(const Readings& readings, const std::vector<double>& added, int
   const std::vector<Reading>& points = readings.points;
   for (int k = 0; k + 1 < static_cast<int>(points.size()); ++k) {
     const Reading &a = points[k], &b = points[k + 1];
-    const bool held =
-        jump < 0 ? std::fabs(added[k]) > kHeld * largest : std::abs(k - jump) < kBeside;
-    if (a.segment != b.segment || !held) continue;
-    if (deep && (a.voltage < 0) != (b.voltage < 0)) return true;
-    if (jump < 0 && !traits.module && (a.current < 0) != (b.current < 0)) return true;
+    if (a.segment != b.segment) continue;
+    const auto held = [&](double part) {
+      return jump < 0 ? std::fabs(added[k]) > part * largest : std::abs(k - jump) < kBeside;
+    };
+    if (deep && (a.voltage < 0) != (b.voltage < 0) && held(kHalf)) return true;
+    const bool at_voc = jump < 0 && !traits.module && (a.current < 0) != (b.current < 0);
+    if (at_voc && held(kBegun)) return true;
   }
   return false;
 }

@@ -59,7 +59,7 @@ Effect Transient() {
   // a start that settles, and one at the turn of a sweep up and down is the difference of the
   // directions.
   e.imitates = [](const double* p, const DataTraits& traits) {
-    constexpr double kOver = 3;  // widths from the centre to where 1 % of the dip is left
+    constexpr double kOver = 1.5;  // widths from the centre to where a third of the dip is left
     return std::fabs(p[1]) + kOver * p[2] > 0.5 ||
            std::any_of(traits.turns.begin(), traits.turns.end(),
                        [p](double turn) { return std::fabs(p[1] - turn) < 2 * p[2]; });

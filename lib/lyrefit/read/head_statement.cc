@@ -35,11 +35,28 @@ std::optional<double> Converted(const Statement& statement, ColumnKind kind) {
   return statement.value * unit->factor + unit->offset;
 }
 
+// Power over area that falls on the device, whose name speaks of power as other statements do.
+bool NamesPowerOfLight(const Statement& statement) {
+  static const std::set<std::string> kNames = {"powerdensity",
+                                               "incidentpower",
+                                               "incidentpowerdensity",
+                                               "inputpower",
+                                               "inputpowerdensity",
+                                               "lightpower",
+                                               "lightpowerdensity",
+                                               "opticalpower",
+                                               "opticalpowerdensity",
+                                               "pin",
+                                               "pinc",
+                                               "irradiancepower"};
+  return kNames.count(statement.name) != 0;
+}
+
 std::optional<double> AsIrradiance(const Statement& statement) {
   const bool named = HasAny(statement, {"irradiance", "irr", "irrad", "poa", "insolation",
                                         "intensity", "light", "illumination", "illuminance", "lamp",
                                         "g", "e", "sun", "suns", "pyranometer"}) ||
-                     statement.name == "powerdensity";
+                     NamesPowerOfLight(statement);
   static const std::set<std::string> kConcentrations = {
       "concentration",      "concentrationratio", "concentrationfactor", "geometricconcentration",
       "lightconcentration", "solarconcentration", "opticalconcentration"};
@@ -180,7 +197,7 @@ bool TakeStatement(const Statement& statement, const std::string& source, TableH
                 head)) {
     return true;
   }
-  if (statement.name != "powerdensity" && IsAboutOtherThings(statement)) return false;
+  if (!NamesPowerOfLight(statement) && IsAboutOtherThings(statement)) return false;
   if (TakeFirst(AsIlluminance(statement), "illuminance", " lux", source,
                 &said->notes.illuminance_lux, head)) {
     return true;
@@ -214,6 +231,8 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
   } else {
     const std::vector<LabelWord> unit_words = SplitLabel(unit);
     statement.unit = JoinWords(unit_words, 0, unit_words.size());
+    const auto marked = [](const LabelWord& word) { return word.marked_as_unit; };
+    end = std::find_if(words.begin(), words.end(), marked) - words.begin();
   }
   statement.name = JoinWords(words, 0, end);
   for (std::size_t i = 0; i < end; ++i) statement.words.insert(words[i].text);

@@ -328,14 +328,14 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
   return cosines;
 }
 
-Expected<Certificate> Certify(const IvCurve& given, const CertifyOptions& asked,
+Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
                               const Observer& observer) {
   const Instant begin = Now();
-  TRY(CheckOptions(asked));
-  TRY(Validate(given));
-  const IvCurve curve = WithoutBeyondVoc(given);
-  const CertifyOptions options = WithEveryDiode(asked);
-  Proof proof{curve, options, ProgressReporter(observer), {}, {}, {}};
+  TRY(CheckOptions(options));
+  TRY(Validate(curve));
+  const IvCurve kept = WithoutBeyondVoc(curve);
+  const CertifyOptions used = WithEveryDiode(options);
+  Proof proof{kept, used, ProgressReporter(observer), {}, {}, {}};
   TRY(Prepare(&proof));
   const char* stage = "floor";
   proof.limits.stop = [&](std::int64_t solved, double best, double lower) {
@@ -345,15 +345,15 @@ Expected<Certificate> Certify(const IvCurve& given, const CertifyOptions& asked,
 
   Certificate certificate;
   certificate.version = Version();
-  certificate.curve = curve;
-  certificate.options = options;
+  certificate.curve = kept;
+  certificate.options = used;
   certificate.doubts = proof.doubts;
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
-  AppendNonDefaults(asked, kCertifyOptionTable, &certificate.non_default_options);
+  AppendNonDefaults(options, kCertifyOptionTable, &certificate.non_default_options);
   BranchEnd floor = RunBranch(proof.limits, 0, kInfinity, &proof);
   proof.upper_bound.push_back(floor.best);
-  for (const Model model : options.models) {
+  for (const Model model : used.models) {
     if (proof.progress.stop().requested()) break;
     const std::string name = ToText(model);
     stage = name.c_str();
@@ -366,7 +366,7 @@ Expected<Certificate> Certify(const IvCurve& given, const CertifyOptions& asked,
     model.above_floor = above > proof.rounding_A ? above / certificate.floor.rmse_A : 0;
   }
   certificate.rs_upper_ohm =
-      std::min(options.rs_upper_ohm, std::max(proof.limits.rs_cut, proof.rs_reached));
+      std::min(used.rs_upper_ohm, std::max(proof.limits.rs_cut, proof.rs_reached));
   certificate.interrupted = proof.progress.stop().requested();
   certificate.seconds = SecondsSince(begin);
   return certificate;

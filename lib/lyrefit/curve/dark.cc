@@ -72,6 +72,7 @@ double NoiseNearZero(const IvCurve& curve) {
   }
   const double slope = vv > 0 ? vi / vv : 0;
   std::vector<double> away;
+  away.reserve(next.size());
   for (const int k : next) {
     away.push_back(std::fabs(curve.current_A[k] - i - slope * (curve.voltage_V[k] - v)));
   }

@@ -97,7 +97,7 @@ bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit)
 // "the band gap 1.121 eV (assumed, that of silicon; another technology may have the values: state
 // it, or its gap)"
 std::string GapText(const DataSheet& sheet) {
-  const std::string gap = fmt::format("the band gap {:g} eV", GapOf(sheet).eV);
+  std::string gap = fmt::format("the band gap {:g} eV", GapOf(sheet).eV);
   if (sheet.EgRef_eV) return gap;
   const Technology* const known = FindTechnology(sheet.technology);
   if (known != nullptr) return fmt::format("{} ({})", gap, known->name);

@@ -37,10 +37,10 @@ enum class HeadLine {
   kComment  // only a clear statement counts; other text is a remark
 };
 
-// Records the statements of `line`: irradiance, cell temperature, number of cells, bypass
-// diodes, area, compliance, date, technology. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of cells: 60". The
-// first of two statements about one quantity is kept.
-void ReadHeadLine(std::string_view line, int number, HeadLine kind, TableHead* head);
+// Records the statements of a line: irradiance, cell temperature, number of cells, bypass diodes,
+// area, compliance, date, technology. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of
+// cells: 60". The first of two statements about one quantity is kept.
+void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* head);
 
 // Records what words say of the light: the dark, or that of a room, of which no irradiance is known.
 // A stated irradiance that cannot be that of the words gives way. False if they say nothing of it.

@@ -40,8 +40,8 @@ struct PreparedFit {
   int base_size() const { return device.size() - effects_size(); }
 };
 
-// Checks the curve and the options. Errors: those of Fit().
-Expected<PreparedFit> PrepareFit(const IvCurve& curve, const FitOptions& options);
+// Checks the curve that is given and the options. Errors: those of Fit().
+Expected<PreparedFit> PrepareFit(const IvCurve& given, const FitOptions& options);
 
 // Error for the measured current, which is not supported with effects.
 Expected<void> CheckObjectiveOfEffects(Objective objective);

@@ -188,6 +188,17 @@ TEST(FitDataSheet, DoubtsTheNumberOfCellsWhereNoDiodeHasThatIdeality) {
   for (const double value : fit->shared) EXPECT_TRUE(std::isfinite(value) || value > 0);
 }
 
+TEST(FitDataSheet, AsksForTheGapOfAnAlloy) {
+  DataSheet sheet = Kc200gt();
+  EXPECT_FALSE(Warns(*FitDataSheet(sheet), "band gaps"));
+  sheet.technology = "CIGS";
+  EXPECT_TRUE(Warns(*FitDataSheet(sheet),
+                    "1 to 1.7 eV, of which 1.15 eV is taken; each 0.1 eV more "
+                    "lowers n by 8 %: state it (--EgRef)"));
+  sheet.EgRef_eV = 1.2;
+  EXPECT_FALSE(Warns(*FitDataSheet(sheet), "band gaps"));
+}
+
 TEST(FitDataSheet, SaysWhatIsWrongWithTheValues) {
   const auto complaint = [](const auto& change) {
     DataSheet sheet = ShellS75();
@@ -199,6 +210,10 @@ TEST(FitDataSheet, SaysWhatIsWrongWithTheValues) {
   const auto with = [&](double V::*field, double value) {
     return complaint([&](DataSheet* sheet) { sheet->values.*field = value; });
   };
+  EXPECT_THAT(complaint([](DataSheet* sheet) {
+                std::swap(sheet->values.alpha_sc_A_K, sheet->values.beta_oc_V_K);
+              }),
+              HasSubstr("exchanged?"));
   EXPECT_THAT(with(&V::max_power_current_A, 4.8), HasSubstr("Isc > Imp > 0"));
   EXPECT_THAT(with(&V::max_power_current_A, -1), HasSubstr("Isc > Imp > 0"));
   EXPECT_THAT(with(&V::max_power_voltage_V, 22), HasSubstr("Voc > Vmp > 0"));

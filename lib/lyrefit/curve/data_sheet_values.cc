@@ -17,6 +17,12 @@ constexpr double kLargestRelativeAlpha_1_K = 0.005;
 constexpr double kLargestRelativeBeta_1_K = 0.01;
 
 Expected<void> CheckAlpha(const DataSheetValues& v) {
+  if (v.beta_oc_V_K > 0 && v.alpha_sc_A_K < 0) {
+    return Fail(fmt::format(
+        "expected an alpha_sc around 0.05 % of Isc and a negative beta_oc in V/K, found {:.4g} and "
+        "{:.4g}: were alpha and beta exchanged?",
+        v.alpha_sc_A_K, v.beta_oc_V_K));
+  }
   if (std::fabs(v.alpha_sc_A_K) > kLargestRelativeAlpha_1_K * v.short_circuit_current_A) {
     return Fail(
         fmt::format("expected alpha_sc in A/K, found {} beside an Isc of {} A: is it in percent?",
@@ -27,12 +33,6 @@ Expected<void> CheckAlpha(const DataSheetValues& v) {
 
 Expected<void> CheckBeta(const DataSheetValues& v) {
   const double relative = v.beta_oc_V_K / v.open_circuit_voltage_V;
-  if (v.beta_oc_V_K > 0 && v.alpha_sc_A_K < 0) {
-    return Fail(fmt::format(
-        "expected a negative beta_oc in V/K and an alpha_sc around 0.05 % of Isc, found {} and {}: "
-        "were alpha and beta exchanged?",
-        v.beta_oc_V_K, v.alpha_sc_A_K));
-  }
   if (!(relative < 0) || relative < -kLargestRelativeBeta_1_K) {
     return Fail(fmt::format(
         "expected a negative beta_oc in V/K, found {} beside a Voc of {} V: is it in percent?",

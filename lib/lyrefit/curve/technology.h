@@ -32,6 +32,8 @@ struct Technology {
   const char* pvsyst_name;
   double pvsyst_gap_eV;
   SheetCoefficients sheets = {};
+  double narrowest_gap_eV = kUnknown;  // of the alloys in use; unknown: it is no alloy
+  double widest_gap_eV = kUnknown;
 
   double pvsyst_bandgap_eV() const { return junctions * pvsyst_gap_eV; }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
@@ -104,6 +105,21 @@ std::string GapText(const DataSheet& sheet) {
   return gap +
          " (assumed, that of silicon; another technology may have the values: state it with "
          "--technology, or its gap with --EgRef)";
+}
+
+// The gap of an alloy is not known by its name. n goes as the inverse of the gap at 0 K and 3 k T.
+void WarnOfTheGap(const DataSheet& sheet, DataSheetFit* fit) {
+  const Technology* const known = FindTechnology(sheet.technology);
+  if (sheet.EgRef_eV || known == nullptr || std::isnan(known->widest_gap_eV)) return;
+  constexpr double kStep_eV = 0.1;
+  const BandGap gap = GapOf(sheet);
+  const double at_0_K = gap.eV * (1 - kReferenceTemperature_K * gap.slope_1_K);
+  const double thermal_V = ThermalVoltage(kReferenceTemperature_K);
+  fit->warnings.push_back(fmt::format(
+      "cells of {} have band gaps of {:g} to {:g} eV, of which {:g} eV is taken; each {:g} eV more "
+      "lowers n by {:.0f} %: state it (--EgRef)",
+      known->name, known->narrowest_gap_eV, known->widest_gap_eV, gap.eV, kStep_eV,
+      100 * kStep_eV / (at_0_K + 3 * thermal_V)));
 }
 
 // n of the device against that of a junction, which ties Voc, beta_oc, the gap and the number of
@@ -225,6 +241,7 @@ Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constant
   fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K, GapOf(sheet));
   AddChecks(sheet, &fit);
   WarnOfTheSolution(sheet, *solution, &fit);
+  WarnOfTheGap(sheet, &fit);
   fit.usual = WarnOfTheDevice(sheet, &fit);
   const bool all_corners = AddRanges(sheet, constants, &fit);
   WarnOfTheRounding(all_corners, &fit);

@@ -73,8 +73,13 @@ std::vector<CellCurves> SplitIntoCells(CurveSet set) {
 Expected<void> CheckIsOneCell(const CurveSet& set, const char* each) {
   if (!set.several_devices && !HoldsSeveralCells(set, UnstatedDark::kDark)) return {};
   std::string names;
-  for (const CellCurves& one : SplitIntoCells(set)) {
-    names += (names.empty() ? "" : ", ") + one.name;
+  const auto add = [&names](const std::string& name) {
+    names += (names.empty() ? "" : ", ") + name;
+  };
+  if (set.several_devices) {
+    for (const IvCurve& curve : set.curves) add(curve.name);
+  } else {
+    for (const CellCurves& one : SplitIntoCells(set)) add(one.name);
   }
   return Fail(fmt::format("this file holds several cells ({}): choose one with --column NAME, or "
                           "take each with lyrefit {}",

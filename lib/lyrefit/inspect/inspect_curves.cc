@@ -133,10 +133,15 @@ std::vector<Trial> TrialsOf(const Inspected& file) {
   }
   if (!file.options.isc_A) add("--isc-A I", [](ReadOptions* o) { o->isc_A = 1; });
   constexpr std::size_t kMostColumns = 12;
+  // Readings stand in most rows and differ.
+  const auto may_be_read = [&file](const ColumnNote& column) {
+    return column.numbers >= 5 && 2 * column.numbers >= file.found->rows &&
+           column.least < column.largest;
+  };
   const std::vector<ColumnNote>& columns = file.found->columns;
   for (std::size_t v = 0; v < std::min(kMostColumns, columns.size()); ++v) {
     for (const std::size_t i : {v + 1, v - 1}) {
-      if (i >= columns.size() || columns[v].numbers < 5 || columns[i].numbers < 5) continue;
+      if (i >= columns.size() || !may_be_read(columns[v]) || !may_be_read(columns[i])) continue;
       const std::string voltage = std::to_string(v + 1), current = std::to_string(i + 1);
       add(fmt::format("--voltage-column {} --current-column {}", voltage, current),
           [&](ReadOptions* o) {

@@ -98,18 +98,23 @@ std::optional<KeyPointColumn> AsKeyPoint(std::string_view label) {
 }
 
 std::optional<MatrixColumns> AsMatrix(const std::vector<std::string>& names) {
+  constexpr int kFewestPoints = 3, kConditions = 2;
+  if (names.size() < kFewestPoints + kConditions) return std::nullopt;
   MatrixColumns matrix;
   int points = 0;
   bool axis = false;
+  for (const std::string& name : names) {
+    matrix.points.push_back(AsKeyPoint(name));
+    if (!matrix.points.back()) continue;
+    ++points;
+    axis = axis || matrix.points.back()->point == kIsc || matrix.points.back()->point == kVoc;
+  }
+  if (points < kFewestPoints || !axis) return std::nullopt;
   for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-    matrix.points.push_back(AsKeyPoint(names[i]));
+    if (matrix.points[i]) continue;
     const Column column = RecogniseColumn(names[i]);
-    if (matrix.points.back()) {
-      ++points;
-      axis = axis || matrix.points.back()->point == kIsc || matrix.points.back()->point == kVoc;
-    } else if (!column.refusal.empty()) {
-      continue;
-    } else if (IsElectrical(column.kind)) {
+    if (!column.refusal.empty()) continue;
+    if (IsElectrical(column.kind)) {
       return std::nullopt;
     } else if (column.kind == ColumnKind::kIrradiance && matrix.irradiance_place == -1) {
       matrix.irradiance = column;
@@ -120,7 +125,7 @@ std::optional<MatrixColumns> AsMatrix(const std::vector<std::string>& names) {
     }
   }
   const bool conditions = matrix.irradiance_place != -1 && matrix.temperature_place != -1;
-  return points >= 3 && axis && conditions ? std::optional(matrix) : std::nullopt;
+  return conditions ? std::optional(matrix) : std::nullopt;
 }
 
 }  // namespace lyrefit

@@ -274,10 +274,6 @@ Expected<TableLayout> FindLayout(LayoutSearch* search) {
   return tl::unexpected(NoLayout(shown.line, shown.number, search->file));
 }
 
-}  // namespace
-
-namespace {
-
 Expected<TableLayout> FindAnyLayout(std::string_view text, const std::string& file,
                                     const ReadOptions& options) {
   LayoutSearch known{LineReader(text), file, {options, false}};

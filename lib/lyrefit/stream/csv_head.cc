@@ -168,24 +168,6 @@ Expected<void> TakeCsvField(const CsvHead& head, std::size_t place, std::string_
   return {};
 }
 
-}  // namespace
-
-std::string ScalarText(std::string_view text, char delimiter) {
-  std::string scalar = WithoutApostrophe(AsUtf8(text));
-  if (delimiter == ',' || ParseNumber(scalar)) return scalar;
-  const std::size_t comma = scalar.find(',');
-  if (comma != std::string::npos && ParseNumber(scalar, true)) scalar[comma] = '.';
-  return scalar;
-}
-
-std::string AsUtf8(std::string_view text) {
-  if (!FirstInvalidUtf8(text)) return std::string(text);
-  auto decoded = DecodeText(std::string(text), "");
-  return decoded ? decoded->text : std::string();
-}
-
-namespace {
-
 // Completes an id that stands in several rows by their times, if these tell them apart.
 void CompleteId(const std::vector<std::string_view>& rows, CsvHead* head) {
   const auto are_unique = [&](const CsvHead& of) {
@@ -211,6 +193,20 @@ void CompleteId(const std::vector<std::string_view>& rows, CsvHead* head) {
 }
 
 }  // namespace
+
+std::string ScalarText(std::string_view text, char delimiter) {
+  std::string scalar = WithoutApostrophe(AsUtf8(text));
+  if (delimiter == ',' || ParseNumber(scalar)) return scalar;
+  const std::size_t comma = scalar.find(',');
+  if (comma != std::string::npos && ParseNumber(scalar, true)) scalar[comma] = '.';
+  return scalar;
+}
+
+std::string AsUtf8(std::string_view text) {
+  if (!FirstInvalidUtf8(text)) return std::string(text);
+  auto decoded = DecodeText(std::string(text), "");
+  return decoded ? decoded->text : std::string();
+}
 
 CsvHead FindCsvHead(std::string_view text, const ReadOptions& options) {
   LineReader lines(text);

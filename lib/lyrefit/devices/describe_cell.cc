@@ -315,22 +315,6 @@ void Warn(CellReport* report) {
   }
 }
 
-// Leaves out the sweeps whose readings allow no figures, with a warning of each. Error: all are.
-Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
-                               std::vector<std::string>* warnings) {
-  std::vector<MeasuredSweep> kept;
-  for (MeasuredSweep& one : *measured) {
-    const CellSweep& sweep = one.sweep;
-    const std::string why = sweep.doubt + " (--as-is takes the readings as they are)";
-    if (sweep.refused && measured->size() == 1) return Fail(why, sweep.file);
-    if (sweep.refused) warnings->push_back(sweep.name + " is left out: " + why);
-    if (!sweep.refused) kept.push_back(std::move(one));
-  }
-  if (kept.empty()) return Fail(warnings->front(), measured->front().sweep.file);
-  *measured = std::move(kept);
-  return {};
-}
-
 }  // namespace
 
 Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& options,

@@ -299,4 +299,19 @@ void FitCellSweep(const CellOptions& options, const Observer& observer, Measured
   sweep.fit = std::move(*fit);
 }
 
+Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
+                               std::vector<std::string>* warnings) {
+  std::vector<MeasuredSweep> kept;
+  for (MeasuredSweep& one : *measured) {
+    const CellSweep& sweep = one.sweep;
+    const std::string why = sweep.doubt + " (--as-is takes the readings as they are)";
+    if (sweep.refused && measured->size() == 1) return Fail(why, sweep.file);
+    if (sweep.refused) warnings->push_back(sweep.name + " is left out: " + why);
+    if (!sweep.refused) kept.push_back(std::move(one));
+  }
+  if (kept.empty()) return Fail(warnings->front(), measured->front().sweep.file);
+  *measured = std::move(kept);
+  return {};
+}
+
 }  // namespace lyrefit

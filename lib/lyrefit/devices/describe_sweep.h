@@ -39,4 +39,8 @@ double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A);
 // Fits the single-diode model to a sweep. In the dark, the photocurrent is fixed at 0.
 void FitCellSweep(const CellOptions& options, const Observer& observer, MeasuredSweep* measured);
 
+// Leaves out the sweeps whose readings allow no figures, with a warning of each. Error: all are.
+Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
+                               std::vector<std::string>* warnings);
+
 }  // namespace lyrefit

@@ -328,13 +328,13 @@ std::vector<double> DualCosines(const Certificate& certificate, const std::vecto
   return cosines;
 }
 
-Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& options,
+Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& asked,
                               const Observer& observer) {
   const Instant begin = Now();
-  TRY(CheckOptions(options));
+  TRY(CheckOptions(asked));
   TRY(Validate(curve));
   const IvCurve kept = WithoutBeyondVoc(curve);
-  const CertifyOptions used = WithEveryDiode(options);
+  const CertifyOptions used = WithEveryDiode(asked);
   Proof proof{kept, used, ProgressReporter(observer), {}, {}, {}};
   TRY(Prepare(&proof));
   const char* stage = "floor";
@@ -350,7 +350,7 @@ Expected<Certificate> Certify(const IvCurve& curve, const CertifyOptions& option
   certificate.doubts = proof.doubts;
   certificate.reference_voltage_V = proof.data.reference_voltage_V;
   certificate.module_thermal_voltage_V = proof.thermal_voltage_V;
-  AppendNonDefaults(options, kCertifyOptionTable, &certificate.non_default_options);
+  AppendNonDefaults(asked, kCertifyOptionTable, &certificate.non_default_options);
   BranchEnd floor = RunBranch(proof.limits, 0, kInfinity, &proof);
   proof.upper_bound.push_back(floor.best);
   for (const Model model : used.models) {

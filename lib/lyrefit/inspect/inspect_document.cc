@@ -191,7 +191,9 @@ Document InspectionDocument(const Inspection& found) {
 
 }  // namespace
 
-std::string InspectionText(const Inspection& found) { return DrawText(InspectionDocument(found)); }
+std::string InspectionText(const Inspection& inspection) {
+  return DrawText(InspectionDocument(inspection));
+}
 
 std::string InspectionJson(const std::vector<Inspection>& inspections) {
   Json all = Json::array();

@@ -114,9 +114,8 @@ std::optional<MatrixColumns> AsMatrix(const std::vector<std::string>& names) {
     if (matrix.points[i]) continue;
     const Column column = RecogniseColumn(names[i]);
     if (!column.refusal.empty()) continue;
-    if (IsElectrical(column.kind)) {
-      return std::nullopt;
-    } else if (column.kind == ColumnKind::kIrradiance && matrix.irradiance_place == -1) {
+    if (IsElectrical(column.kind)) return std::nullopt;
+    if (column.kind == ColumnKind::kIrradiance && matrix.irradiance_place == -1) {
       matrix.irradiance = column;
       matrix.irradiance_place = i;
     } else if (column.kind == ColumnKind::kTemperature && matrix.temperature_place == -1) {

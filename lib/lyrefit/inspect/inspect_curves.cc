@@ -9,6 +9,7 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/inspect/inspect_parts.h"
+#include "lyrefit/read/cells.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -101,14 +102,19 @@ void TakeNext(const CurveSet& set, Inspection* found) {
         return column.use.find("current 2") == 0 || column.use.find("current density 2") == 0 ||
                column.use.find("device, one of") == 0;
       });
-  const char* const choose = side_by_side ? " --column NAME|N" : " --curve INDEX";
+  const bool devices = side_by_side || !CheckIsOneCell(set, "batch");
+  const std::string choose = side_by_side ? " --column NAME|N" : " --curve INDEX";
   found->next = {"lyrefit fit " + file + (several ? choose : "") + flags};
-  if (several) found->next.push_back("lyrefit batch " + file + " --out DIR");
-  if (IsOfModule(found->curves.front())) {
-    found->next.push_back("lyrefit diagnose " + file + (several ? choose : "") + flags);
-  } else {
-    found->next.push_back("lyrefit cell " + file);
+  if (several && devices) found->next.push_back("lyrefit batch " + file + " --out DIR");
+  if (!IsOfModule(found->curves.front())) {
+    found->next.push_back("lyrefit cell " + file + (devices ? " --column NAME" : ""));
+    return;
   }
+  // One device at several conditions is diagnosed as a whole, and fitted where they are stated.
+  if (several && !devices && flags.find("-C") == std::string::npos) {
+    found->next.push_back("lyrefit fit " + file + " --family desoto|pvsyst" + flags);
+  }
+  found->next.push_back("lyrefit diagnose " + file + (side_by_side ? choose : "") + flags);
 }
 
 // A choice of options under which a refused file would be read.

@@ -11,7 +11,7 @@ fi
 
 system=$(mktemp -d /tmp/lyrefit-bare.XXXXXX)
 Remove() {
-  umount -q "$system/proc" "$system/dev/pts" || true
+  umount -q "$system/proc" "$system/dev/pts" "$system/ccache" || true
   rm -rf --one-file-system "$system"
 }
 trap Remove EXIT

@@ -11,7 +11,7 @@ fi
 
 system=$(mktemp -d /tmp/lyrefit-bare.XXXXXX)
 Remove() {
-  umount -q "$system/proc" "$system/dev/pts" "$system/ccache" || true
+  umount "$system"/{proc,dev/pts,ccache} 2> /dev/null || true
   rm -rf --one-file-system "$system"
 }
 trap Remove EXIT
@@ -22,7 +22,8 @@ Took() {
 }
 since=$SECONDS
 InSystem() {
-  chroot "$system" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
+  chroot "$system" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
+    CCACHE_DIR=/ccache "$@"
 }
 Apt() { InSystem apt-get -qq -o Acquire::Retries=3 "$@" > "$system/tmp/apt.log" 2>&1 || Die "apt-get $*: $(tail -n 5 "$system/tmp/apt.log")"; }
 network=()
@@ -61,8 +62,12 @@ MakeSystem() {
   Took "made, $(Size) MB"
 }
 
-# PutSources: those of the project, in /lyrefit.
+# PutSources: those of the project, in /lyrefit, and this machine's compiler cache, if there is one.
 PutSources() {
   mkdir "$system/lyrefit"
   git -C "$LYREFIT_ROOT" ls-files -z | tar -C "$LYREFIT_ROOT" -c --null -T - | tar -x -C "$system/lyrefit"
+  command -v ccache > /dev/null || return 0
+  Apt install -y --no-install-recommends ccache
+  mkdir "$system/ccache"
+  mount --bind "$(ccache --get-config cache_dir)" "$system/ccache"
 }

@@ -73,11 +73,6 @@ InSuite() {
   parts=$system/lyrefit/build-wheel/$(InSystem python3 -c 'import sys; print("cp%d%d" % sys.version_info[:2])')/page_parts
   mkdir -p "$parts"
   [[ ! -d build/page_parts ]] || cp -r build/page_parts/. "$parts"
-  if command -v ccache > /dev/null; then # what is compiled there is found again the next time
-    Apt install -y --no-install-recommends ccache
-    mkdir "$system/ccache"
-    mount --bind "$(ccache --get-config cache_dir)" "$system/ccache"
-  fi
   # Older than what is needed there: headers and Python's tools, which suit any release.
   if [[ $1 == bullseye ]]; then
     newer=(libcli11-dev libeigen3-dev libexpected-dev nlohmann-json3-dev pybind11-dev python3-{build,packaging,pep517,pkg-resources,pybind11,setuptools,toml,tomli,wheel})
@@ -85,7 +80,7 @@ InSuite() {
     (cd "$system/newer" && apt-get -qq -o APT::Sandbox::User=root download "${newer[@]}")
     Apt install -y --no-install-recommends $(cd "$system" && compgen -G "newer/*.deb" | sed 's,^,/,')
   fi
-  InSystem SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" CCACHE_DIR=/ccache nice bash /lyrefit/cmake/wheel.sh
+  InSystem SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" nice bash /lyrefit/cmake/wheel.sh
   mkdir -p "$FOLDER/dist"
   cp "$system"/lyrefit/build-wheel/dist/*.whl "$FOLDER/dist"
   Took "a wheel, made in $(Size) MB"

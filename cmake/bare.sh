@@ -28,7 +28,7 @@ InstallFiles() {
 mapfile -t runs < <(sed -n 's/^RUN //p' "$LYREFIT_ROOT/cmake/Containerfile") # makes packages, installs them
 if [[ ${1:-} == --container ]]; then
   MakeSystem "$suite"
-  PutSources
+  PutSources "$suite" /lyrefit
   InSystem nice sh -c "${runs[0]}"
   mkdir -p "$LYREFIT_ROOT/build-container"
   cp "$system"/lyrefit/build/packages/*.deb "$LYREFIT_ROOT/build-container"

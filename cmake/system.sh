@@ -11,7 +11,10 @@ fi
 
 system=$(mktemp -d /tmp/lyrefit-bare.XXXXXX)
 Remove() {
-  umount "$system"/{proc,dev/pts,ccache} 2> /dev/null || true
+  local mount
+  for mount in "$system"/{proc,dev/pts,ccache}; do
+    ! mountpoint -q "$mount" || umount --lazy "$mount" || return # what is mounted is not removed
+  done
   rm -rf --one-file-system "$system"
 }
 trap Remove EXIT
@@ -39,7 +42,7 @@ AsUserAlone() {
 }
 Size() { du -sm --one-file-system "$system" | cut -f1; }
 
-readonly OWN_SUITE=$(. /etc/os-release && echo "$VERSION_CODENAME")
+OWN_SUITE=$(. /etc/os-release && echo "$VERSION_CODENAME")
 # MakeSystem SUITE: of a release of Debian, from where this machine has its own packages, instead of the one before it.
 MakeSystem() {
   local mirror
@@ -62,12 +65,15 @@ MakeSystem() {
   Took "made, $(Size) MB"
 }
 
-# PutSources: those of the project, in /lyrefit, and this machine's compiler cache, if there is one.
+# PutSources SUITE FOLDER: those of the project, and a compiler's cache that stays, if this machine uses one.
 PutSources() {
-  mkdir "$system/lyrefit"
-  git -C "$LYREFIT_ROOT" ls-files -z | tar -C "$LYREFIT_ROOT" -c --null -T - | tar -x -C "$system/lyrefit"
+  local cache
+  mkdir -p "$system$2"
+  git -C "$LYREFIT_ROOT" ls-files -z | tar -C "$LYREFIT_ROOT" -c --null -T - | tar -x -C "$system$2"
   command -v ccache > /dev/null || return 0
+  cache=$(ccache --get-config cache_dir)
+  [[ $1 == "$OWN_SUITE" ]] || cache+=-$1 # other versions have a layout of their own
   Apt install -y --no-install-recommends ccache
-  mkdir "$system/ccache"
-  mount --bind "$(ccache --get-config cache_dir)" "$system/ccache"
+  mkdir -p "$system/ccache" "$cache"
+  mount --bind "$cache" "$system/ccache"
 }

@@ -62,15 +62,15 @@ Licences() {
 
 # InSuite SUITE: this script, on a system of that release with the sources that are fetched here.
 InSuite() {
-  local parts newer=()
+  local parts newer=() to=/root/src
   FetchSources "${SOURCES[@]}"
   Modules "$LYREFIT_ROOT/cmake/page_parts" "$LYREFIT_ROOT/build/page_parts"
   MakeSystem "$1"
-  PutSources
-  mkdir "$system/lyrefit/build-sources"
-  for parts in "${SOURCES[@]}"; do cp -r "$(Source "$parts")" "$system/lyrefit/build-sources"; done
+  PutSources "$1" "$to"
+  mkdir "$system$to/build-sources"
+  for parts in "${SOURCES[@]}"; do cp -r "$(Source "$parts")" "$system$to/build-sources"; done
   Apt install -y --no-install-recommends python3
-  parts=$system/lyrefit/build-wheel/$(InSystem python3 -c 'import sys; print("cp%d%d" % sys.version_info[:2])')/page_parts
+  parts=$system$to/build-wheel/$(InSystem python3 -c 'import sys; print("cp%d%d" % sys.version_info[:2])')/page_parts
   mkdir -p "$parts"
   [[ ! -d build/page_parts ]] || cp -r build/page_parts/. "$parts"
   # Older than what is needed there: headers and Python's tools, which suit any release.
@@ -78,11 +78,11 @@ InSuite() {
     newer=(libcli11-dev libeigen3-dev libexpected-dev nlohmann-json3-dev pybind11-dev python3-{build,packaging,pep517,pkg-resources,pybind11,setuptools,toml,tomli,wheel})
     mkdir "$system/newer"
     (cd "$system/newer" && apt-get -qq -o APT::Sandbox::User=root download "${newer[@]}")
-    Apt install -y --no-install-recommends $(cd "$system" && compgen -G "newer/*.deb" | sed 's,^,/,')
+    InSystem sh -c 'apt-get -qq install -y --no-install-recommends /newer/*.deb > /dev/null'
   fi
-  InSystem SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" nice bash /lyrefit/cmake/wheel.sh
+  InSystem SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" nice bash "$to/cmake/wheel.sh"
   mkdir -p "$FOLDER/dist"
-  cp "$system"/lyrefit/build-wheel/dist/*.whl "$FOLDER/dist"
+  cp "$system$to"/build-wheel/dist/*.whl "$FOLDER/dist"
   Took "a wheel, made in $(Size) MB"
   cmake/bare.sh --wheel "$1"
 }

@@ -98,9 +98,8 @@ InstallPackages() {
     Die "run this as root or install sudo; these Debian packages are missing: ${missing[*]}"
   AptGet update || Die "apt-get update failed (see above)"
   Say "Installing with what they need: ${missing[*]}"
-  # In apt's words, which are others from Debian 13 on.
   LC_ALL=C apt-get -o Debug::NoLocking=1 --assume-no --no-install-recommends install "${missing[@]}" 2> /dev/null |
-    grep -E 'newly installed|^Need to get|^After this|Installing: [0-9]|Download size|Space needed' || true
+    grep -E 'newly installed|^Need to get|^After this' || true
   AptGet install -y --no-install-recommends "${missing[@]}" || Die "apt-get install failed (see above)"
 }
 

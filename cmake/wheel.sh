@@ -131,8 +131,9 @@ case ${1:-} in
     ;;
   *) Die "usage: cmake/wheel.sh [--try | --test | --in SUITE]" ;;
 esac
-InstallPackages build module wheel
-[[ -d $FOLDER/$tag/page_parts ]] || InstallPackages parts
+purposes=(build module wheel)
+[[ -d $FOLDER/$tag/page_parts ]] || purposes+=(parts)
+InstallPackages "${purposes[@]}"
 FetchSources "${SOURCES[@]}"
 mkdir -p "$FOLDER/dist"
 

@@ -1,7 +1,7 @@
 # Writes files as functions of a source file, each of which returns the bytes of its files one after the other.
 #   cmake "-DFILES=Function=a.css|Packed=b.js,c.js|Missing=" -DHEADER=<header that declares them> -DOUT=<source> -P EmbedAssets.cmake
 # Files of a function whose name begins with Packed are compressed. A function without files returns no bytes.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.18...3.25)
 
 # Appends a function that returns the bytes of a file.
 function(embed function file)

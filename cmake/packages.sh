@@ -9,7 +9,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 build=${1:-build}
 out=${2:-$build/packages}
 
-InstallPackages build packages
+InstallPackages build parts packages
 cd -- "$LYREFIT_ROOT"
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
 export SOURCE_DATE_EPOCH LC_ALL=C

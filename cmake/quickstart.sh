@@ -14,12 +14,11 @@ first=build/first/lyrefit
 whole=build/apps/lyrefit/lyrefit
 cat << EOT
 This will
-  1. install the Debian packages that are missing (root is asked for only then; a minute or two the first time),
-  2. build the core, the readers and the report of a fit in $LYREFIT_ROOT/build (two to four minutes of processor time,
-     half of it on two cores),
+  1. install the Debian packages that are missing (root is asked for only then), and say first how many,
+  2. build the core, the readers and the report of a fit in $LYREFIT_ROOT/build,
   3. fit data/rtc_france and draw it into build/rtc_france.svg (a second),
   4. build all other verbs (twice as long again; not with --fit-only).
-Nothing outside that folder is touched but the packages.
+Nothing outside that folder is touched but the packages. Where npm is, it fetches two modules for charts into it.
 EOT
 InstallPackages build
 Configure build

@@ -23,6 +23,7 @@ mkdir -p "$OUT"
 cmake/check.sh --all
 cmake/packages.sh
 cmake/wheel.sh
+((EUID != 0)) || cmake/wheel.sh --in trixie
 cmake/benchmark.sh
 cmake/site.sh
 cp build/packages/*.deb build-wheel/dist/* build/benchmark/*.tar.gz "$OUT"

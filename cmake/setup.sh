@@ -4,6 +4,7 @@
 
 LYREFIT_ROOT=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 LYREFIT_SOURCES=$LYREFIT_ROOT/build-sources
+LYREFIT_COMMAND=${0##*/}${*:+ $*} # whose times the record of speed has
 
 Say() { printf '\n== %s\n' "$*"; }
 
@@ -23,13 +24,15 @@ PackagesFor() {
       echo build-essential cmake ninja-build libceres-dev libeigen3-dev libgoogle-glog-dev libfmt-dev \
         libexpected-dev libcsv-dev libboost-dev zlib1g-dev nlohmann-json3-dev libcli11-dev gnuplot-nox ;;
     test) echo libgtest-dev libgmock-dev libxml2-utils openssl python3-jsonschema python3-mpmath python3-numpy python3-yaml ;;
+    module) echo python3-dev pybind11-dev python3-numpy ;;
     python) # the module, what its examples draw with, and the checker of its types
-      echo python3-dev pybind11-dev python3-numpy python3-pandas python3-matplotlib mypy ;;
+      PackagesFor module; echo python3-pandas python3-matplotlib mypy ;;
     slurm) echo slurm-wlm munge procps python3 ;;
     engines) echo parallel python3-distributed procps ;; # others that run the shards of a batch
     peers) echo libpagmo-dev ;;  # pagmo2: its algorithms join the comparisons
-    pages) # what pages embed, and a browser to test them: one without windows, which takes less time
-      Unless node nodejs; Unless npm npm; Unless chromium-headless-shell chromium-headless-shell ;;
+    parts) Unless node nodejs; Unless npm npm ;; # fetch what pages embed
+    pages) # and a browser to test them: one without windows, which takes less time
+      PackagesFor parts; Unless chromium-headless-shell chromium-headless-shell ;;
     reference) echo doxygen python3 ;;
     site)
       echo python3-sphinx python3-sphinx-gallery python3-sphinx-rtd-theme python3-sphinx-copybutton python3-myst-parser \
@@ -54,7 +57,31 @@ AptGet() {
     apt-get -qq -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 "$@" > /dev/null
 }
 
-# InstallPackages PURPOSE...: those of their packages that are not there yet.
+# Processor seconds of a fixed piece of work: text, and a table larger than the caches, as a compiler has. Every Debian has perl.
+ReferenceSeconds() {
+  perl -e 'for (1 .. 500000) { $seen{$_ * 7919 % 1000003} .= "x$_" } my $all = join ",", sort values %seen; printf "%.2f\n", (times)[0]'
+}
+
+# Recorded NAME: its processor seconds in the record of speed (data/speed); nothing where it has none.
+Recorded() {
+  sed -n "/\"name\": \"$1\"/{n;s/.*\"cpu_seconds\": \([0-9.]*\).*/\1/p}" "$LYREFIT_ROOT/data/speed/$(ProjectVersion).json" 2> /dev/null || true
+}
+
+# How long the command takes on this machine, where the record has it: its seconds there, by how much longer the
+# reference takes here.
+SayMinutes() {
+  local recorded reference
+  recorded=$(Recorded "$LYREFIT_COMMAND")
+  reference=$(Recorded reference)
+  [[ $recorded && $reference ]] || return 0
+  Say "$LYREFIT_COMMAND: $(awk -v there="$reference" -v here="$(ReferenceSeconds)" -v recorded="$recorded" -v processors="$(nproc)" \
+    'BEGIN { minutes = recorded * here / there / 60
+      printf "about %.0f minutes on the %d processors here from scratch (%.0f of processor time), less where build has parts",
+        minutes / processors + 0.5, processors, minutes }')"
+}
+
+# InstallPackages PURPOSE...: those of their packages that are not there yet. Says first how many, their megabytes and the
+# minutes of what follows.
 InstallPackages() {
   local purpose package missing=()
   for purpose in "$@"; do
@@ -63,13 +90,16 @@ InstallPackages() {
         missing+=("$package")
     done
   done
+  SayMinutes
   ((${#missing[@]})) || return 0
   command -v apt-get > /dev/null ||
     Die "this machine has no apt-get; install what these Debian packages hold: ${missing[*]}"
   ((EUID == 0)) || command -v sudo > /dev/null ||
     Die "run this as root or install sudo; these Debian packages are missing: ${missing[*]}"
-  Say "Installing ${missing[*]}"
   AptGet update || Die "apt-get update failed (see above)"
+  Say "Installing with what they need: ${missing[*]}"
+  LC_ALL=C apt-get -o Debug::NoLocking=1 --assume-no --no-install-recommends install "${missing[@]}" 2> /dev/null |
+    grep -E 'newly installed|^Need to get|^After this' || true
   AptGet install -y --no-install-recommends "${missing[@]}" || Die "apt-get install failed (see above)"
 }
 

@@ -4,6 +4,8 @@
 # commit's unless SOURCE_DATE_EPOCH says another.
 #   cmake/wheel.sh            (PYTHON=... in the environment for an interpreter other than Debian's, which needs pip,
 #                             build, setuptools, wheel and pybind11)
+#   cmake/wheel.sh --in SUITE instead on a system of its own of that release of Debian (bullseye, trixie; root makes it), for
+#                             its Python and its C library, and tries it on a second one (cmake/bare.sh --wheel SUITE)
 #   cmake/wheel.sh --try      instead installs that wheel in a fresh environment, compares its digits with those of the
 #                             command in build and runs examples on it
 #   cmake/wheel.sh --test     and the tests of the Python module, which cmake/check.sh runs on the module in build
@@ -24,7 +26,7 @@ ByCMake() {
   [[ ! -f $LIBRARIES/lib/$2 ]] || return 0
   Say "Building $1"
   local options=(-Wno-dev -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=$LIBRARIES" "-DCMAKE_INSTALL_PREFIX=$LIBRARIES"
-    -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON)
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=$(command -v ccache || true)" -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON)
   {
     cmake -S "$(Source "$1")" -B "$FOLDER/$1" -G Ninja "${options[@]}" "${@:3}"
     cmake --build "$FOLDER/$1" --target install
@@ -49,13 +51,40 @@ Licences() {
     printf '==== %s ====\n\n' "$package"
     cat "$(Source "$package")/debian/copyright"
   done
-  for package in libeigen3-dev libboost-dev nlohmann-json3-dev libcli11-dev libexpected-dev pybind11-dev libstdc++-12-dev; do
-    file=/usr/share/doc/$package/copyright
+  for file in /usr/share/doc/{libeigen3,libboost,nlohmann-json3,libcli11,libexpected,pybind11,libstdc++-[0-9]*}-dev/copyright; do
+    package=$(basename "$(dirname "$file")")
     [[ ! -f $file ]] || { printf '\n==== %s ====\n\n' "$package"; cat "$file"; }
   done
   for file in "$LYREFIT_BUILD"/page_parts/node_modules/{plotly.js-basic-dist-min,tabulator-tables}/LICENSE; do
     [[ ! -f $file ]] || { printf '\n==== %s ====\n\n' "$(basename "$(dirname "$file")")"; cat "$file"; }
   done
+}
+
+# InSuite SUITE: this script, on a system of that release with the sources that are fetched here.
+InSuite() {
+  local parts newer=() to=/root/src
+  FetchSources "${SOURCES[@]}"
+  Modules "$LYREFIT_ROOT/cmake/page_parts" "$LYREFIT_ROOT/build/page_parts"
+  MakeSystem "$1"
+  PutSources "$1" "$to"
+  mkdir "$system$to/build-sources"
+  for parts in "${SOURCES[@]}"; do cp -r "$(Source "$parts")" "$system$to/build-sources"; done
+  Apt install -y --no-install-recommends python3
+  parts=$system$to/build-wheel/$(InSystem python3 -c 'import sys; print("cp%d%d" % sys.version_info[:2])')/page_parts
+  mkdir -p "$parts"
+  [[ ! -d build/page_parts ]] || cp -r build/page_parts/. "$parts"
+  # Older than what is needed there: headers and Python's tools, which suit any release.
+  if [[ $1 == bullseye ]]; then
+    newer=(libcli11-dev libeigen3-dev libexpected-dev nlohmann-json3-dev pybind11-dev python3-{build,packaging,pep517,pkg-resources,pybind11,setuptools,toml,tomli,wheel})
+    mkdir "$system/newer"
+    (cd "$system/newer" && apt-get -qq -o APT::Sandbox::User=root download "${newer[@]}")
+    InSystem sh -c 'apt-get -qq install -y --no-install-recommends /newer/*.deb > /dev/null'
+  fi
+  InSystem SOURCE_DATE_EPOCH="$SOURCE_DATE_EPOCH" nice bash "$to/cmake/wheel.sh"
+  mkdir -p "$FOLDER/dist"
+  cp "$system$to"/build-wheel/dist/*.whl "$FOLDER/dist"
+  Took "a wheel, made in $(Size) MB"
+  cmake/bare.sh --wheel "$1"
 }
 
 # Try: what is in dist, in an environment of its own, which sees the machine's numpy and pandas; with --test also the tests of
@@ -84,19 +113,28 @@ Try() {
   done
 }
 
-InstallPackages build python pages wheel
 cd -- "$LYREFIT_ROOT"
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
+export SOURCE_DATE_EPOCH
+readonly SOURCES=(ceres-solver google-glog fmtlib libcsv zlib)
 case ${1:-} in
   "") ;;
   --try | --test)
+    InstallPackages build python wheel
     Try "$1"
     exit
     ;;
-  *) Die "usage: cmake/wheel.sh [--try | --test]" ;;
+  --in) # after this script was started again in mounts of its own
+    source "$LYREFIT_ROOT/cmake/system.sh"
+    InSuite "${2:?a release of Debian, as trixie}"
+    exit
+    ;;
+  *) Die "usage: cmake/wheel.sh [--try | --test | --in SUITE]" ;;
 esac
-SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2> /dev/null || date +%s)}
-export SOURCE_DATE_EPOCH
-FetchSources ceres-solver google-glog fmtlib libcsv zlib
+purposes=(build module wheel)
+[[ -d $FOLDER/$tag/page_parts ]] || purposes+=(parts)
+InstallPackages "${purposes[@]}"
+FetchSources "${SOURCES[@]}"
 mkdir -p "$FOLDER/dist"
 
 ByHand zlib libz.a {adler32,compress,crc32,deflate,gz{close,lib,read,write},inf{back,fast,late,trees},trees,uncompr,zutil}.c

@@ -2,9 +2,11 @@
 """The times of a release: what Google Benchmark wrote, trimmed to what stays (data/speed).
 
     speed.py BENCHMARK.json CLAIMS.txt --version X.Y.Z --compiler TEXT --out FILE [--shared]
+    speed.py --out FILE --command NAME SECONDS
 
 BENCHMARK.json is of `lyrefit_bench --benchmark_format=json --benchmark_repetitions=N`, CLAIMS.txt the table that it prints on
-standard error. --shared says that other work ran on the machine.
+standard error. --shared says that other work ran on the machine. --command puts the processor seconds of one command into a
+record that is there.
 """
 
 import argparse
@@ -45,6 +47,12 @@ def ratios(table):
             yield {**kept, "target": float(target)} if target else kept
 
 
+def with_command(record, name, seconds):
+    """The record with the processor seconds of a command, instead of those that it had."""
+    others = [row for row in record.get("commands", []) if row["name"] != name]
+    return {**record, "commands": sorted([*others, {"name": name, "cpu_seconds": rounded(seconds)}], key=lambda row: row["name"])}
+
+
 def processor():
     """The processor's name and the widest instructions that the kernels know."""
     text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
@@ -55,13 +63,20 @@ def processor():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("benchmark", type=pathlib.Path)
-    parser.add_argument("claims", type=pathlib.Path)
-    parser.add_argument("--version", required=True)
-    parser.add_argument("--compiler", required=True)
+    parser.add_argument("benchmark", type=pathlib.Path, nargs="?")
+    parser.add_argument("claims", type=pathlib.Path, nargs="?")
+    parser.add_argument("--version")
+    parser.add_argument("--compiler")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--shared", action="store_true")
+    parser.add_argument("--command", nargs=2)
     given = parser.parse_args()
+    before = json.loads(given.out.read_text(encoding="utf-8")) if given.out.exists() else {}
+    if given.command:
+        name, seconds = given.command
+        given.out.write_text(json.dumps(with_command(before, name, float(seconds)), indent=1) + "\n", encoding="utf-8")
+        print(f"{given.out}: {name}, {seconds} s of processor time")
+        return
     run = json.loads(given.benchmark.read_text(encoding="utf-8"))
     name, widest = processor()
     rows = list(trimmed(run))
@@ -76,6 +91,8 @@ def main():
         "benchmarks": rows,
         "ratios": list(ratios(given.claims.read_text(encoding="utf-8"))),
     }
+    if "commands" in before:
+        record["commands"] = before["commands"]
     given.out.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
     print(f"{given.out}: {len(rows)} benchmarks, {len(record['ratios'])} ratios")
 

@@ -180,6 +180,19 @@ TEST(Readme, EveryPageWithCommandsToBeRunIsAmongThoseRun) {
   }
 }
 
+// What a newcomer copies, in the order of the page and in one folder: none is left out above.
+TEST(Readme, EveryCommandOfTheFirstPageIsRun) {
+  std::ifstream page(Project() / "README.md");
+  std::string all;
+  size_t commands = 0;
+  for (std::string line; std::getline(page, line); all += line + '\n') {
+    commands += static_cast<size_t>(StartsWith(line, "    lyrefit ") && std::isalpha(line[12]) != 0);
+  }
+  std::istringstream text(all);
+  EXPECT_EQ(CommandsOf(text).size(), commands);
+  EXPECT_GE(commands, 5U);
+}
+
 // Scripts that take long or need another machine are not run, but they must exist.
 TEST(Readme, ScriptsThatPagesCallAreThere) {
   static const std::regex kScript(R"((?:^|[\s'`])((?:cmake|tests|apps)/[\w/.-]+\.(?:sh|py|gp)))");

@@ -98,5 +98,22 @@ class Release(unittest.TestCase):
                                               "a has options that are no text", "type slider"])
 
 
+class Container(unittest.TestCase):
+    """cmake/Containerfile; its RUN lines are run by cmake/bare.sh."""
+
+    def test_it_copies_all_that_a_build_reads(self):
+        copied = {part for line in re.findall(r"^COPY (?!--from)(.*) \S+$", text("cmake/Containerfile"), re.MULTILINE)
+                  for part in line.split()}
+        self.assertEqual([part for part in copied if not (ROOT / part).exists()], [])
+        parts = re.search(r"^PARTS = \(([^)]*)\)", text("apps/python/setup.py"), re.MULTILINE)[1]
+        for part in re.findall(r'"([^"]+)"', parts):
+            self.assertTrue(any(part == name or part.startswith(name + "/") for name in copied), part)
+
+    def test_it_runs_what_bare_runs(self):
+        runs = re.findall(r"^RUN (.*)$", text("cmake/Containerfile"), re.MULTILINE)
+        self.assertEqual(runs, ["/lyrefit/cmake/container.sh build", "/container.sh install /packages"])
+        self.assertIn("'s/^RUN //p'", text("cmake/bare.sh"))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -3,6 +3,8 @@
 
 import json
 import pathlib
+import re
+import subprocess
 import sys
 import unittest
 
@@ -45,6 +47,36 @@ class Files(unittest.TestCase):
         record["benchmarks"][0]["cpu_time"] = 0
         record["machine"]["instructions"] = "MMX"
         self.assertEqual(len(problems(record)), 2)
+
+
+class Commands(unittest.TestCase):
+    def test_seconds_of_a_command_replace_those_before_and_leave_the_rest(self):
+        record = {"version": "1.0.0", "commands": [{"name": "reference", "cpu_seconds": 1.0}, {"name": "check.sh", "cpu_seconds": 9.0}]}
+        self.assertEqual(speed.with_command(record, "check.sh", 2345.678), {"version": "1.0.0", "commands": [
+            {"name": "check.sh", "cpu_seconds": 2346.0}, {"name": "reference", "cpu_seconds": 1.0}]})
+
+    def test_scripts_foretell_their_minutes_by_the_record_of_this_version(self):
+        said = self.said("quickstart.sh --fit-only", "ReferenceSeconds() { Recorded reference; }; nproc() { echo 2; }")
+        seconds = self.recorded("quickstart.sh --fit-only")
+        self.assertIn(f"about {seconds / 2 / 60 + 0.5:.0f} minutes on the 2 processors", said)
+        slower = self.said("quickstart.sh --fit-only", 'ReferenceSeconds() { awk -v s="$(Recorded reference)" "BEGIN { print 10 * s }"; }; nproc() { echo 1; }')
+        self.assertIn(f"about {10 * seconds / 60 + 0.5:.0f} minutes on the 1 processors", slower)
+        self.assertEqual(self.said("no such command", "ReferenceSeconds() { echo 1; }"), "")
+
+    def test_what_newcomers_run_first_is_in_the_record(self):
+        self.assertLess(self.recorded("quickstart.sh --fit-only"), self.recorded("quickstart.sh"))
+        self.assertGreater(self.recorded("reference"), 0)
+
+    @staticmethod
+    def recorded(name):
+        version = re.search(r"^project\(lyrefit VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M)[1]
+        record = json.loads((SPEED / f"{version}.json").read_text(encoding="utf-8"))
+        return next(row["cpu_seconds"] for row in record["commands"] if row["name"] == name)
+
+    @staticmethod
+    def said(command, changes):
+        script = f'source "{ROOT}/cmake/setup.sh"; {changes}; LYREFIT_COMMAND="{command}"; SayMinutes'
+        return subprocess.run(["bash", "-euo", "pipefail", "-c", script], check=True, capture_output=True, text=True).stdout
 
 
 class Trimming(unittest.TestCase):

@@ -1,7 +1,6 @@
 #include "lyrefit/model/curve_shape.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace lyrefit {

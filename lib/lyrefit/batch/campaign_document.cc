@@ -123,7 +123,8 @@ std::string CampaignVerdict(const CampaignSummary& summary) {
                         summary.exchanged.size() == 1 ? "is" : "are");
   }
   if (summary.gone + summary.fresh > 0) {
-    text += fmt::format(" Strings that are gone: {}. New strings: {}.", Counted(summary.gone), Counted(summary.fresh));
+    text += fmt::format(" Strings that are gone: {}. New strings: {}.", Counted(summary.gone),
+                        Counted(summary.fresh));
   }
   return text;
 }

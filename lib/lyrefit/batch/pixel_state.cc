@@ -108,8 +108,7 @@ std::string PixelCriterion(const PixelOptions& options) {
       "V a cell, or a straight line with an FF within {:g} of 25 %.",
       options.least_jsc_mA_cm2, kUsualArea_cm2, options.least_voc_V, options.resistor_ff_percent);
   if (options.least_efficiency_percent > 0) {
-    text += fmt::format(" Weak: efficiency below {:g} %.",
-                        options.least_efficiency_percent);
+    text += fmt::format(" Weak: efficiency below {:g} %.", options.least_efficiency_percent);
   }
   return text;
 }

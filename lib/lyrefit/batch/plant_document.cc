@@ -108,8 +108,7 @@ block::Table WorstTable(const PlantSummary& summary, const std::string& results)
       "lrrlrlllr",
       {{"string", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
         "mostly by", "since", "cause", "power to recover (W)"}}};
-  table.caption =
-      fmt::format("The {} worst strings, by {}", summary.worst.size(),
+  table.caption = fmt::format("The {} worst strings, by {}", summary.worst.size(),
                               ColumnInWords(summary.worst_by));
   for (const PlantRow& row : summary.worst) {
     table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),

@@ -117,8 +117,8 @@ std::string PlantVerdict(const PlantSummary& summary) {
   }
   if (summary.in_need > 0 && summary.below_rating_W > 0) {
     text += fmt::format(" {} {} below {} rating at standard conditions.",
-                        summary.in_need == 1 ? "The string is" : "These strings are", Power(summary.below_rating_W),
-                        summary.in_need == 1 ? "its" : "their");
+                        summary.in_need == 1 ? "The string is" : "These strings are",
+                        Power(summary.below_rating_W), summary.in_need == 1 ? "its" : "their");
   }
   add(summary.to_repeat, "must be measured again, because the measurement has a fault: ",
       "must be measured again, because the measurement has a fault: ",

@@ -58,7 +58,8 @@ std::string OtherRanges(const CertifyOptions& options) {
     const bool open = first.is_lower_A == 0 && first.is_upper_A == kInfinity;
     if (open) return linear ? text + ", Is from 0 up" : "Iph, Is and 1/Rsh from 0 up";
     return text + "; each diode of a model has Is " +
-           Within(first.is_lower_A, first.is_upper_A, " A") + "; the Is of the floor's diodes may add up to any value";
+           Within(first.is_lower_A, first.is_upper_A, " A") +
+           "; the Is of the floor's diodes may add up to any value";
   }
   text += "; the floor's Is from 0 up, of the models";
   for (std::size_t d = 0; d < options.diodes.size(); ++d) {

@@ -138,10 +138,11 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
               &section);
   std::string causes;
   for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
-  AddSentence("Possible: " + causes +
-                  ". A sweep at a second rate decides. Neither direction gives the steady power: track the "
-                  "maximum power point.",
-              &section);
+  AddSentence(
+      "Possible: " + causes +
+          ". A sweep at a second rate decides. Neither direction gives the steady power: track the "
+          "maximum power point.",
+      &section);
   return section;
 }
 

@@ -121,7 +121,8 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
                                                  " that were not fitted: within its standard error";
   if (!field || held_out.by_sweeps) return sentence;
   return sentence +
-         ". They are of the sweep that was fitted, so the model's own error is in them as well, and "
+         ". They are of the sweep that was fitted, so the model's own error is in them as well, "
+         "and "
          "they cannot tell a fault from it. Three sweeps or more could";
 }
 

@@ -358,10 +358,10 @@ Section GainSection(const Gain& gain) {
   AddTable(std::move(table), &section);
   if (std::isfinite(gain.held_out_gain_A2)) {
     AddSentence(
-        fmt::format("Mean square of the held-out readings, without the causes minus with them: {} A2, "
-                    "standard error {} A2.",
-                    Significant(gain.held_out_gain_A2, 3),
-                    Significant(gain.held_out_gain_error_A2, 2)),
+        fmt::format(
+            "Mean square of the held-out readings, without the causes minus with them: {} A2, "
+            "standard error {} A2.",
+            Significant(gain.held_out_gain_A2, 3), Significant(gain.held_out_gain_error_A2, 2)),
         &section);
   }
   AddSentence(FullSentence(gain.sentence), &section);

@@ -34,8 +34,8 @@ std::string PowerVerdict(const TrendReport& report) {
     }
   }
   if (largest != nullptr) {
-    text += fmt::format(". The largest part, {:.1f} %, is lost by {}", largest->energy_percent.value,
-                        PartTitle(largest->name));
+    text += fmt::format(". The largest part, {:.1f} %, is lost by {}",
+                        largest->energy_percent.value, PartTitle(largest->name));
   } else if (!Decided(energy)) {
     text += ". This interval shows no loss";
   }

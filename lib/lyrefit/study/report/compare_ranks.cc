@@ -92,9 +92,9 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
     }
     smallest_p = std::min(smallest_p, smallest_here);
     if (like.empty()) continue;
-    sentences.push_back(fmt::format("{} not significantly different from {} ({}; {} of {} runs differ)",
-                                    problem.algorithms[c].name, like, AtLeast(smallest_here),
-                                    here.Text(), runs));
+    sentences.push_back(
+        fmt::format("{} not significantly different from {} ({}; {} of {} runs differ)",
+                    problem.algorithms[c].name, like, AtLeast(smallest_here), here.Text(), runs));
   }
   if (!all) return sentences;
   if (differing.most == 0) return {"no pair differs: all runs of all algorithms are equal"};

@@ -126,16 +126,16 @@ TEST_F(PlantPageTest, TheVerdictCountsZonesCausesAndPower) {
                        row("broken", "", "", "", kNan)});
   EXPECT_EQ(
       VerdictOf(html),
-      "3 of 7 strings pass; 3 need work: partial shading (2), no cause found (1), worth about "
-      "3.2 kW. Of those that pass, 1 shows a cause all the same: uneven soiling (1). 1 could "
-      "not be judged.");
+      "3 of 7 strings pass. 3 need work: partial shading (2), no cause found (1). Repair would "
+      "give about 3.2 kW. 1 of the strings that pass also shows a cause: uneven soiling (1). 1 "
+      "could not be judged.");
 }
 
 TEST_F(PlantPageTest, WithoutZonesAStringWithACauseNeedsWork) {
   const std::string html = PageOf(
       {Text("id"), Text("cause")},
       {{{std::string("a"), std::string("none")}}, {{std::string("b"), std::string("leaky_cell")}}});
-  EXPECT_EQ(VerdictOf(html), "1 of 2 strings show no cause; 1 needs work: leaky_cell (1).");
+  EXPECT_EQ(VerdictOf(html), "1 of 2 strings show no cause. 1 needs work: leaky_cell (1).");
 }
 
 TEST_F(PlantPageTest, ACauseOfTheMeasurementIsNoWorkOnTheString) {
@@ -148,8 +148,8 @@ TEST_F(PlantPageTest, ACauseOfTheMeasurementIsNoWorkOnTheString) {
                        row("irr_step", "sweep"), row("unknown_structure", "unknown")});
   EXPECT_EQ(
       VerdictOf(html),
-      "1 of 5 strings show no cause; 2 need work: leaky_cell (1), unknown_structure (1). 2 have to "
-      "be measured again, for a cause of the measurement alone: irr_step (1), outliers (1).");
+      "1 of 5 strings show no cause. 2 need work: leaky_cell (1), unknown_structure (1). 2 must be "
+      "measured again, because the measurement has a fault: irr_step (1), outliers (1).");
 }
 
 TEST_F(PlantPageTest, TheWorstComeFirstAndAreTheWorst) {
@@ -159,7 +159,7 @@ TEST_F(PlantPageTest, TheWorstComeFirstAndAreTheWorst) {
     rows.push_back({{"s" + std::to_string(1000 + shuffled), shuffled / 300.0}});
   }
   const std::string html = PageOf({Text("id"), Number("performance_factor")}, rows);
-  std::size_t place = html.find("The 100 worst strings, by performance_factor");
+  std::size_t place = html.find("The 100 worst strings, by performance factor");
   ASSERT_NE(place, std::string::npos);
   for (int r = 0; r < 100; ++r) {
     const std::string id = "<th scope=\"row\">s" + std::to_string(1000 + r) + "</th>";
@@ -177,7 +177,7 @@ TEST_F(PlantPageTest, AStringThatPassesIsNotAmongThoseToVisit) {
       {Text("id"), Text("zone"), Number("performance_factor")},
       {row("good", "pass", 1.02), row("bad", "fail", 0.8),
        row("near", "fail within uncertainty", 0.96), row("just", "pass within uncertainty", 1)});
-  EXPECT_NE(html.find("The 2 worst strings, by performance_factor"), std::string::npos);
+  EXPECT_NE(html.find("The 2 worst strings, by performance factor"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">bad</th>"), std::string::npos);
   EXPECT_NE(html.find("<th scope=\"row\">near</th>"), std::string::npos);
   EXPECT_EQ(html.find("<th scope=\"row\">good</th>"), std::string::npos);
@@ -210,7 +210,7 @@ TEST_F(PlantPageTest, TheGroupsThatLoseMostComeFirst) {
   const json map = plant_page::Chart(html, "figure-2");
   EXPECT_EQ(map["layout"]["yaxis"]["ticktext"], json({"a", "b"}));
   EXPECT_EQ(map["data"][0]["hovertext"][2],
-            "b/1: 1 strings, 0 need work, lowest performance factor 1.010");
+            "b/1: 1 string, 0 need work, lowest performance factor 1.010");
 }
 
 TEST_F(PlantPageTest, DistributionsCountEveryString) {
@@ -226,7 +226,7 @@ TEST_F(PlantPageTest, DistributionsCountEveryString) {
                                    Text("group_outlier")},
                                   rows);
   EXPECT_THAT(html,
-              HasSubstr("<th scope=\"row\">performance_factor</th><td class=\"number\">1,000"));
+              HasSubstr("<th scope=\"row\">performance factor</th><td class=\"number\">1,000"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">a/7</th><td class=\"words\">Pmax/G +50 %</td>"));
   if (!PlotlyIsEmbedded()) GTEST_SKIP() << "this build has no Plotly";
   const auto counted = [](const json& trace) {
@@ -253,7 +253,7 @@ TEST_F(PlantPageTest, NumbersThatAreEqualToRoundingAreOneBar) {
 
 TEST_F(PlantPageTest, ItReadsWithoutScripts) {
   const std::string html = SyntheticPage(500);
-  for (const char* text : {"Strings by zone", "Causes of those that need work", "<svg ",
+  for (const char* text : {"Strings by zone", "Strings that need work, by cause", "<svg ",
                            "Why there is no result", "site1/inv01"}) {
     EXPECT_LT(html.find(text), html.find("id=\"rows\"")) << text;
   }

@@ -137,7 +137,7 @@ TEST_F(TrendTaskTest, PageOfThePlantShowsTheLossesByPart) {
   const auto written = WritePlantPage(folder_.Path("out"), folder_.Path("plant.html"), "Plant");
   ASSERT_TRUE(written) << MessageOf(written);
   const std::string page = FileText(folder_.Path("plant.html"));
-  EXPECT_THAT(page, HasSubstr("1 of 4 strings show no cause; 2 need work: "));
+  EXPECT_THAT(page, HasSubstr("1 of 4 strings show no cause. 2 need work: "));
   EXPECT_THAT(page, HasSubstr("Energy lost since the reference days, by part"));
   EXPECT_THAT(page, HasSubstr("power lost now (%)"));
   EXPECT_THAT(page, HasSubstr("mostly by"));

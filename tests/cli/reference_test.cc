@@ -39,7 +39,7 @@ TEST(DiagnoseReference, WritesJson) {
 TEST(DiagnoseModule, FindsTheOutlierSweep) {
   const AppResult result = RunApp("diagnose " + kSweeps + " --module --brief");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, StartsWith("13: Unlike the 19 sweeps nearest to it"));
+  EXPECT_THAT(result.out, StartsWith("13: The sweep differs from the 19 sweeps nearest to it"));
   EXPECT_THAT(result.out, HasSubstr("outliers: 1 of 20 sweeps"));
   const AppResult as_table = RunApp("diagnose " + kSweeps + " --module --csv -");
   EXPECT_THAT(as_table.out, ::testing::StartsWith("sweep,differs,p_value,cause,size,"));

@@ -121,7 +121,7 @@ TEST(DiagnoseTest, WithinOneSweepItSaysThatHeldOutConfirmsNothing) {
   options.folds = 4;
   const Diagnosis one = DiagnoseOrFail(CurveWithAStep(), options);
   EXPECT_FALSE(one.gain.by_sweeps);
-  EXPECT_THAT(one.gain.sentence, HasSubstr("within one sweep nothing held out tells a fault"));
+  EXPECT_THAT(one.gain.sentence, HasSubstr("they cannot tell a fault from it"));
   options.noise = {};
   EXPECT_THAT(DiagnoseOrFail(CurveWithAStep(), options).gain.sentence, Not(HasSubstr("sweep")));
 }

@@ -65,7 +65,7 @@ ReferenceComparison Compare(const IvCurve& curve, const std::vector<IvCurve>& re
 TEST(CompareWithReferences, SaysThatAReferenceSweepIsLikeTheOthers) {
   const ReferenceComparison c = Compare(Sweep(50), Sweeps(24));
   EXPECT_FALSE(c.differs) << c.sentence;
-  EXPECT_THAT(c.sentence, HasSubstr("Like its 24 reference sweeps"));
+  EXPECT_THAT(c.sentence, HasSubstr("The sweep agrees with its 24 reference sweeps"));
   EXPECT_THAT(c.causes, IsEmpty());
   EXPECT_EQ(c.references.size(), 24U);
   for (const ReferenceRow& row : c.rows) {

@@ -14,13 +14,14 @@ inline ReferenceComparison SampleReference() {
   c.differs = true;
   c.p_value = 3e-6;
   c.sentence =
-      "Unlike its 12 reference sweeps (p = 3e-06): series resistance +8 %: -0.62 % of Pmax.";
+      "The sweep differs from its 12 reference sweeps (p = 3e-06): series resistance +8 %, Pmax "
+      "-0.62 %.";
   c.rows = {{"FF", "fill factor", "%", 73.2, 73.7, 73.5, 73.9, -6.1, 1e-5, -0.0068, true},
             {"shape", "departure from the usual shape", "% of Isc", 0.02, 0.021, 0.01, 0.04, -0.2,
              1, std::numeric_limits<double>::quiet_NaN(), false}};
   ReferenceCause cause;
   cause.id = "series_resistance";
-  cause.sentence = "series resistance +8 %: -0.62 % of Pmax";
+  cause.sentence = "series resistance +8 %, Pmax -0.62 %";
   cause.size = 8;
   cause.low_95 = 6.9;
   cause.high_95 = 9.1;
@@ -44,7 +45,7 @@ inline OutlierSweeps SampleOutlierSweeps() {
   outlier.sweeps[0].without_common = {};
   outlier.sweeps[1].name = "yesterday";
   outlier.sweeps[1].differs = false;
-  outlier.sweeps[1].sentence = "Like the 12 sweeps nearest to it (p = 0.7).";
+  outlier.sweeps[1].sentence = "The sweep agrees with the 12 sweeps nearest to it (p = 0.7).";
   outlier.sweeps[1].causes.clear();
   outlier.rejected = {"night: the curve is dark"};
   outlier.outlier = 1;

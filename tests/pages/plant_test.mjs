@@ -107,7 +107,7 @@ test('verdict, zones and causes count the rows, and the worst are the worst of t
   const rows = rowsOf(500).filter((row) => row.status === 'fine');
   const {page: tab, close} = await openPlant(500);
   const passed = rows.filter((row) => row.zone.startsWith('pass')).length;
-  assert.ok((await tab.textContent('.verdict p')).startsWith(`${passed} of 500 strings pass; ${rows.length - passed} need work: `));
+  assert.ok((await tab.textContent('.verdict p')).startsWith(`${passed} of 500 strings pass. ${rows.length - passed} need work: `));
   const counts = (await cells(tab, 'What was found')).map(([name, count]) => [name, Number(count)]);
   for (const [zone, count] of counts.slice(0, 4)) assert.equal(count, rows.filter((row) => row.zone === zone).length, zone);
   assert.equal(counts.slice(4).reduce((sum, [, count]) => sum + count, 0), rows.filter((row) => row.cause !== 'none').length);

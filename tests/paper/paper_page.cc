@@ -210,11 +210,12 @@ Section Introduction(const PaperStudy& study) {
       &section);
   AddSentence(
       fmt::format(
-          "A statistic of {} runs depends on chance, so ours come as {} batches of {} runs each "
-          "(grid of Pm and gamma, S75: {} batches): `ours` is their geometric mean, and a printed "
+          "A statistic of {} runs depends on chance. So ours come as {} batches of {} runs each "
+          "(grid of Pm and gamma, S75: {} batches). `ours` is their geometric mean. A printed "
           "figure counts as reproduced if it lies in the range that one more batch would fall into "
-          "99 times of 100. {} candidates x {} iterations, seed {}; every RMSE is of the "
-          "measured-current residual, in A; constants of the literature. lyrefit {}.",
+          "99 times of 100. A search has {} candidates x {} iterations, and the seed is {}. Every "
+          "RMSE is of the measured-current residual, in A. The constants are the literature's. The "
+          "runs are of lyrefit {}.",
           options.batch, options.batches, options.batch, options.sensitivity_batches,
           options.population, options.iterations, options.seed, study.version),
       &section);

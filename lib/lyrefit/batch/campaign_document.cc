@@ -39,8 +39,8 @@ block::Table CommonTable(const CampaignSummary& summary, std::size_t most) {
   block::Table table = {"lrrrrr",
                         {{"in common", "strings", "Isc, %", "Voc, %", "FF, %", "Pmax, %"}}};
   table.caption =
-      "What all strings have in common, with the reported uncertainty; groups that differ from the "
-      "plant";
+      "What all strings have in common, with the reported uncertainty. Groups that differ from the "
+      "plant have a row of their own";
   const auto add = [&table](const std::string& name, const CommonChange& common) {
     block::Table::Row row = {name, Counted(common.strings)};
     for (const PercentChange& change : common.percent) row.push_back(PercentText(change));
@@ -123,7 +123,8 @@ std::string CampaignVerdict(const CampaignSummary& summary) {
                         summary.exchanged.size() == 1 ? "is" : "are");
   }
   if (summary.gone + summary.fresh > 0) {
-    text += fmt::format(" {} gone, {} new.", Counted(summary.gone), Counted(summary.fresh));
+    text += fmt::format(" Strings that are gone: {}. New strings: {}.", Counted(summary.gone),
+                        Counted(summary.fresh));
   }
   return text;
 }
@@ -208,7 +209,7 @@ block::Figure CampaignFigureOf(const CampaignSummary& summary) {
   shown.figure.title = "Power lost since the last campaign";
   shown.caption =
       "Power at standard conditions that each string lost, less what its group has in common, with "
-      "95 % intervals; below zero it gained.";
+      "95 % intervals. A string below zero gained power.";
   shown.figure.legend = {{"power lost", {kVermilion}, LegendMark::kBar},
                          {"95 % interval", {"#000000"}, LegendMark::kLine}};
   shown.figure.panels.push_back(std::move(panel));

@@ -103,15 +103,14 @@ JudgedPixel JudgePixel(const CellReport& report, bool all_dark, const PixelOptio
 
 std::string PixelCriterion(const PixelOptions& options) {
   std::string text = fmt::format(
-      "A pixel works if its direction of more power has Jsc from {:g} mA/cm2 on at 1000 W/m2 (else "
-      "dead; without an area that of {:g} cm2 counts), Voc from {:g} V a cell on, and is no "
-      "straight line with an FF within {:g} of 25 % (else shorted)",
+      "A pixel works if its direction of more power passes these limits. Dead: Jsc below {:g} "
+      "mA/cm2 at 1000 W/m2 (where no area is known, {:g} cm2 are assumed). Shorted: Voc below {:g} "
+      "V a cell, or a straight line with an FF within {:g} of 25 %.",
       options.least_jsc_mA_cm2, kUsualArea_cm2, options.least_voc_V, options.resistor_ff_percent);
   if (options.least_efficiency_percent > 0) {
-    text += fmt::format(", and an efficiency from {:g} % on (else weak)",
-                        options.least_efficiency_percent);
+    text += fmt::format(" Weak: efficiency below {:g} %.", options.least_efficiency_percent);
   }
-  return text + ".";
+  return text;
 }
 
 }  // namespace lyrefit

@@ -108,8 +108,8 @@ block::Table WorstTable(const PlantSummary& summary, const std::string& results)
       "lrrlrlllr",
       {{"string", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
         "mostly by", "since", "cause", "power to recover (W)"}}};
-  table.caption =
-      fmt::format("The {} worst strings, by {}", summary.worst.size(), summary.worst_by);
+  table.caption = fmt::format("The {} worst strings, by {}", summary.worst.size(),
+                              ColumnInWords(summary.worst_by));
   for (const PlantRow& row : summary.worst) {
     table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),
                           row.zone, Number(row.lost_now_percent, 2), row.largest_loss,
@@ -148,10 +148,11 @@ Section AgainstThePlan(const PlantSummary& summary, const std::string& results) 
   std::int64_t all = 0;
   for (const auto& [cause, share] : summary.plan_causes) all += share.rows;
   const auto listed = static_cast<std::int64_t>(summary.scaled.size());
-  table.caption = fmt::format(
-      "{} whose curves have the scale of a fault; what they lose is in the light of the sweep",
-      listed < all ? fmt::format("The {} of {} strings that lose most", listed, Counted(all))
-                   : "All strings");
+  table.caption =
+      (listed < all ? fmt::format("The {} strings that lose most, of {} that differ from the plan.",
+                                  listed, Counted(all))
+                    : "All strings that differ from the plan.") +
+      " The power lost is that in the light of the sweep.";
   for (const PlantRow& row : summary.scaled) {
     const std::string others =
         row.plan_equivalents.empty() ? "" : "; or " + InWords(row.plan_equivalents);
@@ -234,9 +235,9 @@ Document PlantDocument(const PlantContent& content) {
   AddFigure(MapFigure(summary), &document.head);
   Section found = {"What was found"};
   if (!summary.zones.empty()) AddTable(ZonesTable(summary), &found);
-  AddCauses("Causes of those that need work", summary.causes, &found);
-  AddCauses("Causes of the measurement alone: to be taken again", summary.causes_to_repeat, &found);
-  AddCauses("Causes of those that pass", summary.causes_of_passed, &found);
+  AddCauses("Strings that need work, by cause", summary.causes, &found);
+  AddCauses("Strings to measure again, by cause", summary.causes_to_repeat, &found);
+  AddCauses("Strings that pass and show a cause", summary.causes_of_passed, &found);
   std::vector<Section> since = CampaignSections(content.campaign, kMostChanges);
   if (!since.empty()) {
     AddFigure(CampaignFigureOf(content.campaign), &since.front());

@@ -68,7 +68,7 @@ Panel Histogram(const PlantSample::Column& column, const std::vector<bool>& diff
   }
   Panel panel;
   const std::string unit = column.unit.empty() ? "" : " (" + column.unit + ")";
-  panel.x.label = column.name + unit;
+  panel.x.label = ColumnInWords(column.name) + unit;
   panel.x.low = first * step;
   panel.x.high = (first + static_cast<double>(bins)) * step;
   panel.x.tick_step = RoundStep((panel.x.high - panel.x.low) / kHistogramTicks);
@@ -114,14 +114,15 @@ void AddHistograms(const std::vector<PlantSample::Column>& columns,
                    const std::vector<bool>& differs, block::Figure* shown) {
   shown->readings = {
       "lrrrrrrrr",
-      {{"column", "strings", "lowest", "5 %", "25 %", "median", "75 %", "95 %", "highest"}}};
+      {{"value", "strings", "lowest", "5 %", "25 %", "median", "75 %", "95 %", "highest"}}};
   shown->readings.caption = "Quantiles of the strings whose number is known.";
   Figure& figure = shown->figure;
   for (const PlantSample::Column& column : columns) {
     const std::vector<double> sorted = SortedKnown(column.values);
     if (sorted.size() < 2) continue;
     figure.panels.push_back(Histogram(column, differs, sorted));
-    block::Table::Row row = {column.name, Counted(static_cast<std::int64_t>(sorted.size()))};
+    block::Table::Row row = {figure.panels.back().x.label,
+                             Counted(static_cast<std::int64_t>(sorted.size()))};
     for (const double share : {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0}) {
       row.push_back(Significant(Quantile(sorted, share), 5));
     }
@@ -149,7 +150,8 @@ block::Figure SpreadsFigure(const PlantSummary& summary) {
   AddHistograms(summary.sample.spreads, {}, &shown);
   shown.figure.title = "How many strings have which value";
   shown.caption =
-      "Strings by value; the outermost bars hold what lies beyond them too." + OfWhich(summary);
+      "Number of strings by value. The outermost bars also count the strings beyond the axis." +
+      OfWhich(summary);
   return shown;
 }
 
@@ -158,9 +160,9 @@ block::Figure NeighboursFigure(const PlantSummary& summary) {
   AddHistograms(summary.sample.neighbours, summary.sample.differs, &shown);
   shown.figure.title = "Deviation of each string from those of the same combiner";
   shown.caption =
-      "Deviation from the median of the strings of the same combiner at like light; those that "
-      "differ by more than is usual in the plant are counted apart. The outermost bars hold what "
-      "lies beyond them too." +
+      "Deviation from the median of the strings of the same combiner at like light. Strings "
+      "that differ by more than is usual in the plant are counted apart. The outermost bars also "
+      "count the strings beyond the axis." +
       OfWhich(summary);
   return shown;
 }
@@ -190,7 +192,7 @@ block::Figure CurvesFigure(const PlantSummary& summary) {
   shown.caption = fmt::format(
       "The curves of the {} worst strings, by {}, each relative to its "
       "largest current and its open-circuit voltage.",
-      panel.series.size(), summary.worst_by);
+      panel.series.size(), ColumnInWords(summary.worst_by));
   shown.figure.panels.push_back(std::move(panel));
   return shown;
 }

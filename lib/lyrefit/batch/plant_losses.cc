@@ -143,8 +143,9 @@ block::Figure LossesFigure(const PlantLossSummary& losses) {
   if (groups.empty()) groups.emplace_back("all", losses.plant);
   shown.figure.title = "Energy lost since the reference days, by part";
   shown.caption = fmt::format(
-      "Energy lost since the reference days of each string, by part: means of {} by power. Parts "
-      "below zero, which are gains, are in the table only. Lost now: the last 30 days with data.",
+      "Energy lost since the reference days of each string, by part. The bars are means over {}, "
+      "weighted by power. Parts below zero are gains and stand in the table only. \"Lost now\" is "
+      "of the last 30 days with data.",
       losses.groups.size() > kLossGroups ? fmt::format("the {} groups that lose most", kLossGroups)
                                          : std::string("the groups"));
   shown.figure.legend = LegendOf(titles, LegendMark::kBar);

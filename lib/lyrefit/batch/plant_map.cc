@@ -112,7 +112,8 @@ Panel CellPanel(const CellGrid& grid, const std::map<std::string, PlantNode>& le
       cells.Add(x, y, Shortfall(node, by_factor));
       cells.filters.push_back({"^" + paths[i] + "/"});
       cells.texts.push_back(
-          fmt::format("{}: {} strings, {} need work", paths[i], node.rows, node.in_need) +
+          fmt::format("{}: {} string{}, {} need{} work", paths[i], node.rows,
+                      node.rows == 1 ? "" : "s", node.in_need, node.in_need == 1 ? "s" : "") +
           (by_factor ? fmt::format(", lowest performance factor {:.3f}", node.lowest_performance)
                      : ""));
       across = std::fmax(across, x + 1);
@@ -152,7 +153,7 @@ block::Figure MapFigure(const PlantSummary& summary) {
     shown.readings.rows.push_back(
         {path, Counted(node.rows), Counted(node.in_need), Significant(node.lowest_performance, 4)});
   }
-  shown.figure.title = "The plant, a cell a group";
+  shown.figure.title = "The plant: each square is a group";
   shown.figure.panels = {CellPanel(GridOf(nodes), nodes, by_factor)};
   shown.figure.panel_width = kWide;
   const Panel& panel = shown.figure.panels.front();
@@ -162,8 +163,9 @@ block::Figure MapFigure(const PlantSummary& summary) {
       by_factor ? "Largest shortfall of a string (%)" : "Strings that need work (%)", 0,
       std::ceil(most)};
   shown.caption = fmt::format(
-      "A cell for each of the {} groups: {}.", Counted(static_cast<std::int64_t>(nodes.size())),
-      by_factor ? "by how much its worst string falls short of the expected power"
+      "Each square is one of the {} groups. Its colour says {}.",
+      Counted(static_cast<std::int64_t>(nodes.size())),
+      by_factor ? "by how much the worst string of the group falls short of the expected power"
                 : "which share of its strings needs work");
   return shown;
 }

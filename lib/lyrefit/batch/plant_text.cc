@@ -12,6 +12,21 @@ namespace {
 
 constexpr std::size_t kLettersOfName = 22;
 
+// Columns whose names do not become words by themselves.
+constexpr std::pair<const char*, const char*> kColumnWords[] = {
+    {"Pmax_stc_W", "Pmax at standard conditions"},
+    {"p_mp_rate_percent", "change of power a year"},
+    {"resistance_series_rate_ohm", "change of series resistance a year"},
+    {"loss_total_percent", "energy lost"},
+    {"loss_now_total_percent", "power lost now"},
+    {"loss_light_percent", "energy lost by light"},
+    {"loss_mismatch_percent", "energy lost by mismatch"},
+    {"group_Isc_percent", "Isc against the neighbours"},
+    {"group_Voc_percent", "Voc against the neighbours"},
+    {"group_FF_percent", "FF against the neighbours"},
+    {"group_deviation_percent", "Pmax against the neighbours"}};
+constexpr const char* kUnitsOfColumns[] = {"_W", "_A", "_V", "_C", "_Wm2", "_ohm", "_percent"};
+
 std::string Listed(const std::map<std::string, PlantShare>& shares, std::size_t most) {
   std::string text;
   const auto ordered = Ordered(shares);
@@ -65,6 +80,19 @@ std::string ShortName(const std::string& name) {
   return "\xe2\x80\xa6" + text;
 }
 
+std::string ColumnInWords(const std::string& column) {
+  for (const auto& [name, words] : kColumnWords) {
+    if (column == name) return words;
+  }
+  std::string text = column;
+  for (const std::string unit : kUnitsOfColumns) {
+    const std::size_t end = text.size() - std::min(text.size(), unit.size());
+    if (end > 0 && text.compare(end, unit.size(), unit) == 0) text.erase(end);
+  }
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string PlantVerdict(const PlantSummary& summary) {
   if (summary.rows == 0) return "No strings.";
   const std::string all = Plural(summary.rows, "string");
@@ -78,35 +106,29 @@ std::string PlantVerdict(const PlantSummary& summary) {
           ? fmt::format("{} of {} pass{}", Counted(summary.passed), all, *verb ? "es" : "")
           : fmt::format("{} of {} show{} no cause",
                         Counted(summary.fine - summary.in_need - summary.to_repeat), all, verb);
-  if (summary.in_need > 0) {
-    text += fmt::format("; {} need{} work: {}", Counted(summary.in_need),
-                        summary.in_need == 1 ? "s" : "", Listed(summary.causes, 6));
-  }
+  text += ".";
+  const auto add = [&text](std::int64_t count, const char* one, const char* many,
+                           const std::string& what) {
+    if (count > 0) text += fmt::format(" {} {}{}.", Counted(count), count == 1 ? one : many, what);
+  };
+  add(summary.in_need, "needs work: ", "need work: ", Listed(summary.causes, 6));
   if (summary.in_need > 0 && summary.recoverable_power_W > 0) {
-    text += ", worth about " + Power(summary.recoverable_power_W);
+    text += fmt::format(" Repair would give about {}.", Power(summary.recoverable_power_W));
   }
   if (summary.in_need > 0 && summary.below_rating_W > 0) {
-    text += fmt::format(". They are {} below their rating at standard conditions",
-                        Power(summary.below_rating_W));
+    text += fmt::format(" {} {} below {} rating at standard conditions.",
+                        summary.in_need == 1 ? "The string is" : "These strings are",
+                        Power(summary.below_rating_W), summary.in_need == 1 ? "its" : "their");
   }
-  text += ".";
-  if (summary.to_repeat > 0) {
-    text += fmt::format(" {} {} to be measured again, for a cause of the measurement alone: {}.",
-                        Counted(summary.to_repeat), summary.to_repeat == 1 ? "has" : "have",
-                        Listed(summary.causes_to_repeat, 6));
-  }
+  add(summary.to_repeat, "must be measured again, because the measurement has a fault: ",
+      "must be measured again, because the measurement has a fault: ",
+      Listed(summary.causes_to_repeat, 6));
   std::int64_t beside = 0;
   for (const auto& [cause, share] : summary.causes_of_passed) beside += share.rows;
-  if (beside > 0) {
-    text += fmt::format(" Of those that pass, {} show{} a cause all the same: {}.", Counted(beside),
-                        beside == 1 ? "s" : "", Listed(summary.causes_of_passed, 6));
-  }
-  if (summary.passed_outlier > 0) {
-    text += fmt::format(" {} that need{} no work by this differ{} from the strings of {} combiner.",
-                        Counted(summary.passed_outlier), summary.passed_outlier == 1 ? "s" : "",
-                        summary.passed_outlier == 1 ? "s" : "",
-                        summary.passed_outlier == 1 ? "its" : "their");
-  }
+  add(beside, "of the strings that pass also shows a cause: ",
+      "of the strings that pass also show a cause: ", Listed(summary.causes_of_passed, 6));
+  add(summary.passed_outlier, "string that needs no work differs from the others of its combiner",
+      "strings that need no work differ from the others of their combiners", "");
   if (summary.fine < summary.rows) {
     text += fmt::format(" {} could not be judged.", Counted(summary.rows - summary.fine));
   }

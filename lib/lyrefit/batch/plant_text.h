@@ -12,8 +12,8 @@ namespace lyrefit {
 
 // Words and numbers of a plant's page.
 
-// The summary as a sentence: "488 of 500 strings pass; 12 need work: 5 partial shading, ..., worth
-// about 3.2 kW."
+// The summary in sentences: "488 of 500 strings pass. 12 need work: partial shading (5), ... Repair
+// would give about 3.2 kW."
 std::string PlantVerdict(const PlantSummary& summary);
 
 // By decreasing number of rows.
@@ -22,6 +22,9 @@ std::vector<std::pair<std::string, PlantShare>> Ordered(
 
 // The title of a cause, or its name.
 std::string Title(const std::pair<std::string, PlantShare>& cause);
+
+// A column's name in words, without its unit: "Pmax_stc_W" as "Pmax at standard conditions".
+std::string ColumnInWords(const std::string& column);
 
 // "3.2 kW"; 1234567 as "1,234,567".
 std::string Power(double watts);

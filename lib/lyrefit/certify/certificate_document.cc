@@ -7,7 +7,6 @@
 #include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/estimate/fit/steep_diodes.h"
-#include "lyrefit/model/term.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -59,7 +58,8 @@ std::string OtherRanges(const CertifyOptions& options) {
     const bool open = first.is_lower_A == 0 && first.is_upper_A == kInfinity;
     if (open) return linear ? text + ", Is from 0 up" : "Iph, Is and 1/Rsh from 0 up";
     return text + "; each diode of a model has Is " +
-           Within(first.is_lower_A, first.is_upper_A, " A") + ", the floor's add up to anything";
+           Within(first.is_lower_A, first.is_upper_A, " A") +
+           "; the Is of the floor's diodes may add up to any value";
   }
   text += "; the floor's Is from 0 up, of the models";
   for (std::size_t d = 0; d < options.diodes.size(); ++d) {
@@ -195,9 +195,9 @@ std::string BeyondSearches(const Certificate& certificate) {
       SteepestIdeality(certificate.curve, device, {options.rs_lower_ohm, options.rs_upper_ohm});
   if (!(options.n_lower < steepest && steepest < options.n_upper)) return "";
   return fmt::format(
-      "fit and compare begin n at {:.4g}, for below a diode's exponent passes {:.0f} at a reading: "
-      "their best may lie above what is proved here.",
-      steepest, kLargestExponent);
+      "fit and compare begin n at {:.4g}, because below that the exponential of a diode would "
+      "overflow. Their best may lie above what is proved here.",
+      steepest);
 }
 
 Section ModelSection(const Certificate& certificate) {

@@ -138,9 +138,11 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
               &section);
   std::string causes;
   for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
-  AddSentence("Possible: " + causes +
-                  ". A second rate decides. Neither direction is the steady power: track it.",
-              &section);
+  AddSentence(
+      "Possible: " + causes +
+          ". A sweep at a second rate decides. Neither direction gives the steady power: track the "
+          "maximum power point.",
+      &section);
   return section;
 }
 
@@ -213,7 +215,7 @@ Section FitSection(const CellReport& report) {
   section.blocks.emplace_back(block::Legend{
       report.joint
           ? "RMSE: solved-current; intervals: --json"
-          : "RMSE: solved-current; intervals: --json; Rsh of one light is a shunt or collection "
+          : "RMSE: solved-current; intervals: --json. Rsh at one light is a shunt or a collection "
             "that depends on voltage: a second light or the dark curve decides"});
   return section;
 }

@@ -68,7 +68,7 @@ Section FillFactorSection(const CellReport& report) {
         Significant(100 * losses.green_n1, 4), Significant(100 * losses.green_fitted, 4),
         report.joint
             ? ""
-            : "; of one light a shunt and collection that depends on voltage look alike")});
+            : ". At one light a shunt and a collection that depends on voltage look alike")});
   }
   return section;
 }

@@ -141,7 +141,7 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& po
 SeriesResistance RsFromSlope(const CellSweep& lit) {
   SeriesResistance found;
   found.method = "slope at Voc";
-  found.note = "-dV/dI at Voc: an upper limit, n k T / (q Isc) of the junction is in it";
+  found.note = "-dV/dI at Voc, an upper limit: it contains n k T / (q Isc) of the junction";
   found.ohm.value = lit.resistance_at_voc_ohm;
   if (!std::isfinite(found.ohm.value)) found.missing = "the curve does not pass Voc";
   return found;

@@ -129,8 +129,11 @@ std::string Exceeding(const JudgedDevice& device, double ratio, const char* what
   return fmt::format("{} healthy {} {} (at most {})", more, others, what, limit);
 }
 
-// ": -4 % of Pmax"
-std::string LossText(double loss) { return fmt::format(": {:+.1f} % of Pmax", -100 * loss); }
+// ", which takes 4.0 % of Pmax"
+std::string LossText(double loss) {
+  return fmt::format(", which {} {:.1f} % of Pmax", loss < 0 ? "adds" : "takes",
+                     100 * std::fabs(loss));
+}
 
 void AddLeak(const JudgedDevice& device, std::vector<DeviceFinding>* findings) {
   const double resistance = device.fit.p[kRsh];

@@ -121,8 +121,9 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
                                                  " that were not fitted: within its standard error";
   if (!field || held_out.by_sweeps) return sentence;
   return sentence +
-         "; they are of the sweep that was fitted, and within one sweep nothing held out tells a "
-         "fault from the model's own error, which is in it as well (three sweeps or more would)";
+         ". They are of the sweep that was fitted, so the model's own error is in them as well, "
+         "and "
+         "they cannot tell a fault from it. Three sweeps or more could";
 }
 
 Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOutErrors& held_out,

@@ -311,7 +311,7 @@ Section PlanSection(const Diagnosis& diagnosis) {
   if (plan.measurements.empty()) return section;
   AddField("between", fmt::format("{}", fmt::join(plan.causes, ", ")), &section);
   block::Table table = {"lr" + std::string(plan.causes.size(), 'r'),
-                        {{"right name, besides these data", "mean"}}};
+                        {{"right name, together with these data", "mean"}}};
   for (const std::string& id : plan.causes) table.heads[0].push_back("if " + id);
   std::vector<std::string> how;
   for (const PlannedMeasurement& measurement : plan.measurements) {
@@ -358,9 +358,10 @@ Section GainSection(const Gain& gain) {
   AddTable(std::move(table), &section);
   if (std::isfinite(gain.held_out_gain_A2)) {
     AddSentence(
-        fmt::format("Held-out mean square without minus with causes: {} A2, standard error {} A2.",
-                    Significant(gain.held_out_gain_A2, 3),
-                    Significant(gain.held_out_gain_error_A2, 2)),
+        fmt::format(
+            "Mean square of the held-out readings, without the causes minus with them: {} A2, "
+            "standard error {} A2.",
+            Significant(gain.held_out_gain_A2, 3), Significant(gain.held_out_gain_error_A2, 2)),
         &section);
   }
   AddSentence(FullSentence(gain.sentence), &section);

@@ -66,15 +66,17 @@ std::string LightSentence(const ReferenceRow& row) {
 // `whom`: name of the reference set in the sentence.
 std::string SentenceOf(const ReferenceComparison& c, bool light, const std::string& whom) {
   if (!c.differs) {
-    return fmt::format("Like {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is expected.",
-                       whom, c.p_value, c.rows.front().now, c.rows.front().expected);
+    return fmt::format(
+        "The sweep agrees with {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is "
+        "expected.",
+        whom, c.p_value, c.rows.front().now, c.rows.front().expected);
   }
-  std::string text = fmt::format("Unlike {} (p = {:.1g}): ", whom, c.p_value);
+  std::string text = fmt::format("The sweep differs from {} (p = {:.1g}): ", whom, c.p_value);
   for (std::size_t i = 0; i < c.causes.size(); ++i) {
     text += (i > 0 ? "; or " : "") + c.causes[i].sentence;
   }
   if (light) text += (c.causes.empty() ? "" : "; and ") + LightSentence(c.rows.back());
-  if (c.causes.empty() && !light) text += "nothing that is known makes this difference";
+  if (c.causes.empty() && !light) text += "no known cause explains the difference";
   return text + ".";
 }
 

@@ -233,7 +233,7 @@ std::optional<Attempt> TryFrom(const Puzzle& puzzle, const Dose& dose, double do
   cause.power = PowerOf(puzzle.sweep, change);
   cause.explained = 1 - attempt.left * puzzle.widening / all;
   cause.sentence = fmt::format(fmt::runtime(dose.words), cause.size) +
-                   fmt::format(": {:+.2f} % of Pmax", 100 * cause.power);
+                   fmt::format(", Pmax {:+.2f} %", 100 * cause.power);
   return attempt;
 }
 

@@ -25,10 +25,9 @@ Section NowSection(const ReferenceComparison& comparison) {
   Section section = {"Now and as expected"};
   AddTable(std::move(table), &section);
   AddSentence(
-      "<-: differs. 95 % interval: of what a reference sweep shows; z: difference in standard "
-      "deviations of its "
-      "prediction; Pmax: what the difference alone gives of it or costs; parameters make up for "
-      "one another, the causes do not",
+      "<- marks what differs. The 95 % interval is that of what a reference sweep shows. z is the "
+      "difference in standard deviations of its prediction. Pmax is what the difference alone adds "
+      "or costs. Parameters can make up for one another, causes cannot.",
       &section);
   return section;
 }

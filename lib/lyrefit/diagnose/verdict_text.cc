@@ -20,7 +20,7 @@ constexpr double kLeastHealthy = 5e-4, kMostHealthy = 2e-3;
 constexpr double kLeastShown = 5e-5;  // of Isc
 
 std::string OfIsc(double part) {
-  if (part < kLeastShown) return "below 0.01 % of Isc";
+  if (part < kLeastShown) return "less than 0.01 % of Isc";
   return fmt::format("{:.2f} % of Isc", 100 * part);
 }
 

@@ -224,7 +224,7 @@ Effect Substrings() {
   e.needs = "a curve of a module; the number of bypass diodes helps";
   e.acts = "at steps of the current, at fixed voltages";
   e.confused_with = {"shading", "irr_step"};
-  e.separate_by = "repeat the sweep: shading stays at the same voltages, a cloud does not";
+  e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
   e.action = "look for shade, snow or dirt on the darker parts and clear it";
   e.fact_sheet = "PVFS 3-3";
   e.parameters = SubstringParameters();

@@ -59,7 +59,7 @@ constexpr QuantityKind kQuantityKinds[] = {
     {"second_diode", "share of the second diode", "%", kTrendSecond, AsPercent, false, false,
      false},
     {"conductance_shunt", "shunt conductance", "S", kTrendShunt, AsItIs, true, true, false},
-    {"mismatch", "power lost by mismatch within substrings", "%", -1, AsItIs, true, true, false},
+    {"mismatch", "power lost by mismatch, within substrings", "%", -1, AsItIs, true, true, false},
 };
 
 double ReferenceMean(const TrendBlocks& blocks, const BlockSeries& own) {

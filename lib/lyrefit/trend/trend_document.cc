@@ -20,19 +20,28 @@ std::string TrendRange(const Ranged& one) {
 }
 
 std::string StatesText(const TrendReport& report) {
-  std::string text = fmt::format("{} of {}", Plural(report.states[0], "measurement"), report.rows);
+  std::string text = fmt::format("{} of {} on {}", report.states[0],
+                                 Plural(report.rows, "measurement"), Plural(report.days, "day"));
+  const char* before = "; left out: ";
   for (int s = 1; s < kTrendRowStates; ++s) {
     const auto count = report.states[static_cast<std::size_t>(s)];
-    if (count > 0) text += fmt::format(", {} {}", count, ToText(static_cast<TrendRowState>(s)));
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", before, count, ToText(static_cast<TrendRowState>(s)));
+    before = ", ";
   }
   return text;
+}
+
+// "power" of "power, of what the reference lets expect".
+std::string ShortTitle(const TrendQuantity& quantity) {
+  return quantity.title.substr(0, quantity.title.find(','));
 }
 
 Section TrendHead(const TrendReport& report) {
   Section head = {fmt::format("lyrefit {}: trend of {}", report.version, report.name)};
   AddField("measured",
-           fmt::format("{} to {}, {} on {}", DateText(report.first_s), DateText(report.last_s),
-                       StatesText(report), Plural(report.days, "day")),
+           fmt::format("{} to {}, {}", DateText(report.first_s), DateText(report.last_s),
+                       StatesText(report)),
            &head);
   AddField("reference",
            fmt::format("up to {}: {} W at 1000 W/m2 and 25 C", DateText(report.reference_end_s),
@@ -65,11 +74,12 @@ Section LossSection(const TrendReport& report) {
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(
-      block::Legend{"of the energy over all days, and over the last 30 days, that the device of "
-                    "the reference would have given; shares by Shapley, they add up to the total"});
+      block::Legend{"Percent of the energy that the device of the reference would have given, over "
+                    "all days and over the last 30 days. Parts are Shapley shares and add up to "
+                    "the total."});
   section.blocks.emplace_back(
-      block::Legend{"light: dirt, shade on all cells, or the light sensor; mismatch: shade on a "
-                    "part, bypassed substrings"});
+      block::Legend{"Light: dirt, shade on all cells, or the light sensor. Mismatch: shade on a "
+                    "part, bypassed substrings."});
   return section;
 }
 
@@ -77,12 +87,10 @@ Section QuantitySection(const TrendReport& report) {
   Section section = {"Parameters at standard conditions over time"};
   block::Table table = {"lrrlrl",
                         {{"", "reference", "a year", "95 % interval", "% a year", "seasonal"}}};
-  std::string legend;
   for (const TrendQuantity& quantity : report.quantities) {
-    legend += fmt::format("{}: {}; ", quantity.name, quantity.title);
     const std::string name = quantity.unit.empty()
-                                 ? quantity.name
-                                 : fmt::format("{} ({})", quantity.name, quantity.unit);
+                                 ? ShortTitle(quantity)
+                                 : fmt::format("{} ({})", ShortTitle(quantity), quantity.unit);
     if (!quantity.missing.empty()) {
       table.rows.push_back({name, "-"});
       continue;
@@ -97,7 +105,9 @@ Section QuantitySection(const TrendReport& report) {
   }
   AddTable(std::move(table), &section);
   section.blocks.emplace_back(
-      block::Legend{legend + "mean rates, without steps; seasonal: amplitude, from two years on"});
+      block::Legend{"Power is relative to what the reference lets expect, light to what the sensor "
+                    "reads. Mismatch is that within substrings. Rates are means without steps. "
+                    "Seasonal: the amplitude, from two years on."});
   return section;
 }
 
@@ -109,7 +119,7 @@ Section ChangeSection(const TrendReport& report) {
       table.rows.push_back(
           {DateText(change.time_s),
            fmt::format("{} .. {}", DateText(change.earliest_s), DateText(change.latest_s)),
-           change.onset ? "onset" : "step", quantity.name,
+           change.onset ? "onset" : "step", ShortTitle(quantity),
            fmt::format("{} {}{}", Significant(change.size.value, 3), quantity.unit,
                        change.onset ? "/a" : ""),
            TrendRange(change.size)});

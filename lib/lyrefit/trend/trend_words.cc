@@ -34,10 +34,10 @@ std::string PowerVerdict(const TrendReport& report) {
     }
   }
   if (largest != nullptr) {
-    text += fmt::format(", most of it, {:.1f} %, by {}", largest->energy_percent.value,
-                        PartTitle(largest->name));
+    text += fmt::format(". The largest part, {:.1f} %, is lost by {}",
+                        largest->energy_percent.value, PartTitle(largest->name));
   } else if (!Decided(energy)) {
-    text += ": no loss is shown";
+    text += ". This interval shows no loss";
   }
   return text + ".";
 }
@@ -77,8 +77,8 @@ void AddWords(TrendReport* report) {
   }
   if (report->source == TrendSource::kOperatingPoints) {
     report->not_decided.emplace_back(
-        "Operating points do not tell a shunt: what it takes is among light and series resistance. "
-        "A sweep in dim light tells it.");
+        "Operating points do not show a shunt: what it takes is counted under light and series "
+        "resistance. A sweep in dim light shows it.");
   }
   if (days < 10) {
     report->not_decided.emplace_back(
@@ -87,8 +87,8 @@ void AddWords(TrendReport* report) {
   }
   if (days < 710) {
     report->not_decided.emplace_back(
-        "A season and a trend are told apart from two years on; rates of a shorter series may "
-        "contain a season that the law of light and temperature leaves.");
+        "A season and a trend can be told apart from two years on. Rates of a shorter series may "
+        "contain a season that the law of light and temperature does not explain.");
   }
   for (const TrendQuantity& quantity : report->quantities) {
     if (!quantity.missing.empty()) {

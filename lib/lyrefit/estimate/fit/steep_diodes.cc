@@ -43,9 +43,10 @@ double LeaveOutSteps(const IvCurve& curve, const Device& device, const std::vect
 
 std::string StepsLeftOut(double steepest_n) {
   return fmt::format(
-      "n begins at {:.4g}, not where its bounds begin: below, a diode's exponent passes {:.0f} at "
-      "a reading, where it is cut, and the diode is a step; certify takes the bounds as they are",
-      steepest_n, kLargestExponent);
+      "n begins at {:.4g}, above the lower end of its bounds. For smaller n the exponential of a "
+      "diode would overflow, so fit and compare do not search there. certify takes the bounds as "
+      "they are",
+      steepest_n);
 }
 
 }  // namespace lyrefit

@@ -254,7 +254,7 @@ const lyrefit = (() => {
     const parts = data.flatMap(({meta, customdata}) => (customdata ?? []).map((texts) => [meta, texts]));
     select.hidden = !lyrefit.filterRows || parts.length === 0 || parts.length > kMostParts;
     if (select.hidden) return;
-    select.replaceChildren(new Option('Rows of a part', ''), ...parts.map((part) => new Option(
+    select.replaceChildren(new Option('Choose a part of the chart', ''), ...parts.map((part) => new Option(
         part[1].map((text, i) => text && `${part[0][i]} ${text}`).filter(Boolean).join(', '), JSON.stringify(part))));
   }
 
@@ -269,7 +269,7 @@ const lyrefit = (() => {
     const pick = async (names, texts) => {
       told.replaceChildren('The table shows ', make('a', {href: '#rows-table'}, await lyrefit.filterRows(names, texts)));
     };
-    const select = make('select', {'aria-label': 'Rows of a part of the chart', onchange: () => select.value && pick(...JSON.parse(select.value))});
+    const select = make('select', {'aria-label': 'Part of the chart whose rows the table shows', onchange: () => select.value && pick(...JSON.parse(select.value))});
     live.append(name, legend, plot, told);
     figure.classList.add('is-live');
     const config = {displayModeBar: false, doubleClick: 'reset', showTips: false};

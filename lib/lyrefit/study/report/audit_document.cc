@@ -103,11 +103,12 @@ Section CurveSection(const AuditReport& report, std::size_t begin, std::size_t e
 }
 
 std::string Legend(const AuditReport& report) {
-  const std::string constants =
-      report.options.constants ? "the constants " + ToText(*report.options.constants)
-                               : "the constants that bring the claim back, or codata where none do";
+  const std::string constants = report.options.constants
+                                    ? ToText(*report.options.constants)
+                                    : "those that reproduce the claim, or codata where none do";
   return fmt::format(
-      "RMSE in A of the rows as stated, with {}; the claims are of the RMSE marked *.", constants);
+      "RMSE in A of each row as stated. The constants are {}. The claims are of the RMSE marked *.",
+      constants);
 }
 
 Section BadRows(const AuditReport& report) {

@@ -157,15 +157,15 @@ Document CompareDocument(const Comparison& comparison) {
   head.heading = fmt::format("lyrefit {}: {}", comparison.version, Title(comparison));
   AddSetUp(comparison, &head);
   AddField("target",
-           fmt::format("of the search: {:g} above the reference (relative); evaluations to it are "
-                       "those of all runs, each up to its hit, by hits",
+           fmt::format("a search hits it within {:g} of the reference (relative). Evaluations to "
+                       "it are those of all runs, each up to its hit, divided by the hits",
                        options.target_gap),
            &head);
   if (options.rankings && options.runs >= 2) {
     AddField("tests",
              fmt::format("with {} pairs the smallest possible exact p of Wilcoxon's test is "
-                         "2^(1-{}) = {:.2g}; equal pairs are left out, and polished answers within "
-                         "1e-9 of each other are equal",
+                         "2^(1-{}) = {:.2g}. Equal pairs are left out. Polished answers within "
+                         "1e-9 of each other count as equal",
                          options.runs, options.runs, std::exp2(1.0 - options.runs)),
              &head);
   }

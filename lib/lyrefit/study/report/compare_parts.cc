@@ -38,7 +38,7 @@ bool AnyOwn(const Comparison& comparison) {
 
 // Of the runs and of the reference.
 std::string SearchedInPart(double steepest_n) {
-  return StepsLeftOut(steepest_n) + "; runs and reference are of n from there on";
+  return StepsLeftOut(steepest_n) + ". Runs and reference have n from there on";
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ void AddSetUp(const Comparison& comparison, Section* section) {
                                  return problem.problem.empty() || !options.with.empty();
                                });
   const std::string of_what =
-      one ? ObjectiveText(options) + ": of search, polish and every RMSE below"
-          : "of search, polish and RMSE: as each problem says";
+      one ? ObjectiveText(options) + ", in search, polish and every RMSE below"
+          : "as each problem says, in search, polish and RMSE";
   AddField("objective", of_what + "; constants " + ToText(options.constants), section);
   const std::string budget = CommonBudget(comparison);
   if (!budget.empty()) AddField("budget", budget + " a run", section);
@@ -107,7 +107,7 @@ void AddSetUp(const Comparison& comparison, Section* section) {
     common =
         AnyOwn(comparison)
             ? ": in each run lyrefit's searches start from the same points, which others may take"
-            : ": in each run all start from the same points";
+            : ": in each run all searches start from the same points";
   }
   AddField("runs", fmt::format("0 to {} of seed {}{}", options.runs - 1, options.seed, common),
            section);

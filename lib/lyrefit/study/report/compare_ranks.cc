@@ -68,6 +68,8 @@ struct Differing {
   }
 };
 
+std::string AtLeast(double p) { return p < 1 ? "p at least " + PText(p) : "p = 1"; }
+
 // The pairs without a significant difference, and the number of their runs that differ at all.
 std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& ranking) {
   const int runs = ranking.friedman.blocks;
@@ -90,14 +92,14 @@ std::vector<std::string> Undecided(const ProblemResult& problem, const Ranking& 
     }
     smallest_p = std::min(smallest_p, smallest_here);
     if (like.empty()) continue;
-    sentences.push_back(fmt::format("{} not told from {} (p at least {}; {} of {} runs differ)",
-                                    problem.algorithms[c].name, like, PText(smallest_here),
-                                    here.Text(), runs));
+    sentences.push_back(
+        fmt::format("{} not significantly different from {} ({}; {} of {} runs differ)",
+                    problem.algorithms[c].name, like, AtLeast(smallest_here), here.Text(), runs));
   }
   if (!all) return sentences;
   if (differing.most == 0) return {"no pair differs: all runs of all algorithms are equal"};
-  return {fmt::format("no pair is told apart (p at least {}; {} of {} runs differ)",
-                      PText(smallest_p), differing.Text(), runs)};
+  return {fmt::format("no pair differs significantly ({}; {} of {} runs differ)",
+                      AtLeast(smallest_p), differing.Text(), runs)};
 }
 
 // Adds the mean ranks and the significant pairs of a stage. `note` is appended to the pairs.
@@ -110,8 +112,8 @@ void AddTests(const ProblemResult& problem, const Ranking& ranking, const char* 
       block::Entry{fmt::format("Ranks, {}: Friedman over {} runs", stage, ranking.friedman.blocks),
                    {MeanRanks(names, ranking.friedman)}});
   block::Entry pairs = {
-      fmt::format("Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs (Dunn and Sidak tell {} "
-                  "apart)",
+      fmt::format("Pairs, {}: Wilcoxon signed-rank, Holm over {} pairs ({} differ by Dunn "
+                  "and Sidak)",
                   stage, ranking.signed_ranks.size(),
                   std::count_if(ranking.pairs.begin(), ranking.pairs.end(), told_apart)),
       WinnerSentences(names, ranking)};

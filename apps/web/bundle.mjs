@@ -1,6 +1,6 @@
 // Packs the page into one file: its HTML, styles, scripts, examples, and the engine, packed.
 //   node bundle.mjs SCRIPT=engine.js WASM=engine.wasm SOURCE=repository VERSION=1.2.3 OUT=lyrefit.html LICENCES=file,file
-import {readFileSync, writeFileSync} from 'node:fs';
+import {existsSync, readFileSync, renameSync, writeFileSync} from 'node:fs';
 import {basename, join} from 'node:path';
 import {gzipSync} from 'node:zlib';
 
@@ -20,10 +20,11 @@ const unread = (id, script) => `<script type="text/plain" id="${id}">\n${script}
 
 // Example measurements with their sidecar files, under their names in the page.
 const examples = {};
-for (const [name, folder, file] of [['rtc_france', 'rtc_france', 'curve'],
-                                    ['shaded_module', 'diagnosis', 'shaded_module']]) {
+for (const [name, folder, file] of [['rtc_france', 'rtc_france', 'curve'], ['shaded_module', 'diagnosis', 'shaded_module'],
+                                    ...['pair', 'lit_dark', 'suns'].map((each) => [each, 'cell', each])]) {
   for (const extension of ['csv', 'json']) {
-    examples[`${name}.${extension}`] = text('data', folder, `${file}.${extension}`);
+    const path = join(given.SOURCE, 'data', folder, `${file}.${extension}`);
+    if (existsSync(path)) examples[`${name}.${extension}`] = readFileSync(path, 'utf8');
   }
 }
 const licences = given.LICENCES.split(',').filter(Boolean)
@@ -36,13 +37,17 @@ const parts = {
   DATA: [packed('engine-script', readFileSync(given.SCRIPT)), packed('engine-wasm', readFileSync(given.WASM)),
          packedJson('examples', examples), packedJson('licences', licences),
          unread('worker-script', page('worker.js'))].join('\n'),
-  SCRIPTS: [report('page.js'), ...['engine', 'form', 'read_view', 'report_view', 'app'].map(
+  SCRIPTS: [report('page.js'), ...['engine', 'verbs', 'form', 'asked', 'file_view', 'read_view',
+                                              'report_view', 'result_view', 'app'].map(
       (name) => page(`${name}.js`))].join('\n'),
 };
 for (const script of [parts.SCRIPTS, page('worker.js')]) {
   if (/<\/script|<!--/i.test(script)) throw new Error('a script would end its element');
 }
-const html = page('index.html').replace(/@([A-Z]+)@/g, (whole, name) => parts[name] ?? whole);
-writeFileSync(given.OUT, html);
+const filled = (text, of) => text.replace(/@([A-Z]+)@/g, (whole, name) => of[name] ?? whole);
+const bytes = Buffer.byteLength(filled(page('index.html'), {...parts, SIZE: '0.0'}));
+const html = filled(page('index.html'), {...parts, SIZE: (bytes / 1e6).toFixed(1)});
+writeFileSync(`${given.OUT}.part`, html);
+renameSync(`${given.OUT}.part`, given.OUT);  // whoever copies it has all of it
 const size = (name) => `${(readFileSync(given[name]).length / 1e6).toFixed(2)} MB`;
-console.log(`${given.OUT}: ${(html.length / 1e6).toFixed(2)} MB; the engine unpacked ${size('WASM')}, its script ${size('SCRIPT')}`);
+console.log(`${given.OUT}: ${(bytes / 1e6).toFixed(2)} MB; the engine unpacked ${size('WASM')}, its script ${size('SCRIPT')}`);

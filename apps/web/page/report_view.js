@@ -46,12 +46,13 @@ const reportView = (() => {
     json: ['json', 'application/json', (result) => result.report_json],
     csv: ['csv', 'text/csv', (result) => result.csv],
     text: ['txt', 'text/plain', (result) => result.text],
+    pvlib: ['pvlib.json', 'application/json', (result) => result.pvlib_json],
   };
 
   function save(result, verb, what) {
     const [extension, type, make] = kSaves[what];
     const url = URL.createObjectURL(new Blob([make(result)], {type}));
-    lyrefit.save(`${result.name}_${verb}.${extension}`, url);
+    lyrefit.save(`${result.name.replace(/[^\p{L}\p{N}.-]+/gu, '_')}_${verb}.${extension}`, url);
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 

@@ -14,7 +14,8 @@ function labelOf({name, unit = '', label}) {
   if (doubt) parts.pop();
   const words = parts.join(' ');
   const shown = own || kUnits[unit];
-  return words[0].toUpperCase() + words.slice(1) + (doubt ? ', uncertainty' : '') + (shown ? ` (${shown})` : '');
+  const begun = /^.[A-Z]/.test(words) ? words : words[0].toUpperCase() + words.slice(1);  // dEgdT stays
+  return begun + (doubt ? ', uncertainty' : '') + (shown ? ` (${shown})` : '');
 }
 
 function fileChoices(holder, names) {

@@ -56,5 +56,23 @@ const reportView = (() => {
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
 
+  // A frame would be cut between the sheets of paper, so the report's elements stand in the page while it is printed.
+  addEventListener('beforeprint', () => {
+    const frame = document.querySelector('#report iframe');
+    if (!frame) return;
+    const paper = document.createElement('div');
+    paper.id = 'paper';
+    frame.contentWindow.dispatchEvent(new Event('beforeprint'));  // charts in the light theme
+    paper.append(...frame.contentDocument.body.cloneNode(true).children);
+    frame.contentWindow.dispatchEvent(new Event('afterprint'));
+    for (const script of paper.querySelectorAll('script')) script.remove();
+    document.body.append(paper);
+    document.body.classList.add('on-paper');
+  });
+  addEventListener('afterprint', () => {
+    document.getElementById('paper')?.remove();
+    document.body.classList.remove('on-paper');
+  });
+
   return {frameOf, pictureOf, followTheme, save};
 })();

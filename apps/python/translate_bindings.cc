@@ -50,9 +50,8 @@ TranslateAsked ReadTranslateKeywords(Keywords* keywords) {
   }
   keywords->Read(kTranslateOptionTable, &options);
   keywords->Read(TranslateDiagnosisRows(), &options.diagnosis);
-  ForNestedTables(&options, [keywords](const auto& table, auto* nested) {
-    keywords->Read(table, nested);
-  });
+  ForNestedTables(&options,
+                  [keywords](const auto& table, auto* nested) { keywords->Read(table, nested); });
   if (!asked.own.empty()) options.diagnosis.threads = 1;
   ShareSeedAndThreads(&options);
   if (coefficients) {

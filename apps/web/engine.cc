@@ -87,14 +87,10 @@ Expected<ordered_json> RunFit(const PageRequest& request) {
   TRY(const FitForm form, ReadFitForm(request.form));
   TRY(const IvCurve curve, ReadStatedCurve(request.file, form.file));
   TRY(FitReport report, FitWithFloor(curve, form.options, form.automatic, ProgressObserver()));
-  Result result = {report.usable,
-                   StemOf(request.file),
-                   BriefReport(report),
-                   FitDocument(report),
-                   JsonReport(report),
-                   JsonReport(report, JsonPoints::kAll),
-                   FullReport(report),
-                   ""};
+  Result result = {report.usable,       StemOf(request.file),
+                   BriefReport(report), FitDocument(report),
+                   JsonReport(report),  JsonReport(report, JsonPoints::kAll),
+                   FullReport(report),  ""};
   result.csv = FitsCsv({{request.file, std::move(report)}});
   return Answer(result);
 }

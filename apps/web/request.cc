@@ -100,10 +100,11 @@ ordered_json DescribeCell() {
 ordered_json DescribeSheet() {
   ordered_json rows = ordered_json::array();
   DescribeTable(kStatedSheetTable, StatedSheet(), &rows);
-  DescribeFile("Data sheet", kModule, "module",
-               "a file above that repeats the sheet: PVsyst's .PAN, a row of SAM's library, pvlib's "
-               "JSON; what is said here counts before it",
-               &rows);
+  DescribeFile(
+      "Data sheet", kModule, "module",
+      "a file above that repeats the sheet: PVsyst's .PAN, a row of SAM's library, pvlib's "
+      "JSON; what is said here counts before it",
+      &rows);
   return rows;
 }
 

@@ -94,9 +94,9 @@ TEST(Engine, TranslatesAsTheLibraryDoes) {
   const TempFolder folder;
   const std::string module =
       folder.Write("sheet.json", R"({"rated_power_W": 250, "alpha_sc_percent_K": 0.05})");
-  const json answer =
-      Ask("translate", kTracer,
-          {{"module", module}, {"beta", "-0.3%"}, {"to", "800,40"}, {"draws", "200"}, {"seed", "3"}});
+  const json answer = Ask(
+      "translate", kTracer,
+      {{"module", module}, {"beta", "-0.3%"}, {"to", "800,40"}, {"draws", "200"}, {"seed", "3"}});
   ASSERT_FALSE(answer.contains("error")) << answer["error"];
   TranslateOptions options;
   options.coefficients.beta_percent_K = -0.3;
@@ -144,7 +144,7 @@ TEST(Engine, AllFilesAreOneCell) {
 }
 
 TEST(Engine, ADataSheetNeedsNoFile) {
-  const json said = {{"isc", "9.05"},   {"voc", "37.8"},    {"imp", "8.58"},  {"vmp", "30.3"},
+  const json said = {{"isc", "9.05"},    {"voc", "37.8"},    {"imp", "8.58"}, {"vmp", "30.3"},
                      {"alpha", "0.06%"}, {"beta", "-0.31%"}, {"cells", "60"}, {"exact", "yes"}};
   const json answer = Ask("datasheet", "", said);
   ASSERT_FALSE(answer.contains("error")) << answer["error"];
@@ -281,8 +281,7 @@ TEST(Engine, ALookKnowsTheSheetOfAModule) {
   EXPECT_TRUE(Ask("look", pan)["sheet"].get<bool>());
   const json of_file = Ask("datasheet", "", {{"module", pan}});
   EXPECT_EQ(of_file["name"], "Invented I-304 M60");
-  const json library =
-      Ask("look", std::string(LYREFIT_DATA_DIR) + "/datasheet/invented_cec.csv");
+  const json library = Ask("look", std::string(LYREFIT_DATA_DIR) + "/datasheet/invented_cec.csv");
   EXPECT_THAT(library["error"].get<std::string>(), HasSubstr("a library of 2 modules"));
 }
 

@@ -22,9 +22,12 @@ if(missing)
 endif()
 
 set(LYREFIT_SITE_DIR "${PROJECT_BINARY_DIR}/site")
+set(LYREFIT_PAGE "${PROJECT_SOURCE_DIR}/build-web/apps/web/lyrefit.html" CACHE FILEPATH
+    "The page that needs no server, which the site takes in if it is there (cmake/web.sh makes it)")
 add_custom_target(site
   COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${LYREFIT_PYTHON_PATH}"
           "${LYREFIT_PYTHON}" -B "${PROJECT_SOURCE_DIR}/apps/site/build.py" --command $<TARGET_FILE:lyrefit_app>
-          --reference "${LYREFIT_REFERENCE_DIR}" --parts "${PROJECT_BINARY_DIR}/site_parts" --out "${LYREFIT_SITE_DIR}"
+          --reference "${LYREFIT_REFERENCE_DIR}" --parts "${PROJECT_BINARY_DIR}/site_parts"
+          --page "${LYREFIT_PAGE}" --out "${LYREFIT_SITE_DIR}"
   COMMENT "Site" VERBATIM)
 add_dependencies(site lyrefit_app lyrefit_python lyrefit_python_package reference)

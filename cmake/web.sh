@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the page that needs no server: fetches Debian's sources of the libraries that lyrefit is built on, compiles
 # them and lyrefit for WebAssembly into build-web, compares its digits with those of the native command where that stands
-# in build (or NATIVE, a path to it), tries the page in a browser and prints where it lies.
+# in build (or NATIVE, a path to it), tries the page in a browser, puts it into the site where that is built, and prints
+# where it lies.
 #   cmake/web.sh --build       the page is built, and nothing is run
 #   cmake/web.sh --modules     the tests of the library's modules are compiled too and run under Node.js
 set -euo pipefail
@@ -22,4 +23,9 @@ else
   [[ ${1:-} == --build ]] || RunTests "$FOLDER" --exclude-regex '^web/modules$'
 fi
 page=$FOLDER/apps/web/lyrefit.html
+site=$LYREFIT_ROOT/build/site
+if [[ -z ${1:-} && -f $site/index.html ]]; then
+  python3 "$LYREFIT_ROOT/apps/site/offline_page.py" "$page" "$site"
+  LYREFIT_PAGE=$page python3 "$LYREFIT_ROOT/tests/site/offline_page_test.py" "$site"
+fi
 Say "$(stat -c %s "$page") bytes: $page"

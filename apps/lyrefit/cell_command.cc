@@ -56,16 +56,6 @@ Expected<CurveSet> ReadFlaggedCell(const CellRequest& request) {
   return cell;
 }
 
-int ExitOf(const CellReport& report) {
-  if (report.interrupted) return kExitInterrupted;
-  bool fitted = false, usable = false;
-  for (const CellSweep& sweep : report.sweeps) {
-    fitted = fitted || sweep.fit.has_value();
-    usable = usable || (sweep.fit && sweep.fit->usable);
-  }
-  return fitted && !usable ? kExitNotUsable : kExitFine;
-}
-
 Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
   if (request.files.empty()) return Fail("FILE is required: the measurements of a cell");
   if (request.list_columns) return PrintInspections(request.files, request.reading);
@@ -81,7 +71,8 @@ Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(CellDocument(report), CellJson(report)); }));
   TRY(WriteText(verb, [&] { return output.brief ? BriefCell(report) : CellText(report); }));
-  return ExitOf(report);
+  if (report.interrupted) return kExitInterrupted;
+  return report.Usable() ? kExitFine : kExitNotUsable;
 }
 
 }  // namespace

@@ -52,8 +52,9 @@ void DeclareTranslate(VerbLine* verb, TranslateRequest* request) {
       .ReadsCurves()
       .Group("Measurement");
   AddTranslationFlags(verb, "", &request->coefficients_file, &request->module_file, &options);
-  AddNamedFlags(verb, kDiagnoseOptionTable, {"base", "noise", "effects", "seed", "threads"},
-                &options.diagnosis);
+  for (const auto& row : TranslateDiagnosisRows()) {
+    AddRowFlag(verb, row, "Diagnosis", &options.diagnosis);
+  }
   AddReportFlags(verb, "report", "the results as a table, a row a procedure",
                  "curve as measured and as translated", &request->output);
 }
@@ -80,8 +81,7 @@ Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
     return PrintInspections({request.curve.file}, request.curve.reading);
   TRY(verb.CheckFiles());
   TranslateOptions& options = request.options;
-  options.uncertainty.seed = options.diagnosis.seed;
-  options.uncertainty.threads = options.diagnosis.threads;
+  ShareSeedAndThreads(&options);
   if (!request.coefficients_file.empty()) {
     TRY(ReadCoefficients(request.coefficients_file, &options.coefficients));
   }

@@ -18,11 +18,8 @@ inline void AddTranslationFlags(VerbLine* verb, const std::string& whose,
       .Reads()
       .Group("Coefficients");
   verb->AddOption("--module", module_file, kModuleHelp).Type("FILE").Reads().Group("Field test");
-  AddTableFlags(verb, kCoefficientTable, &options->coefficients);
-  AddTableFlags(verb, kFieldTestOptionTable, &options->field_test);
-  AddTableFlags(verb, kUncertaintyOptionTable, &options->uncertainty);
-  AddTableFlags(verb, kChecklistOptionTable, &options->checklist);
-  AddTableFlags(verb, kFieldNotesTable, &options->notes);
+  ForNestedTables(options,
+                  [verb](const auto& table, auto* nested) { AddTableFlags(verb, table, nested); });
 }
 
 }  // namespace lyrefit

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <iterator>
 #include <memory>
 
 #include "bindings.h"
@@ -36,22 +34,6 @@ class TranslateResult : public Result {
   explicit TranslateResult(const Translated& report) : Result(RecordOf(report)) {}
 };
 
-// The options of the diagnosis that precedes a translation.
-const std::vector<OptionRow<DiagnoseOptions>>& DiagnosisRows() {
-  static const auto* const rows = [] {
-    constexpr const char* kNames[] = {"base", "noise", "effects", "seed", "threads"};
-    auto* chosen = new std::vector<OptionRow<DiagnoseOptions>>();
-    std::copy_if(std::begin(kDiagnoseOptionTable), std::end(kDiagnoseOptionTable),
-                 std::back_inserter(*chosen), [&](const OptionRow<DiagnoseOptions>& row) {
-                   return std::any_of(std::begin(kNames), std::end(kNames), [&](const char* name) {
-                     return row.name == std::string(name);
-                   });
-                 });
-    return chosen;
-  }();
-  return *rows;
-}
-
 struct TranslateAsked {
   TranslateOptions options;
   OwnEffects own;
@@ -67,15 +49,11 @@ TranslateAsked ReadTranslateKeywords(Keywords* keywords) {
     for (const auto& effect : asked.own) options.diagnosis.own_effects.push_back(&effect->effect());
   }
   keywords->Read(kTranslateOptionTable, &options);
-  keywords->Read(DiagnosisRows(), &options.diagnosis);
-  keywords->Read(kCoefficientTable, &options.coefficients);
-  keywords->Read(kFieldTestOptionTable, &options.field_test);
-  keywords->Read(kUncertaintyOptionTable, &options.uncertainty);
-  keywords->Read(kChecklistOptionTable, &options.checklist);
-  keywords->Read(kFieldNotesTable, &options.notes);
+  keywords->Read(TranslateDiagnosisRows(), &options.diagnosis);
+  ForNestedTables(&options,
+                  [keywords](const auto& table, auto* nested) { keywords->Read(table, nested); });
   if (!asked.own.empty()) options.diagnosis.threads = 1;
-  options.uncertainty.seed = options.diagnosis.seed;
-  options.uncertainty.threads = options.diagnosis.threads;
+  ShareSeedAndThreads(&options);
   if (coefficients) {
     Must(ReadCoefficients(TextOf("coefficients", *coefficients), &options.coefficients));
   }
@@ -159,12 +137,11 @@ std::vector<KeywordNote> TranslateNotes() {
   notes.push_back({"own_effects", "Effect | Sequence[Effect]", "None", "", ""});
   notes.push_back({"progress", "Callable[[Progress], object]", "None", "", ""});
   AppendNotes(kTranslateOptionTable, TranslateOptions(), &notes);
-  AppendNotes(DiagnosisRows(), DiagnoseOptions(), &notes);
-  AppendNotes(kCoefficientTable, StatedCoefficients(), &notes);
-  AppendNotes(kFieldTestOptionTable, FieldTestOptions(), &notes);
-  AppendNotes(kUncertaintyOptionTable, UncertaintyOptions(), &notes);
-  AppendNotes(kChecklistOptionTable, ChecklistOptions(), &notes);
-  AppendNotes(kFieldNotesTable, FieldNotes(), &notes);
+  AppendNotes(TranslateDiagnosisRows(), DiagnoseOptions(), &notes);
+  TranslateOptions usual;
+  ForNestedTables(&usual, [&notes](const auto& table, const auto* nested) {
+    AppendNotes(table, *nested, &notes);
+  });
   AppendCurveNotes(&notes);
   return EachOnce(notes);
 }

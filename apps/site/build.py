@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Makes the site: the project's pages, the gallery, notebooks and the references as one folder of HTML.
 
-    build.py --command LYREFIT --reference FOLDER --parts FOLDER --out FOLDER
+    build.py --command LYREFIT --reference FOLDER --parts FOLDER --page FILE --out FOLDER
 
 LYREFIT is the command; `import lyrefit` must find the module. --reference is the folder in which the target `reference`
-has left its pages and tags.xml. --parts is a folder for what the site is made of, which is emptied, as --out is.
+has left its pages and tags.xml. --page is the page that needs no server, if it is built (cmake/web.sh). --parts is a folder for what the site is made of, which is emptied, as --out is.
 """
 
 import argparse
@@ -19,6 +19,7 @@ import bs4
 
 import gallery
 import made_pages
+import offline_page
 import repository_pages
 import speed
 
@@ -87,7 +88,7 @@ def copy_reference(pages, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--command", type=pathlib.Path, required=True)
-    for name in ("reference", "parts", "out"):
+    for name in ("reference", "parts", "page", "out"):
         parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
     given = parser.parse_args()
     command = given.command.resolve()
@@ -105,6 +106,7 @@ def main():
         sys.exit(f"Sphinx ended with {run.returncode}")
     (given.out / ".buildinfo").unlink(missing_ok=True)  # for Sphinx's next run, of which there is none; differs each time
     write_texts(given.out)
+    offline_page.put(given.page, given.out)
     copy_reference(given.reference / "html", given.out / "cpp")
 
 

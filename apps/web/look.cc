@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/read/read_cell.h"
 #include "lyrefit/read/read_curve_set.h"
+#include "lyrefit/read/read_module.h"
 #include "lyrefit/report/figure.h"
+#include "lyrefit/translate/translate_options.h"
 
 namespace lyrefit {
 namespace {
@@ -76,16 +79,52 @@ ordered_json ColumnsJson(const std::string& file, const ReadOptions& reading) {
   return json;
 }
 
+// A file that is read only beside the others of its cell: the Suns-Voc trace in suns.
+Expected<CurveSet> ReadBeside(const PageRequest& request, const ReadingForm& form) {
+  std::vector<std::string> files;
+  for (const std::string& file : request.files) {
+    if (file != request.file && ReadMeasurement(file, form.reading)) files.push_back(file);
+  }
+  if (files.empty()) return Fail("no file of the same cell");
+  TRY(const CurveSet others, ReadCell(files, form.reading));
+  files.push_back(request.file);
+  TRY(CurveSet set, ReadCell(files, form.reading));
+  const auto own = set.curves.begin() + static_cast<std::ptrdiff_t>(others.curves.size());
+  set.curves.erase(set.curves.begin(), own);
+  TRY(ApplyStated(form, request.file, &set));
+  return set;
+}
+
+// What the sheet of a module says; null for any other file.
+ordered_json ModuleJson(const std::string& file) {
+  TranslateOptions options;
+  const bool module = ReadModule(file, &options).has_value();
+  const Expected<ModuleSheet> sheet = ReadModuleSheet(file);
+  const bool holds = HoldsModule(file).value_or(false);
+  if (!module && !holds) return nullptr;
+  ordered_json json = {{"module", module}, {"sheet", sheet.has_value()}};
+  json["assumptions"] = ordered_json::array();
+  for (const OptionEcho& said : NonDefaults(options, kTranslateOptionTable)) {
+    json["assumptions"].push_back(said.name + ": " + said.value);
+  }
+  if (!module && !sheet) json["error"] = sheet.error().ToString();
+  return json;
+}
+
 }  // namespace
+
+Expected<void> ApplyStated(const ReadingForm& form, const std::string& file, CurveSet* set) {
+  if (form.conditions.irradiance_W_m2 && set->curves.size() > 1) {
+    return Fail(
+        fmt::format("irradiance-Wm2 is for one curve, this measurement has {}", set->curves.size()),
+        file);
+  }
+  return ApplyConditions(form.conditions, set);
+}
 
 Expected<CurveSet> ReadStated(const std::string& file, const ReadingForm& form) {
   TRY(CurveSet set, ReadMeasurement(file, form.reading));
-  if (form.conditions.irradiance_W_m2 && set.curves.size() > 1) {
-    return Fail(
-        fmt::format("irradiance-Wm2 is for one curve, this measurement has {}", set.curves.size()),
-        file);
-  }
-  TRY(ApplyConditions(form.conditions, &set));
+  TRY(ApplyStated(form, file, &set));
   return set;
 }
 
@@ -103,12 +142,18 @@ Expected<ordered_json> LookAt(const PageRequest& request) {
   json["columns"] = ColumnsJson(request.file, form.reading);
   json["curves"] = ordered_json::array();
   json["assumptions"] = ordered_json::array();
-  const Expected<CurveSet> set = ReadStated(request.file, form);
+  Expected<CurveSet> set = ReadStated(request.file, form);
+  if (!set) {
+    if (ordered_json module = ModuleJson(request.file); !module.is_null()) {
+      json.update(module);
+      return json;
+    }
+    if (Expected<CurveSet> beside = ReadBeside(request, form)) set = std::move(beside);
+  }
   if (!set) {
     Error error = set.error();
     if (error.file.empty()) error.file = request.file;
-    json["error"] = error.ToString();
-    json["line"] = error.line;
+    json.update(ErrorJson(error));
     return json;
   }
   json["count"] = set->curves.size();

@@ -10,8 +10,10 @@ namespace {
 using nlohmann::ordered_json;
 
 // Rows that the page needs and no option table has: the index of the curve in a file, the automatic
-// model, and the search bounds.
+// model, the search bounds, the sheet of a module and further curves among the files.
 constexpr char kCurve[] = "curve";
+constexpr char kModule[] = "module";
+constexpr char kWithCurve[] = "with-curve";
 constexpr char kModel[] = "model";
 constexpr char kBounds[] = "bounds";
 constexpr char kAuto[] = "auto";
@@ -21,15 +23,31 @@ void DescribeReading(ordered_json* rows) {
   DescribeTable(kReadOptionTable, ReadOptions(), rows);
 }
 
+// Conditions and reading of one curve.
+void DescribeCurve(ordered_json* rows) {
+  DescribeReading(rows);
+  rows->push_back({{"group", "Reading"},
+                   {"name", kCurve},
+                   {"unit", "INDEX"},
+                   {"doc", "which curve of a file that holds several"},
+                   {"kind", "text"},
+                   {"choices", ordered_json::array()}});
+}
+
+// A choice among the page's files: `kind` is "module", "curves" (several may be chosen).
+void DescribeFile(const char* group, const char* name, const char* kind, const char* doc,
+                  ordered_json* rows) {
+  rows->push_back({{"group", group},
+                   {"name", name},
+                   {"unit", "FILE"},
+                   {"doc", doc},
+                   {"kind", kind},
+                   {"choices", ordered_json::array()}});
+}
+
 ordered_json DescribeFit() {
   ordered_json rows = ordered_json::array();
-  DescribeReading(&rows);
-  rows.push_back({{"group", "Reading"},
-                  {"name", kCurve},
-                  {"unit", "INDEX"},
-                  {"doc", "which curve of a file that holds several"},
-                  {"kind", "text"},
-                  {"choices", ordered_json::array()}});
+  DescribeCurve(&rows);
   DescribeTable(kFitOptionTable, FitOptions(), &rows);
   for (ordered_json& row : rows) {
     if (row["name"] == kModel) row["choices"].push_back(kAuto);
@@ -49,6 +67,44 @@ ordered_json DescribeDiagnose() {
   ordered_json rows = ordered_json::array();
   DescribeReading(&rows);
   DescribeTable(kDiagnoseOptionTable, DiagnoseOptions(), &rows);
+  return rows;
+}
+
+ordered_json DescribeTranslate() {
+  ordered_json rows = ordered_json::array();
+  DescribeCurve(&rows);
+  TranslateOptions usual;
+  DescribeTable(kTranslateOptionTable, usual, &rows);
+  DescribeFile("Field test", kModule, "module",
+               "a file above with the sheet of the module: rating, technology, coefficients; what "
+               "is said here counts before it",
+               &rows);
+  ForNestedTables(&usual, [&rows](const auto& table, const auto* nested) {
+    DescribeTable(table, *nested, &rows);
+  });
+  DescribeFile("Measurement", kWithCurve, "curves",
+               "one or two further curves of the same device under other conditions, for "
+               "procedure 3",
+               &rows);
+  DescribeTable(TranslateDiagnosisRows(), usual.diagnosis, &rows, "Diagnosis");
+  return rows;
+}
+
+ordered_json DescribeCell() {
+  ordered_json rows = ordered_json::array();
+  DescribeReading(&rows);
+  DescribeTable(kCellOptionTable, CellOptions(), &rows);
+  return rows;
+}
+
+ordered_json DescribeSheet() {
+  ordered_json rows = ordered_json::array();
+  DescribeTable(kStatedSheetTable, StatedSheet(), &rows);
+  DescribeFile(
+      "Data sheet", kModule, "module",
+      "a file above that repeats the sheet: PVsyst's .PAN, a row of SAM's library, pvlib's "
+      "JSON; what is said here counts before it",
+      &rows);
   return rows;
 }
 
@@ -101,6 +157,9 @@ Expected<PageRequest> ReadRequest(const std::string& json) {
   };
   request.verb = text("verb");
   request.file = text("file");
+  if (const auto files = asked.find("files"); files != asked.end()) {
+    TRY(request.files, TextsOf("files", *files));
+  }
   const auto options = asked.find("options");
   if (options == asked.end()) return request;
   if (!options->is_object()) return Fail("options: expected an object");
@@ -111,7 +170,21 @@ Expected<PageRequest> ReadRequest(const std::string& json) {
   return request;
 }
 
-ordered_json DescribeForms() { return {{"fit", DescribeFit()}, {"diagnose", DescribeDiagnose()}}; }
+ordered_json ErrorJson(const Error& error) {
+  return {{"error", error.ToString()},
+          {"message", error.message},
+          {"file", error.file},
+          {"line", error.line},
+          {"column", error.column}};
+}
+
+ordered_json DescribeForms() {
+  return {{"fit", DescribeFit()},
+          {"diagnose", DescribeDiagnose()},
+          {"translate", DescribeTranslate()},
+          {"cell", DescribeCell()},
+          {"datasheet", DescribeSheet()}};
+}
 
 Expected<ReadingForm> ReadLookForm(FormTexts form) {
   ReadingForm file;
@@ -154,6 +227,43 @@ Expected<DiagnoseForm> ReadDiagnoseForm(FormTexts form) {
   diagnose.options.threads = 1;
   TRY(CheckNothingLeft(form));
   return diagnose;
+}
+
+Expected<TranslateForm> ReadTranslateForm(FormTexts form) {
+  TranslateForm translate;
+  TRY(ReadReading(&form, &translate.file));
+  TranslateOptions& options = translate.options;
+  TRY(ReadForm(kTranslateOptionTable, &form, &options));
+  Expected<void> read;
+  ForNestedTables(&options, [&](const auto& table, auto* nested) {
+    if (read) read = ReadForm(table, &form, nested);
+  });
+  TRY(std::move(read));
+  TRY(ReadForm(TranslateDiagnosisRows(), &form, &options.diagnosis));
+  options.diagnosis.threads = 1;
+  ShareSeedAndThreads(&options);
+  translate.module = Take(kModule, &form);
+  translate.further = std::move(form[kWithCurve]);
+  form.erase(kWithCurve);
+  TRY(CheckNothingLeft(form));
+  return translate;
+}
+
+Expected<CellForm> ReadCellForm(FormTexts form) {
+  CellForm cell;
+  TRY(ReadReading(&form, &cell.file));
+  TRY(ReadForm(kCellOptionTable, &form, &cell.options));
+  cell.options.threads = 1;
+  TRY(CheckNothingLeft(form));
+  return cell;
+}
+
+Expected<StatedSheet> ReadSheetForm(FormTexts form) {
+  StatedSheet sheet;
+  sheet.file = Take(kModule, &form);
+  TRY(ReadForm(kStatedSheetTable, &form, &sheet));
+  TRY(CheckNothingLeft(form));
+  return sheet;
 }
 
 }  // namespace lyrefit

@@ -53,10 +53,11 @@ std::vector<std::string> ChoicesOf(const OptionRow<Options>& row) {
 }
 
 // Appends {"group", "name", "unit", "doc", "kind", "choices", "default", "lower", "upper"} for
-// every row. "kind": switch, number, text, or list (one line per text).
+// every row. "kind": switch, number, text, or list (one line per text). `group` is the heading of
+// rows before the first heading.
 template <class Options, class Table>
-void DescribeTable(const Table& table, const Options& defaults, nlohmann::ordered_json* rows) {
-  std::string group;
+void DescribeTable(const Table& table, const Options& defaults, nlohmann::ordered_json* rows,
+                   std::string group = "") {
   for (const OptionRow<Options>& row : table) {
     if (row.IsHeading()) group = row.name;
     if (!IsInForm(row)) continue;

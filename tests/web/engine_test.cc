@@ -10,11 +10,16 @@
 #include <vector>
 
 #include "../json_keys.h"
+#include "lyrefit/devices/describe_cell.h"
+#include "lyrefit/devices/device_documents.h"
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/estimate/fit/fit.h"
+#include "lyrefit/read/read_cell.h"
 #include "lyrefit/read/read_curve_set.h"
 #include "lyrefit/report/json.h"
+#include "lyrefit/translate/translate.h"
+#include "lyrefit/translate/translation_documents.h"
 #include "repeats.h"
 #include "temp_folder.h"
 
@@ -35,8 +40,19 @@ using ::testing::Not;
 const std::string kRtc = std::string(LYREFIT_DATA_DIR) + "/rtc_france/curve.csv";
 const std::string kShaded = std::string(LYREFIT_DATA_DIR) + "/diagnosis/shaded_module.csv";
 
-json Ask(const std::string& verb, const std::string& file, const json& options = json::object()) {
-  const json request = {{"verb", verb}, {"file", file}, {"options", options}};
+const std::string kTracer = std::string(LYREFIT_DATA_DIR) + "/formats/head_tracer.csv";
+
+std::vector<std::string> CellFiles() {
+  std::vector<std::string> files;
+  for (const char* name : {"pair", "lit_dark", "suns"}) {
+    files.push_back(std::string(LYREFIT_DATA_DIR) + "/cell/" + name + ".csv");
+  }
+  return files;
+}
+
+json Ask(const std::string& verb, const std::string& file, const json& options = json::object(),
+         const std::vector<std::string>& files = {}) {
+  const json request = {{"verb", verb}, {"file", file}, {"files", files}, {"options", options}};
   return json::parse(lyrefit_run(request.dump().c_str()));
 }
 
@@ -71,6 +87,79 @@ TEST(Engine, DiagnosesAsTheLibraryDoes) {
   EXPECT_EQ(Timeless(answer["report_json"]), Timeless(DiagnosisJson(*diagnosis)));
   ASSERT_FALSE(progress_heard.empty());
   for (const std::string& said : progress_heard) EXPECT_FALSE(json::parse(said)["stage"].empty());
+}
+
+TEST(Engine, TranslatesAsTheLibraryDoes) {
+  SKIP_IF_SANITIZED();
+  const TempFolder folder;
+  const std::string module =
+      folder.Write("sheet.json", R"({"rated_power_W": 250, "alpha_sc_percent_K": 0.05})");
+  const json answer = Ask(
+      "translate", kTracer,
+      {{"module", module}, {"beta", "-0.3%"}, {"to", "800,40"}, {"draws", "200"}, {"seed", "3"}});
+  ASSERT_FALSE(answer.contains("error")) << answer["error"];
+  TranslateOptions options;
+  options.coefficients.beta_percent_K = -0.3;
+  options.target = {800, 40};
+  options.uncertainty.draws = 200;
+  options.diagnosis.seed = 3;
+  options.diagnosis.threads = 1;
+  ShareSeedAndThreads(&options);
+  ASSERT_TRUE(ReadModule(module, &options));
+  const auto report = TranslateCurve(*ReadCurve(kTracer), options);
+  ASSERT_TRUE(report) << report.error().ToString();
+  EXPECT_EQ(Timeless(answer["report_json"]), Timeless(TranslationJson(*report)));
+  EXPECT_EQ(Timeless(answer["report_json"])["field_test"]["rating"]["rated_W"], 250);
+  EXPECT_THAT(answer["csv"].get<std::string>(), HasSubstr("procedure"));
+}
+
+TEST(Engine, TakesFurtherCurvesOfOneDevice) {
+  SKIP_IF_SANITIZED();
+  const TempFolder folder;
+  const std::string dim = folder.Write("dim.csv", "V,I\n0,1\n30,0.9\n36,0.1\n");
+  const auto procedure_3 = [&](const json& further) {
+    return Ask("translate", kTracer,
+               {{"procedures", "iec3"}, {"draws", "0"}, {"with-curve", further}});
+  };
+  EXPECT_THAT(procedure_3({dim, dim, dim})["error"].get<std::string>(),
+              HasSubstr("at most two further curves"));
+  EXPECT_THAT(procedure_3({folder.Path("none.csv")})["error"].get<std::string>(),
+              HasSubstr("none.csv"));
+}
+
+TEST(Engine, AllFilesAreOneCell) {
+  const json answer = Ask("cell", "", {{"hysteresis", "0.7"}}, CellFiles());
+  ASSERT_FALSE(answer.contains("error")) << answer["error"];
+  CellOptions options;
+  options.hysteresis = 0.7;
+  options.threads = 1;
+  const auto report = DescribeCell(*ReadCell(CellFiles()), options);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(Timeless(answer["report_json"]), Timeless(CellJson(*report)));
+  EXPECT_EQ(answer["name"], "pair + lit_dark + suns");
+  EXPECT_TRUE(answer["usable"].get<bool>());
+  EXPECT_THAT(Ask("cell", "")["error"].get<std::string>(), HasSubstr("expected the names"));
+  EXPECT_THAT(Ask("cell", "", {{"irradiance-Wm2", "900"}}, CellFiles())["error"].get<std::string>(),
+              HasSubstr("irradiance-Wm2 is for one curve, this measurement has 4"));
+}
+
+TEST(Engine, ADataSheetNeedsNoFile) {
+  const json said = {{"isc", "9.05"},    {"voc", "37.8"},    {"imp", "8.58"}, {"vmp", "30.3"},
+                     {"alpha", "0.06%"}, {"beta", "-0.31%"}, {"cells", "60"}, {"exact", "yes"}};
+  const json answer = Ask("datasheet", "", said);
+  ASSERT_FALSE(answer.contains("error")) << answer["error"];
+  DataSheet sheet;
+  sheet.values = {9.05, 37.8, 8.58, 30.3, 0.06e-2 * 9.05, -0.31e-2 * 37.8};
+  sheet.cells_in_series = 60;
+  const auto fit = FitDataSheet(sheet);
+  ASSERT_TRUE(fit);
+  const json record = Timeless(answer["report_json"]), expected = Timeless(DataSheetJson(*fit));
+  EXPECT_EQ(record["family"]["picked"]["n"], record["parameters"]["n"]["value"]);
+  EXPECT_NEAR(record["parameters"]["n"]["value"].get<double>(),
+              expected["parameters"]["n"]["value"].get<double>(), 1e-9);
+  EXPECT_EQ(json::parse(answer["pvlib_json"].get<std::string>())["function"], "calcparams_desoto");
+  const json missing = Ask("datasheet", "", {{"isc", "9.05"}});
+  EXPECT_THAT(missing["message"].get<std::string>(), HasSubstr("--voc is required"));
 }
 
 TEST(Engine, PagesNeedNoGnuplot) {
@@ -139,12 +228,23 @@ TEST(Engine, FormsAreTheOptionTables) {
   for (const char* name : {"cells", "base", "effects", "probability", "no-held-out", "plan"}) {
     EXPECT_THAT(diagnose, Contains(name));
   }
+  const std::set<std::string> translate = names(forms["translate"]);
+  for (const char* name : {"cells", "to", "alpha", "rated-W", "irradiance-from", "wind", "operator",
+                           "module", "with-curve", "seed", "base"}) {
+    EXPECT_THAT(translate, Contains(name));
+  }
+  EXPECT_THAT(names(forms["cell"]), Contains("no-fit"));
+  EXPECT_THAT(names(forms["cell"]), Not(Contains("curve")));
+  EXPECT_THAT(names(forms["datasheet"]), Contains("gamma"));
   // Every choice that a form offers is accepted.
-  for (const json& row : forms["fit"]) {
-    for (const json& choice : row["choices"]) {
-      const json answer = Ask("fit", "none.csv", {{row["name"], choice}});
-      EXPECT_THAT(answer["error"].get<std::string>(), HasSubstr("none.csv")) << row["name"];
-      EXPECT_THAT(answer["error"].get<std::string>(), Not(HasSubstr("expected one of")));
+  for (const auto& [verb, form] : forms.items()) {
+    if (verb == "datasheet") continue;  // needs no file, and its values first
+    for (const json& row : form) {
+      for (const json& choice : row["choices"]) {
+        const json answer = Ask(verb, "none.csv", {{row["name"], choice}}, {"none.csv"});
+        EXPECT_THAT(answer["error"].get<std::string>(), HasSubstr("none.csv")) << row["name"];
+        EXPECT_THAT(answer["error"].get<std::string>(), Not(HasSubstr("expected one of")));
+      }
     }
   }
 }
@@ -166,6 +266,41 @@ TEST(Engine, ALookKnowsWhatNobodySaid) {
   const std::string file = folder.Write("bare.csv", "V,I\n0,1.5\n0.3,1.4\n0.5,1.0\n0.55,0.2\n");
   EXPECT_TRUE(Ask("look", file)["curves"][0]["cells"].is_null());
   EXPECT_EQ(Ask("look", file, {{"cells", "1"}})["curves"][0]["cells"], 1);
+}
+
+TEST(Engine, ALookKnowsTheSheetOfAModule) {
+  const TempFolder folder;
+  const json sheet = Ask("look", folder.Write("sheet.json", R"({"rated_power_W": 290,
+      "modules_in_series": 20, "beta_oc_percent_K": -0.277})"));
+  EXPECT_FALSE(sheet.contains("error"));
+  EXPECT_TRUE(sheet["module"].get<bool>());
+  EXPECT_FALSE(sheet["sheet"].get<bool>());
+  EXPECT_THAT(sheet["assumptions"], Contains("rated-W: 290"));
+  EXPECT_THAT(sheet["assumptions"], Contains("modules: 20"));
+  const std::string pan = std::string(LYREFIT_DATA_DIR) + "/datasheet/invented.PAN";
+  EXPECT_TRUE(Ask("look", pan)["sheet"].get<bool>());
+  const json of_file = Ask("datasheet", "", {{"module", pan}});
+  EXPECT_EQ(of_file["name"], "Invented I-304 M60");
+  const json library = Ask("look", std::string(LYREFIT_DATA_DIR) + "/datasheet/invented_cec.csv");
+  EXPECT_THAT(library["error"].get<std::string>(), HasSubstr("a library of 2 modules"));
+}
+
+TEST(Engine, ATraceInSunsIsReadBesideTheOthersOfItsCell) {
+  const std::vector<std::string> files = CellFiles();
+  const json alone = Ask("look", files[2]);
+  EXPECT_THAT(alone["message"].get<std::string>(), HasSubstr("(--isc-A)"));
+  const json beside = Ask("look", files[2], json::object(), files);
+  EXPECT_FALSE(beside.contains("error"));
+  ASSERT_EQ(beside["curves"].size(), 1U);
+  EXPECT_EQ(beside["curves"][0]["readings"], 29);
+}
+
+TEST(Engine, AMissingAreaIsAskedForByItsOption) {
+  const TempFolder folder;
+  const std::string file =
+      folder.Write("density.csv", "V (V),J (mA/cm2)\n0,22\n0.5,21\n0.8,12\n0.86,-1\n");
+  EXPECT_THAT(Ask("look", file)["message"].get<std::string>(), HasSubstr("--area-cm2"));
+  EXPECT_FALSE(Ask("look", file, {{"area-cm2", "0.25"}}).contains("error"));
 }
 
 }  // namespace

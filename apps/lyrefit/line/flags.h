@@ -97,7 +97,8 @@ Flag AddRowFlag(VerbLine* verb, const OptionRow<Options>& row, const std::string
       if (!row.Is(OptionTrait::kQuiet)) {
         return IsNumberField<Field>::value ? flag.Within(row.lower, row.upper) : flag;
       }
-      if constexpr (std::is_same_v<Field, int Options::*>) {
+      if constexpr (std::is_same_v<Field, int Options::*> ||
+                    std::is_same_v<Field, std::optional<int> Options::*>) {
         return flag.Between(static_cast<int>(row.lower), static_cast<int>(row.upper));
       } else {
         return flag.Between(row.lower, row.upper);

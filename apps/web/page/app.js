@@ -1,19 +1,18 @@
-// The page: reads files, shows their content, and runs fits and diagnoses.
+// The page: reads files, shows their content, and runs the verbs.
 (() => {
   const kMostBytes = 64 * 2 ** 20;  // limit of the library's reader
-  const kTitles = {fit: 'Fit', diagnose: 'Diagnosis'};
   const element = (id) => document.getElementById(id);
 
   const files = [];                       // {name, bytes, values, look, results, state}
-  const options = {fit: {}, diagnose: {}};  // options for all files
+  const common = {results: {}};           // results of no file alone
+  const options = Object.fromEntries(verbs.names.map((verb) => [verb, {}]));  // for all files
   let chosen = null;
-  let shown = 'fit';  // displayed result of the chosen file
   let forms = null;
   let looker = null;  // reads files while `runner` fits
   let runner = null;
   let queue = [];
   let running = null;
-  let finished = 0;  // number of fits and diagnoses, including failed ones
+  let finished = 0;  // number of runs, including failed ones
   let looking = 0;   // number of files that are being read
 
   function say(id, text) {
@@ -28,55 +27,48 @@
   const isSidecar = (file) => /\.json$/i.test(file.name) &&
       files.some((other) => other !== file && !/\.json$/i.test(other.name) && stem(other.name) === stem(file.name));
 
+  const isModule = (file) => Boolean(file.look?.module || file.look?.sheet);
+  const measurements = () => files.filter((file) => !isSidecar(file) && !isModule(file));
+  const holds = (task, file) => Boolean(task?.files.includes(file));
+
   function stateOf(file) {
     if (isSidecar(file)) return {text: 'says what holds for its table'};
-    if (running?.file === file) return {text: running.verb === 'fit' ? 'is fitted ...' : 'is diagnosed ...'};
-    if (queue.some((task) => task.file === file)) return {text: 'waits'};
+    if (holds(running, file)) return {text: verbs.all[running.verb].runs};
+    if (queue.some((task) => holds(task, file))) return {text: 'waits'};
     const result = file.results[file.latest];
-    if (result?.error) return {text: `${kTitles[file.latest]}: error`, bad: true};
-    if (result) return {text: result.usable ? `${kTitles[file.latest]}: done` : `${kTitles[file.latest]}: not usable`, bad: !result.usable};
+    const title = verbs.all[file.latest]?.title;
+    if (result?.error) return {text: `${title}: error`, bad: true};
+    if (result) return {text: result.usable ? `${title}: done` : `${title}: not usable`, bad: !result.usable};
     if (file.look?.error) return {text: 'cannot be read', bad: true};
     if (!file.look) return {text: 'is read ...'};
+    if (isModule(file)) return {text: 'sheet of a module'};
     const readings = file.look.curves.reduce((sum, curve) => sum + curve.readings, 0);
     return {text: file.look.count > 1 ? `${file.look.count} curves` : `${readings} readings`};
   }
 
+  // The fields that choose among files. A sheet of a module is taken at once, and left with its file.
+  function offerFiles() {
+    const names = (which) => which.map((file) => file.name);
+    const sheets = files.filter((file) => file.look?.sheet);
+    const modules = files.filter((file) => file.look?.module);
+    for (const [verb, fitting] of [['translate', modules], ['datasheet', sheets]]) {
+      const {module, 'with-curve': further} = options[verb];
+      if (module && !names(files).includes(module)) delete options[verb].module;
+      if (further) options[verb]['with-curve'] = further.filter((name) => names(files).includes(name));
+      fileChoices(element(`options-of-${verb}`), {module: names(fitting), curves: names(measurements().filter((file) => file !== chosen))});
+    }
+  }
+
   function listFiles() {
-    const focused = document.activeElement?.closest('#files')?.contains(document.activeElement)
-        ? document.activeElement.dataset.key : null;
-    element('files').replaceChildren(...files.map((file) => {
-      const item = document.createElement('li');
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.className = 'name';
-      button.dataset.key = `name ${file.name}`;
-      button.setAttribute('aria-pressed', String(file === chosen));
-      const name = document.createElement('span');
-      name.textContent = file.name;
-      const {text, bad} = stateOf(file);
-      const state = document.createElement('span');
-      state.className = bad ? 'state bad' : 'state';
-      state.textContent = text;
-      button.append(name, state);
-      button.addEventListener('click', () => choose(file));
-      const remove = document.createElement('button');
-      remove.type = 'button';
-      remove.textContent = 'Remove';
-      remove.dataset.key = `remove ${file.name}`;
-      remove.setAttribute('aria-label', `Remove ${file.name}`);
-      remove.addEventListener('click', () => removeFile(file));
-      item.append(button, remove);
-      return item;
-    }));
-    if (focused) element('files').querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
-    const measurements = files.filter((file) => !isSidecar(file));
-    element('for-all').hidden = measurements.length < 2;
-    element('every-file').hidden = measurements.length < 2;
+    fileView.list(element('files'), files, {state: stateOf, chosen, choose, remove: removeFile});
+    const several = measurements().length > 1;
+    element('for-all').hidden = element('every-file').hidden = !several;
+    offerFiles();
   }
 
   function forget(file) {
-    queue = queue.filter((task) => task.file !== file);
-    if (running?.file === file) runner.stop('was removed');
+    queue = queue.filter((task) => !holds(task, file));
+    if (holds(running, file)) runner.stop('was removed');
     files.splice(files.indexOf(file), 1);
   }
 
@@ -132,42 +124,69 @@
 
   // Content of files ----------------------------------------------------------------------------
 
-  function ownValues(file) {
-    return Object.fromEntries(Object.entries(file.values).filter(([, value]) => value.length > 0));
-  }
-
   async function look(file) {
-    const said = ownValues(file);
+    const said = verbs.ownValues(file);
     file.lookedWith = JSON.stringify(said);
     ++looking;
-    const answer = await looker.run({verb: 'look', file: file.name, options: said});
+    const all = files.filter((each) => !isSidecar(each)).map(({name}) => name);
+    const answer = await looker.run({verb: 'look', file: file.name, files: all, options: said});
     --looking;
     if (!files.includes(file)) return;
+    const first = file.look === null;
     file.look = {curves: [], columns: [], assumptions: [], ...answer};
+    for (const of of [file.results, common.results]) {
+      for (const verb of verbs.names) if (of[verb]?.error && verb !== 'datasheet') delete of[verb];
+    }
+    if (!file.results[file.latest]) file.latest = Object.keys(file.results).at(-1) ?? null;
+    if (first && isModule(file)) takeModule(file);
     listFiles();
-    if (file === chosen) showRead();
+    if (file === chosen) {
+      showRead();
+      results.show();
+    }
+  }
+
+  // The sheet of a module serves the translation of a curve and the data sheet's form.
+  function takeModule(file) {
+    if (file.look.module) options.translate.module ??= file.name;
+    if (file.look.sheet) {
+      options.datasheet.module ??= file.name;
+      openSheet(true);
+    }
+    if (file === chosen && measurements().length > 0) chosen = measurements()[0];
   }
 
   // A field that was filled anew while somebody typed does not tell that it has changed.
   function lookIfChanged() {
-    if (chosen?.look && JSON.stringify(ownValues(chosen)) !== chosen.lookedWith) look(chosen);
+    if (chosen?.look && JSON.stringify(verbs.ownValues(chosen)) !== chosen.lookedWith) look(chosen);
   }
 
   function lookAtAll() {
     for (const file of files) if (!isSidecar(file)) look(file);
   }
 
+  // The field of an option, for a message of this verb; null: it has none.
+  const fieldOf = (verb) => (name) => {
+    const places = verbs.all[verb].files === 'none' ? [] : ['conditions', 'reading'];
+    return [...places, `options-of-${verb}`].map(element).map(
+        (place) => place.querySelector(`[data-name="${CSS.escape(name)}"]`)).find(Boolean) ?? null;
+  };
+
+  const showReadError = () => asked.show(element('read-error'), chosen?.look?.error ? chosen.look : null, chosen, fieldOf('fit'));
+  const results = resultView({common, chosen: () => chosen, fieldOf, showReadError});
+
   function showRead() {
     const file = chosen;
     const here = file !== null && file.look !== null && !isSidecar(file);
-    element('read').hidden = element('work').hidden = !here;
+    element('read').hidden = !here;
+    element('work').hidden = !here || isModule(file);
     if (!here) return;
     const {look: found} = file;
     element('read-title').textContent = `What was read: ${file.name}`;
-    readView.showError(element('read-error'), found.error ? {text: found.error, line: found.line} : null, file);
     found.picture ??= found.picture_html ? reportView.pictureOf(found.picture_html) : null;
     if (element('picture').firstChild !== found.picture) element('picture').replaceChildren(...(found.picture ? [found.picture] : []));
     element('picture').hidden = !found.picture;
+    element('of-curves').hidden = isModule(file);
     readView.fill(element('conditions'), readView.conditionFields(file, forms.fit, () => look(file)));
     readView.fill(element('reading'), readView.readingFields(file, forms.fit, () => look(file)));
     element('columns').replaceChildren(...(found.columns.length > 0 ? [readView.columnTable(found.columns)] : []));
@@ -176,95 +195,84 @@
       item.textContent = sentence;
       return item;
     }));
-    for (const button of element('verbs').querySelectorAll('button')) button.disabled = running !== null;
+    const field = showReadError();
+    if (field && !document.activeElement.matches('input, select, textarea')) asked.goTo(field);
   }
 
   function choose(file) {
     chosen = file;
-    if (file?.latest) shown = file.latest;
     listFiles();
     showRead();
-    showResult();
+    results.show(file?.latest);
   }
 
   // Options of all files ------------------------------------------------------------------------
 
   function showOptions() {
-    const names = {};
-    for (const verb of ['fit', 'diagnose']) {
-      for (const row of forms[verb]) {
-        if (readView.isOwn(row)) continue;
-        const title = verb === 'fit' ? `Fit: ${row.group.toLowerCase()}` : 'Diagnosis';
-        (names[title] ??= {verb, rows: []}).rows.push(row);
-      }
+    for (const verb of verbs.names) {
+      const rows = forms[verb].filter((row) => verbs.all[verb].files === 'none' || !readView.isOwn(row));
+      element(`options-of-${verb}`).replaceChildren(...formGroups(rows, options[verb]));
     }
-    element('options').replaceChildren(...Object.entries(names).map(([title, {verb, rows}]) => {
-      const set = document.createElement('fieldset');
-      const legend = document.createElement('legend');
-      legend.textContent = title;
-      const fields = document.createElement('div');
-      fields.className = 'fields';
-      fields.append(...formFields(rows, options[verb]));
-      set.append(legend, fields);
-      return set;
-    }));
+  }
+
+  function openSheet(open) {
+    element('sheet').hidden = !open;
+    element('open-sheet').setAttribute('aria-expanded', String(open));
   }
 
   // Work ----------------------------------------------------------------------------------------
 
   function begin(verb) {
     const every = element('every').checked && !element('every-file').hidden;
-    const which = every ? files.filter((file) => !isSidecar(file)) : [chosen];
-    queue.push(...which.map((file) => ({verb, file})));
+    const of = {one: () => (every ? measurements() : [chosen]).map((file) => [file]), all: () => [measurements()], none: () => [[]]};
+    queue.push(...of[verbs.all[verb].files]().map((some) => ({verb, files: some})));
     if (!running) next();
   }
 
-  // Options of a verb for a file, without those that the verb does not have.
-  function saidOf(file, verb) {
-    const names = new Set(forms[verb].map((row) => row.name));
-    const own = Object.entries(ownValues(file)).filter(([name]) => names.has(name));
-    return {...options[verb], ...Object.fromEntries(own)};
+  async function answerOf(task) {
+    try {
+      const names = task.files.map(({name}) => name);
+      return await runner.run({verb: task.verb, file: names[0] ?? '', files: names, options: verbs.saidOf(task, forms, options)}, showProgress);
+    } catch (error) {
+      return {error: error.message};
+    }
   }
 
   async function next() {
     running = queue.shift() ?? null;
     showRunning();
     listFiles();
-    showRead();
     if (!running) return;
     const task = running;
     const started = performance.now();
     const clock = setInterval(() => {
       element('seconds').textContent = `${((performance.now() - started) / 1000).toFixed(0)} s`;
     }, 200);
-    const answer = await runner.run(
-        {verb: task.verb, file: task.file.name, options: saidOf(task.file, task.verb)}, showProgress);
+    const answer = await answerOf(task);
     clearInterval(clock);
-    if (!answer.stopped && files.includes(task.file)) {
+    if (!answer.stopped && task.files.every((file) => files.includes(file))) {
       answer.seconds = (performance.now() - started) / 1000;
-      answer.name = stem(task.file.name);
-      task.file.results[task.verb] = answer;
-      task.file.latest = task.verb;
-      if (task.file === chosen) {
-        shown = task.verb;
-        showResult();
-        element('result-title').focus();
-      }
+      answer.name ??= stem(verbs.labelOf(task));
+      const alone = verbs.all[task.verb].files === 'one' ? task.files[0] : null;
+      (alone ?? common).results[task.verb] = answer;
+      if (alone) alone.latest = task.verb;
+      if (!alone || alone === chosen) results.show(task.verb, true);
     }
     if (!answer.stopped) finished += 1;
     next();
   }
 
   function showRunning() {
+    for (const button of document.querySelectorAll('[data-verb]')) button.disabled = running !== null;
     element('running').hidden = running === null;
     if (!running) return;
-    element('stage').textContent = `${running.file.name}: ${running.verb === 'fit' ? 'the fit' : 'the diagnosis'} begins`;
+    element('stage').textContent = `${verbs.labelOf(running)}: begins`;
     element('seconds').textContent = '';
     element('progress').removeAttribute('value');
   }
 
   function showProgress({stage, part}) {
-    const words = `${running.file.name}: ${stage}`;
+    const words = `${verbs.labelOf(running)}: ${stage}`;
     if (element('stage').textContent !== words) element('stage').textContent = words;
     if (part > 0) element('progress').value = Math.min(1, part);
     else element('progress').removeAttribute('value');
@@ -273,39 +281,7 @@
   function cancel() {
     queue = [];
     runner.stop('was cancelled');
-    element('verbs').querySelector('button').focus();
-  }
-
-  // Results -------------------------------------------------------------------------------------
-
-  function showResult() {
-    const results = chosen?.results ?? {};
-    const verbs = Object.keys(kTitles).filter((verb) => results[verb]);
-    element('result').hidden = verbs.length === 0;
-    if (verbs.length === 0) {
-      element('report').replaceChildren();
-      return;
-    }
-    if (!results[shown]) shown = verbs[0];
-    const result = results[shown];
-    element('result-title').textContent = `${kTitles[shown]} of ${result.name}`;
-    element('which').replaceChildren(...(verbs.length < 2 ? [] : verbs.map((verb) => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = kTitles[verb];
-      button.setAttribute('aria-pressed', String(verb === shown));
-      button.addEventListener('click', () => {
-        shown = verb;
-        showResult();
-        element('which').querySelector('[aria-pressed=true]').focus();
-      });
-      return button;
-    })));
-    readView.showError(element('result-error'), result.error ? {text: result.error, line: result.line} : null, chosen);
-    const fine = !result.error;
-    element('downloads').hidden = !fine;
-    say('summary', fine ? `Done in ${result.seconds < 1 ? result.seconds.toFixed(2) : result.seconds.toFixed(1)} s.` : '');
-    element('report').replaceChildren(...(fine ? [reportView.frameOf(result)] : []));
+    (chosen ? element('verbs') : element('sheet')).querySelector('[data-verb]').focus();
   }
 
   // Start ---------------------------------------------------------------------------------------
@@ -352,21 +328,25 @@
       else takePaste(event.clipboardData.getData('text/plain'));
     });
     for (const button of document.querySelectorAll('[data-example]')) {
-      button.addEventListener('click', async () => addAll(await examples(button.dataset.example)));
+      button.addEventListener('click', async () => addAll((await Promise.all(
+          button.dataset.example.split(' ').map(examples))).flat()));
     }
     for (const button of document.querySelectorAll('[data-verb]')) {
       button.addEventListener('click', () => begin(button.dataset.verb));
     }
     for (const button of document.querySelectorAll('[data-save]')) {
-      button.addEventListener('click', () => reportView.save(chosen.results[shown], shown, button.dataset.save));
+      button.addEventListener('click', () => reportView.save(results.here()[results.shown()], results.shown(), button.dataset.save));
     }
+    element('open-sheet').addEventListener('click', () => {
+      openSheet(element('sheet').hidden);
+      if (!element('sheet').hidden) element('sheet').querySelector('input').focus();
+    });
+    addEventListener('input', ({target}) => asked.clear(target.closest('.field') ?? target));
     for (const id of ['conditions', 'reading']) element(id).addEventListener('focusout', lookIfChanged);
     element('print').addEventListener('click', () => element('report').firstChild.contentWindow.print());
     element('cancel').addEventListener('click', cancel);
     element('for-all').addEventListener('click', () => {
-      for (const file of files) {
-        if (file !== chosen && !isSidecar(file)) file.values = {...chosen.values};
-      }
+      for (const file of measurements()) file.values = {...chosen.values};
       lookAtAll();
     });
     element('licences').addEventListener('toggle', async () => {

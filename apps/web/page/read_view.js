@@ -1,31 +1,12 @@
-// Display of a file's content. Defines readView: elements for its forms, its columns and its errors.
+// Display of a file's content. Defines readView: elements for its forms and its columns.
 const readView = (() => {
   const kOwnGroups = ['Conditions', 'Reading'];  // groups of options that are set for each file
   const kMainFields = {
-    cells: {label: 'Cells in series', unit: ''},
-    'temperature-C': {label: 'Cell temperature (°C)', unit: '°C'},
-    'irradiance-Wm2': {label: 'Irradiance (W/m²)', unit: 'W/m²'},
+    cells: {label: 'Cells in series'},
+    'temperature-C': {label: 'Cell temperature (°C)'},
+    'irradiance-Wm2': {},
   };
   const kKnown = {cells: 'cells', 'temperature-C': 'temperature_C', 'irradiance-Wm2': 'irradiance_Wm2'};
-
-  // Shows an error with the line of the file that it refers to.
-  function showError(box, error, file) {
-    box.replaceChildren();
-    box.hidden = !error;
-    if (!error) return;
-    const sentence = document.createElement('strong');
-    sentence.textContent = error.text;
-    box.append(sentence);
-    const line = error.line > 0 && new TextDecoder('utf-8').decode(file.bytes).split('\n')[error.line - 1];
-    if (!line) return;
-    const excerpt = document.createElement('p');
-    excerpt.className = 'excerpt';
-    excerpt.append(`Line ${error.line}: `);
-    const at = document.createElement('mark');
-    at.textContent = line.slice(0, 300).replace(/\r$/, '');
-    excerpt.append(at);
-    box.append(excerpt);
-  }
 
   function conditionFields(file, form, changed) {
     const rows = form.filter((row) => kMainFields[row.name]).map((row) => {
@@ -87,5 +68,5 @@ const readView = (() => {
     if (selected && input?.type === 'text') input.setSelectionRange(...selected);
   }
 
-  return {isOwn: (row) => kOwnGroups.includes(row.group), showError, conditionFields, readingFields, columnTable, fill};
+  return {isOwn: (row) => kOwnGroups.includes(row.group), conditionFields, readingFields, columnTable, fill};
 })();

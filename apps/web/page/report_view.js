@@ -46,14 +46,33 @@ const reportView = (() => {
     json: ['json', 'application/json', (result) => result.report_json],
     csv: ['csv', 'text/csv', (result) => result.csv],
     text: ['txt', 'text/plain', (result) => result.text],
+    pvlib: ['pvlib.json', 'application/json', (result) => result.pvlib_json],
   };
 
   function save(result, verb, what) {
     const [extension, type, make] = kSaves[what];
     const url = URL.createObjectURL(new Blob([make(result)], {type}));
-    lyrefit.save(`${result.name}_${verb}.${extension}`, url);
+    lyrefit.save(`${result.name.replace(/[^\p{L}\p{N}.-]+/gu, '_')}_${verb}.${extension}`, url);
     setTimeout(() => URL.revokeObjectURL(url), 10000);
   }
+
+  // A frame would be cut between the sheets of paper, so the report's elements stand in the page while it is printed.
+  addEventListener('beforeprint', () => {
+    const frame = document.querySelector('#report iframe');
+    if (!frame) return;
+    const paper = document.createElement('div');
+    paper.id = 'paper';
+    frame.contentWindow.dispatchEvent(new Event('beforeprint'));  // charts in the light theme
+    paper.append(...frame.contentDocument.body.cloneNode(true).children);
+    frame.contentWindow.dispatchEvent(new Event('afterprint'));
+    for (const script of paper.querySelectorAll('script')) script.remove();
+    document.body.append(paper);
+    document.body.classList.add('on-paper');
+  });
+  addEventListener('afterprint', () => {
+    document.getElementById('paper')?.remove();
+    document.body.classList.remove('on-paper');
+  });
 
   return {frameOf, pictureOf, followTheme, save};
 })();

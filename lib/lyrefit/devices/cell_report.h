@@ -269,6 +269,15 @@ struct CellReport {
 
   // Resistance times area in ohm cm2; NaN without an area.
   double PerArea(double ohm) const { return ohm * area_cm2; }
+  // Whether one of the fits is usable, or none was asked for.
+  bool Usable() const {
+    bool fitted = false, usable = false;
+    for (const CellSweep& sweep : sweeps) {
+      fitted = fitted || sweep.fit.has_value();
+      usable = usable || (sweep.fit && sweep.fit->usable);
+    }
+    return usable || !fitted;
+  }
 };
 
 }  // namespace lyrefit

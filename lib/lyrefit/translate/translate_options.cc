@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/base/file.h"
@@ -69,6 +71,25 @@ Expected<void> TakeSheet(const std::string& file, TranslateOptions* options) {
 }
 
 }  // namespace
+
+const std::vector<OptionRow<DiagnoseOptions>>& TranslateDiagnosisRows() {
+  static const auto* const rows = [] {
+    constexpr const char* kNames[] = {"base", "noise", "effects", "seed", "threads"};
+    auto* chosen = new std::vector<OptionRow<DiagnoseOptions>>();
+    for (const char* name : kNames) {
+      std::copy_if(std::begin(kDiagnoseOptionTable), std::end(kDiagnoseOptionTable),
+                   std::back_inserter(*chosen),
+                   [name](const auto& row) { return row.name == std::string(name); });
+    }
+    return chosen;
+  }();
+  return *rows;
+}
+
+void ShareSeedAndThreads(TranslateOptions* options) {
+  options->uncertainty.seed = options->diagnosis.seed;
+  options->uncertainty.threads = options->diagnosis.threads;
+}
 
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options) {
   TRY(const bool other, HoldsModule(path));

@@ -82,6 +82,22 @@ inline constexpr OptionRow<TranslateOptions> kTranslateOptionTable[] = {
      NestedOptions<&TranslateOptions::diagnosis, kDiagnoseOptionTable>()},
 };
 
+// Calls see(table, options) for the tables of the nested options, except the diagnosis.
+template <class See>
+void ForNestedTables(TranslateOptions* options, const See& see) {
+  see(kCoefficientTable, &options->coefficients);
+  see(kFieldTestOptionTable, &options->field_test);
+  see(kUncertaintyOptionTable, &options->uncertainty);
+  see(kChecklistOptionTable, &options->checklist);
+  see(kFieldNotesTable, &options->notes);
+}
+
+// The options of the diagnosis that precedes a translation.
+const std::vector<OptionRow<DiagnoseOptions>>& TranslateDiagnosisRows();
+
+// The uncertainties draw with the seed and the threads of the diagnosis.
+void ShareSeedAndThreads(TranslateOptions* options);
+
 // Reads a module's data sheet from JSON: rated_power_W, gamma_pmp_percent_K, technology,
 // modules_in_series, and the coefficients of ReadCoefficients; or from a .PAN file or a row of SAM's
 // library of modules (ReadModuleSheet), without modules_in_series. Options that are set already are

@@ -20,7 +20,7 @@ struct BatchRequest {
   ConditionOptions conditions;
   std::vector<std::string> reference_inputs;
   ReferenceOptions reference;
-  std::string plan;  // file, or "neighbours"; empty: no comparison
+  std::string plan;                            // file, or "neighbours"; empty: no comparison
   std::shared_ptr<const PlantPlan> read_plan;  // of the file
   DeviceLayout layout;                         // by the sheet of the module
   bool override = false;

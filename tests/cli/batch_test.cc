@@ -192,7 +192,7 @@ TEST_F(BatchConditions, FillInWhatNoFileStates) {
   const auto rows = Rows("--temperature-C 20");
   EXPECT_EQ(rows[0]["temperature_C"], 49.8);
   EXPECT_THAT(rows[0]["remark"].get<std::string>(), HasSubstr("49.8 C in line 1 counts, not the 20 "
-                                                             "C given (--override)"));
+                                                              "C given (--override)"));
   EXPECT_EQ(rows[1]["temperature_C"], 20);
   EXPECT_TRUE(rows[1]["remark"].is_null());
 }
@@ -208,7 +208,8 @@ TEST_F(BatchConditions, CellsComeFromThePlanElseTheSheet) {
   const std::string sheet = folder_.Write("m.json", R"({"cells_in_series": 30,
       "bypass_diodes": 3, "modules_in_series": 2})");
   const std::string plan = folder_.Write("p.csv", "id,modules_in_series\ninv/b,3\n");
-  const auto rows = Rows("--module '" + sheet + "' --plan '" + plan + "' --task diagnose "
+  const auto rows = Rows("--module '" + sheet + "' --plan '" + plan +
+                         "' --task diagnose "
                          "--effects clip");
   EXPECT_EQ(rows[0]["cells_in_series"], 60);
   EXPECT_EQ(rows[0]["remark"], "60 cells and 6 bypass diodes: 2 modules of 30 cells, m.json");

@@ -78,7 +78,8 @@ TEST(ApplyConditionsTest, FillsOnlyWhatIsNotStatedUnlessItReplaces) {
 
 TEST(ApplyConditionsTest, NamesKeysAndColumns) {
   const TempFolder folder;
-  const std::string path = folder.Write("a.csv", "V,I,G\n0,8,900\n10,7.9,900\n20,7,900\n30,0,900\n");
+  const std::string path =
+      folder.Write("a.csv", "V,I,G\n0,8,900\n10,7.9,900\n20,7,900\n30,0,900\n");
   folder.Write("a.json", R"({"cell_temperature_C": 49.8, "bypass_diodes": 3})");
   const auto read = ReadCurve(path);
   ASSERT_TRUE(read) << read.error().ToString();

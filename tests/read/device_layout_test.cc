@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "error_of.h"
 #include "temp_folder.h"
 
@@ -74,6 +77,19 @@ TEST(ReadDeviceLayoutTest, ListsTheKeysWhereOneIsWrong) {
                     HasSubstr("cells_in_series, bypass_diodes, modules_in_series, rated_power_W")));
   EXPECT_THAT(MessageOf(ReadDeviceLayout(folder.Write("n.json", R"({"bypass_diodes": 0})"))),
               HasSubstr("a number from 1 up in \"bypass_diodes\""));
+}
+
+TEST(ReadDeviceLayoutTest, ThePageOfBatchHasEveryKey) {
+  const TempFolder folder;
+  const std::string message = MessageOf(ReadDeviceLayout(folder.Write("m.json", R"({"x": 1})")));
+  const std::string page = FileText(LYREFIT_DATA_DIR "/../apps/lyrefit/verbs/batch.md");
+  std::istringstream keys(message.substr(message.find('(') + 1));
+  int count = 0;
+  for (std::string key; keys >> key && key != "in"; ++count) {
+    key = key.substr(0, key.find_first_of(",)"));
+    EXPECT_THAT(page, HasSubstr("`" + key + "`"));
+  }
+  EXPECT_EQ(count, 24) << message;
 }
 
 TEST(ReadDeviceLayoutTest, ACurveIsNoSheet) {

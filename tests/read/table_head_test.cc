@@ -83,12 +83,12 @@ TEST(ReadHeadLineTest, TakesModulesInFourLanguages) {
 }
 
 TEST(ReadHeadLineTest, MakesTheCellsOfAStringOfItsModules) {
-  for (const auto& lines : std::vector<std::vector<const char*>>{
-           {"Modules in series,20", "Cells per module,60"},
-           {"Cells per module,60", "Modules in series,20"},
-           {"Number of modules: 20", "Number of cells: 60"},
-           {"Number of cells: 60", "Number of modules: 20"},
-           {"20 modules, 60 cells per module"}}) {
+  for (const auto& lines :
+       std::vector<std::vector<const char*>>{{"Modules in series,20", "Cells per module,60"},
+                                             {"Cells per module,60", "Modules in series,20"},
+                                             {"Number of modules: 20", "Number of cells: 60"},
+                                             {"Number of cells: 60", "Number of modules: 20"},
+                                             {"20 modules, 60 cells per module"}}) {
     const TableHead head = HeadOf(lines);
     EXPECT_EQ(head.said.cells_in_series.value_or(0), 1200) << lines.front();
     EXPECT_THAT(SentencesOf(head.assumptions),

@@ -56,24 +56,25 @@ struct GivenCondition {
 bool Counts(const GivenCondition& one, bool replaces, const std::string& name, IvCurve* curve) {
   const bool differs = !one.stated_in->empty() && one.given != one.stated;
   if (differs && !replaces) {
-    curve->assumptions.emplace_back(
-        fmt::format("{}{} in {} counts, not the {} given (--override)", name, one.stated,
-                    *one.stated_in, one.given),
-        one.about);
+    curve->assumptions.emplace_back(fmt::format("{}{} in {} counts, not the {} given (--override)",
+                                                name, one.stated, *one.stated_in, one.given),
+                                    one.about);
     return false;
   }
   Forget(one.about, &curve->assumptions);
   if (differs) {
-    curve->assumptions.emplace_back(fmt::format("{}{} given, instead of {} in {}", name, one.given,
-                                                one.stated, *one.stated_in),
-                                    one.about);
+    curve->assumptions.emplace_back(
+        fmt::format("{}{} given, instead of {} in {}", name, one.given, one.stated, *one.stated_in),
+        one.about);
   }
   one.stated_in->clear();
   return true;
 }
 
 std::string CelsiusText(double celsius) { return fmt::format("{:.6g} C", celsius); }
-std::string LightText(double irradiance_W_m2) { return fmt::format("{:.6g} W/m2", irradiance_W_m2); }
+std::string LightText(double irradiance_W_m2) {
+  return fmt::format("{:.6g} W/m2", irradiance_W_m2);
+}
 
 // `name`: what begins the sentences about the curve.
 Expected<void> ApplyNamed(const ConditionOptions& stated, const std::string& name, IvCurve* curve) {
@@ -89,9 +90,8 @@ Expected<void> ApplyNamed(const ConditionOptions& stated, const std::string& nam
       counts({About::kTechnology, stated.technology, notes.technology, &in.technology})) {
     notes.technology = stated.technology;
   }
-  if (stated.cells &&
-      counts({About::kCells, Plural(*stated.cells, "cell"), Plural(at.cells_in_series, "cell"),
-              &in.cells})) {
+  if (stated.cells && counts({About::kCells, Plural(*stated.cells, "cell"),
+                              Plural(at.cells_in_series, "cell"), &in.cells})) {
     at.cells_in_series = *stated.cells;
     curve->cells_known = true;
   }
@@ -106,9 +106,8 @@ Expected<void> ApplyNamed(const ConditionOptions& stated, const std::string& nam
     at.cell_temperature_K = *stated.temperature_C + kZeroCelsius_K;
     curve->temperature_known = true;
   }
-  if (stated.irradiance_W_m2 &&
-      counts({About::kIrradiance, LightText(*stated.irradiance_W_m2), LightText(at.irradiance_W_m2),
-              &in.irradiance})) {
+  if (stated.irradiance_W_m2 && counts({About::kIrradiance, LightText(*stated.irradiance_W_m2),
+                                        LightText(at.irradiance_W_m2), &in.irradiance})) {
     at.irradiance_W_m2 = *stated.irradiance_W_m2;
     curve->irradiance_known = true;
   }

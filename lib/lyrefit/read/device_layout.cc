@@ -18,15 +18,34 @@ namespace {
 constexpr std::uintmax_t kLargestSheet = 1U << 20;
 
 // All keys of a sheet, as apps/lyrefit/verbs/batch.md describes them; second names of a key last.
-constexpr const char* kKeys[] = {
-    "name", "technology", "cells_in_series", "bypass_diodes", "modules_in_series", "rated_power_W",
-    "short_circuit_current_A", "open_circuit_voltage_V", "max_power_current_A",
-    "max_power_voltage_V", "alpha_sc_A_K", "alpha_sc_percent_K", "beta_oc_V_K", "beta_oc_percent_K",
-    "gamma_pmp_percent_K", "kappa_ohm_K", "resistance_series_ohm", "B1", "B2", "epsilon_V",
-    "EgRef_eV", "dEgdT_1_K", "mu_gamma_1_K", "remark"};
-constexpr const char* kSecondNames[] = {
-    "N_s", "alpha_sc", "alpha_Isc_A_per_K", "beta_oc", "beta_voc", "beta_Voc_V_per_K",
-    "b1",  "b2",       "EgRef",             "dEgdT",   "mu_gamma", "coefficients"};
+constexpr const char* kKeys[] = {"name",
+                                 "technology",
+                                 "cells_in_series",
+                                 "bypass_diodes",
+                                 "modules_in_series",
+                                 "rated_power_W",
+                                 "short_circuit_current_A",
+                                 "open_circuit_voltage_V",
+                                 "max_power_current_A",
+                                 "max_power_voltage_V",
+                                 "alpha_sc_A_K",
+                                 "alpha_sc_percent_K",
+                                 "beta_oc_V_K",
+                                 "beta_oc_percent_K",
+                                 "gamma_pmp_percent_K",
+                                 "kappa_ohm_K",
+                                 "resistance_series_ohm",
+                                 "B1",
+                                 "B2",
+                                 "epsilon_V",
+                                 "EgRef_eV",
+                                 "dEgdT_1_K",
+                                 "mu_gamma_1_K",
+                                 "remark"};
+constexpr const char* kSecondNames[] = {"N_s",     "alpha_sc", "alpha_Isc_A_per_K",
+                                        "beta_oc", "beta_voc", "beta_Voc_V_per_K",
+                                        "b1",      "b2",       "EgRef",
+                                        "dEgdT",   "mu_gamma", "coefficients"};
 
 bool IsKey(const std::string& key) {
   const auto is = [&key](const char* known) { return key == known; };
@@ -57,8 +76,8 @@ Expected<ModuleJson> ReadModuleJson(const std::string& file) {
   const JsonFields fields(module.json, module.text, file);
   for (const auto& [key, value] : module.json.items()) {
     if (IsKey(key)) continue;
-    return fields.Refuse(key, fmt::format("no value but those of a module's sheet ({})",
-                                          fmt::join(kKeys, ", ")));
+    return fields.Refuse(
+        key, fmt::format("no value but those of a module's sheet ({})", fmt::join(kKeys, ", ")));
   }
   return module;
 }

@@ -113,9 +113,9 @@ std::optional<int> AsCount(const Statement& statement, int most) {
 
 // Modules in series. One module alone has a number too, "Module number: 7".
 std::optional<int> AsModules(const Statement& statement) {
-  static const std::set<std::string> kWords = {
-      "connected", "count", "in",  "module", "modules", "n",      "no",    "num",
-      "number",    "of",    "nos", "per",    "pv",      "series", "string"};
+  static const std::set<std::string> kWords = {"connected", "count", "in",  "module", "modules",
+                                               "n",         "no",    "num", "number", "of",
+                                               "nos",       "per",   "pv",  "series", "string"};
   const bool several = HasAny(statement, {"modules"});
   const bool counted = HasAny(statement, {"in", "of", "per"}) &&
                        HasAny(statement, {"series", "number", "string"}) &&
@@ -125,9 +125,8 @@ std::optional<int> AsModules(const Statement& statement) {
 }
 
 std::optional<int> AsCellsOfAModule(const Statement& statement) {
-  static const std::set<std::string> kWords = {"a",      "cells",  "in",    "module", "modules",
-                                               "number", "of",     "panel", "per",    "pv",
-                                               "series", "solar"};
+  static const std::set<std::string> kWords = {"a",  "cells", "in",  "module", "modules", "number",
+                                               "of", "panel", "per", "pv",     "series",  "solar"};
   const bool named = HasAny(statement, {"cells"}) && HasAny(statement, {"per"}) &&
                      HasAny(statement, {"module", "panel"});
   if (!named || !HasOnly(statement, kWords)) return std::nullopt;
@@ -217,11 +216,10 @@ void SettleModules(TableHead* head) {
   cells = modules.value_or(1) * *of_module;
   said->stated_in.cells = head->module_cells_in;
   Forget(About::kCells, &head->assumptions);
-  head->assumptions.emplace_back(
-      fmt::format("cells in series {}: {} of {} taken from {}", *cells,
-                  Plural(modules.value_or(1), "module"), Plural(*of_module, "cell"),
-                  head->module_cells_in),
-      About::kCells);
+  head->assumptions.emplace_back(fmt::format("cells in series {}: {} of {} taken from {}", *cells,
+                                             Plural(modules.value_or(1), "module"),
+                                             Plural(*of_module, "cell"), head->module_cells_in),
+                                 About::kCells);
 }
 
 bool TakeModules(const Statement& statement, const std::string& source, TableHead* head) {

@@ -249,8 +249,7 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head};
   ReadLine(&state, TrimMarks(line));
-  if (state.bare_temperature &&
-      TakeTemperatureBesideLight(*state.bare_temperature, source, head)) {
+  if (state.bare_temperature && TakeTemperatureBesideLight(*state.bare_temperature, source, head)) {
     state.understood = true;
   }
   if (!state.holds_number) TakeColumnNames(line, &head->column_names);

@@ -55,11 +55,10 @@ struct DataTraits {
   int temperature_levels = 1;  // of all curves
   bool module = false;         // more than one cell in series
   int substrings = 0;          // number of bypass groups; 0: none, or unknown
-  bool bypass_known =
-      false;                // the number of bypass groups is stated; else that of a string is usual
-  int cells = 1;            // used in the computation
-  int stated_cells = 1;     // as stated, or a reader's default
-  bool cells_known = true;  // the number of cells is stated
+  bool bypass_known = false;   // that number is stated; else a string has the usual one
+  int cells = 1;               // used in the computation
+  int stated_cells = 1;        // as stated, or a reader's default
+  bool cells_known = true;     // the number of cells is stated
   bool bandgap_known = true;   // the band gap is stated
   bool tempco_known = true;    // the temperature coefficient of Isc is stated
   double lowest_voltage = 0;   // per cell

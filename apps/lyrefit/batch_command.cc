@@ -154,15 +154,14 @@ Expected<void> CheckRequest(const VerbLine& verb, const BatchRequest& request) {
 }
 
 // Reads the plan and how the modules of the sheet are built.
-Expected<void> ReadLayouts(const VerbLine& verb, BatchRequest* request) {
+Expected<void> ReadLayouts(BatchRequest* request) {
   if (!request->plan.empty() && request->plan != kNeighboursAlone) {
     TRY(request->read_plan, ReadPlantPlan(request->plan));
   }
   if (request->module_file.empty() || request->task == kTrendTask) return {};
   TRY(request->layout, ReadDeviceLayout(request->module_file));
-  if (verb.Given("--modules")) {
-    request->layout.modules_in_series = request->translate.field_test.modules;
-  }
+  const int modules = request->translate.field_test.modules;
+  if (modules > 0) request->layout.modules_in_series = modules;
   return {};
 }
 
@@ -239,7 +238,7 @@ int ExitCode(const BatchSummary& summary) {
 
 Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   TRY(CheckRequest(verb, request));
-  TRY(ReadLayouts(verb, &request));
+  TRY(ReadLayouts(&request));
   const BatchOptions options = Settled(verb, request);
   BatchReadOptions reading = request.reading;
   reading.shard = options.shard;

@@ -17,6 +17,8 @@ bool HasAny(const Statement& statement, std::initializer_list<const char*> words
                      [&](const char* word) { return statement.words.count(word) != 0; });
 }
 
+std::string PlaceOf(const std::string& source) { return source.substr(0, source.find(" '")); }
+
 namespace {
 
 // Whether the statement concerns another plane, a limit or a standard condition.
@@ -174,9 +176,6 @@ std::optional<double> AsCompliance(const Statement& statement, std::optional<dou
   if (!value || !(*value > 0)) return std::nullopt;
   return value;
 }
-
-// "line 9" of "line 9 'Cell temperature: 49.8 C'"
-std::string PlaceOf(const std::string& source) { return source.substr(0, source.find(" '")); }
 
 // Records a value of a quantity that has none yet. False if there is no value or an earlier one.
 template <class T>

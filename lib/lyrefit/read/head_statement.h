@@ -19,6 +19,9 @@ struct Statement {
   double value = 0;
 };
 
+// "line 9" of the source "line 9 'Cell temperature: 49.8 C'".
+std::string PlaceOf(const std::string& source);
+
 // Whether the name of the statement has one of these words.
 bool HasAny(const Statement& statement, std::initializer_list<const char*> words);
 

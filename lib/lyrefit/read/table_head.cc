@@ -145,7 +145,7 @@ void TakeTechnology(HeadLineState* state, std::string_view text) {
   state->understood = true;
   state->head->assumptions.emplace_back(
       fmt::format("technology {} taken from {}", value, state->source), About::kTechnology);
-  state->head->said.stated_in.technology = state->source.substr(0, state->source.find(" '"));
+  state->head->said.stated_in.technology = PlaceOf(state->source);
 }
 
 void TakeLight(HeadLineState* state, std::string_view text) {
@@ -193,6 +193,14 @@ bool ReadWords(HeadLineState* state, std::string_view text) {
   return std::exchange(state->understood, state->understood || before);
 }
 
+// Reads a field that is a whole statement, "POA 912 W/m2". False if it is none.
+bool ReadStatement(HeadLineState* state, std::string_view field) {
+  const bool before = state->holds_number;
+  const bool understood = ReadWords(state, field);
+  if (!understood) state->holds_number = before;
+  return understood;
+}
+
 void ReadFields(HeadLineState* state, const Fields& fields) {
   std::string label;
   std::vector<Quantity> quantities;
@@ -204,7 +212,7 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
       if (!TakeCount(state, *quantity)) quantities.push_back(*quantity);
     } else if (const auto list = AsList(field); !list.empty()) {
       quantities.insert(quantities.end(), list.begin(), list.end());
-    } else if (!ReadWords(state, field)) {
+    } else if (!ReadStatement(state, field)) {
       if (IsDate(label) && quantities.empty()) TakeDate(state, field);
       if (IsTechnology(label) && quantities.empty()) TakeTechnology(state, field);
       if (NamesLight(label) && quantities.empty()) TakeLight(state, field);

@@ -255,7 +255,7 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
   const std::string half_width = HalfWidth(text);
   const std::string_view line = half_width;
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
-  HeadLineState state{source, head};
+  HeadLineState state{source, head, false, false, {}};
   ReadLine(&state, TrimMarks(line));
   if (state.bare_temperature && TakeTemperatureBesideLight(*state.bare_temperature, source, head)) {
     state.understood = true;

@@ -95,6 +95,10 @@ void DeclareBatch(VerbLine* verb, BatchRequest* request) {
       .Group("Against the plan");
   AddTableFlags(verb, kReadOptionTable, &request->reading.reading);
   AddTableFlags(verb, kConditionOptionTable, &request->conditions);
+  verb->AddSwitch("--override", &request->override,
+                  "the conditions given here replace what the files state; else they fill in what "
+                  "no file states")
+      .Group("Conditions");
   for (const BatchTask& task : BatchTasks()) task.declare(verb, request);
   verb->AddOption("--html", &request->html_file, "the plant on one page, HTML").Writes();
   verb->AddOption("--plant", &request->plant, "its name on that page; else that of the input")
@@ -139,7 +143,7 @@ Expected<void> CheckRequest(const VerbLine& verb, const BatchRequest& request) {
   for (const BatchTask& task : BatchTasks()) {
     if (task.name == request.task || std::string(task.name) == own.takes) continue;
     const std::string flag = task.given(verb);
-    if (!flag.empty() && flag != own.takes_flag) return Fail(flag + " is for --task " + task.name);
+    if (!flag.empty()) return Fail(flag + " is for --task " + task.name);
   }
   if (!request.html_file.empty() && request.options.shard.of > 1) {
     return Fail("--html is for a whole run: give it to merge");
@@ -149,41 +153,65 @@ Expected<void> CheckRequest(const VerbLine& verb, const BatchRequest& request) {
   return verb.CheckFiles();
 }
 
+// Reads the plan and how the modules of the sheet are built.
+Expected<void> ReadLayouts(BatchRequest* request) {
+  if (!request->plan.empty() && request->plan != kNeighboursAlone) {
+    TRY(request->read_plan, ReadPlantPlan(request->plan));
+  }
+  if (request->module_file.empty() || request->task == kTrendTask) return {};
+  TRY(request->layout, ReadDeviceLayout(request->module_file));
+  const int modules = request->translate.field_test.modules;
+  if (modules > 0) request->layout.modules_in_series = modules;
+  return {};
+}
+
+// Adds what flags, plan and sheet say to the curve of an id.
+Expected<void> Prepare(const BatchRequest& request, const std::string& id, IvCurve* curve) {
+  ConditionOptions conditions = Filling(request);
+  const bool dark = curve->irradiance_known && curve->conditions.irradiance_W_m2 <= 0;
+  // The light of a cell is that of its lit sweeps.
+  if (request.task == kCellTask && dark) conditions.irradiance_W_m2.reset();
+  TRY(ApplyConditionFlags(conditions, curve));
+  const PlannedString* const line = request.read_plan ? request.read_plan->Find(id) : nullptr;
+  FillLayout(line == nullptr ? request.layout : LayoutOf(*line, request.layout), curve);
+  return {};
+}
+
 BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
   BatchOptions options = request.options;
   if (request.resume) options.start = BatchStart::kResume;
   if (verb.Forced()) options.start = BatchStart::kReplace;
-  const bool cells = request.task == kCellTask;
-  options.prepare = [conditions = request.conditions, cells](IvCurve* curve) {
-    ConditionOptions own = conditions;
-    const bool dark = curve->irradiance_known && curve->conditions.irradiance_W_m2 <= 0;
-    if (cells && dark) own.irradiance_W_m2.reset();  // it is the light of the lit sweeps
-    return ApplyConditionFlags(own, curve);
+  options.prepare = [request](const std::string& id, IvCurve* curve) {
+    return Prepare(request, id, curve);
   };
   options.reading = NonDefaults(request.reading.reading, kReadOptionTable);
   AppendNonDefaults(request.conditions, kConditionOptionTable, &options.reading);
+  if (request.override) options.reading.push_back({"override", "true", ""});
+  const DeviceLayout& layout = request.layout;
+  if (!layout.source.empty()) {
+    options.reading.push_back(
+        {"module",
+         fmt::format("{}, {}, {}", layout.module_cells.value_or(0),
+                     layout.module_diodes.value_or(0), layout.modules_in_series.value_or(0)),
+         ""});
+  }
   return options;
 }
 
 // The task with the comparison with the plan, if one is given.
-Expected<BatchTaskType> WithPlanOf(const BatchRequest& request, BatchTaskType task) {
-  if (request.plan.empty()) return task;
-  std::shared_ptr<const PlantPlan> plan;
-  if (request.plan != kNeighboursAlone) {
-    TRY(plan, ReadPlantPlan(request.plan));
-  }
-  return WithPlan(std::move(task), std::move(plan));
+BatchTaskType WithPlanOf(const BatchRequest& request, BatchTaskType task) {
+  return request.plan.empty() ? task : WithPlan(std::move(task), request.read_plan);
 }
 
 Expected<BatchTaskType> MakeTask(const VerbLine& verb, const BatchRequest& request) {
   TRY(BatchTaskType alone, FindTask(request.task)->make(verb, request));
-  TRY(BatchTaskType task, WithPlanOf(request, std::move(alone)));
+  BatchTaskType task = WithPlanOf(request, std::move(alone));
   if (request.reference_inputs.empty()) return task;
   BatchReadOptions reading = request.reading;
   reading.shard = {};
   reading.reading.keep_limited = request.task == "diagnose";
   TRY(const auto source, OpenBatch(request.reference_inputs, reading));
-  ConditionOptions module = request.conditions;  // without the conditions of today's sweep
+  ConditionOptions module = Filling(request);  // without the conditions of today's sweep
   module.irradiance_W_m2.reset();
   module.temperature_C.reset();
   TRY(auto sweeps, ReadReferences(source.get(), [module](IvCurve* curve) {
@@ -210,6 +238,7 @@ int ExitCode(const BatchSummary& summary) {
 
 Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   TRY(CheckRequest(verb, request));
+  TRY(ReadLayouts(&request));
   const BatchOptions options = Settled(verb, request);
   BatchReadOptions reading = request.reading;
   reading.shard = options.shard;

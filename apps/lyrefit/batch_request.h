@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct BatchRequest {
   ConditionOptions conditions;
   std::vector<std::string> reference_inputs;
   ReferenceOptions reference;
-  std::string plan;  // file, or "neighbours"; empty: no comparison
+  std::string plan;                            // file, or "neighbours"; empty: no comparison
+  std::shared_ptr<const PlantPlan> read_plan;  // of the file
+  DeviceLayout layout;                         // by the sheet of the module
+  bool override = false;
   FitOptions fit = BatchFitOptions();
   bool auto_model = false;
   std::string bounds = "physical";
@@ -35,6 +39,13 @@ struct BatchRequest {
   std::string module_file;
 };
 
+// The conditions that were given. They fill in what a file does not state, unless --override was.
+inline ConditionOptions Filling(const BatchRequest& request) {
+  ConditionOptions conditions = request.conditions;
+  conditions.replaces = request.override;
+  return conditions;
+}
+
 // A task for each curve, as data: its name for --task, its flags, and the function that creates it
 // from them.
 struct BatchTask {
@@ -43,8 +54,7 @@ struct BatchTask {
   // The first given flag that belongs to this task only; empty: none was given.
   std::string (*given)(const VerbLine& verb);
   Expected<BatchTaskType> (*make)(const VerbLine& verb, const BatchRequest& request);
-  const char* takes = "";       // name of another task, whose flags are accepted too
-  const char* takes_flag = "";  // a flag of another task that is accepted too
+  const char* takes = "";  // name of another task, whose flags are accepted too
 };
 
 // All tasks; defined in batch_tasks.cc.

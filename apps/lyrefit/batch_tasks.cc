@@ -82,9 +82,6 @@ Expected<BatchTaskType> MakeDiagnose(const VerbLine& /*verb*/, const BatchReques
 // Draws of the propagation of uncertainty.
 constexpr char kUncertaintyDraws[] = "--uncertainty-draws";
 
-// A module file, of two tasks; the last of the flags that are looked for.
-constexpr char kModule[] = "--module";
-
 // All rows except the target, which is standard conditions.
 const std::vector<std::string> kTranslateRows = {"procedures",      "key-points",
                                                  "lead-resistance", "rear-irradiance-Wm2",
@@ -112,8 +109,7 @@ std::string GivenFieldTestFlag(const VerbLine& verb) {
     if (!flag.empty()) return flag;
   }
   if (verb.Given(kUncertaintyDraws)) return kUncertaintyDraws;
-  const std::string flag = GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
-  return flag.empty() && verb.Given(kModule) ? kModule : flag;
+  return GivenOf(verb, kUncertaintyOptionTable, usual.uncertainty);
 }
 
 Expected<BatchTaskType> MakeFieldTest(const VerbLine& /*verb*/, const BatchRequest& request) {
@@ -142,7 +138,7 @@ std::string GivenCellFlag(const VerbLine& verb) {
 }
 
 Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& request) {
-  for (const char* const flag : {"--noise", "--reference", "--plan"}) {
+  for (const char* const flag : {"--noise", "--reference", "--plan", "--module"}) {
     if (verb.Given(flag)) return Fail(std::string(flag) + " is not for --task cell");
   }
   return CellTask(request.cell, request.pixels);
@@ -150,7 +146,7 @@ Expected<BatchTaskType> MakeCell(const VerbLine& verb, const BatchRequest& reque
 
 // All rows except the least light, whose flag belongs to a field test, and the threads of one device.
 const std::vector<std::string> kTrendRows = {"reference-days", "false-alarms", "irradiance-drift",
-                                             "temperature-drift", "bypass-diodes"};
+                                             "temperature-drift"};
 constexpr char kOperating[] = "--operating";
 
 void DeclareTrendFlags(VerbLine* verb, BatchRequest* request) {
@@ -179,11 +175,11 @@ Expected<BatchTaskType> MakeTrend(const VerbLine& verb, const BatchRequest& requ
     const TrendSource source =
         request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
     TRY(const NamedParameters module, ReadModuleParameters(request.module_file));
-    TRY(reading.law, SeriesOfModule(module, source, request.trend));
+    TRY(reading.law, SeriesOfModule(module, source, request.conditions.bypass_diodes.value_or(0)));
   } else if (request.operating) {
     return Fail("--operating needs --module: operating points alone do not tell the law");
   }
-  reading.prepare = [conditions = request.conditions](IvCurve* curve) {
+  reading.prepare = [conditions = Filling(request)](IvCurve* curve) {
     return ApplyConditionFlags(conditions, curve);
   };
   return TrendTask(reading, request.trend);
@@ -197,7 +193,7 @@ const std::vector<BatchTask>& BatchTasks() {
       {"diagnose", DeclareDiagnoseFlags, GivenDiagnoseFlag, MakeDiagnose},
       {"field-test", DeclareFieldTestFlags, GivenFieldTestFlag, MakeFieldTest, "diagnose"},
       {"cell", DeclareCellFlags, GivenCellFlag, MakeCell},
-      {"trend", DeclareTrendFlags, GivenTrendFlag, MakeTrend, "", kModule},
+      {"trend", DeclareTrendFlags, GivenTrendFlag, MakeTrend},
   };
   return tasks;
 }

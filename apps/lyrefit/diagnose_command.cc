@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -51,7 +52,8 @@ struct Diagnoses {
 
 void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
   verb->AddOption("CURVE", &request->files,
-                  "files or folders, a measurement each; - for standard input")
+                  "files or folders, a measurement each; - for standard input; beside them the "
+                  "sheet of their module, JSON")
       .ReadsCurves();
   verb->AddSwitch("--together", &request->together,
                   "all files are one measurement: lit and dark, up and down, a family");
@@ -119,6 +121,7 @@ Expected<CurveSet> ReadFlagged(const DiagnoseRequest& request,
                 files.front());
   }
   TRY(ApplyConditionFlags(request.conditions, &set));
+  for (IvCurve& curve : set.curves) FillLayout(request.layout, &curve);
   return set;
 }
 
@@ -186,6 +189,21 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request, const
   });
 }
 
+// Takes the sheet of the module out of the files. Beside it and one file --module does not ask for
+// outliers among sweeps.
+Expected<void> TakeSheet(DiagnoseRequest* request) {
+  std::vector<std::string>& files = request->files;
+  const auto sheet = std::find_if(files.begin(), files.end(), IsModuleSheet);
+  if (sheet == files.end()) return {};
+  TRY(request->layout, ReadDeviceLayout(*sheet));
+  files.erase(sheet);
+  std::error_code error;
+  if (files.size() == 1 && !std::filesystem::is_directory(files.front(), error)) {
+    request->module = false;
+  }
+  return {};
+}
+
 Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
   if (request.list || !request.explain.empty()) {
     TRY(const std::string text,
@@ -195,6 +213,7 @@ Expected<int> RunDiagnose(VerbLine& verb, DiagnoseRequest& request) {
   }
   request.options.extend = !request.extend_file.empty();
   request.reference.threads = request.options.threads;
+  TRY(TakeSheet(&request));
   TRY(CheckRequest(verb, request));
   if (request.module) return RunModule(verb, request);
   if (!request.reference_files.empty()) return RunReferences(verb, request);

@@ -20,7 +20,10 @@ Expected<std::vector<IvCurve>> ReadSweeps(const DiagnoseRequest& request,
   for (const std::string& file : files) {
     TRY(CurveSet set, ReadMeasurementOrInput(file, request.reading));
     TRY(ApplyConditionFlags(conditions, &set));
-    for (IvCurve& curve : set.curves) sweeps.push_back(std::move(curve));
+    for (IvCurve& curve : set.curves) {
+      FillLayout(request.layout, &curve);
+      sweeps.push_back(std::move(curve));
+    }
   }
   return sweeps;
 }
@@ -56,7 +59,8 @@ void AddReferenceFlags(VerbLine* verb, DiagnoseRequest* request) {
       .ReadsCurves()
       .Group(kGroup);
   verb->AddSwitch("--module", &request->module,
-                  "all curves of CURVE are sweeps of one module: find the outliers")
+                  "all curves of CURVE are sweeps of one module: find the outliers; beside one "
+                  "CURVE and a sheet: the sheet is of its module")
       .Group(kGroup);
   AddTableFlags(verb, kReferenceOptionTable, &request->reference);
 }

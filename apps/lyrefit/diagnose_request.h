@@ -7,6 +7,7 @@
 #include "lyrefit/diagnose/diagnose.h"
 #include "lyrefit/diagnose/diagnosis_documents.h"
 #include "lyrefit/diagnose/reference.h"
+#include "lyrefit/read/device_layout.h"
 #include "lyrefit/report/documents.h"
 
 namespace lyrefit {
@@ -21,6 +22,7 @@ struct DiagnoseRequest {
   DiagnoseOptions options;
   std::vector<std::string> reference_files;
   bool module = false;
+  DeviceLayout layout;  // by the sheet of the module among `files`
   ReferenceOptions reference;
   bool list = false;
   std::string explain;

@@ -75,7 +75,7 @@ Expected<TrendReadOptions> ReadingOf(const TrendRequest& request) {
     TRY(const NamedParameters module, ReadModuleParameters(request.module_file));
     const TrendSource source =
         request.operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
-    TRY(reading.law, SeriesOfModule(module, source, request.options));
+    TRY(reading.law, SeriesOfModule(module, source, request.conditions.bypass_diodes.value_or(0)));
   }
   reading.prepare = [conditions = request.conditions](IvCurve* curve) {
     return ApplyConditionFlags(conditions, curve);

@@ -58,7 +58,7 @@ TrendResult FindOne(py::handle sweeps, const py::kwargs& given) {
   if (module) {
     const NamedParameters law = Must(ReadModuleParameters(TextOf("module", *module)));
     const TrendSource source = operating ? TrendSource::kOperatingPoints : TrendSource::kSweeps;
-    reading.law = Must(SeriesOfModule(law, source, options));
+    reading.law = Must(SeriesOfModule(law, source, said.told.bypass_diodes.value_or(0)));
   }
   const std::vector<std::string> files = IsPath(sweeps)
                                              ? std::vector<std::string>{TextOf("sweeps", sweeps)}

@@ -133,5 +133,22 @@ TEST(StringPlan, RefusesAModuleThatNoDiodeDescribes) {
   EXPECT_THAT(MessageOf(part), ::testing::HasSubstr("open_circuit_voltage_V"));
 }
 
+TEST(LayoutOf, TakesThePlanBeforeTheSheet) {
+  PlannedString line;
+  line.modules_in_series = 19;
+  DeviceLayout layout = LayoutOf(line, {60, 2, 20, "module.json"});
+  EXPECT_EQ(layout.modules_in_series, 19);
+  EXPECT_EQ(layout.module_cells, 60);
+  EXPECT_EQ(layout.module_diodes, 2);
+  EXPECT_EQ(layout.source, "plan and module.json");
+  auto module = std::make_shared<PlannedModule>();
+  module->cells_in_series = 72;
+  line.module = module;
+  layout = LayoutOf(line, {60, 2, 20, ""});
+  EXPECT_EQ(layout.module_cells, 72);
+  EXPECT_EQ(layout.module_diodes, 3);
+  EXPECT_EQ(layout.source, "plan");
+}
+
 }  // namespace
 }  // namespace lyrefit

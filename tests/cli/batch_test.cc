@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 
 #include "../batch/strings.h"
 #include "run_app.h"
@@ -161,6 +162,60 @@ TEST_F(BatchCommand, WritesPagesOfStringsThatThePlantsPageLeadsTo) {
   const std::string plant = FileText(folder_.Path("plant.html"));
   EXPECT_THAT(plant, HasSubstr("<a href=\"./out/pages/site/comb0/str0.html\">site/comb0/str0</a>"));
   EXPECT_THAT(plant, HasSubstr("<h1>Elm</h1>"));
+}
+
+// Rows of a batch of two strings, of which one states its temperature.
+class BatchConditions : public testing::Test {
+ protected:
+  std::vector<nlohmann::json> Rows(const std::string& more) {
+    const AppResult done = RunApp("batch '" + folder_.Path("plant") + "' --out '" +
+                                  folder_.Path("out") + "' --force " + more);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    std::istringstream lines(FileText(folder_.Path("out") + "/results.jsonl"));
+    std::vector<nlohmann::json> rows;
+    for (std::string line; std::getline(lines, line);) {
+      const auto row = nlohmann::json::parse(line);
+      if (row.contains("id") && row["id"].is_string()) rows.push_back(row);
+    }
+    EXPECT_EQ(rows.size(), 2U);
+    return rows;
+  }
+  void SetUp() override {
+    const std::string table = FileText(DataFolder("formats") + "/plain.csv");
+    folder_.Write("plant/inv/a.csv", "Cell temperature (C),49.8\n" + table);
+    folder_.Write("plant/inv/b.csv", table);
+  }
+  const TempFolder folder_;
+};
+
+TEST_F(BatchConditions, FillInWhatNoFileStates) {
+  const auto rows = Rows("--temperature-C 20");
+  EXPECT_EQ(rows[0]["temperature_C"], 49.8);
+  EXPECT_THAT(rows[0]["remark"].get<std::string>(), HasSubstr("49.8 C in line 1 counts, not the 20 "
+                                                              "C given (--override)"));
+  EXPECT_EQ(rows[1]["temperature_C"], 20);
+  EXPECT_TRUE(rows[1]["remark"].is_null());
+}
+
+TEST_F(BatchConditions, ReplaceWithOverrideAndSayIt) {
+  const auto rows = Rows("--temperature-C 20 --override");
+  EXPECT_EQ(rows[0]["temperature_C"], 20);
+  EXPECT_EQ(rows[0]["remark"], "20 C given, instead of 49.8 C in line 1");
+  EXPECT_TRUE(rows[1]["remark"].is_null());
+}
+
+TEST_F(BatchConditions, CellsComeFromThePlanElseTheSheet) {
+  const std::string sheet = folder_.Write("m.json", R"({"cells_in_series": 30,
+      "bypass_diodes": 3, "modules_in_series": 2})");
+  const std::string plan = folder_.Write("p.csv", "id,modules_in_series\ninv/b,3\n");
+  const auto rows = Rows("--module '" + sheet + "' --plan '" + plan +
+                         "' --task diagnose "
+                         "--effects clip");
+  EXPECT_EQ(rows[0]["cells_in_series"], 60);
+  EXPECT_EQ(rows[0]["remark"], "60 cells and 6 bypass diodes: 2 modules of 30 cells, m.json");
+  EXPECT_EQ(rows[1]["cells_in_series"], 90);
+  EXPECT_EQ(rows[1]["remark"],
+            "90 cells and 9 bypass diodes: 3 modules of 30 cells, plan and m.json");
 }
 
 TEST_F(BatchCommand, CountsThePixelsOfASubstrate) {

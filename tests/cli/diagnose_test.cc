@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string kVerb = "diagnose '" + DataFolder("rtc_france") + "' ";
@@ -40,6 +41,42 @@ TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
                           "two files are named 'rtc_france'"},
                          {"diagnose --explain nonsense", "--explain: expected one of "},
                      });
+}
+
+// A string of 20 modules of 60 cells with four of its 60 substrings in shade, and its module's sheet.
+class DiagnosedString : public testing::Test {
+ protected:
+  DiagnosedString() {
+    const AppResult made = RunApp(
+        "simulate --set Iph=8.1 --set Is1=5e-8 --set n1=1.1 --set Rs=5.4 --set Rsh=11000 --cells "
+        "1200 --temperature-C 52 --irradiance-Wm2 880 --with shading:d=0.55,w=0.066667 --noise-A "
+        "0.013 --points 100 --out '" +
+        curve_ + "'");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+  }
+  std::string Found(const std::string& more) {
+    const AppResult result = RunApp("diagnose '" + curve_ + "' --no-held-out " + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("partial shading (100 %)"));
+    EXPECT_THAT(result.out, HasSubstr("4 of 60 substrings under 47 %"));
+    return result.out;
+  }
+  const TempFolder folder_;
+  const std::string curve_ = folder_.Path("string.csv");
+};
+
+TEST_F(DiagnosedString, HasTheUsualDiodesWhereNobodyStatesThem) {
+  EXPECT_THAT(Found(""), HasSubstr("--bypass-diodes"));
+}
+
+TEST_F(DiagnosedString, HasTheDiodesOfTheFlagOrOfTheSheet) {
+  EXPECT_THAT(Found("--bypass-diodes 60"), Not(HasSubstr("--bypass-diodes")));
+  const std::string sheet = folder_.Write("m.json", R"({"cells_in_series": 60,
+      "bypass_diodes": 3, "modules_in_series": 20})");
+  for (const char* flag : {"", "--module "}) {
+    EXPECT_THAT(Found(flag + ("'" + sheet + "'")),
+                HasSubstr("60 bypass diodes: 20 modules of 3 bypass diodes, m.json"));
+  }
 }
 
 TEST(DiagnoseVerb, ListsTheEffectsWhereOneIsUnknown) {

@@ -39,6 +39,30 @@ TEST(Verbs, ThatAreNoneNameTheNearest) {
   }
 }
 
+TEST(Verbs, NameTheNearestFlagAndTheDecimalPoint) {
+  const TempFolder folder;
+  folder.Write("plant/inv1/comb1/a.csv", "V,I\n0,1\n1,0\n");
+  for (const auto& [line, says] : {
+           std::pair("fit x.csv --cell 60", "no flag '--cell' of fit; did you mean --cells?"),
+           std::pair("fit x.csv --temperature 50",
+                     "no flag '--temperature' of fit; did you mean --temperature-C?"),
+           std::pair("datasheet -isc 9", "no flag '-isc' of datasheet; did you mean --isc?"),
+           std::pair("diagnose x.csv --bypas-diodes=3",
+                     "no flag '--bypas-diodes' of diagnose; did you mean --bypass-diodes?"),
+           std::pair("datasheet --isc 9,12", "(numbers have a decimal point: 9.12)"),
+           std::pair("fit x.csv --temperature-C 47,3", "(numbers have a decimal point: 47.3)"),
+       }) {
+    const AppResult result = RunApp(line);
+    EXPECT_EQ(result.exit_code, 1) << line;
+    EXPECT_THAT(result.err, HasSubstr(says)) << line;
+  }
+  for (const char* verb : {"fit", "diagnose"}) {
+    EXPECT_THAT(RunApp(std::string(verb) + " '" + folder.Path("plant") + "'").err,
+                HasSubstr("folders of folders are for lyrefit batch"));
+  }
+  EXPECT_THAT(RunApp("fit x.csv --frobnicate").err, HasSubstr("not expected: --frobnicate"));
+}
+
 TEST(Verbs, AreFoundByWhatIsAskedOfThem) {
   const AppResult bare = RunApp("");
   EXPECT_EQ(bare.exit_code, 0) << bare.err;

@@ -210,5 +210,30 @@ TEST(MakeReadingsTest, RefusesWhatIsNoMeasurement) {
   EXPECT_FALSE(MakeReadings(SetOf({broken}), &warnings));
 }
 
+TEST(UsualSubstringsTest, AreThreeOfEveryModuleThatTheCellsMake) {
+  EXPECT_THAT(UsualSubstrings(1200), ::testing::ElementsAre(60));
+  EXPECT_THAT(UsualSubstrings(1440), ::testing::ElementsAre(72, 60));
+  EXPECT_THAT(UsualSubstrings(20 * 66), ::testing::ElementsAre(66, 60));
+  EXPECT_THAT(UsualSubstrings(1082), ::testing::ElementsAre(54)) << "20 cells a group";
+  EXPECT_TRUE(UsualSubstrings(144).empty()) << "a module";
+}
+
+TEST(MakeReadingsTest, AStringHasTheUsualDiodesWhereNobodyStatesThem) {
+  CurveSet set;
+  set.curves = {SyntheticCurve({})};
+  IvCurve& curve = set.curves.front();
+  for (double& voltage : curve.voltage_V) voltage *= 1200.0 / curve.conditions.cells_in_series;
+  curve.conditions.cells_in_series = 1200;
+  std::vector<std::string> warnings;
+  auto readings = MakeReadings(set, &warnings);
+  ASSERT_TRUE(readings) << readings.error().message;
+  EXPECT_EQ(SubstringsOf(readings->traits), 60);
+  EXPECT_FALSE(readings->traits.bypass_known);
+  curve.notes.bypass_diodes = 30;
+  readings = MakeReadings(set, &warnings);
+  EXPECT_EQ(SubstringsOf(readings->traits), 30);
+  EXPECT_TRUE(readings->traits.bypass_known);
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -48,6 +48,70 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
   }
 }
 
+TableHead HeadOf(const std::vector<const char*>& lines) {
+  TableHead head;
+  int number = 0;
+  for (const char* line : lines) ReadHeadLine(line, ++number, HeadLine::kText, &head);
+  return head;
+}
+
+TEST(ReadHeadLineTest, TakesModulesInFourLanguages) {
+  for (const char* line :
+       {"Modules in series,20", "Number of modules: 20", "Modules per string;20", "Modules: 20",
+        "Anzahl Module in Reihe;20", "Module in Reihe: 20", "Anzahl Module;20", "Modulanzahl: 20",
+        "Anzahl der Module pro Strang;20", "Módulos en serie;20", "Número de módulos: 20",
+        "Módulos por cadena;20", "Modules en série;20", "Nombre de modules: 20",
+        "Nombre de modules par chaîne;20", "20 modules", "20 Module"}) {
+    EXPECT_EQ(Head(line).said.notes.modules_in_series.value_or(0), 20) << line;
+    EXPECT_THAT(Head(line).left, IsEmpty()) << line;
+  }
+  for (const char* line :
+       {"Module number: 20", "Module: 20", "Modul Nr.: 20", "Modules in parallel: 20",
+        "Module series: 20", "Module type: 20", "Modules: 20 W", "Modules in series: 1.5"}) {
+    EXPECT_FALSE(Head(line).said.notes.modules_in_series) << line;
+  }
+  for (const char* line :
+       {"Cells per module,60", "Number of cells per module: 60", "Zellen pro Modul;60",
+        "Anzahl Zellen je Modul;60", "Células por módulo: 60", "Celdas por módulo;60",
+        "Cellules par module;60", "Nombre de cellules par module;60"}) {
+    EXPECT_EQ(Head(line).module_cells.value_or(0), 60) << line;
+  }
+  for (const char* line : {"Anzahl Zellen;60", "Zellenzahl: 60", "Número de células: 60",
+                           "Nombre de cellules;60", "60 cells", "60 Zellen"}) {
+    EXPECT_EQ(Head(line).said.cells_in_series.value_or(0), 60) << line;
+  }
+}
+
+TEST(ReadHeadLineTest, MakesTheCellsOfAStringOfItsModules) {
+  for (const auto& lines :
+       std::vector<std::vector<const char*>>{{"Modules in series,20", "Cells per module,60"},
+                                             {"Cells per module,60", "Modules in series,20"},
+                                             {"Number of modules: 20", "Number of cells: 60"},
+                                             {"Number of cells: 60", "Number of modules: 20"},
+                                             {"20 modules, 60 cells per module"}}) {
+    const TableHead head = HeadOf(lines);
+    EXPECT_EQ(head.said.cells_in_series.value_or(0), 1200) << lines.front();
+    EXPECT_THAT(SentencesOf(head.assumptions),
+                ::testing::Contains(HasSubstr("cells in series 1200: 20 modules of 60 cells")));
+  }
+  const TableHead whole = HeadOf({"Number of modules: 20", "Number of cells: 1200"});
+  EXPECT_EQ(whole.said.cells_in_series.value_or(0), 1200);
+  EXPECT_FALSE(HeadOf({"Modules in series,20"}).said.cells_in_series);
+}
+
+TEST(ReadHeadLineTest, TakesSeveralConditionsOfOneComment) {
+  TableHead head = Head("# cell temperature 50.2 C, 20 Module", HeadLine::kComment);
+  EXPECT_NEAR(head.said.temperature_C.value_or(0), 50.2, 1e-9);
+  EXPECT_EQ(head.said.notes.modules_in_series.value_or(0), 20);
+  EXPECT_THAT(head.left_temperatures, IsEmpty());
+  for (const char* line : {"# G = 873 W/m2, T = 50.2 C", "# T = 50.2 C; G = 873 W/m2"}) {
+    head = Head(line, HeadLine::kComment);
+    EXPECT_NEAR(head.said.irradiance_W_m2.value_or(0), 873, 1e-9) << line;
+    EXPECT_NEAR(head.said.temperature_C.value_or(0), 50.2, 1e-9) << line;
+  }
+  EXPECT_FALSE(Head("# T = 50.2 C", HeadLine::kComment).said.temperature_C) << "of what?";
+}
+
 TEST(ReadHeadLineTest, TakesLightInSunsAndConcentrations) {
   for (const auto& [line, irradiance] :
        {std::pair("Light level;50 % sun", 500.0), std::pair("Light Intensity,50,% sun", 500.0),

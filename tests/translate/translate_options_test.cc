@@ -59,7 +59,7 @@ TEST(ReadModule, TakesTheSheetOfAModuleWhereNothingWasSaid) {
   ASSERT_TRUE(ReadModule(file, &options));
   EXPECT_EQ(options.field_test.rated_W, 300);
   EXPECT_EQ(options.field_test.power_coefficient_percent_K, -0.343);
-  EXPECT_EQ(options.field_test.modules, 20);
+  EXPECT_EQ(options.layout.modules_in_series, 20);
   EXPECT_EQ(options.technology, "mono-Si");
   EXPECT_EQ(options.coefficients.beta_percent_K, -0.277);
   EXPECT_FALSE(ReadModule(folder.Write("list.json", "[290]"), &options));

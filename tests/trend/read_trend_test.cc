@@ -256,7 +256,7 @@ TEST(ReadTrend, UsesTheLawOfAModule) {
                          "R_s": 0.31, "R_sh_ref": 400, "cells_in_series": 60})"));
   ASSERT_TRUE(module) << module.error().ToString();
   TrendReadOptions reading;
-  const auto law = SeriesOfModule(*module, TrendSource::kSweeps, TrendOptions());
+  const auto law = SeriesOfModule(*module, TrendSource::kSweeps, 0);
   ASSERT_TRUE(law);
   reading.law = *law;
   const auto series = ReadFile(folder.Write("a.csv", SweepsText(TenDays())), reading);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "line_errors.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/read/read_module.h"
@@ -31,6 +32,10 @@ Error CommandLineError(const CLI::ParseError& error) {
   const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   if (extra && message.find('=') != std::string::npos) {
     message += " (repeat --bound, --fix or --set before each value)";
+  }
+  const std::size_t value = message.rfind(" = ");
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr && value != std::string::npos) {
+    message += DecimalPointHint(message.substr(value + 3));
   }
   const std::size_t repeated = message.find(": At Most 1 required");
   if (repeated != std::string::npos)
@@ -349,6 +354,9 @@ Expected<std::string> CommandLine::Parse(int argc, char** argv) {
     if (verb == nullptr) return tl::unexpected(NoSuchVerb(FirstWord(argc, argv), impl_->Verbs()));
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
       auto other = OtherTarget(*verb->impl_->verb, impl_->app.remaining(true));
+      if (!other) {
+        other = NearFlag(*verb->impl_->verb, verb->Texts(), impl_->app.remaining(true));
+      }
       if (other) return tl::unexpected(std::move(*other));
     }
     return tl::unexpected(CommandLineError(error));

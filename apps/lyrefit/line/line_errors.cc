@@ -66,6 +66,29 @@ Error NoSuchVerb(const std::string& word, const std::vector<const Verb*>& verbs)
   return {"no verb '" + word + "'; did you mean " + near + "?", {}};
 }
 
+std::optional<Error> NearFlag(const Verb& verb, const std::vector<FlagText>& flags,
+                              const std::vector<std::string>& words) {
+  const auto flag = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word.size() > 1 && word.front() == '-';
+  });
+  if (flag == words.end()) return {};
+  const std::string word = flag->substr(0, flag->find('='));
+  const std::string bare = word.substr(word.find_first_not_of('-'));
+  std::string near;
+  std::size_t nearest = 3;  // flags that differ by more than two letters are not suggested
+  for (const FlagText& text : flags) {
+    if (text.name.rfind("--", 0) != 0) continue;
+    const std::string known = text.name.substr(2);
+    const bool begun = bare.size() >= 2 && known.rfind(bare, 0) == 0;
+    const std::size_t distance = bare == known ? 0 : begun ? 1 : Distance(bare, known);
+    if (distance >= std::min(nearest, known.size())) continue;
+    nearest = distance;
+    near = text.name;
+  }
+  if (near.empty()) return {};
+  return Error{"no flag '" + word + "' of " + verb.name + "; did you mean " + near + "?", {}};
+}
+
 std::optional<Error> OtherTarget(const Verb& verb, const std::vector<std::string>& words) {
   for (const char* flag : {"--json", "--csv", "--plot", "--html", "--brief", "--full-json",
                            "--full-plot", "--quiet"}) {

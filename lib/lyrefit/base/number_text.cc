@@ -176,6 +176,18 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
+std::string DecimalPointHint(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || ParseNumber(text) || !ParseNumber(text, true)) return "";
+  std::string pointed(text);
+  pointed[comma] = '.';
+  return " (numbers have a decimal point: " + pointed + ")";
+}
+
+std::string Plural(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string Quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string shown(text.substr(0, kLongest));

@@ -16,6 +16,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 // and "inf" are returned as numbers, so that the caller can report them.
 std::optional<double> ParseNumber(std::string_view text, bool decimal_comma = false);
 
+// " (numbers have a decimal point: 9.12)" for "9,12", in an error; empty for other texts.
+std::string DecimalPointHint(std::string_view text);
+
 // Half a unit of the last printed digit: 0.005 for "1.23", 5e-9 for "1.23E-06".
 double HalfUnit(const std::string& printed);
 
@@ -35,6 +38,9 @@ std::string_view TrimBlanks(std::string_view text);
 
 // `text` with ASCII letters in lower case.
 std::string LowerCase(std::string_view text);
+
+// "1 cell", "3 cells"
+std::string Plural(std::size_t count, const std::string& noun);
 
 // `text` in quotes for a message; shortened, control characters replaced.
 std::string Quoted(std::string_view text);

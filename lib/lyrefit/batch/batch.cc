@@ -97,6 +97,10 @@ ResultCell BypassDiodes(const BatchCurve& curve) {
   return std::int64_t{*curve.curve->notes.bypass_diodes};
 }
 
+bool Holds(const std::vector<std::string>& sentences, const std::string& sentence) {
+  return std::find(sentences.begin(), sentences.end(), sentence) != sentences.end();
+}
+
 // Creates the row of a curve. Thread-safe.
 class RowMaker {
  public:
@@ -110,7 +114,8 @@ class RowMaker {
   PipelineStep Make(const BatchItem& item, const StopToken& stop) const {
     BatchCurve curve = source_.Read(item);
     const bool is_curve = curve.curve && curve.file.empty();
-    if (is_curve) Settle(&curve);
+    std::vector<std::string> remarks;
+    if (is_curve) remarks = Settle(&curve);
     TaskResult result{RowStatus::kBroken, "", {}, false};
     if (curve.curve) {
       result = task_.run(curve, SeedOf(options_.seed, curve.id), stop.AsObserver());
@@ -122,6 +127,7 @@ class RowMaker {
     result.cells.resize(task_.columns.size());
     for (ResultCell& cell : result.cells) row.cells.push_back(std::move(cell));
     if (!options_.before.empty()) row.cells.push_back(BypassDiodes(curve));
+    for (const std::string& remark : remarks) AddRemark(remark, &row);
     PipelineStep step;
     step.broken = result.status == RowStatus::kBroken;
     step.interrupted = result.interrupted;
@@ -145,21 +151,31 @@ class RowMaker {
       row->cells.back() = path;
       return;
     }
-    ResultCell& remark = row->cells[remark_];
-    const auto* const before = std::get_if<std::string>(&remark);
-    remark = (before == nullptr ? "" : *before + "; ") + "no page: " + written.error().message;
+    AddRemark("no page: " + written.error().message, row);
   }
 
-  // Adds the known conditions and validates the readings.
-  void Settle(BatchCurve* curve) const {
+  void AddRemark(const std::string& text, ResultRow* row) const {
+    ResultCell& remark = row->cells[remark_];
+    const auto* const before = std::get_if<std::string>(&remark);
+    remark = (before == nullptr ? "" : *before + "; ") + text;
+  }
+
+  // Adds the known conditions and validates the readings. Returns what has to be said of that.
+  std::vector<std::string> Settle(BatchCurve* curve) const {
     Expected<void> settled;
+    std::vector<std::string> remarks;
     const auto settle = [&](IvCurve* one) {
-      if (settled && options_.prepare) settled = options_.prepare(one);
+      const std::vector<std::string> before = SentencesOf(one->assumptions);
+      if (settled && options_.prepare) settled = options_.prepare(curve->id, one);
+      for (const std::string& sentence : SentencesOf(one->assumptions)) {
+        if (!Holds(before, sentence) && !Holds(remarks, sentence)) remarks.push_back(sentence);
+      }
       if (settled) settled = Validate(*one);
     };
     settle(&*curve->curve);
     for (IvCurve& one : curve->more) settle(&one);
     if (!settled) curve->curve = tl::unexpected(settled.error());
+    return remarks;
   }
 
   const BatchSource& source_;

@@ -43,8 +43,9 @@ struct BatchOptions {
   bool interactive_pages = false;
   // Write texts of results.csv unchanged, including those that a spreadsheet would run as formulas.
   bool raw_csv = false;
-  // Adds known conditions to each curve after it is read. Empty: none.
-  std::function<Expected<void>(IvCurve* curve)> prepare;
+  // Adds known conditions to the curve of an id after it is read. Assumptions that it adds are
+  // remarks on the row. Empty: none.
+  std::function<Expected<void>(const std::string& id, IvCurve* curve)> prepare;
   // Options of reading and preparation, for the digest of the run.
   std::vector<OptionEcho> reading;
 };

@@ -2,20 +2,17 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/read/module_json.h"
 #include "lyrefit/read/read_module.h"
 
 namespace lyrefit {
 namespace {
-
-constexpr std::uintmax_t kLargestSheet = 1U << 20;
 
 // A sheet, and what only JSON states.
 struct SheetOfPlan {
@@ -33,10 +30,8 @@ Expected<double> CoefficientIn(const JsonFields& fields, const char* absolute, c
 }
 
 Expected<SheetOfPlan> ReadJsonSheetOf(const std::string& file) {
-  TRY(const std::string text, ReadTextFile(file, kLargestSheet));
-  TRY(const nlohmann::json json, ParseJson(text, file));
-  if (!json.is_object()) return Fail("expected a JSON object, the sheet of a module", file, 1, 1);
-  const JsonFields fields(json, text, file);
+  TRY(const ModuleJson json, ReadModuleJson(file));
+  const JsonFields fields(json.json, json.text, file);
   SheetOfPlan found;
   DataSheetValues& values = found.module.sheet.values;
   const std::pair<const char*, double*> needed[] = {

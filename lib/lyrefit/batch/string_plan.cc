@@ -40,6 +40,14 @@ bool Matches(const std::string& pattern, const std::string& text) {
 
 }  // namespace
 
+DeviceLayout LayoutOf(const PlannedString& line, DeviceLayout sheet) {
+  sheet.modules_in_series = line.modules_in_series;
+  if (line.module || !sheet.module_diodes) sheet.module_diodes = line.bypass_diodes;
+  if (line.module) sheet.module_cells = line.module->cells_in_series;
+  sheet.source = "plan" + (sheet.source.empty() ? "" : " and " + sheet.source);
+  return sheet;
+}
+
 PlantPlan::PlantPlan(std::vector<PlannedString> lines) : lines_(std::move(lines)) {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (HasWildcard(lines_[i].id)) {

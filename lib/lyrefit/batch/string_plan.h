@@ -10,6 +10,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/model/translation.h"
+#include "lyrefit/read/device_layout.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -34,6 +35,9 @@ struct PlannedString {
   int bypass_diodes = 3;                        // of one module
   std::shared_ptr<const PlannedModule> module;  // null: not stated
 };
+
+// How the plan says a string is built; `sheet`: of the module, for what the line does not say.
+DeviceLayout LayoutOf(const PlannedString& line, DeviceLayout sheet);
 
 // A plan that was read.
 class PlantPlan {

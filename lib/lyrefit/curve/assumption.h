@@ -10,7 +10,15 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // Subject of an assumption.
-enum class About { kReading, kCells, kTemperature, kIrradiance, kCurrentUnit };
+enum class About {
+  kReading,
+  kCells,
+  kTemperature,
+  kIrradiance,
+  kCurrentUnit,
+  kBypassDiodes,
+  kTechnology,
+};
 
 template <>
 struct EnumTable<About> {
@@ -20,6 +28,8 @@ struct EnumTable<About> {
       {About::kTemperature, "cell temperature"},
       {About::kIrradiance, "irradiance"},
       {About::kCurrentUnit, "unit of the current"},
+      {About::kBypassDiodes, "bypass diodes"},
+      {About::kTechnology, "technology"},
   };
 };
 

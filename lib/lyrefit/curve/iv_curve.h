@@ -29,7 +29,8 @@ struct Conditions {
 // Facts about the device and the instrument beyond the readings; unset if not stated.
 struct DeviceNotes {
   std::string technology;
-  std::optional<int> bypass_diodes;  // of a module
+  std::optional<int> bypass_diodes;      // of the whole device: of all its modules
+  std::optional<int> modules_in_series;  // of a string
   std::optional<double> bandgap_eV;
   std::optional<double> bandgap_slope_per_K;       // relative to the gap at 25 C, as pvlib's dEgdT
   std::optional<double> isc_tempco_per_K;          // relative, per K
@@ -55,6 +56,16 @@ bool IsThinFilm(const std::string& technology);
 // Junctions in series in each cell, by a word for the technology: 3 of "triple", 2 of "tandem",
 // "micromorph" or PVsyst's "mtuCSi_aSiH", else 1. Case does not count.
 int JunctionsPerCell(const std::string& technology);
+
+// Where a file states the conditions of a curve: "line 9", "\"cells_in_series\" of string.json". Empty:
+// it does not state them.
+struct ConditionSources {
+  std::string cells;
+  std::string temperature;
+  std::string irradiance;
+  std::string bypass_diodes;
+  std::string technology;
+};
 
 // A result that the file states for a sweep, such as Voc.
 struct StatedResult {
@@ -83,6 +94,7 @@ struct IvCurve {
   // repeat them.
   std::optional<KeyPoints> key_points;
   std::vector<StatedResult> stated;     // results that the file states
+  ConditionSources stated_in;           // where the file states the conditions
   std::vector<Assumption> assumptions;  // assumptions of the reader
   bool irradiance_known = true;         // false: not stated, conditions hold a default
   bool temperature_known = true;        // false: not stated, conditions hold a default

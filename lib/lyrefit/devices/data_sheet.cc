@@ -208,8 +208,9 @@ Expected<PrintedValue> ReadPrintedValue(const std::string& text, double whole) {
   const std::string number = percent ? text.substr(0, text.size() - 1) : text;
   const std::optional<double> value = ParseNumber(number);
   if (!value || !std::isfinite(*value)) {
-    return Fail(fmt::format("expected a number{}, found '{}'",
-                            whole != 0 ? " per kelvin, or in percent such as 0.05%" : "", text));
+    return Fail(fmt::format("expected a number{}, found '{}'{}",
+                            whole != 0 ? " per kelvin, or in percent such as 0.05%" : "", text,
+                            DecimalPointHint(number)));
   }
   const double unit = percent ? whole / 100 : 1;
   return PrintedValue{*value * unit, HalfUnit(number) * std::fabs(unit)};

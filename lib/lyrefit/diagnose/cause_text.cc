@@ -55,7 +55,8 @@ std::string Part(const Readings& readings, double share) {
   const int substrings = known > 0 ? known : 3;
   const double count = share * substrings;
   const double whole = std::round(count);
-  if (whole < 1 || std::fabs(count - whole) > 0.03 * substrings) {
+  constexpr double kNear = 0.12;  // of a substring
+  if (whole < 1 || std::fabs(count - whole) > std::min(0.03 * substrings, kNear)) {
     return fmt::format("{:.0f} % of the cells", Percent(share));
   }
   return fmt::format("{:.0f} of {} substrings", whole, substrings);

@@ -312,6 +312,8 @@ Diagnosis BeginDiagnosis(const PreparedDiagnosis& prepared) {
   diagnosis.cells_in_series = prepared.measurement.readings.scale.cells;
   diagnosis.non_default_options = NonDefaults(options, kDiagnoseOptionTable);
   diagnosis.assumptions = AssumptionsOf(set);
+  const std::string diodes = AssumedDiodes(prepared.measurement.readings.traits);
+  if (!diodes.empty()) diagnosis.assumptions.push_back(diodes);
   diagnosis.doubts = prepared.doubts;
   return diagnosis;
 }

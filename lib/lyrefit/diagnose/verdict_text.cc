@@ -257,6 +257,12 @@ std::string NotShownBy(const DataTraits& traits) {
   return Alternatives(never);
 }
 
+std::string AssumedDiodes(const DataTraits& traits) {
+  if (traits.bypass_known || traits.substrings == 0) return "";
+  return fmt::format("{} bypass diodes assumed, one for {:.3g} cells", traits.substrings,
+                     static_cast<double>(traits.cells) / traits.substrings);
+}
+
 void DescribeVerdict(const Selection& selection, const Floors& floors,
                      const std::vector<DeviceFinding>& findings, double probability,
                      Verdict* verdict) {
@@ -273,6 +279,8 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
   } else {
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }
+  const std::string assumed = AssumedDiodes(traits);
+  if (!assumed.empty()) verdict->sentence += " With " + assumed + " (--bypass-diodes N says it).";
 }
 
 }  // namespace lyrefit

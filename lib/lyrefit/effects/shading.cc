@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/covered.h"
@@ -9,13 +10,21 @@ namespace lyrefit {
 namespace {
 
 // Possible shares of shaded substrings: j of k. If the number k of bypass diodes is unknown, 2 and
-// 3 are tried.
+// 3 are tried, of a string all usual ones.
 std::vector<double> Shares(const DataTraits& traits) {
+  constexpr double kSame = 1e-9;
+  std::vector<int> numbers = {2, 3};
+  if (traits.substrings > 1) numbers = {traits.substrings};
+  if (traits.substrings > 1 && !traits.bypass_known) numbers = UsualSubstrings(traits.cells);
   std::vector<double> shares;
-  const int first = traits.substrings > 1 ? traits.substrings : 2;
-  const int last = traits.substrings > 1 ? traits.substrings : 3;
-  for (int k = first; k <= last; ++k) {
-    for (int j = 1; j < k; ++j) shares.push_back(static_cast<double>(j) / k);
+  for (const int k : numbers) {
+    for (int j = 1; j < k; ++j) {
+      const double share = static_cast<double>(j) / k;
+      const bool there = std::any_of(shares.begin(), shares.end(), [&](double other) {
+        return std::fabs(other - share) < kSame;
+      });
+      if (!there) shares.push_back(share);
+    }
   }
   return shares;
 }

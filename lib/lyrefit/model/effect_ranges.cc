@@ -60,7 +60,8 @@ Expected<void> KeepWhole(const EffectUse& use, int k, const DataTraits& traits,
   const EffectParameter& info = use.effect->parameters[k];
   double step = 0;
   if (info.whole == Whole::kCount) step = 1;
-  if (info.whole == Whole::kSubstrings && traits.substrings > 1) step = 1.0 / traits.substrings;
+  const bool groups = traits.bypass_known && traits.substrings > 1;
+  if (info.whole == Whole::kSubstrings && groups) step = 1.0 / traits.substrings;
   if (step == 0 || bounds->lower == bounds->upper) return {};
   constexpr double kSlack = 1e-4;  // of a step: shares are typed with few digits
   const double first = std::ceil(bounds->lower / step - kSlack);

@@ -16,6 +16,17 @@
 
 namespace lyrefit {
 
+std::vector<int> UsualSubstrings(int cells) {
+  constexpr int kMostOfAModule = 150, kOfAModule = 3, kOfAGroup = 20;
+  std::vector<int> usual;
+  if (cells <= kMostOfAModule) return usual;
+  for (const int module : {60, 72, 54, 66}) {
+    if (cells % module == 0) usual.push_back(kOfAModule * cells / module);
+  }
+  if (usual.empty()) usual.push_back((cells + kOfAGroup / 2) / kOfAGroup);
+  return usual;
+}
+
 int SubstringsOf(const DataTraits& traits) {
   constexpr int kUsual = 24, kMost = 3;  // cells per bypass group, groups per module
   if (traits.substrings > 0) return traits.substrings;
@@ -220,7 +231,8 @@ void FindTraits(const CurveSet& set, Readings* readings) {
   traits.cells = readings->scale.cells;
   traits.module = traits.cells > 1;
   const std::optional<int>& diodes = set.curves.front().notes.bypass_diodes;
-  traits.substrings = diodes.value_or(0);
+  const std::vector<int> usual = UsualSubstrings(traits.cells);
+  traits.substrings = diodes.value_or(usual.empty() ? 0 : usual.front());
   traits.bypass_known = diodes.has_value();
   for (int c = 0; c < traits.curves; ++c) {
     traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));

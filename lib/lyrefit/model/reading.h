@@ -55,7 +55,7 @@ struct DataTraits {
   int temperature_levels = 1;  // of all curves
   bool module = false;         // more than one cell in series
   int substrings = 0;          // number of bypass groups; 0: none, or unknown
-  bool bypass_known = false;   // the number of bypass groups is stated
+  bool bypass_known = false;   // that number is stated; else a string has the usual one
   int cells = 1;               // used in the computation
   int stated_cells = 1;        // as stated, or a reader's default
   bool cells_known = true;     // the number of cells is stated
@@ -73,6 +73,12 @@ struct DataTraits {
   // scales.
   std::vector<double> range_currents;
 };
+
+// Numbers of bypass groups of a string of so many cells that nobody states: that of modules of 60, 72,
+// 54 and 66 cells with three groups each, as far as the cells make whole modules, else of 20 cells a
+// group; a diode has 18 to 24 cells of silicon in the field (Vieira et al. 2020,
+// doi:10.3390/en13102472). Empty: so few cells are one module.
+std::vector<int> UsualSubstrings(int cells);
 
 // Number of bypass groups used: as stated, else usual for modules of that many cells.
 int SubstringsOf(const DataTraits& traits);

@@ -12,19 +12,23 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Conditions that the user states for a measurement. They replace those of the file; unset fields
-// keep the file's values.
+// Conditions that the user states for a measurement. Unset fields keep the file's values.
 struct ConditionOptions {
   std::optional<int> cells;             // in series
+  std::optional<int> bypass_diodes;     // of the whole device; 0: it has none
   std::optional<double> temperature_C;  // of the cells
   std::optional<double> irradiance_W_m2;
   std::string technology;  // empty: as the file has it
   bool as_is = false;
+  // Replaces what the file states; else only what it does not state is taken from here.
+  bool replaces = true;
 };
 
 inline constexpr OptionRow<ConditionOptions> kConditionOptionTable[] = {
     OptionRow<ConditionOptions>("Conditions"),
     {"cells", "N", "cells in series", &ConditionOptions::cells, OptionTrait::kUnchecked},
+    {"bypass-diodes", "N", "of the whole device, all modules of a string together; 0: it has none",
+     &ConditionOptions::bypass_diodes, OptionTrait::kUnchecked | OptionTrait::kExperimental},
     {"temperature-C", "T", "cell temperature in degrees Celsius", &ConditionOptions::temperature_C,
      OptionTrait::kUnchecked},
     {"irradiance-Wm2", "G", "irradiance in W/m2", &ConditionOptions::irradiance_W_m2,
@@ -36,9 +40,10 @@ inline constexpr OptionRow<ConditionOptions> kConditionOptionTable[] = {
      &ConditionOptions::as_is},
 };
 
-// Sets the stated conditions in `curve` and removes the assumptions about them. Errors, whose
-// sentence begins with the option's name: fewer than one cell, a temperature outside -100 .. 150 C,
-// an irradiance below zero, a technology that is not known.
+// Sets the stated conditions in `curve` and removes the assumptions about them. Where the file states
+// another value, the assumptions say which of both counts: "20 C given, instead of 49.8 C in line 9".
+// Errors, whose sentence begins with the option's name: fewer than one cell, fewer bypass diodes than
+// none, a temperature outside -100 .. 150 C, an irradiance below zero, a technology that is not known.
 Expected<void> ApplyConditions(const ConditionOptions& stated, IvCurve* curve);
 // Applies the conditions to every curve of a set and to the set's common assumptions.
 Expected<void> ApplyConditions(const ConditionOptions& stated, CurveSet* set);

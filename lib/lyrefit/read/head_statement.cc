@@ -5,17 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/table_header.h"
 
 namespace lyrefit {
-namespace {
 
 bool HasAny(const Statement& statement, std::initializer_list<const char*> words) {
   return std::any_of(words.begin(), words.end(),
                      [&](const char* word) { return statement.words.count(word) != 0; });
 }
+
+std::string PlaceOf(const std::string& source) { return source.substr(0, source.find(" '")); }
+
+namespace {
 
 // Whether the statement concerns another plane, a limit or a standard condition.
 bool IsAboutOtherThings(const Statement& statement) {
@@ -97,15 +101,46 @@ std::optional<double> AsTemperature(const Statement& statement) {
   return value;
 }
 
+// Whether all words of the statement are among `words`.
+bool HasOnly(const Statement& statement, const std::set<std::string>& words) {
+  return std::includes(words.begin(), words.end(), statement.words.begin(), statement.words.end());
+}
+
+std::optional<int> AsCount(const Statement& statement, int most) {
+  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
+                     statement.value <= most;
+  if (!whole || !statement.unit.empty()) return std::nullopt;
+  return static_cast<int>(statement.value);
+}
+
+// Modules in series. One module alone has a number too, "Module number: 7".
+std::optional<int> AsModules(const Statement& statement) {
+  static const std::set<std::string> kWords = {"connected", "count", "in",  "module", "modules",
+                                               "n",         "no",    "num", "number", "of",
+                                               "nos",       "per",   "pv",  "series", "string"};
+  const bool several = HasAny(statement, {"modules"});
+  const bool counted = HasAny(statement, {"in", "of", "per"}) &&
+                       HasAny(statement, {"series", "number", "string"}) &&
+                       HasAny(statement, {"module"});
+  if (!(several || counted) || !HasOnly(statement, kWords)) return std::nullopt;
+  return AsCount(statement, 1000);
+}
+
+std::optional<int> AsCellsOfAModule(const Statement& statement) {
+  static const std::set<std::string> kWords = {"a",  "cells", "in",  "module", "modules", "number",
+                                               "of", "panel", "per", "pv",     "series",  "solar"};
+  const bool named = HasAny(statement, {"cells"}) && HasAny(statement, {"per"}) &&
+                     HasAny(statement, {"module", "panel"});
+  if (!named || !HasOnly(statement, kWords)) return std::nullopt;
+  return AsCount(statement, 1000);
+}
+
 std::optional<int> AsCells(const Statement& statement) {
   const bool count = HasAny(statement, {"number", "no", "num", "n", "count", "series", "in", "nr"});
   const bool named = statement.name == "cells" || statement.name == "ns" ||
                      statement.name == "ncells" || statement.name == "nscells" ||
                      (HasAny(statement, {"cells"}) && count);
-  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
-                     statement.value <= 10000;
-  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
-  return static_cast<int>(statement.value);
+  return named ? AsCount(statement, 10000) : std::nullopt;
 }
 
 std::optional<int> AsBypassDiodes(const Statement& statement) {
@@ -118,10 +153,7 @@ std::optional<int> AsBypassDiodes(const Statement& statement) {
 
 std::optional<int> AsStrings(const Statement& statement) {
   const bool named = statement.name == "parallelstrings" || statement.name == "stringsinparallel";
-  const bool whole = statement.value == std::floor(statement.value) && statement.value >= 1 &&
-                     statement.value <= 10000;
-  if (!named || !whole || !statement.unit.empty()) return std::nullopt;
-  return static_cast<int>(statement.value);
+  return named ? AsCount(statement, 10000) : std::nullopt;
 }
 
 std::optional<double> AsArea(const Statement& statement) {
@@ -148,9 +180,11 @@ std::optional<double> AsCompliance(const Statement& statement, std::optional<dou
 // Records a value of a quantity that has none yet. False if there is no value or an earlier one.
 template <class T>
 bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char* unit,
-               const std::string& source, std::optional<T>* target, TableHead* head) {
+               const std::string& source, std::optional<T>* target, TableHead* head,
+               std::string* stated_in = nullptr) {
   if (!value || *target) return false;
   *target = value;
+  if (stated_in != nullptr) *stated_in = PlaceOf(source);
   head->assumptions.emplace_back(fmt::format("{} {:.6g}{} taken from {}", what.sentence,
                                              static_cast<double>(*value), unit, source),
                                  what.about);
@@ -160,8 +194,51 @@ bool TakeFirst(const std::optional<T>& value, const Assumption& what, const char
 // Records a value of a condition.
 template <class T>
 bool TakeFirst(const std::optional<T>& value, About about, const char* unit,
-               const std::string& source, std::optional<T>* target, TableHead* head) {
-  return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head);
+               const std::string& source, std::optional<T>* target, TableHead* head,
+               std::string* stated_in) {
+  return TakeFirst(value, Assumption(ToText(about), about), unit, source, target, head, stated_in);
+}
+
+// Cells in series of modules and their cells. A number of cells too small for so many modules is that
+// of one module.
+void SettleModules(TableHead* head) {
+  constexpr int kLeastOfAModule = 10;
+  Sidecar* said = &head->said;
+  const std::optional<int>& modules = said->notes.modules_in_series;
+  std::optional<int>& cells = said->cells_in_series;
+  std::optional<int>& of_module = head->module_cells;
+  if (!of_module && modules && cells && *cells < kLeastOfAModule * *modules) {
+    of_module = std::exchange(cells, std::nullopt);
+    head->module_cells_in = said->stated_in.cells;
+  }
+  if (!of_module || (cells && said->stated_in.cells != head->module_cells_in)) return;
+  cells = modules.value_or(1) * *of_module;
+  said->stated_in.cells = head->module_cells_in;
+  Forget(About::kCells, &head->assumptions);
+  head->assumptions.emplace_back(fmt::format("cells in series {}: {} of {} taken from {}", *cells,
+                                             Plural(modules.value_or(1), "module"),
+                                             Plural(*of_module, "cell"), head->module_cells_in),
+                                 About::kCells);
+}
+
+bool TakeModules(const Statement& statement, const std::string& source, TableHead* head) {
+  std::optional<int>& modules = head->said.notes.modules_in_series;
+  const bool taken =
+      TakeFirst(AsModules(statement), "modules in series", "", source, &modules, head) ||
+      TakeFirst(AsCellsOfAModule(statement), "cells of a module", "", source, &head->module_cells,
+                head, &head->module_cells_in);
+  if (taken) SettleModules(head);
+  return taken;
+}
+
+bool TakeCells(const Statement& statement, const std::string& source, TableHead* head) {
+  Sidecar* said = &head->said;
+  if (!TakeFirst(AsCells(statement), About::kCells, "", source, &said->cells_in_series, head,
+                 &said->stated_in.cells)) {
+    return false;
+  }
+  SettleModules(head);
+  return true;
 }
 
 // Keeps a stated Isc or Jsc for the unit of the current column. It does not count as understood,
@@ -193,21 +270,36 @@ bool TakeStatement(const Statement& statement, const std::string& source, TableH
                 head)) {
     return true;
   }
-  if (TakeFirst(AsBypassDiodes(statement), "bypass diodes", "", source, &said->notes.bypass_diodes,
-                head)) {
+  ConditionSources* in = &said->stated_in;
+  if (TakeFirst(AsBypassDiodes(statement), About::kBypassDiodes, "", source,
+                &said->notes.bypass_diodes, head, &in->bypass_diodes)) {
     return true;
   }
+  if (TakeModules(statement, source, head)) return true;
   if (!NamesPowerOfLight(statement) && IsAboutOtherThings(statement)) return false;
   if (TakeFirst(AsIlluminance(statement), "illuminance", " lux", source,
                 &said->notes.illuminance_lux, head)) {
     return true;
   }
   return TakeFirst(AsIrradiance(statement), About::kIrradiance, " W/m2", source,
-                   &said->irradiance_W_m2, head) ||
+                   &said->irradiance_W_m2, head, &in->irradiance) ||
          TakeFirst(AsTemperature(statement), About::kTemperature, " C", source,
-                   &said->temperature_C, head) ||
-         TakeFirst(AsCells(statement), About::kCells, "", source, &said->cells_in_series, head) ||
+                   &said->temperature_C, head, &in->temperature) ||
+         TakeCells(statement, source, head) ||
          TakeFirst(AsArea(statement), "area", " cm2", source, &said->notes.area_cm2, head);
+}
+
+bool TakeTemperatureBesideLight(const Statement& statement, const std::string& source,
+                                TableHead* head) {
+  const auto value = Converted(statement, ColumnKind::kTemperature);
+  const bool beside = head->said.stated_in.irradiance == PlaceOf(source);
+  if (!beside || !IsBareTemperature(statement) || !(*value >= -100 && *value <= 150)) return false;
+  return TakeFirst(value, About::kTemperature, " C", source, &head->said.temperature_C, head,
+                   &head->said.stated_in.temperature);
+}
+
+bool IsBareTemperature(const Statement& statement) {
+  return statement.name == "t" && Converted(statement, ColumnKind::kTemperature).has_value();
 }
 
 Statement Understand(const std::vector<LabelWord>& words, double value, std::string_view unit) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +19,12 @@ struct Statement {
   double value = 0;
 };
 
+// "line 9" of the source "line 9 'Cell temperature: 49.8 C'".
+std::string PlaceOf(const std::string& source);
+
+// Whether the name of the statement has one of these words.
+bool HasAny(const Statement& statement, std::initializer_list<const char*> words);
+
 // Splits a label into name and unit. The unit is the longest end of the label that is a unit: "Cell
 // area (cm2)", "area_cm2".
 // `unit`: that of the value; empty if only the label may have it.
@@ -26,6 +33,13 @@ Statement Understand(const std::vector<LabelWord>& words, double value, std::str
 // Records the value of a condition or of the device that a statement gives and that the head does not
 // have yet, with an assumption that names `source`. False if it gives none.
 bool TakeStatement(const Statement& statement, const std::string& source, TableHead* head);
+
+// Whether a statement is "T = 50.2 C", of a temperature that it does not name.
+bool IsBareTemperature(const Statement& statement);
+
+// Records a bare temperature as that of the cells, if the line of `source` states the irradiance too.
+bool TakeTemperatureBesideLight(const Statement& statement, const std::string& source,
+                                TableHead* head);
 
 // Whether words name the light of a room, which has no certain irradiance: "Room light", "indoor".
 bool IsRoomLight(std::string_view text);

@@ -160,7 +160,10 @@ Expected<IvCurve> ReadCurve(const std::string& path, const ReadOptions& options)
   if (file.empty()) {
     return Fail(
         "expected a file, or a folder that holds curve.csv or a table of the folder's own name, "
-        "found a folder without it",
+        "found a folder without it" +
+            std::string(HoldsTablesBelow(path) ? "; many curves in folders of folders are for "
+                                                 "lyrefit batch"
+                                               : ""),
         path);
   }
   TRY(const DecodedText text, ReadDecodedFile(file.string(), options.largest_file_bytes));

@@ -89,7 +89,7 @@ inline constexpr OptionRow<ReadOptions> kReadOptionTable[] = {
 //     (github.com/cwhanse/ivcurves: numbers may be strings, kelvin),
 //   - a folder that holds curve.csv, or a table of the folder's own name, as IV_Swinger writes it.
 // A sidecar NAME.json beside NAME.csv supplies cells_in_series, nominal_temperature_C,
-// nominal_irradiance_Wm2, area_cm2, bypass_diodes, technology, bandgap_eV (or EgRef),
+// nominal_irradiance_Wm2, area_cm2, bypass_diodes, modules_in_series, technology, bandgap_eV (or EgRef),
 // bandgap_slope_per_K (or dEgdT), isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A,
 // relative}, current_resolution_A, light_top, light_bottom (of a tandem's junctions, shares of their
 // reference light).

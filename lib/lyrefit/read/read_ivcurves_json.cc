@@ -105,6 +105,7 @@ Expected<void> ReadEntryConditions(const IvCurvesFile& file, const json& entry, 
   }
   const json material = Setting(file.document, entry, "Material");
   if (material.is_string()) curve->notes.technology = material.get<std::string>();
+  SaySources(curve);
   return {};
 }
 

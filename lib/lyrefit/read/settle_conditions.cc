@@ -80,9 +80,24 @@ void TakeNightAsDark(std::vector<double>* irradiance_W_m2, std::vector<Assumptio
       About::kIrradiance);
 }
 
+// Where a condition stands that no line and no key gave.
+void SaySources(IvCurve* curve) {
+  const auto say = [](bool known, const std::vector<double>& column, About about,
+                      std::string* source) {
+    if (!known) return source->clear();
+    if (!column.empty()) *source = fmt::format("the column of the {}", ToText(about));
+    if (source->empty()) *source = "the file";
+  };
+  ConditionSources& in = curve->stated_in;
+  say(curve->cells_known, {}, About::kCells, &in.cells);
+  say(curve->temperature_known, curve->temperature_C, About::kTemperature, &in.temperature);
+  say(curve->irradiance_known, curve->irradiance_W_m2, About::kIrradiance, &in.irradiance);
+}
+
 void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   if (!sidecar.name.empty()) curve->name = sidecar.name;
   curve->notes = sidecar.notes;
+  curve->stated_in = sidecar.stated_in;
   curve->assumptions.insert(curve->assumptions.end(), sidecar.assumptions.begin(),
                             sidecar.assumptions.end());
   Conditions& conditions = curve->conditions;
@@ -122,6 +137,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
     curve->assumptions.emplace_back(kIrradianceAssumed, About::kIrradiance);
   }
   curve->irradiance_known = irradiance.has_value();
+  SaySources(curve);
   std::vector<double> settled = {irradiance.value_or(1000)};
   TakeNightAsDark(&settled, &curve->assumptions);
   conditions.irradiance_W_m2 = settled.front();

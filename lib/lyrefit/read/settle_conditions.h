@@ -18,6 +18,10 @@ constexpr double kLargestDarkOffset_W_m2 = 20;
 // Takes irradiances below zero, which sensors show at night, as 0, and says how many they were.
 void TakeNightAsDark(std::vector<double>* irradiance_W_m2, std::vector<Assumption>* assumptions);
 
+// Fills curve->stated_in where a condition is known and nothing says from where: from a column, or
+// "the file".
+void SaySources(IvCurve* curve);
+
 // Sets conditions, notes and name from the sidecar and the columns of the curve. If a column's mean
 // agrees with the sidecar (2 % of irradiance, 1 K), the sidecar's rounded value is kept. Otherwise
 // the mean is used, since the column belongs to these points.

@@ -28,6 +28,7 @@ constexpr const char* kKnownKeys[] = {"name",
                                       "cells_in_series",
                                       "strings_in_parallel",
                                       "bypass_diodes",
+                                      "modules_in_series",
                                       "bandgap_eV",
                                       "EgRef",
                                       "bandgap_slope_per_K",
@@ -69,10 +70,18 @@ void Refuse(SidecarReading* reading, const Error& error) {
   reading->failed = true;
 }
 
-void ReadText(SidecarReading* reading, const char* key, std::string* target) {
+// "\"cell_temperature_C\" of string.json"
+std::string SourceOf(const SidecarReading& reading, const std::string& key) {
+  return fmt::format("\"{}\" of {}", key, std::filesystem::path(reading.path).filename().string());
+}
+
+void ReadText(SidecarReading* reading, const char* key, std::string* target,
+              std::string* source = nullptr) {
   const auto text = reading->fields.Text(key);
   if (!text) return Refuse(reading, text.error());
-  if (*text) *target = **text;
+  if (!*text) return;
+  *target = **text;
+  if (source != nullptr) *source = SourceOf(*reading, key);
 }
 
 void ReadNumber(SidecarReading* reading, const JsonFields& fields,
@@ -98,15 +107,14 @@ void ReadNumber(SidecarReading* reading, std::initializer_list<const char*> keys
   ReadNumber(reading, reading->fields, keys, sign, target);
 }
 
-void ReadWhole(SidecarReading* reading, std::initializer_list<const char*> keys, int smallest,
-               const char* expected, std::optional<int>* target) {
-  const auto number = reading->fields.WholeNumber(keys);
+void ReadWhole(SidecarReading* reading, const char* key, int smallest, const char* expected,
+               std::optional<int>* target, std::string* source = nullptr) {
+  const auto number = reading->fields.WholeNumber({key});
   if (!number) return Refuse(reading, number.error());
   if (!*number) return;
-  std::string key;
-  reading->fields.Find(keys, &key);
   if (**number < smallest) return Refuse(reading, reading->fields.Refuse(key, expected).value());
   *target = *number;
+  if (source != nullptr) *source = SourceOf(*reading, key);
 }
 
 // Whether a value is a remark. A text that begins like a number ("25 C") is more likely a mistake.
@@ -118,18 +126,20 @@ bool IsRemark(const json& value) {
 
 // Reads the first key of `keys` that is present; in a set, remarks are skipped.
 void ReadCondition(SidecarReading* reading, std::initializer_list<const char*> keys, Sign sign,
-                   std::optional<double>* target) {
+                   std::optional<double>* target, std::string* source) {
   for (const char* key : keys) {
     std::string name;
     const json* value = reading->fields.Find({key}, &name);
     if (value == nullptr || (reading->of == SidecarOf::kSet && IsRemark(*value))) continue;
+    *source = SourceOf(*reading, name);
     return ReadNumber(reading, reading->fields, {key}, sign, target);
   }
 }
 
 void ReadConditionKeys(SidecarReading* reading) {
   const auto temperature_keys = {"cell_temperature_C", "temperature_C", "nominal_temperature_C"};
-  ReadCondition(reading, temperature_keys, Sign::kAny, &reading->sidecar.temperature_C);
+  ReadCondition(reading, temperature_keys, Sign::kAny, &reading->sidecar.temperature_C,
+                &reading->sidecar.stated_in.temperature);
   const double temperature_C = reading->sidecar.temperature_C.value_or(25);
   if (temperature_C > 150 || temperature_C < -100) {
     std::string key;
@@ -143,10 +153,12 @@ void ReadConditionKeys(SidecarReading* reading) {
   ReadCondition(
       reading,
       {"irradiance_W_m2", "irradiance_Wm2", "nominal_irradiance_Wm2", "nominal_irradiance_W_m2"},
-      Sign::kLight, &reading->sidecar.irradiance_W_m2);
-  ReadWhole(reading, {"cells_in_series"}, 1, "at least 1", &reading->sidecar.cells_in_series);
-  ReadWhole(reading, {"strings_in_parallel"}, 1, "at least 1",
-            &reading->sidecar.strings_in_parallel);
+      Sign::kLight, &reading->sidecar.irradiance_W_m2, &reading->sidecar.stated_in.irradiance);
+  ReadWhole(reading, "cells_in_series", 1, "at least 1", &reading->sidecar.cells_in_series,
+            &reading->sidecar.stated_in.cells);
+  ReadWhole(reading, "strings_in_parallel", 1, "at least 1", &reading->sidecar.strings_in_parallel);
+  ReadWhole(reading, "modules_in_series", 1, "at least 1",
+            &reading->sidecar.notes.modules_in_series);
 }
 
 void ReadNoise(SidecarReading* reading) {
@@ -166,10 +178,12 @@ void ReadNoise(SidecarReading* reading) {
 
 Expected<Sidecar> ReadKeys(SidecarReading* reading) {
   ReadText(reading, "name", &reading->sidecar.name);
-  ReadText(reading, "technology", &reading->sidecar.notes.technology);
+  ReadText(reading, "technology", &reading->sidecar.notes.technology,
+           &reading->sidecar.stated_in.technology);
   ReadConditionKeys(reading);
   DeviceNotes& notes = reading->sidecar.notes;
-  ReadWhole(reading, {"bypass_diodes"}, 0, "a number from 0 up", &notes.bypass_diodes);
+  ReadWhole(reading, "bypass_diodes", 0, "a number from 0 up", &notes.bypass_diodes,
+            &reading->sidecar.stated_in.bypass_diodes);
   ReadNumber(reading, {"bandgap_eV", "EgRef"}, Sign::kPositive, &notes.bandgap_eV);
   ReadNumber(reading, {"bandgap_slope_per_K", "dEgdT"}, Sign::kAny, &notes.bandgap_slope_per_K);
   ReadNumber(reading, {"isc_tempco_per_K"}, Sign::kAny, &notes.isc_tempco_per_K);
@@ -283,15 +297,26 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   const auto fill = [](auto* value, const auto& otherwise) {
     if (!*value) *value = otherwise;
   };
+  // The same, with where it is stated.
+  const auto take = [](auto* value, const auto& otherwise, std::string* source,
+                       const std::string& other_source) {
+    const std::decay_t<decltype(otherwise)> unstated{};
+    if (*value != unstated || otherwise == unstated) return;
+    *value = otherwise;
+    *source = other_source;
+  };
+  ConditionSources& in = own.stated_in;
+  const ConditionSources& other = common.stated_in;
   if (own.name.empty()) own.name = common.name;
-  fill(&own.temperature_C, common.temperature_C);
-  fill(&own.irradiance_W_m2, common.irradiance_W_m2);
+  take(&own.temperature_C, common.temperature_C, &in.temperature, other.temperature);
+  take(&own.irradiance_W_m2, common.irradiance_W_m2, &in.irradiance, other.irradiance);
   if (own.light.empty()) own.light = common.light;
-  fill(&own.cells_in_series, common.cells_in_series);
+  take(&own.cells_in_series, common.cells_in_series, &in.cells, other.cells);
   fill(&own.strings_in_parallel, common.strings_in_parallel);
   DeviceNotes& notes = own.notes;
-  if (notes.technology.empty()) notes.technology = common.notes.technology;
-  fill(&notes.bypass_diodes, common.notes.bypass_diodes);
+  take(&notes.technology, common.notes.technology, &in.technology, other.technology);
+  take(&notes.bypass_diodes, common.notes.bypass_diodes, &in.bypass_diodes, other.bypass_diodes);
+  fill(&notes.modules_in_series, common.notes.modules_in_series);
   fill(&notes.bandgap_eV, common.notes.bandgap_eV);
   fill(&notes.bandgap_slope_per_K, common.notes.bandgap_slope_per_K);
   fill(&notes.isc_tempco_per_K, common.notes.isc_tempco_per_K);

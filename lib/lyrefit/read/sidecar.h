@@ -20,6 +20,7 @@ struct Sidecar {
   std::optional<int> cells_in_series;
   std::optional<int> strings_in_parallel;
   DeviceNotes notes;
+  ConditionSources stated_in;           // where these stand
   std::vector<Assumption> assumptions;  // sentences on how it was read
 };
 

@@ -77,6 +77,17 @@ std::vector<fs::path> TablesIn(const fs::path& folder) {
   return tables;
 }
 
+bool HoldsTablesBelow(const fs::path& folder) {
+  constexpr int kDeepest = 6;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry.depth() >= kDeepest) entry.disable_recursion_pending();
+    if (entry.depth() > 0 && IsTable(entry->path()) && IsFile(entry->path())) return true;
+  }
+  return false;
+}
+
 Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string& path,
                                       const ReadOptions& options) {
   const DecodedText rewritten = RewriteTable(text);

@@ -34,6 +34,8 @@ std::filesystem::path CurveInFolder(const std::filesystem::path& folder);
 
 // Paths of the tables in a folder, sorted by name, except an index.
 std::vector<std::filesystem::path> TablesIn(const std::filesystem::path& folder);
+// Whether a folder below holds a table.
+bool HoldsTablesBelow(const std::filesystem::path& folder);
 
 // A curve in generator sign whose conditions are still open.
 struct RawCurve {

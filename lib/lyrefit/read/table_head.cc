@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/left_temperature.h"
@@ -90,12 +91,23 @@ struct HeadLineState {
   TableHead* head;
   bool understood = false;
   bool holds_number = false;
+  std::optional<Statement> bare_temperature;  // "T = 50.2 C"
 };
 
 void TakeQuantity(HeadLineState* state, std::string_view label, const Quantity& quantity) {
   state->holds_number = true;
   const Statement statement = Understand(SplitLabel(label), quantity.value, quantity.unit);
   state->understood = TakeStatement(statement, state->source, state->head) || state->understood;
+  if (IsBareTemperature(statement)) state->bare_temperature = statement;
+}
+
+// Takes "20 modules": what is counted stands behind its number. False if it is no such count.
+bool TakeCount(HeadLineState* state, const Quantity& quantity) {
+  Statement statement = Understand(SplitLabel(quantity.unit), quantity.value, "");
+  const bool counts = HasAny(statement, {"cells", "diodes", "module", "modules"});
+  statement.words.insert({"number", "of"});
+  if (!counts || !TakeStatement(statement, state->source, state->head)) return false;
+  return state->holds_number = state->understood = true;
 }
 
 bool IsDate(std::string_view label) {
@@ -132,7 +144,8 @@ void TakeTechnology(HeadLineState* state, std::string_view text) {
   technology = value;
   state->understood = true;
   state->head->assumptions.emplace_back(
-      fmt::format("technology {} taken from {}", value, state->source));
+      fmt::format("technology {} taken from {}", value, state->source), About::kTechnology);
+  state->head->said.stated_in.technology = PlaceOf(state->source);
 }
 
 void TakeLight(HeadLineState* state, std::string_view text) {
@@ -157,6 +170,37 @@ bool ReadPart(HeadLineState* state, std::string_view text) {
   return quantity.has_value();
 }
 
+// Reads one number between words, "POA 912 W/m2". False if nothing was understood.
+bool ReadWords(HeadLineState* state, std::string_view text) {
+  const auto words = SplitFields(text, ' ');
+  if (!words) return false;
+  std::size_t numbers = 0;
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    if (!ParseNumber((*words)[i], true)) continue;
+    ++numbers;
+    place = i;
+  }
+  state->holds_number = state->holds_number || numbers > 0;
+  if (numbers != 1 || place == 0) return false;
+  std::string label;
+  std::string rest;
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
+  }
+  const bool before = std::exchange(state->understood, false);
+  TakeQuantity(state, label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
+  return std::exchange(state->understood, state->understood || before);
+}
+
+// Reads a field that is a whole statement, "POA 912 W/m2". False if it is none.
+bool ReadStatement(HeadLineState* state, std::string_view field) {
+  const bool before = state->holds_number;
+  const bool understood = ReadWords(state, field);
+  if (!understood) state->holds_number = before;
+  return understood;
+}
+
 void ReadFields(HeadLineState* state, const Fields& fields) {
   std::string label;
   std::vector<Quantity> quantities;
@@ -165,10 +209,10 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
     if (ReadPart(state, field)) {
       parts = true;
     } else if (const auto quantity = AsQuantity(field)) {
-      quantities.push_back(*quantity);
+      if (!TakeCount(state, *quantity)) quantities.push_back(*quantity);
     } else if (const auto list = AsList(field); !list.empty()) {
       quantities.insert(quantities.end(), list.begin(), list.end());
-    } else {
+    } else if (!ReadStatement(state, field)) {
       if (IsDate(label) && quantities.empty()) TakeDate(state, field);
       if (IsTechnology(label) && quantities.empty()) TakeTechnology(state, field);
       if (NamesLight(label) && quantities.empty()) TakeLight(state, field);
@@ -185,27 +229,6 @@ void ReadFields(HeadLineState* state, const Fields& fields) {
   if (quantities.size() > 1) state->holds_number = true;
 }
 
-// Reads one number between words, "POA 912 W/m2".
-void ReadWords(HeadLineState* state, std::string_view text) {
-  const auto words = SplitFields(text, ' ');
-  if (!words) return;
-  std::size_t numbers = 0;
-  std::size_t place = 0;
-  for (std::size_t i = 0; i < words->size(); ++i) {
-    if (!ParseNumber((*words)[i], true)) continue;
-    ++numbers;
-    place = i;
-  }
-  state->holds_number = state->holds_number || numbers > 0;
-  if (numbers != 1 || place == 0) return;
-  std::string label;
-  std::string rest;
-  for (std::size_t i = 0; i < words->size(); ++i) {
-    if (i != place) (i < place ? label : rest) += (*words)[i] + " ";
-  }
-  TakeQuantity(state, label, {*ParseNumber((*words)[place], true), TrimMarks(rest)});
-}
-
 // Whether all that follows "Label:" is one number and its unit: the comma of "Label: 47,3 C" is decimal.
 bool HoldsOneQuantity(std::string_view line) {
   const std::size_t at = line.find_first_of(":=");
@@ -219,7 +242,9 @@ void ReadLine(HeadLineState* state, std::string_view line) {
     if (delimiter == ',' && HoldsOneQuantity(line)) break;
     return ReadFields(state, *fields);
   }
-  if (!ReadPart(state, line)) ReadWords(state, line);
+  const auto count = AsQuantity(line);
+  if (ReadPart(state, line) || (count && TakeCount(state, *count))) return;
+  ReadWords(state, line);
 }
 
 }  // namespace
@@ -230,8 +255,11 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
   const std::string half_width = HalfWidth(text);
   const std::string_view line = half_width;
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
-  HeadLineState state{source, head};
+  HeadLineState state{source, head, false, false, {}};
   ReadLine(&state, TrimMarks(line));
+  if (state.bare_temperature && TakeTemperatureBesideLight(*state.bare_temperature, source, head)) {
+    state.understood = true;
+  }
   if (!state.holds_number) TakeColumnNames(line, &head->column_names);
   if (!state.holds_number || state.understood) return;
   const std::string_view label = line.substr(0, line.find_first_of(":=\t;,|"));

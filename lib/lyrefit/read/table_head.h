@@ -30,6 +30,8 @@ struct TableHead {
   std::vector<std::string> left;          // other lines with a number that was not understood
   std::vector<std::string> left_temperatures;  // lines that may state the device's temperature
   std::optional<StatedCurrent> short_circuit;
+  std::optional<int> module_cells;  // cells in series of one module
+  std::string module_cells_in;      // where that is stated: "line 4"
 };
 
 enum class HeadLine {
@@ -37,8 +39,8 @@ enum class HeadLine {
   kComment  // only a clear statement counts; other text is a remark
 };
 
-// Records the statements of a line: irradiance, cell temperature, number of cells, bypass diodes,
-// area, compliance, date, technology. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of
+// Records the statements of a line: irradiance, cell temperature, number of cells, modules in series,
+// cells per module, bypass diodes, area, compliance, date, technology. Examples: "Irradiance (W/m2),912", "POA 912 W/m2", "Number of
 // cells: 60". The first of two statements about one quantity is kept.
 void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* head);
 

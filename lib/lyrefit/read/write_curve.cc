@@ -28,6 +28,7 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
   };
   if (!notes.technology.empty()) (*sidecar)["technology"] = notes.technology;
   add("bypass_diodes", notes.bypass_diodes);
+  add("modules_in_series", notes.modules_in_series);
   add("bandgap_eV", notes.bandgap_eV);
   add("bandgap_slope_per_K", notes.bandgap_slope_per_K);
   add("isc_tempco_per_K", notes.isc_tempco_per_K);

@@ -47,10 +47,6 @@ std::vector<EffectUse> EffectsOf(const Device& device) {
   return device.effects == nullptr ? std::vector<EffectUse>() : device.effects->uses;
 }
 
-std::string Plural(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string FullSentence(std::string text) {
   if (!text.empty() && text.back() != '.') text += '.';
   return text;

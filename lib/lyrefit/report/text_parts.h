@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
@@ -22,9 +23,6 @@ std::string PlusEffects(const std::vector<EffectUse>& uses);
 
 // The effects of a device besides its diodes.
 std::vector<EffectUse> EffectsOf(const Device& device);
-
-// "1 cell", "3 cells"
-std::string Plural(std::size_t count, const std::string& noun);
 
 // The text with a full stop at its end.
 std::string FullSentence(std::string text);

@@ -103,7 +103,10 @@ Expected<void> TakeCondition(const RecordPlace& place, const RecordScalar& scala
         scalar.column);
   }
   std::optional<double>& target = temperature ? said->temperature_C : said->irradiance_W_m2;
-  if (!target) target = value;
+  if (target) return {};
+  target = value;
+  ConditionSources& in = said->stated_in;
+  (temperature ? in.temperature : in.irradiance) = "\"" + scalar.name + "\"";
   return {};
 }
 

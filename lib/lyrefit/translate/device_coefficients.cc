@@ -14,6 +14,7 @@
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/translate/take_coefficients.h"
 
 namespace lyrefit {
 namespace {
@@ -221,14 +222,11 @@ std::vector<std::string> BetaTexts(const StatedCoefficients& coefficients) {
   return PerKelvinTexts(coefficients.beta_V_K, coefficients.beta_percent_K);
 }
 
-Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coefficients) {
-  TRY(const std::string text, ReadTextFile(path, kLargestFile));
-  TRY(const nlohmann::json document, ParseJson(text, path));
-  if (!document.is_object()) return Fail("expected a JSON object with coefficients", path);
+Expected<void> TakeCoefficients(const nlohmann::json& document, const std::string& text,
+                                const std::string& path, StatedCoefficients* coefficients) {
   const bool nested = document.contains("coefficients") && document["coefficients"].is_object();
   TRY(const StatedCoefficients read,
       CoefficientsOf(nested ? document["coefficients"] : document, text, path));
-  if (IsEmpty(read)) return Fail("no coefficient in it: expected alpha_sc_A_K or the like", path);
   StatedCoefficients& kept = *coefficients;
   KeepPair(read.alpha_A_K, read.alpha_percent_K, &kept.alpha_A_K, &kept.alpha_percent_K);
   KeepPair(read.beta_V_K, read.beta_percent_K, &kept.beta_V_K, &kept.beta_percent_K);
@@ -241,6 +239,22 @@ Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coe
   KeepOr(read.dEgdT_1_K, &kept.dEgdT_1_K);
   KeepOr(read.mu_gamma_1_K, &kept.mu_gamma_1_K);
   return {};
+}
+
+Expected<void> ReadCoefficients(const std::string& path, StatedCoefficients* coefficients) {
+  TRY(const std::string text, ReadTextFile(path, kLargestFile));
+  TRY(const nlohmann::json document, ParseJson(text, path));
+  if (!document.is_object()) return Fail("expected a JSON object with coefficients", path);
+  StatedCoefficients read;
+  TRY(TakeCoefficients(document, text, path, &read));
+  if (IsEmpty(read)) {
+    return Fail(
+        "no coefficient in it: expected alpha_sc_A_K or alpha_sc_percent_K, beta_oc_V_K or "
+        "beta_oc_percent_K, kappa_ohm_K, resistance_series_ohm, B1, B2, epsilon_V, EgRef_eV, "
+        "dEgdT_1_K or mu_gamma_1_K",
+        path);
+  }
+  return TakeCoefficients(document, text, path, coefficients);
 }
 
 SettledInputs SettleInputs(const StatedCoefficients& stated, const std::string& technology,

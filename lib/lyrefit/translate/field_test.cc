@@ -31,7 +31,7 @@ Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOp
 }
 
 double Modules(const FieldTestOptions& options) {
-  return static_cast<double>(options.modules) * options.strings;
+  return static_cast<double>(std::max(options.modules, 1)) * options.strings;
 }
 
 // Fraction of the power behind the cables. Their loss I^2 R is a part of V I in proportion to the

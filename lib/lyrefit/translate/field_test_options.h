@@ -28,7 +28,7 @@ struct FieldTestOptions {
   double rated_percent = 0;
   std::optional<double> power_coefficient_percent_K;
   double power_coefficient_percent = 5;
-  int modules = 1;
+  int modules = 0;  // 0: as the curve or the sheet of the module states, else 1
   int strings = 1;
   double cabling_percent = 0;
 };
@@ -54,7 +54,8 @@ inline constexpr OptionRow<FieldTestOptions> kFieldTestOptionTable[] = {
      &FieldTestOptions::power_coefficient_percent_K},
     {"gamma-u", "%", "its expanded uncertainty (k = 2), of itself",
      &FieldTestOptions::power_coefficient_percent, 0, 1000},
-    {"modules", "N", "modules in series in the string", &FieldTestOptions::modules, 1, 1000},
+    {"modules", "N", "modules in series in the string; 0: as the curve or the sheet states, else 1",
+     &FieldTestOptions::modules, 0, 1000},
     {"strings", "N", "strings in parallel", &FieldTestOptions::strings, 1, 1000},
     {"cabling-loss", "%", "of the power in the cables, at 1000 W/m2",
      &FieldTestOptions::cabling_percent, 0, 50},

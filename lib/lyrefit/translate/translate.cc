@@ -208,11 +208,23 @@ void AddWarnings(const Preparation& made, TranslationReport* report) {
   for (const std::string& warning : best->budget.warnings) report->warnings.push_back(warning);
 }
 
+// Completes the curve by the layout, and the modules in series of the field test by the curve.
+void TakeLayout(IvCurve* curve, TranslateOptions* options) {
+  int& modules = options->field_test.modules;
+  if (modules > 0) curve->notes.modules_in_series = modules;
+  FillLayout(options->layout, curve);
+  for (IvCurve& other : options->further) FillLayout(options->layout, &other);
+  modules = curve->notes.modules_in_series.value_or(1);
+}
+
 }  // namespace
 
-Expected<TranslationReport> TranslateCurve(const IvCurve& curve, const TranslateOptions& options,
+Expected<TranslationReport> TranslateCurve(const IvCurve& given, const TranslateOptions& asked,
                                            const Observer& observer) {
   const Instant start = Now();
+  IvCurve curve = given;
+  TranslateOptions options = asked;
+  TakeLayout(&curve, &options);
   TRY(ValidateTranslateOptions(options));
   TRY(const Preparation made, Prepare(curve, options, observer));
   TranslationReport report;
@@ -257,7 +269,7 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& curve, const Translate
   if (best.result >= 0) facts.procedure = report.results[best.result].procedure;
   report.checklist = CheckConditions(curve, facts, options.checklist);
   AddWarnings(made, &report);
-  report.non_default_options = NonDefaults(options, kTranslateOptionTable);
+  report.non_default_options = NonDefaults(asked, kTranslateOptionTable);
   report.seconds = SecondsSince(start);
   return report;
 }

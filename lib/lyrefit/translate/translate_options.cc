@@ -7,11 +7,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
+#include "lyrefit/read/module_json.h"
 #include "lyrefit/read/read_module.h"
+#include "lyrefit/translate/take_coefficients.h"
 
 namespace lyrefit {
 
@@ -92,23 +93,19 @@ void ShareSeedAndThreads(TranslateOptions* options) {
 }
 
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options) {
+  TRY(options->layout, ReadDeviceLayout(path));
   TRY(const bool other, HoldsModule(path));
   if (other) return TakeSheet(path, options);
-  constexpr std::uintmax_t kLargestFile = 1U << 20;
-  TRY(const std::string text, ReadTextFile(path, kLargestFile));
-  TRY(const nlohmann::json module, ParseJson(text, path));
-  if (!module.is_object()) return Fail("expected a JSON object, the sheet of a module", path);
-  const JsonFields fields(module, text, path);
+  TRY(const ModuleJson module, ReadModuleJson(path));
+  const JsonFields fields(module.json, module.text, path);
   FieldTestOptions& test = options->field_test;
   TRY(const auto rated_W, fields.Number({"rated_power_W"}));
   TRY(const auto gamma, fields.Number({"gamma_pmp_percent_K"}));
-  TRY(const auto modules, fields.WholeNumber({"modules_in_series"}));
   TRY(const auto technology, fields.Text("technology"));
   if (!test.rated_W) test.rated_W = rated_W;
   if (!test.power_coefficient_percent_K) test.power_coefficient_percent_K = gamma;
-  if (test.modules == FieldTestOptions().modules) test.modules = modules.value_or(test.modules);
   if (options->technology.empty()) options->technology = technology.value_or("");
-  return ReadCoefficients(path, &options->coefficients);
+  return TakeCoefficients(module.json, module.text, path, &options->coefficients);
 }
 
 Expected<void> ValidateTranslateOptions(const TranslateOptions& options) {

@@ -9,6 +9,7 @@
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/diagnose_options.h"
+#include "lyrefit/read/device_layout.h"
 #include "lyrefit/translate/checklist_options.h"
 #include "lyrefit/translate/device_coefficients.h"
 #include "lyrefit/translate/field_notes.h"
@@ -31,6 +32,9 @@ struct TranslateOptions {
   std::vector<IvCurve> further;  // of the same device under other conditions, procedure 3
   UncertaintyOptions uncertainty;
   FieldTestOptions field_test;  // scored where a rating is stated
+  // By the sheet of the module: cells and bypass diodes that the curve does not state, and modules in
+  // series where neither field_test nor the curve has them.
+  DeviceLayout layout;
   ChecklistOptions checklist;
   FieldNotes notes;
   DiagnoseOptions diagnosis;  // of the extended model; without hold-out
@@ -98,10 +102,10 @@ const std::vector<OptionRow<DiagnoseOptions>>& TranslateDiagnosisRows();
 // The uncertainties draw with the seed and the threads of the diagnosis.
 void ShareSeedAndThreads(TranslateOptions* options);
 
-// Reads a module's data sheet from JSON: rated_power_W, gamma_pmp_percent_K, technology,
-// modules_in_series, and the coefficients of ReadCoefficients; or from a .PAN file or a row of SAM's
-// library of modules (ReadModuleSheet), without modules_in_series. Options that are set already are
-// kept. Errors: neither of them, a value of the wrong type.
+// Reads a module's data sheet from JSON: rated_power_W, gamma_pmp_percent_K, technology, the layout of
+// ReadDeviceLayout, and the coefficients of ReadCoefficients; or from a .PAN file or a row of SAM's
+// library of modules (ReadModuleSheet). Options that are set already are
+// kept. Errors: neither of them, in JSON a key that no sheet has, a value of the wrong type.
 Expected<void> ReadModule(const std::string& path, TranslateOptions* options);
 
 // Errors: an option outside its range, implausible, or without another one that it needs.

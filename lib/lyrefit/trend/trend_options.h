@@ -22,7 +22,6 @@ struct TrendOptions {
   // Standard deviations of what the instruments may drift in a year. They widen intervals.
   double irradiance_drift_percent = 0.5;
   double temperature_drift_K = 0.2;
-  int bypass_diodes = 0;   // of the device, each across equally many cells; 0: as sweeps state
   std::uint64_t seed = 0;  // of the null distribution of changes
   int threads = 0;         // 0: all cores; never changes a result
 };
@@ -41,8 +40,6 @@ inline constexpr OptionRow<TrendOptions> kTrendOptionTable[] = {
     {"temperature-drift", "K",
      "what the temperature sensor may drift in a year, one standard deviation",
      &TrendOptions::temperature_drift_K, 0.0, 20.0},
-    {"bypass-diodes", "N", "of the device, each across equally many cells; 0: as sweeps state",
-     &TrendOptions::bypass_diodes, 0, 100000},
     {"seed", "", "seed of the draws from series without a change", &TrendOptions::seed, 0,
      1.8446744073709552e19},
     {"threads", "N", "0: all cores; never changes a result", &TrendOptions::threads, 0,

@@ -50,9 +50,9 @@ std::vector<const IvCurve*> SweepsForLaw(const std::vector<TimedSweep>& sweeps,
 }  // namespace
 
 Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource source,
-                                     const TrendOptions& options) {
+                                     int bypass_diodes) {
   TRY(TrendDevice device, DeviceOfModule(module));
-  device.substrings = options.bypass_diodes;
+  device.substrings = bypass_diodes;
   TrendSeries series;
   series.source = source;
   series.device = std::make_shared<const TrendDevice>(device);
@@ -69,7 +69,6 @@ Expected<TrendSeries> SeriesOfSweeps(const std::vector<TimedSweep>& sweeps,
                             device.error().message, kLeastBlocks, sweeps.size(), kSideBySide));
   }
   if (!device) return tl::unexpected(device.error());
-  if (options.bypass_diodes > 0) device->substrings = options.bypass_diodes;
   TrendSeries series;
   series.device = std::make_shared<const TrendDevice>(*device);
   series.law = fmt::format("{} sweeps of the reference days", chosen.size());

@@ -33,9 +33,10 @@ struct TrendSeries {
   bool interrupted = false;                   // reading was stopped: the first ones only
 };
 
-// A series without rows and name, by the law of a module file. Errors: a module with two diodes.
+// A series without rows and name, by the law of a module file. `bypass_diodes` of the device, each
+// across equally many cells; 0: not known. Errors: a module with two diodes.
 Expected<TrendSeries> SeriesOfModule(const NamedParameters& module, TrendSource source,
-                                     const TrendOptions& options);
+                                     int bypass_diodes);
 
 // A series without rows and name, by the law of a device's own sweeps: medians of fits with n free
 // of up to sixty of the brighter ones among the reference days. Errors: no sweep that a single diode

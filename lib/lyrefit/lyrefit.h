@@ -23,7 +23,8 @@
 // through the sheet's three points. Diagnose finds the deviations of a measurement from the model
 // and their causes. TranslateCurve translates a curve to standard or other conditions, with its
 // uncertainty. DescribeCell describes the measurements of a laboratory cell, FindTrend what
-// changed in a device over time. FitDocument, FamilyDocument and similar functions return reports as data for
+// changed in a device over time. CiteReport
+// writes BibTeX of what a report used. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // What of this is promised within a major version, and what is experimental, is listed in
@@ -39,6 +40,7 @@
 
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/cite/cite.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/devices/device_documents.h"

@@ -76,7 +76,7 @@ TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
                      {kRtc + " --bounds literature --n-upper 3", "leave out those of n"},
                      {kRtc + " --bounds no_such", "no file 'no_such'"},
                      {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
-                     {kRtc + " --plot x.pdf", ".svg or .png"},
+                     {kRtc + " --plot x.gif", ".svg, .png or .pdf"},
                      {kRtc + " --tolerance 0", "--tolerance"},
                  });
 }

@@ -177,7 +177,7 @@ TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
       {"--bounds nowhere.json", "there is no file 'nowhere.json'"},
       {"--bound Rs", "--bound"},
       {"--temperature-C 300", "looks like kelvin"},
-      {"--plot " + folder.Path("box.gif"), ".svg or .png"},
+      {"--plot " + folder.Path("box.gif"), ".svg, .png or .pdf"},
       {"--json - --csv -", "only one of --json and --csv can have standard output"},
       {"--json " + folder.Path("no/c.json"), "cannot write the file"},
       {"no_such_curve.csv", "no_such_curve.csv"},

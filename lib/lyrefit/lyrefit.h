@@ -30,7 +30,9 @@
 // What of this is promised within a major version, and what is experimental, is listed in
 // data/stable/promised.txt; an experimental header says so in its first line.
 //
-// Further public headers: model/pvlib_parameters.h exports a device to pvlib.
+// Further public headers: model/device.h has the diode equation as a template, for numbers with
+// derivatives, model/diode_residual.h its residual and the solved current for a problem of Ceres of
+// one's own, model/kernel.h a whole curve at once. model/pvlib_parameters.h exports a device to pvlib.
 // read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate/simulate_module.h
 // simulates one, read/write_pan.h writes one for PVsyst.
 // family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a

@@ -136,6 +136,7 @@ TEST(BadInput, BoundsFileBroken) {
 
 TEST(BadInput, PublishedBoundsThatAreNotThere) {
   ExpectFileRefused(kGood, {"--bounds paper", "bounds-paper.json", "physical"}, "--bounds paper");
+  ExpectFileRefused(kGood, {"--bounds table1", "bounds-paper.json", "physical"}, "--bounds table1");
 }
 
 TEST(BadInput, UnknownNames) {

@@ -16,7 +16,8 @@ const std::vector<Reference>& References() {
       {"mlo", "article", "", "", "Journal of Industrial and Management Optimization", "", "22", "1",
        "642--690", "",
        "algorithm=mlo algorithm=mlo+vector algorithm=mlo+shape algorithm=lo+mblss "
-       "algorithm=lo+dmlss bounds=table1 constants=paper"},
+       "algorithm=lo+dmlss bounds=table1 bounds=paper "
+       "constants=paper"},
       {"dehghani2023", "article",
        "Dehghani, M. and Bektemyssova, G. and Montazeri, Z. and Shaikemelev, G. and Malik, O. P. "
        "and Dhiman, G.",

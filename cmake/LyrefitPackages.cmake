@@ -10,6 +10,9 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lyrefit)
 set(LYREFIT_MAINTAINER "the lyrefit authors <lyrefit@example.org>" CACHE STRING "Who stands for the packages")
 set(CPACK_PACKAGE_CONTACT "${LYREFIT_MAINTAINER}")
+if(LYREFIT_ADDRESS)
+  set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${LYREFIT_ADDRESS}")
+endif()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
@@ -80,7 +83,7 @@ ${LYREFIT_PYTHON_VERSION}~), python3 (<< 3.${next_python}), python3-numpy")
   # The Python module linked to the shared library.
   find_package(fmt REQUIRED)
   find_package(glog REQUIRED)
-  add_library(lyrefit_module MODULE EXCLUDE_FROM_ALL $<TARGET_OBJECTS:lyrefit_python>)
+  add_library(lyrefit_module MODULE EXCLUDE_FROM_ALL "${LYREFIT_WITHOUT_PAGMO}" $<TARGET_OBJECTS:lyrefit_python>)
   set_target_properties(lyrefit_module PROPERTIES PREFIX "" OUTPUT_NAME _lyrefit SUFFIX "${LYREFIT_PYTHON_SUFFIX}"
                         LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/packages/python")
   target_link_libraries(lyrefit_module PRIVATE lyrefit_shared fmt::fmt glog::glog)

@@ -23,6 +23,7 @@ lyrefit_module(report LINK fit read WITH Eigen3::Eigen fmt::fmt nlohmann_json::n
 
 # What else is estimated, proved and found.
 lyrefit_module(effects LINK fit WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog ARITHMETIC)
+lyrefit_module(cite LINK effects report WITH fmt::fmt nlohmann_json::nlohmann_json TEXT)
 lyrefit_module(simulate LINK effects settings WITH fmt::fmt nlohmann_json::nlohmann_json)
 lyrefit_module(certify LINK report WITH Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)
 lyrefit_module(family LINK report WITH Boost::boost Eigen3::Eigen fmt::fmt glog::glog nlohmann_json::nlohmann_json)

@@ -43,7 +43,7 @@ void DeclareBudget(VerbLine* verb, BudgetRequest* request) {
   AddSearchRows(verb, {"memory-rate", "distance-coefficient", "de-scale", "de-crossover", "elites"},
                 &study);
   verb->AddOption("--plot", &study.output.plot_file,
-                  "success rate over evaluations as a picture, .svg or .png")
+                  "success rate over evaluations as a picture, .svg, .png or .pdf")
       .Draws();
 }
 

@@ -36,10 +36,10 @@ void DeclareCompare(VerbLine* verb, CompareRequest* request) {
   AddNamedFlags(verb, kCompareOptionTable, {"target-gap", "polish", "plain-polish"},
                 &study.options);
   verb->AddOption("--plot", &study.output.plot_file,
-                  "box plots of all runs as a picture, .svg or .png")
+                  "box plots of all runs as a picture, .svg, .png or .pdf")
       .Draws();
   verb->AddOption("--convergence-plot", &request->convergence_file,
-                  "the median course of the searches as a picture, .svg or .png")
+                  "the median course of the searches as a picture, .svg, .png or .pdf")
       .Draws();
 }
 

@@ -43,7 +43,7 @@ void DeclareDataSheet(VerbLine* verb, DataSheetRequest* request) {
       .Writes();
   AddCsvFlag(verb, "the parameters as a table, a row each", &output);
   verb->AddOption("--plot", &output.plot_file,
-                  "all devices through the sheet's points as a picture, .svg or .png")
+                  "all devices through the sheet's points as a picture, .svg, .png or .pdf")
       .Draws();
   AddHtmlFlag(verb, "answer", &output);
   verb->AddQuietSwitch();

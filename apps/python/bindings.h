@@ -24,6 +24,7 @@ void BindCertify(py::module_* module);
 void BindStudy(py::module_* module);
 void BindAudit(py::module_* module);
 void BindEffects(py::module_* module);
+void BindCite(py::module_* module);
 void BindPvlib(py::module_* module);
 void BindCommand(py::module_* module);  // in wheels only
 

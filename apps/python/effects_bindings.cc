@@ -1,6 +1,7 @@
 #include "bindings.h"
 #include "effects.h"
 #include "keywords.h"
+#include "lyrefit/cite/references.h"
 #include "lyrefit/effects/catalogue.h"
 #include "lyrefit/effects/read_effect_use.h"
 #include "lyrefit/estimate/fit/effect_text.h"
@@ -128,7 +129,7 @@ py::list CatalogueOf() {
     row["equation"] = effect->equation;
     row["sentence"] = effect->sentence;
     row["needs"] = effect->needs;
-    row["reference"] = effect->reference;
+    row["reference"] = ReferenceText(effect->reference);
     py::list parameters;
     for (const EffectParameter& parameter : effect->parameters) parameters.append(parameter.symbol);
     row["parameters"] = parameters;

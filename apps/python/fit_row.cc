@@ -36,7 +36,7 @@ void AddKeyPoints(const KeyPoints& points, std::map<std::string, double>* number
 }
 
 // Parameters of effects have no pvlib name and use their symbol.
-std::string NameOf(const ParameterInfo& info) {
+std::string ColumnOf(const ParameterInfo& info) {
   return info.name.empty() ? info.symbol : info.name;
 }
 
@@ -87,7 +87,7 @@ FitRow RowOf(const std::string& id, const FitReport& report) {
                  {"irradiance_Wm2", conditions.irradiance_W_m2},
                  {"nNsVth", report.nNsVth}};
   for (const Estimate& estimate : report.estimates) {
-    const std::string name = NameOf(estimate.info);
+    const std::string name = ColumnOf(estimate.info);
     row.parameters.push_back(name);
     row.numbers[name] = report.polished ? estimate.refined : estimate.searched;
     row.numbers[name + "_se"] = estimate.standard_error;

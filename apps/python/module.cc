@@ -35,6 +35,7 @@ PYBIND11_MODULE(_lyrefit, module) {
   BindCertify(&module);
   BindStudy(&module);
   BindAudit(&module);
+  BindCite(&module);
   BindPvlib(&module);
 #ifdef LYREFIT_WHEEL
   BindCommand(&module);

@@ -35,10 +35,34 @@ std::string Describe(const Result& result) {
   return "<lyrefit " + brief + ">";
 }
 
-void SavePlot(const Result& result, py::handle file) {
+constexpr char kSavePlotDoc[] =
+    "save_plot($self, file, kind='plot')\n--\n\n"
+    "Draw the picture (--plot) into a file.\n\n"
+    "Parameters\n----------\n"
+    "file : path\n"
+    "    FILE.svg, FILE.png or, for a paper, FILE.pdf. gnuplot draws it.\n"
+    "kind : str\n"
+    "    ``'plot'``; of compare() also ``'convergence'``: the median of the best RMSE so far above "
+    "the\n"
+    "    reference, over evaluations, of every search, your own among them "
+    "(--convergence-plot).\n\n"
+    "Raises\n------\n"
+    "lyrefit.Error\n"
+    "    Another ending, a kind that this result has not, no gnuplot, a file that cannot be "
+    "written.\n";
+
+void SavePlot(const Result& result, py::handle file, const std::string& kind) {
   const std::string path = TextOf("file", file);
-  if (!result.record().plot) Raise({"there is no picture of this", path});
-  Must(Unlocked([&] { return result.record().plot(path); }));
+  if (kind != "plot" && kind != "convergence") {
+    Raise({"kind: expected 'plot' or 'convergence', found '" + kind + "'", {}});
+  }
+  const Record::Plot& draw = kind == "plot" ? result.record().plot : result.record().convergence;
+  if (!draw) {
+    Raise({kind == "plot" ? "there is no picture of this"
+                          : "kind: only a result of compare() has a convergence picture",
+           path});
+  }
+  Must(Unlocked([&] { return draw(path); }));
 }
 
 }  // namespace
@@ -94,8 +118,7 @@ void BindResult(py::module_* module) {
       .def("save_page", &SavePage, py::arg("file"), py::arg("interactive") = true,
            "save_page($self, file, interactive=True)\n--\n\n"
            "Write the report as a page to send (--html): pictures, tables and data in one file.")
-      .def("save_plot", &SavePlot, py::arg("file"),
-           "save_plot($self, file)\n--\n\nDraw the picture (--plot) into FILE.svg or FILE.png.")
+      .def("save_plot", &SavePlot, py::arg("file"), py::arg("kind") = "plot", kSavePlotDoc)
       .def("_repr_html_", &HtmlOf)
       .def("_ipython_key_completions_", [words](const Result& r) { return py::list(words(r)); })
       .def("__repr__", &Describe)

@@ -20,8 +20,10 @@ struct Record {
   std::function<std::string()> text;
   std::function<std::string()> brief;
   std::function<Document()> document;
-  std::function<std::string()> csv = {};                             // empty: no table
-  std::function<Expected<void>(const std::string& file)> plot = {};  // empty: no picture
+  std::function<std::string()> csv = {};  // empty: no table
+  using Plot = std::function<Expected<void>(const std::string& file)>;
+  Plot plot = {};         // empty: no picture
+  Plot convergence = {};  // of searches; empty: none
 };
 
 // Result of a verb: a mapping with the content of the JSON text, which Python's json parses at the

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "../lyrefit/pagmo_searcher.h"
 #include "bindings.h"
 #include "docs.h"
 #include "effects.h"
@@ -33,6 +34,9 @@ Record RecordOf(const Compared& comparison) {
   record.document = [comparison] { return CompareDocument(*comparison); };
   record.csv = [comparison] { return CompareCsv(*comparison); };
   record.plot = [comparison](const std::string& file) { return PlotBoxes(*comparison, file); };
+  record.convergence = [comparison](const std::string& file) {
+    return PlotConvergence(*comparison, file);
+  };
   return record;
 }
 
@@ -61,10 +65,20 @@ ComparedAlgorithm NamedAlgorithm(const std::string& name, const CompareAsked& as
   for (const AlgorithmKind kind : {AlgorithmKind::kShape, AlgorithmKind::kDefault}) {
     if (name == ToText(kind)) return OwnAlgorithm(kind);
   }
+  if (name.rfind("pagmo:", 0) == 0) {
+    if (PagmoNames().empty()) {
+      Raise({"algorithms: '" + name +
+                 "' needs pagmo2, which wheels and packages leave out: build the module where "
+                 "libpagmo-dev is installed, or take a search of lyrefit.searches, such as "
+                 "lyrefit.searches.cma_es",
+             {}});
+    }
+    return Must(PagmoAlgorithm(name.substr(6), asked.search));
+  }
   const std::optional<Algorithm> algorithm = FromText<Algorithm>(name);
   if (!algorithm) {
     Raise({"algorithms: expected a list of " + AllTexts<Algorithm>() +
-               ", shape, default or functions, found '" + name + "'",
+               ", shape, default, pagmo:NAME or functions, found '" + name + "'",
            {}});
   }
   return PlainAlgorithms({*algorithm}, asked.search).front();
@@ -264,7 +278,9 @@ constexpr char kCompareDoc[] =
     "curves : curve, or list or dict of curves\n"
     "    Each as fit() takes it: a path, a Curve, a frame, (voltage, current) in V and A.\n"
     "algorithms : str, callable, dict or list\n"
-    "    Names of the library's, 'shape', 'default', and searches of your own: functions; a dict\n"
+    "    Names of the library's, 'shape', 'default', 'pagmo:NAME' with pagmo2's where the module "
+    "was\n"
+    "    built beside it, and searches of your own: functions (lyrefit.searches has some); a dict\n"
     "    gives either other names. Such a search is called as ``search(objective, lower, upper,\n"
     "    options)``: `objective` gives the RMSE in A at a point of shape (n,), a float, or at m\n"
     "    points of shape (m, n), an array; `lower` and `upper` are the box, shape (n,). It "
@@ -284,7 +300,8 @@ constexpr char kCompareDoc[] =
     "    bounds 'physical' and 'wide' make saturation currents and shunts logarithmic; published\n"
     "    ones keep all linear, and so do those that you give.\n"
     "bounds : str, path or dict\n"
-    "    'physical', 'wide', 'paper', 'literature', a file, or {'Rs': (0, 0.5), ...}; bound={...}\n"
+    "    'physical', 'wide', 'table1', 'literature', a file, or {'Rs': (0, 0.5), ...}; "
+    "bound={...}\n"
     "    changes single ranges.\n"
     "resume : path, optional\n"
     "    A journal that finished runs are written to and taken up from. It knows a search of your\n"

@@ -43,10 +43,9 @@ def prepare(command, reference, parts):
     named = {page: (repository_pages.ROOT / path).read_text(encoding="utf-8")
              for path, page in site.names.items() if page.startswith("verbs/")}
     made, added = made_pages.verb_pages(command, list(named), named)
-    citation, changes = ((repository_pages.ROOT / ".github" / name).read_text(encoding="utf-8")
-                         for name in ("CITATION.cff", "CHANGELOG.md"))
+    citation = (repository_pages.ROOT / ".github" / "CITATION.cff").read_text(encoding="utf-8")
     made |= {"glossary": made_pages.glossary(command), "cpp": cpp.page()}
-    offered = OFFERED | {"cite": site.relinked("", "cite", made_pages.cite(citation, changes))}
+    offered = OFFERED | {"cite": site.relinked("", "cite", made_pages.cite(command, citation))}
     shutil.copytree(HERE / "static", source / "_static")
     site.write_all(added | {"speed": speed.page(source / "_static")}, offered)
     subprocess.run([sys.executable, "-B", repository_pages.ROOT / "data" / "benchmark" / "pack.py",

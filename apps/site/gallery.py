@@ -8,7 +8,7 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "apps" / "python" / "examples"
 ORDER = ("fit", "bounds", "two_diodes", "family", "matrix", "cell", "hysteresis", "diagnose", "references", "trend",
-         "plant", "translate", "certify", "compare", "own_effect")
+         "plant", "translate", "certify", "compare", "paper", "own_effect")
 NOTEBOOKS = ("fit", "cell", "diagnose", "trend", "compare")
 WHERE = "It runs in the folder of `lyrefit-examples.zip <../_static/lyrefit-examples.zip>`__, which has its data."
 PANDAS = " It needs pandas (the extra ``frames`` of the wheel)."

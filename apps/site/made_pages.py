@@ -89,18 +89,10 @@ def glossary(command):
     return "\n".join(out)
 
 
-def cite(citation, changelog):
-    """How to cite the software, of the texts of its citation file and of its changes, which have the year of a version."""
-    keys = yaml.safe_load(citation)
-    year = re.search(rf"^## {re.escape(keys['version'])} - (\d{{4}})", changelog, re.M)
-    authors = " and ".join(f"{{{author['name']}}}" for author in keys["authors"])
-    fields = {"author": authors, "title": keys["title"], "version": keys["version"], "year": year and year.group(1),
-              "license": keys["license"], "doi": keys.get("doi"), "url": keys.get("url")}
-    entry = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
-    said = [", ".join(author["name"] for author in keys["authors"]), keys["title"], f"Version {keys['version']}", fields["year"],
-            fields["doi"], fields["url"]]
-    return (f"{keys['message']}\n\n> {cell('. '.join(filter(None, said)))}.\n\n"
-            f"BibTeX:\n\n```bibtex\n@software{{lyrefit,\n{entry}\n}}\n```\n\n"
+def cite(command, citation):
+    """How to cite the software: what its citation file says, and the entry that the command prints."""
+    entry = said(command, "cite").split("\n\n", maxsplit=1)[0]
+    return (f"{yaml.safe_load(citation)['message']}\n\nBibTeX (`lyrefit cite`):\n\n```bibtex\n{entry}\n```\n\n"
             "The same in the Citation File Format: [CITATION.cff](.github/CITATION.cff).")
 
 

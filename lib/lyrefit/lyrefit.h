@@ -23,13 +23,16 @@
 // through the sheet's three points. Diagnose finds the deviations of a measurement from the model
 // and their causes. TranslateCurve translates a curve to standard or other conditions, with its
 // uncertainty. DescribeCell describes the measurements of a laboratory cell, FindTrend what
-// changed in a device over time. FitDocument, FamilyDocument and similar functions return reports as data for
+// changed in a device over time. CiteReport
+// writes BibTeX of what a report used. FitDocument, FamilyDocument and similar functions return reports as data for
 // DrawText, DrawMarkdown and DrawHtml.
 //
 // What of this is promised within a major version, and what is experimental, is listed in
 // data/stable/promised.txt; an experimental header says so in its first line.
 //
-// Further public headers: model/pvlib_parameters.h exports a device to pvlib.
+// Further public headers: model/device.h has the diode equation as a template, for numbers with
+// derivatives, model/diode_residual.h its residual and the solved current for a problem of Ceres of
+// one's own, model/kernel.h a whole curve at once. model/pvlib_parameters.h exports a device to pvlib.
 // read/read_module.h reads modules of pvlib, PVsyst and SAM, simulate/simulate_module.h
 // simulates one, read/write_pan.h writes one for PVsyst.
 // family/fit_individually.h fits every curve of a set separately. certify/floor.h fits a
@@ -39,6 +42,7 @@
 
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/certify/certify.h"
+#include "lyrefit/cite/cite.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/devices/device_documents.h"

@@ -136,6 +136,7 @@ TEST(BadInput, BoundsFileBroken) {
 
 TEST(BadInput, PublishedBoundsThatAreNotThere) {
   ExpectFileRefused(kGood, {"--bounds paper", "bounds-paper.json", "physical"}, "--bounds paper");
+  ExpectFileRefused(kGood, {"--bounds table1", "bounds-paper.json", "physical"}, "--bounds table1");
 }
 
 TEST(BadInput, UnknownNames) {
@@ -161,7 +162,7 @@ TEST(BadInput, UnwritableOutput) {
   ExpectRefused(folder, curve + " --json " + folder.Path("no/out.json"), {"no/out.json"});
   ExpectRefused(folder, curve + " --plot " + folder.Path("no/out.svg"), {"no/out.svg"});
   ExpectRefused(folder, curve + " --json " + folder.Path(""), {"folder"});
-  ExpectRefused(folder, curve + " --plot " + folder.Path("out.gif"), {".svg or .png"});
+  ExpectRefused(folder, curve + " --plot " + folder.Path("out.gif"), {".svg, .png or .pdf"});
   ExpectRefused(folder, curve + " --json /proc/out.json", {"/proc/out.json"});
 }
 

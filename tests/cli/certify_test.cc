@@ -50,6 +50,10 @@ TEST(CertifyVerb, TakesTheBoxesThatFitTakes) {
   const json j = json::parse(result.out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
   EXPECT_EQ(j["bounds"], "paper");
+  const AppResult renamed =
+      RunApp("certify " + DataFolder("msx60") + " --bounds table1 --models dd --json -");
+  EXPECT_EQ(json::parse(renamed.out)["models"][0]["rmse_A"], j["models"][0]["rmse_A"]);
+  EXPECT_EQ(json::parse(renamed.out)["bounds"], "table1");
   EXPECT_EQ(j["ranges"]["Rsh"], json({150, 3000}));
   EXPECT_EQ(j["ranges"]["diodes"][1]["Is"], json({1e-8, 1e-6}));
   EXPECT_NEAR(j["models"][0]["rmse_A"].get<double>(), 9.013852839e-4, 1e-12);
@@ -76,7 +80,7 @@ TEST(CertifyVerb, RefusesBadInputWithOneSentence) {
                      {kRtc + " --bounds literature --n-upper 3", "leave out those of n"},
                      {kRtc + " --bounds no_such", "no file 'no_such'"},
                      {kRtc + " --models qd", "--models: expected a list of sd, dd, td, found 'qd'"},
-                     {kRtc + " --plot x.pdf", ".svg or .png"},
+                     {kRtc + " --plot x.gif", ".svg, .png or .pdf"},
                      {kRtc + " --tolerance 0", "--tolerance"},
                  });
 }

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "repeats.h"
 #include "run_app.h"
@@ -16,6 +18,36 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string kSmall = " --runs 3 --population 10 --iterations 20 ";
+
+// The commands under the tables of data/paper/README.md, which cmake/results.sh takes from remarks.csv, in short.
+TEST(Compare, CommandsUnderTheTablesOfThePublicationRun) {
+  const std::string page = FileText(DataFolder("paper") + "/README.md");
+  std::istringstream rows(FileText(DataFolder("paper") + "/remarks.csv"));
+  const std::string root = DataFolder("paper") + "/../";
+  int run = 0;
+  for (std::string row; std::getline(rows, row);) {
+    static const std::regex kCommand(R"re(^([A-Za-z0-9 ]+): command,"(.*)"$)re");
+    std::smatch match;
+    if (!std::regex_match(row, match, kCommand)) continue;
+    const std::string lines = std::regex_replace(match[2].str(), std::regex(" ; "), "\n");
+    EXPECT_THAT(page, HasSubstr("```text\n" + lines + "\n```\n")) << match[1];
+    std::istringstream commands(lines);
+    for (std::string command; std::getline(commands, command);) {
+#ifndef LYREFIT_HAS_PAGMO
+      if (command.find("pagmo:") != std::string::npos) continue;
+#endif
+      command = std::regex_replace(command.substr(8), std::regex(" data/"), " " + root);
+      command = std::regex_replace(command, std::regex("--runs [0-9]+"), "--runs 2");
+      if (command.rfind("compare", 0) == 0) command += " --population 70 --iterations 3";
+      if (command.rfind("sensitivity", 0) == 0) command += " --population 10 --iterations 3";
+      if (command.rfind("budget", 0) == 0) command += " --budgets 10,30";
+      const AppResult result = RunApp(command);
+      EXPECT_EQ(result.exit_code, 0) << command << '\n' << result.err;
+      ++run;
+    }
+  }
+  EXPECT_GE(run, 14);
+}
 
 TEST(CompareVerb, PrintsTheComparisonByDefault) {
   const AppResult result = RunApp("compare " + kRtc + kSmall);
@@ -177,7 +209,7 @@ TEST(CompareVerb, RefusesBadFlagsWithOneSentence) {
       {"--bounds nowhere.json", "there is no file 'nowhere.json'"},
       {"--bound Rs", "--bound"},
       {"--temperature-C 300", "looks like kelvin"},
-      {"--plot " + folder.Path("box.gif"), ".svg or .png"},
+      {"--plot " + folder.Path("box.gif"), ".svg, .png or .pdf"},
       {"--json - --csv -", "only one of --json and --csv can have standard output"},
       {"--json " + folder.Path("no/c.json"), "cannot write the file"},
       {"no_such_curve.csv", "no_such_curve.csv"},

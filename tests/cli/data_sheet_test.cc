@@ -76,7 +76,7 @@ TEST(DataSheetVerb, ShowsAndDrawsTheFamily) {
   const json j = json::parse(result.out, nullptr, false);
   EXPECT_EQ(j["family"]["picked"]["n"], j["parameters"]["n"]["value"]);
   EXPECT_EQ(j["family"]["rounding"]["low"]["n"], j["parameters"]["n"]["low"]);
-  ExpectRefusals("", {{kSheet + " --plot x.pdf", ".svg or .png"},
+  ExpectRefusals("", {{kSheet + " --plot x.gif", ".svg, .png or .pdf"},
                       {"datasheet --isc 1 --voc 1 --imp 0.9972 --vmp 0.6764 --alpha 0.0004 --beta "
                        "-0.003 --cells 1 --technology GaAs",
                        "n would have to be below"}});

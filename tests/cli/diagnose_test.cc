@@ -35,7 +35,7 @@ TEST(DiagnoseVerb, RefusesBadInputWithOneSentence) {
                          {kVerb + "--cells 0", "--cells: expected at least 1 cell"},
                          {kVerb + "--json - --answers -", "only one of --json and --answers"},
                          {kVerb + "--json no_such_folder/x.json", "cannot write"},
-                         {kVerb + "--plot x.pdf", ".svg or .png"},
+                         {kVerb + "--plot x.gif", ".svg, .png or .pdf"},
                          {kVerb + "other.csv --plot x.svg", "--plot is for one CURVE"},
                          {kVerb + "elsewhere/rtc_france.csv --answers x.json",
                           "two files are named 'rtc_france'"},

@@ -79,7 +79,7 @@ TEST(FamilyFlags, NameFilesThatCanBeWritten) {
   const TempFolder folder;
   ExpectRefused(kRtc + " --family desoto --csv " + folder.Path("no/x.csv"), "cannot write");
   ExpectRefused(kRtc + " --family desoto --pvlib " + folder.Path("no/x.json"), "cannot write");
-  ExpectRefused(kRtc + " --family desoto --plot " + folder.Path("x.pdf"), ".svg or .png");
+  ExpectRefused(kRtc + " --family desoto --plot " + folder.Path("x.gif"), ".svg, .png or .pdf");
   ExpectRefused(kRtc + " --family desoto --json - --pvlib -",
                 "only one of --pvlib and --json can have");
 }

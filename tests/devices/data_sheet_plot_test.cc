@@ -80,7 +80,7 @@ TEST(PlotDataSheet, WritesAnSvgWithItsLabels) {
                             "Pmax at 200 W/m2", "n of the rounding", "Ideality factor n"}) {
     EXPECT_THAT(svg, HasSubstr(label));
   }
-  EXPECT_FALSE(PlotDataSheet(*FitDataSheet(SampleSheet()), folder.Path("sheet.pdf")).has_value());
+  EXPECT_FALSE(PlotDataSheet(*FitDataSheet(SampleSheet()), folder.Path("sheet.gif")).has_value());
 }
 
 }  // namespace

@@ -69,9 +69,9 @@ TEST(PlotDiagnosis, LeavesOutWhatIsNotKnown) {
 
 TEST(PlotDiagnosis, RefusesOtherExtensions) {
   const TempFolder folder;
-  const auto drawn = PlotDiagnosis(SampleDiagnosis(), folder.Path("diagnosis.pdf"));
+  const auto drawn = PlotDiagnosis(SampleDiagnosis(), folder.Path("diagnosis.gif"));
   ASSERT_FALSE(drawn);
-  EXPECT_THAT(drawn.error().ToString(), HasSubstr(".svg or .png"));
+  EXPECT_THAT(drawn.error().ToString(), HasSubstr(".svg, .png or .pdf"));
 }
 
 }  // namespace

@@ -19,6 +19,16 @@ void AddRemark(const Remarks& remarks, const std::string& table, Section* sectio
   if (found != remarks.end()) AddSentence(found->second, section);
 }
 
+// The command that runs one batch of a table, or the commands, which " ; " parts.
+void AddCommand(const Remarks& remarks, const std::string& table, Section* section) {
+  const auto found = remarks.find(table + ": command");
+  if (found == remarks.end()) return;
+  std::string lines = found->second;
+  for (std::size_t at = 0; (at = lines.find(" ; ")) != std::string::npos;)
+    lines.replace(at, 3, "\n");
+  section->blocks.push_back(block::Preformatted{lines + "\n"});
+}
+
 void AddPicture(const std::string& caption, const std::string& file, Section* section) {
   section->blocks.push_back(block::Figure{caption, file});
 }
@@ -59,6 +69,7 @@ Section TableSection(const PaperStudy& study, const Remarks& remarks, const std:
       fmt::format("{} of {} figures reproduced.", reproduced, table.rows.size());
   AddTable(std::move(table), &section);
   AddSentence(count, &section);
+  AddCommand(remarks, name, &section);
   return section;
 }
 
@@ -96,6 +107,7 @@ Section GridSection(const PaperStudy& study, const Remarks& remarks) {
     reproduced += Reproduced(value);
   }
   AddSentence(fmt::format("{} of {} cells reproduced.", reproduced, count), &section);
+  AddCommand(remarks, "Table 17", &section);
   return section;
 }
 
@@ -110,6 +122,7 @@ Section S75Section(const PaperStudy& study, const Remarks& remarks, const std::s
     if (value.published.table == name) table.rows.push_back(ValueRow(value));
   }
   AddTable(std::move(table), &section);
+  AddCommand(remarks, name, &section);
   return section;
 }
 
@@ -152,6 +165,7 @@ Section MachineSection(const PaperStudy& study, const Remarks& remarks) {
                           timed.memory_MB > 0 ? Significant(timed.memory_MB, 3) : "-"});
   }
   AddTable(std::move(table), &section);
+  AddCommand(remarks, "Table 9", &section);
   return section;
 }
 
@@ -166,6 +180,7 @@ Section RankedSection(const PaperStudy& study, const Remarks& remarks) {
   Section section = {"Tables 13 to 15: who ranks first, and what the polish leaves of it"};
   AddRemark(remarks, "Table 13", &section);
   for (block::Any& table : RankedTables(study)) section.blocks.push_back(std::move(table));
+  AddCommand(remarks, "Table 13", &section);
   for (const ProblemResult& problem : study.ranked.problems) {
     Document ranks;
     AddSections({RankSection(problem), PolishVerdict(problem)}, &ranks);
@@ -215,7 +230,7 @@ Section Introduction(const PaperStudy& study) {
           "figure counts as reproduced if it lies in the range that one more batch would fall into "
           "99 times of 100. A search has {} candidates x {} iterations, and the seed is {}. Every "
           "RMSE is of the measured-current residual, in A. The constants are the literature's. The "
-          "runs are of lyrefit {}.",
+          "command under a table runs its first batch. This page was made by lyrefit {}.",
           options.batch, options.batches, options.batch, options.sensitivity_batches,
           options.population, options.iterations, options.seed, study.version),
       &section);
@@ -244,6 +259,7 @@ Section BudgetSection(const PaperStudy& study, const Remarks& remarks) {
     AddSentence(ProblemTitle(problem) + ":", &section);
     AddTable(std::move(table), &section);
   }
+  AddCommand(remarks, "budget", &section);
   AddPicture("Runs that reach the optimum against evaluations", "budget.svg", &section);
   return section;
 }
@@ -252,6 +268,7 @@ Section CertifiedSection(const PaperStudy& study, const Remarks& remarks) {
   Section section = {"How low the RMSE can go", {}, 1};
   AddRemark(remarks, "certified", &section);
   AddTable(CertifiedTable(study), &section);
+  AddCommand(remarks, "certified", &section);
   return section;
 }
 

@@ -73,6 +73,10 @@ class Release(unittest.TestCase):
     def test_the_citation_is_of_this_version(self):
         citation = yaml.safe_load(text(".github/CITATION.cff"))
         self.assertEqual(citation_faults(citation), [])
+        table = re.sub(r'"\n *"', "", text("lib/lyrefit/cite/references.cc"))
+        for reference in citation["references"]:  # as `lyrefit cite` prints them
+            for fact in (reference["title"], reference.get("doi", ""), *(one.get("family-names", "") for one in reference["authors"])):
+                self.assertIn(fact, table)
         self.assertEqual(citation["version"], version())
         self.assertEqual(citation["authors"], [{"name": "The lyrefit authors"}])
         self.assertIn("the lyrefit authors", text("LICENSE"))

@@ -3,7 +3,9 @@
 import functools
 import json
 import math
+import os
 import pathlib
+import subprocess
 import tempfile
 import time
 import unittest
@@ -20,6 +22,41 @@ SMALL = dict(models="sd", runs=3, population=10, iterations=10, polish=False)
 
 def best_of(objective, points):
     return points[np.argmin(objective(points))]
+
+
+class Pictures(unittest.TestCase):
+    def test_the_convergence_of_ones_own_search_is_drawn(self):
+        def mine(objective, lower, upper, options):
+            return best_of(objective, options["start"])
+
+        result = lyrefit.compare(CELL, algorithms=[mine, "mlo"], **SMALL)
+        with tempfile.TemporaryDirectory() as folder:
+            svg, pdf = pathlib.Path(folder) / "c.svg", pathlib.Path(folder) / "c.pdf"
+            result.save_plot(svg, kind="convergence")
+            text = svg.read_text(encoding="utf-8")
+            for words in ("mine", "mlo", "Evaluations"):
+                self.assertIn(words, text)
+            result.save_plot(pdf, kind="convergence")
+            self.assertEqual(pdf.read_bytes()[:5], b"%PDF-")
+            with self.assertRaisesRegex(lyrefit.Error, "expected 'plot' or 'convergence', found 'boxes'"):
+                result.save_plot(svg, kind="boxes")
+            with self.assertRaisesRegex(lyrefit.Error, "only a result of compare"):
+                lyrefit.fit(CELL).save_plot(svg, kind="convergence")
+
+
+class Peers(unittest.TestCase):
+    def test_pagmo_is_there_or_the_way_around_it_is_said(self):
+        try:
+            result = lyrefit.compare(CELL, algorithms=["pagmo:cmaes", "mlo"], **SMALL)
+        except lyrefit.Error as error:
+            self.assertRegex(str(error), "wheels and packages leave out.*lyrefit.searches.cma_es")
+            return
+        command = [os.environ["LYREFIT_COMMAND"], "compare", CELL, "--algorithms", "pagmo:cmaes,mlo", "--models", "sd", "--runs", "3",
+                   "--population", "10", "--iterations", "10", "--no-polish", "--json", "-"]
+        said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        self.assertEqual(without_clocks(result.json), without_clocks(said))
+        with self.assertRaisesRegex(lyrefit.Error, "pagmo:nobody: expected one of de, sade"):
+            lyrefit.compare(CELL, algorithms="pagmo:nobody", **SMALL)
 
 
 class Told(unittest.TestCase):

@@ -129,6 +129,17 @@ TEST(PlotFit, WritesAPng) {
   EXPECT_EQ(FileText(path).substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
+TEST(PlotFit, WritesAPdfThatIsTheSameAtAnyTime) {
+  const TempFolder folder;
+  const auto drawn = PlotFit(SampleReport(), folder.Path("fit.pdf"));
+  ASSERT_TRUE(drawn) << drawn.error().ToString();
+  const std::string pdf = FileText(folder.Path("fit.pdf"));
+  EXPECT_THAT(pdf, ::testing::StartsWith("%PDF-"));
+  EXPECT_THAT(pdf, ::testing::EndsWith("%%EOF\n"));
+  EXPECT_THAT(pdf, HasSubstr("/MediaBox [ 0 0 "));
+  EXPECT_THAT(pdf, HasSubstr("/CreationDate (D:20000101000000Z)"));
+}
+
 TEST(PlotFit, TakesAnyNameAndPath) {
   const TempFolder folder;
   FitReport report = SampleReport();
@@ -155,7 +166,8 @@ TEST(PlotFit, DrawsDarkAndTinyCurves) {
 TEST(PlotFit, RefusesOtherExtensions) {
   const TempFolder folder;
   for (const char* name : {"fit.gif", "fit"}) {
-    EXPECT_THAT(MessageOf(PlotFit(SampleReport(), folder.Path(name))), HasSubstr(".svg or .png"));
+    EXPECT_THAT(MessageOf(PlotFit(SampleReport(), folder.Path(name))),
+                HasSubstr(".svg, .png or .pdf"));
   }
   EXPECT_EQ(FilesIn(folder.Path("")), 0);
 }

@@ -13,6 +13,9 @@ namespace lyrefit {
 // The page printed by `lyrefit` without a verb: the verbs that answer each question.
 std::string FirstPage();
 
+// Where manual, packages and tracker are: published (base/address.h), or how a clone makes them.
+std::string Whereabouts();
+
 // The terms of the field and the columns of the tables, each explained in a few sentences.
 std::string Glossary();
 

@@ -16,11 +16,10 @@ void AddBoundsFlag(VerbLine* verb, const std::string& group, std::string* name) 
 
 void AddBoundsFlag(VerbLine* verb, const std::string& group, const std::string& by_default,
                    std::string* name) {
-  verb->AddOption(
-          "--bounds", name,
-          "physical (derived from the curve), wide, paper or literature (published with the "
-          "curve), or a JSON file (default " +
-              by_default + ")")
+  verb->AddOption("--bounds", name,
+                  "physical (derived from the curve), wide, table1 (formerly paper) or literature "
+                  "(published with the curve), or a JSON file (default " +
+                      by_default + ")")
       .Type("NAME|FILE")
       .Group(group)
       .Reads();

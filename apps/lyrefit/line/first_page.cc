@@ -1,4 +1,5 @@
 #include "about.h"
+#include "lyrefit/base/address.h"
 #include "verbs.h"
 
 namespace lyrefit {
@@ -59,11 +60,26 @@ const std::vector<Question>& Questions() {
       {"Does a published table hold?",
        {{"audit", "does the claimed RMSE come out of the printed parameters?",
          "lyrefit audit data/paper/rows.csv"}}},
+      {"What do I cite?",
+       {{"cite", "BibTeX of what a report used: software, methods, standards",
+         "lyrefit cite report.json > methods.bib"}}},
   };
   return questions;
 }
 
 }  // namespace
+
+std::string Whereabouts() {
+  const Addresses& at = PublishedAt();
+  if (*at.base == '\0') {
+    return "No address is published: in a clone of the sources cmake/site.sh makes the manual, and "
+           "README.md\nis where it begins.";
+  }
+  std::string text = std::string("Published at ") + at.base;
+  if (*at.site != '\0') text += std::string("\nManual: ") + at.site;
+  if (*at.tracker != '\0') text += std::string("\nQuestions and mistakes: ") + at.tracker;
+  return text;
+}
 
 std::string FirstPage() {
   std::string text = "lyrefit: diode-model parameters from measured photovoltaic I-V curves\n";
@@ -79,7 +95,7 @@ std::string FirstPage() {
          "\nlyrefit --help lists the verbs, lyrefit VERB --help every flag of one.\n"
          "lyrefit help terms says what the words in reports mean.\n"
          "lyrefit completion bash|zsh|fish and lyrefit man write what their names say.\n" +
-         kLeftOut;
+         Whereabouts() + "\n" + kLeftOut;
 }
 
 }  // namespace lyrefit

@@ -158,7 +158,8 @@ void AddReportFlags(VerbLine* verb, const std::string& what, const std::string& 
                   "the " + what + " as JSON; - for standard output, alone")
       .Writes();
   if (!table.empty()) AddCsvFlag(verb, table, flags);
-  verb->AddOption("--plot", &flags->plot_file, "the " + picture + " as a picture, .svg or .png")
+  verb->AddOption("--plot", &flags->plot_file,
+                  "the " + picture + " as a picture, .svg, .png or .pdf")
       .Draws();
   AddHtmlFlag(verb, what, flags);
   verb->AddSwitch("--brief", &flags->brief, "one line instead of the whole report").Group("Output");

@@ -25,7 +25,8 @@ constexpr char kFooter[] =
     "  lyrefit diagnose sweep.csv --plot diagnosis.svg\n"
     "  lyrefit compare data/rtc_france --algorithms lo,mlo,de,random\n"
     "\n"
-    "lyrefit VERB --help lists every flag of a verb.";
+    "lyrefit VERB --help lists every flag of a verb.\n"
+    "lyrefit --cite prints BibTeX of the software and its methods.";
 
 void StartLogging(const char* program, int verbosity) {
   FLAGS_logtostderr = true;
@@ -45,8 +46,10 @@ int Main(int argc, char** argv) {
   EndOnSignals();
   if (argc == 1) return Print(FirstPage());
   char topic_follows[] = "help";  // topic of `lyrefit --help terms`
+  char cite[] = "cite";           // `lyrefit --cite`
   if (argc == 3 && std::string_view(argv[1]) == "--help") argv[1] = topic_follows;
-  CommandLine line(kFooter);
+  if (std::string_view(argv[1]) == "--cite") argv[1] = cite;
+  CommandLine line(kFooter + ("\n" + Whereabouts()));
   for (const Verb* verb : ProgramVerbs()) line.Add(*verb);
   const Expected<std::string> asked = line.Parse(argc, argv);
   if (!asked) {

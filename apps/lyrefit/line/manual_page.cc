@@ -65,6 +65,7 @@ std::string ManualPage(const std::vector<VerbText>& verbs) {
     text += ".TP\n\\fB" + Roff(verb.name) + "\\fR\n" + Roff(verb.line) + "\n";
   }
   for (const VerbText& verb : verbs) text += VerbSection(verb);
+  text += ".SH SEE ALSO\n.nf\n" + Roff(Whereabouts()) + "\n.fi\n";
   return text;
 }
 

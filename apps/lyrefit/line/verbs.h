@@ -23,6 +23,7 @@ extern const Verb kTranslateVerb;
 extern const Verb kPackVerb;
 extern const Verb kBatchVerb;
 extern const Verb kMergeVerb;
+extern const Verb kCiteVerb;
 // Verbs about lyrefit itself.
 extern const Verb kHelpVerb;
 extern const Verb kCompletionVerb;

@@ -51,9 +51,7 @@ Effect BackContact() {
   e.title = "a barrier at a contact";
   e.where = Where::kDevice;
   e.equation = "V = Vj - I Rs - U, I = Ib (exp(U / (nb Vt)) - 1) + Gb U";
-  e.reference =
-      "Demtsu and Sites 2006, Thin Solid Films 510, 320; Romero et al. 2012, Organic Electronics "
-      "13, hdl:10115/12030";
+  e.reference = "demtsu2006; romero2012";
   e.sentence =
       "a barrier at a contact blocks like a reversed diode: the curve bends over near open circuit";
   e.needs = "points beyond open circuit";

@@ -9,7 +9,7 @@ Effect Bandgap() {
   e.title = "band gap not as stated";
   e.where = Where::kConditions;
   e.equation = "Eg -> Eg + c";
-  e.reference = "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010";
+  e.reference = "desoto2006";
   e.sentence = "the open-circuit voltage falls with temperature as with another band gap";
   e.needs = "several temperatures, and a stated band gap";
   e.acts = "open-circuit voltage against temperature";

@@ -11,7 +11,7 @@ Effect Breakdown() {
   e.title = "reverse breakdown";
   e.where = Where::kDevice;
   e.equation = "I = ... - a Vj (1 - Vj / Vbr)^-3.4";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence = "in reverse the junction begins to break down: a hot spot where a cell is shaded";
   e.needs = "reverse bias beyond about a third of the breakdown voltage";
   e.acts = "at the most negative voltages";

@@ -63,7 +63,7 @@ Effect BypassOpen() {
   e.equation =
       "a substring without bypass diode, all or some of its cells under light (1 - d); in reverse "
       "I = ... + Iph (-Vj / A)^m";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence =
       "a substring, or a cell of it, gets less light and no diode leads the current around it: its "
       "dim cells are driven into reverse";

@@ -9,7 +9,7 @@ Effect BypassShort() {
   e.title = "a shorted bypass diode";
   e.where = Where::kDevice;
   e.equation = "a substring gives no voltage: fewer cells than stated";
-  e.reference = "IEC TS 62446-3:2017, Annex C";
+  e.reference = "iec62446_3 (Annex C)";
   e.sentence = "a bypass diode leads all current around its substring";
   e.needs = "a curve of a module of known cells, bypass diodes and temperature";
   e.acts = "at open circuit: the share of a substring is missing";

@@ -12,7 +12,7 @@ Effect Capacitance() {
   e.finding = "hysteresis";
   e.where = Where::kInstrument;
   e.equation = "I = ... - (C0 + tau gd(Vj)) exp(-b I / Isc) dVj/dt, b = 0 for silicon";
-  e.reference = "Friesen and Ossenbrink 1997, Solar Energy Materials and Solar Cells 48, 77";
+  e.reference = "friesen1997";
   e.sentence =
       "the sweep was too fast: charging the cells adds to the current upwards and takes from it "
       "downwards";

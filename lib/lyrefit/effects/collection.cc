@@ -9,7 +9,7 @@ Effect Collection() {
   e.title = "voltage-dependent collection";
   e.where = Where::kDevice;
   e.equation = "I = ... - Iph chi / (Vbi - Vj),  Vbi = 0.9 V a junction";
-  e.reference = "Merten et al. 1998, doi:10.1109/16.661229; PVsyst";
+  e.reference = "merten1998; mermoud2010";
   e.sentence = "the weaker the field in the cell, the more of the light's current is lost";
   e.needs = "several irradiances or a dark curve; on one lit sweep it looks like a shunt";
   e.acts = "between short circuit and the knee, in proportion to light";

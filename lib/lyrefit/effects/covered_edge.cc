@@ -175,7 +175,7 @@ Effect CoveredEdge() {
       "V = sum over substrings k of (1 - c_k) Vcell(I; Iph) + c_k Vcell(I; (1 - d_k) Iph), each "
       "with a bypass diode that drops Vb at Isc; Iph of an uncovered cell; in reverse "
       "I = ... + Iph (-Vj / A)^3.4";
-  e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
+  e.reference = "quaschning1996";
   e.sentence =
       "something covers a part of every substring, as snow or dirt at an edge does: the module "
       "gives less than its light everywhere";

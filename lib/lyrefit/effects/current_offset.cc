@@ -9,7 +9,7 @@ Effect CurrentOffset() {
   e.title = "offset of the current";
   e.where = Where::kInstrument;
   e.equation = "I -> I + c";
-  e.reference = "IEC 60904-1:2020 (offsets)";
+  e.reference = "iec60904_1 (offsets)";
   e.sentence = "the instrument shows a current where none flows";
   e.needs = "a dark curve, or several irradiances";
   e.acts = "everywhere alike";

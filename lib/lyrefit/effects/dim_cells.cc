@@ -145,7 +145,7 @@ Effect DimCells() {
   e.equation =
       "single cells of one or more substrings under light (1 - d_k); in reverse "
       "I = ... + Iph (-Vj / A)^m";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence =
       "several cells deliver less than their neighbours, each another current, and are driven into "
       "reverse: hot spots";

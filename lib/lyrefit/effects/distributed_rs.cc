@@ -9,9 +9,7 @@ Effect DistributedRs() {
   e.title = "series resistance spread over the cell";
   e.where = Where::kDevice;
   e.equation = "two half cells, I = (F(Va) + F(Vb)) / 2, Vb = Va + R F(Vb) / 2";
-  e.reference =
-      "Araujo, Cuevas and Ruiz 1986 (distributed series resistance), "
-      "IEEE Trans. Electron Devices 33, 391";
+  e.reference = "araujo1986 (distributed series resistance)";
   e.sentence =
       "the current from far parts of the cell passes a resistance of its own: a sheet, a "
       "broken finger";

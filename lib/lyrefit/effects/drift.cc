@@ -9,7 +9,7 @@ Effect Drift() {
   e.title = "drift of the irradiance";
   e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 + d x (1 + k x + c x^2)), x = -1/2 .. 1/2 over the measurement";
-  e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
+  e.reference = "iec60904_1 (irradiance stable during the sweep)";
   e.sentence = "the light grew or faded steadily while the curve was taken";
   e.needs =
       "a sweep up and down, or points in reverse; on one sweep only an impossible slope shows it";

@@ -43,7 +43,7 @@ Effect GradedShunt() {
   e.equation =
       "cells have conductances g s (exp(s x) - 1) / (exp(s) - 1 - s) beside the common one, x from "
       "0 to 1 along the string";
-  e.reference = "Luo et al. 2017, doi:10.1039/C6EE02271E";
+  e.reference = "luo2017";
   e.sentence =
       "cells leak, more and more towards one end of the string: potential-induced degradation";
   e.needs = "a curve of a module or a string";

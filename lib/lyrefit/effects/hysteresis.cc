@@ -63,9 +63,7 @@ Effect Hysteresis() {
   e.equation =
       "Iph (1 + a s), Is exp(b s) at Voc, (1 / n) (1 + c s), Rs exp(r s), Gsh + g s; "
       "s = 1 up, -1 down";
-  e.reference =
-      "Unger et al. 2014, doi:10.1039/C4EE02465F; Calado et al. 2016, "
-      "doi:10.1038/ncomms13831";
+  e.reference = "unger2014; calado2016";
   e.sentence =
       "the state of the device depends on the direction of the sweep, as with mobile ions "
       "or slow traps";

@@ -12,7 +12,7 @@ Effect IrradianceStep() {
   e.title = "step of the irradiance";
   e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 + s) after x0";
-  e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
+  e.reference = "iec60904_1 (irradiance stable during the sweep)";
   e.sentence = "the light jumped while the curve was taken: a cloud edge, a lamp";
   e.needs = "one sweep; times or a reference cell confirm it";
   e.acts = "from one reading on, in the order of time";

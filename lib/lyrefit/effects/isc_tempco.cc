@@ -9,7 +9,7 @@ Effect IscTemperatureCoefficient() {
   e.title = "temperature coefficient of Isc not as stated";
   e.where = Where::kConditions;
   e.equation = "alpha -> alpha + c";
-  e.reference = "IEC 60891:2021";
+  e.reference = "iec60891";
   e.sentence = "the short-circuit current follows the temperature otherwise than stated";
   e.needs = "several temperatures, and a stated coefficient";
   e.acts = "short-circuit current against temperature";

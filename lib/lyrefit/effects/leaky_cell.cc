@@ -11,7 +11,7 @@ Effect LeakyCell() {
   e.title = "a leaky cell";
   e.where = Where::kDevice;
   e.equation = "one cell has a conductance g beside that of the others";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence = "one cell leaks through its edge or a crack, and delivers less than its neighbours";
   e.needs = "a curve of a module of few cells, or a strong leak";
   e.acts = "before the knee";

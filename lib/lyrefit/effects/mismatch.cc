@@ -9,7 +9,7 @@ Effect Mismatch() {
   e.title = "unequal cells in series";
   e.where = Where::kDevice;
   e.equation = "V = (1 - w) Vcell(I; Iph) + w Vcell(I; (1 - d) Iph), per cell, no bypass conducts";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence = "some cells deliver less current than the others, and no bypass diode helps";
   e.needs = "a curve of a module";
   e.acts = "between short circuit and the knee";

@@ -11,7 +11,7 @@ Effect NonohmicShunt() {
   e.title = "non-ohmic shunt";
   e.where = Where::kDevice;
   e.equation = "I = ... - k sign(Vj) |Vj|^m";
-  e.reference = "Dongaonkar et al. 2010 (space-charge-limited shunts), doi:10.1063/1.3518509";
+  e.reference = "dongaonkar2010 (space-charge-limited shunts)";
   e.sentence = "a local defect leaks more than in proportion to the voltage, in light and in dark";
   e.needs = "points in reverse or a dark curve; on a lit sweep alone it looks like collection";
   e.acts = "where |V| is large, also in reverse";

@@ -66,7 +66,7 @@ Effect OpenSubstring() {
   e.equation =
       "V = (1 - w) Vcell(I; Iph) per cell, minus nb Vt ln(1 + I / Isb) of every bypass diode of "
       "the open substrings, which drops Vb at Isc";
-  e.reference = "IEC TS 62446-3:2017, Annex C";
+  e.reference = "iec62446_3 (Annex C)";
   e.sentence =
       "the circuit of a substring or a module is broken, and its bypass diodes carry all current";
   e.needs = "a curve of a module of known cells, bypass diodes and temperature";

@@ -9,7 +9,7 @@ Effect Outliers() {
   e.title = "single wrong readings";
   e.where = Where::kInstrument;
   e.equation = "one reading is wrong by itself";
-  e.reference = "Grubbs 1969, doi:10.1080/00401706.1969.10490657";
+  e.reference = "grubbs1969";
   e.sentence = "single readings lie far off: a glitch of the instrument";
   e.needs = "any curve";
   e.acts = "at single readings";

@@ -12,9 +12,7 @@ Effect Photoshunt() {
   e.where = Where::kDevice;
   e.equation =
       "Gsh -> Gsh + Gph G / (1000 W/m2), or 1 / Gsh exponential in G between the same ends";
-  e.reference =
-      "De Soto, Klein and Beckman 2006, doi:10.1016/j.solener.2005.06.010 (linear); "
-      "Mermoud and Lejeune 2010 (exponential)";
+  e.reference = "desoto2006 (linear); mermoud2010 (exponential)";
   e.sentence =
       "the slope at short circuit grows with the light: the shunt conducts better when lit";
   e.needs = "several irradiances, or a dark curve";

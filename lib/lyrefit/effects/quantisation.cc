@@ -9,7 +9,7 @@ Effect Quantisation() {
   e.title = "coarse resolution";
   e.where = Where::kInstrument;
   e.equation = "I -> q round(I / q)";
-  e.reference = "IEC 60904-1:2020 (resolution)";
+  e.reference = "iec60904_1 (resolution)";
   e.sentence = "the instrument rounds so coarsely that steps show";
   e.needs = "any curve; the values themselves give it away";
   e.acts = "everywhere: values lie on a grid";

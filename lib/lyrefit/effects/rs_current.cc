@@ -9,9 +9,7 @@ Effect RsCurrent() {
   e.title = "series resistance that depends on current";
   e.where = Where::kDevice;
   e.equation = "V = Vj - I Rs - Rs1 I |I|";
-  e.reference =
-      "Fong, McIntosh and Blakers 2013 (series resistance as a function of current), "
-      "Progress in Photovoltaics 21, 490";
+  e.reference = "fong2013 (series resistance as a function of current)";
   e.sentence = "the series resistance changes with the current";
   e.needs = "little noise near the knee, or several irradiances";
   e.acts = "from the knee to open circuit";

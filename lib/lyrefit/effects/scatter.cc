@@ -155,7 +155,7 @@ Effect Scatter() {
       "dimmest of each substring, t widths beyond its place, and others lie in the substrings in "
       "turn; in reverse "
       "I = ... + Iph (-Vj / A)^m";
-  e.reference = "Bucciarelli 1979, doi:10.1016/0038-092X(79)90117-9";
+  e.reference = "bucciarelli1979";
   e.sentence = "no two cells deliver the same current, and the weaker ones limit the others";
   e.needs = "a curve of a module";
   e.acts = "between short circuit and the knee";

@@ -9,7 +9,7 @@ Effect SecondDiode() {
   e.title = "second diode (recombination)";
   e.where = Where::kDevice;
   e.equation = "I = ... - Is2 (exp(Vj / 2 Vt) - 1)";
-  e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
+  e.reference = "sah1957";
   e.sentence = "carriers recombine in the junction itself, which softens the knee";
   e.needs = "any curve with little noise; a dark curve shows it far better";
   e.acts = "below the maximum power point";

@@ -9,7 +9,7 @@ Effect SensorNonlinearity() {
   e.title = "irradiance sensor not linear";
   e.where = Where::kConditions;
   e.equation = "g -> g (1 + c (g - 1)), g = G / (1000 W/m2)";
-  e.reference = "IEC 60904-10:2020 (linearity)";
+  e.reference = "iec60904_10 (linearity)";
   e.sentence = "the irradiance sensor is right at 1000 W/m2 and wrong in proportion away from it";
   e.needs = "three irradiances or more";
   e.acts = "short-circuit current against irradiance is bent";

@@ -9,7 +9,7 @@ Effect SensorOffset() {
   e.title = "offset of the irradiance sensor";
   e.where = Where::kConditions;
   e.equation = "G -> G + c";
-  e.reference = "IEC 60904-10:2020 (linearity)";
+  e.reference = "iec60904_10 (linearity)";
   e.sentence = "the irradiance sensor is wrong by the same amount at every level";
   e.needs = "several irradiances";
   e.acts = "short-circuit current against irradiance misses the origin";

@@ -84,7 +84,7 @@ Effect Shading() {
   e.equation =
       "V = (1 - w) Vcell(I; Iph) + w Vcell(I - Ib; (1 - d) Iph) per cell, "
       "Ib of the bypass diode, which drops Vb at Isc";
-  e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
+  e.reference = "quaschning1996";
   e.sentence = "part of the module gets less light, and its bypass diodes conduct";
   e.needs = "a curve of a module; the number of bypass diodes helps";
   e.acts = "at a step of the current, at a fixed voltage";

@@ -219,7 +219,7 @@ Effect Substrings() {
   e.equation =
       "V = sum of w_k max(Vcell(I; x_k Iph), -Vb), a real diode for the maximum, "
       "w_k and x_k of up to four groups beside the brightest";
-  e.reference = "Quaschning and Hanitsch 1996, doi:10.1016/0038-092X(96)00006-0";
+  e.reference = "quaschning1996";
   e.sentence = "parts of the module stand under different light, and their bypass diodes conduct";
   e.needs = "a curve of a module; the number of bypass diodes helps";
   e.acts = "at steps of the current, at fixed voltages";

@@ -9,7 +9,7 @@ Effect TemperatureDrift() {
   e.title = "drift of the cell temperature";
   e.where = Where::kSweep;
   e.equation = "T -> T + r x, x = -1/2 .. 1/2 over the measurement";
-  e.reference = "IEC 60904-1:2020 (temperature stable during the sweep)";
+  e.reference = "iec60904_1 (temperature stable during the sweep)";
   e.sentence = "the cells warmed or cooled while the curve was taken";
   e.needs = "a sweep up and down";
   e.acts = "near open circuit, in the order of time";

@@ -9,8 +9,7 @@ Effect TemperatureGradient() {
   e.title = "cells warmer than the sensor, in proportion to light";
   e.where = Where::kConditions;
   e.equation = "T -> T + c G / (1000 W/m2)";
-  e.reference =
-      "King, Boyson and Kratochvil 2004 (back-of-module to cell difference), doi:10.2172/919131";
+  e.reference = "king2004 (back-of-module to cell difference)";
   e.sentence = "the light heats the cells above the place where the temperature is read";
   e.needs = "several irradiances, or a dark curve";
   e.acts = "open-circuit voltage at high irradiance";

@@ -9,7 +9,7 @@ Effect TemperatureOffset() {
   e.title = "offset of the temperature sensor";
   e.where = Where::kConditions;
   e.equation = "T -> T + c";
-  e.reference = "IEC 60904-5:2011 (equivalent cell temperature)";
+  e.reference = "iec60904_5 (equivalent cell temperature)";
   e.sentence = "the cells are warmer or colder than the sensor says, everywhere alike";
   e.needs = "several temperatures";
   e.acts = "open-circuit voltage against temperature";

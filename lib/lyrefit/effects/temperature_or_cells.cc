@@ -9,7 +9,7 @@ Effect TemperatureOrCells() {
   e.title = "temperature or number of cells not as stated";
   e.where = Where::kConditions;
   e.equation = "n Ns T is one product: n below 1 is impossible";
-  e.reference = "Sah, Noyce and Shockley 1957, doi:10.1109/JRPROC.1957.278528";
+  e.reference = "sah1957";
   e.sentence =
       "no junction has an ideality below 1: the temperature or the number of cells in series is "
       "not what was stated";

@@ -10,7 +10,7 @@ Effect TimingSkew() {
   e.finding = "hysteresis";
   e.where = Where::kInstrument;
   e.equation = "V -> V - ts dV/dt";
-  e.reference = "IEC 60904-1:2020 (simultaneous readings)";
+  e.reference = "iec60904_1 (simultaneous readings)";
   e.sentence = "current and voltage were read one after the other, so that up and down disagree";
   e.needs = "a sweep up and a sweep down with times";
   e.acts = "between the sweeps up and down, where the curve is steep";

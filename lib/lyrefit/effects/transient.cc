@@ -17,7 +17,7 @@ Effect Transient() {
   e.title = "passing dip or peak of the irradiance";
   e.where = Where::kSweep;
   e.equation = "Iph -> Iph (1 - a exp(-|z|^q / 2)), z = (x - c) / (w (1 + k sign(x - c)))";
-  e.reference = "IEC 60904-1:2020 (irradiance stable during the sweep)";
+  e.reference = "iec60904_1 (irradiance stable during the sweep)";
   e.sentence = "for a short while during the sweep the light was weaker (or stronger)";
   e.needs = "one sweep with many points; a reference cell confirms it";
   e.acts = "around one moment, in the order of time";

@@ -9,7 +9,7 @@ Effect VoltageBins() {
   e.title = "voltages in coarse bins";
   e.where = Where::kInstrument;
   e.equation = "V -> b round(V / b)";
-  e.reference = "IEC 60904-1:2020 (resolution)";
+  e.reference = "iec60904_1 (resolution)";
   e.sentence = "the voltage is rounded so coarsely that the steep part of the curve is blurred";
   e.needs = "any curve whose voltages were read, not set; the values themselves give it away";
   e.acts = "where the curve is steep: a bin times the slope";

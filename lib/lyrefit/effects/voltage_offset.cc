@@ -9,7 +9,7 @@ Effect VoltageOffset() {
   e.title = "offset of the voltage";
   e.where = Where::kInstrument;
   e.equation = "V -> V + c";
-  e.reference = "IEC 60904-1:2020 (offsets)";
+  e.reference = "iec60904_1 (offsets)";
   e.sentence = "the instrument shows a voltage where there is none";
   e.needs = "a dark curve, or several temperatures";
   e.acts = "where the curve is steep; a dark curve misses the origin";

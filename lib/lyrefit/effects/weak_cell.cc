@@ -96,7 +96,7 @@ Effect WeakCell() {
   e.equation =
       "one or a few cells of a substring under light (1 - d), with a conductance g of their own; "
       "in reverse I = ... - Gsh a Vj (1 + Vj / Vbr)^-m, or ... + Iph (-Vj / A)^m";
-  e.reference = "Bishop 1988, doi:10.1016/0379-6787(88)90059-2";
+  e.reference = "bishop1988";
   e.sentence = "a cell delivers less than its neighbours and is driven into reverse: a hot spot";
   e.needs = "a curve of a module whose weak cell conducts in reverse before its bypass diode does";
   e.acts = "between short circuit and the knee";

@@ -75,7 +75,25 @@ class DiodeResidual {
     return std::isfinite(Plain(*residual));
   }
 
-  // The same for ceres::DynamicAutoDiffCostFunction, whose only block has size() parameters.
+  // I(V) at the reading's voltage and parameters `p`, in A, with its first derivatives: the solved
+  // current of a residual of one's own. The junction voltage is the solver's, which is more exact
+  // than V + Rs I where the two almost cancel.
+  template <class T>
+  T SolvedCurrent(const T* p) const {
+    double values[kMostParameters];
+    for (int i = 0; i < size_; ++i) values[i] = Plain(p[i]);
+    const Root root = Solve(values);
+    if constexpr (std::is_arithmetic_v<T>) {
+      return root.current_A;
+    } else {
+      const int rs = device_.resistance_series;
+      const T vd = root.junction_voltage_V + root.current_A * (p[rs] - values[rs]);
+      const T f = JunctionCurrent(device_, p, vd);
+      return root.current_A + (f - Plain(f)) * root.factor;
+    }
+  }
+
+  // The residual for ceres::DynamicAutoDiffCostFunction, whose only block has size() parameters.
   template <class T>
   bool operator()(T const* const* blocks, T* residual) const {
     return (*this)(blocks[0], residual);
@@ -98,23 +116,6 @@ class DiodeResidual {
       return x;
     } else {
       return Plain(x.a);
-    }
-  }
-
-  // I(V). The junction voltage is the solver's, which is more exact than V + Rs I where the two
-  // almost cancel.
-  template <class T>
-  T SolvedCurrent(const T* p) const {
-    double values[kMostParameters];
-    for (int i = 0; i < size_; ++i) values[i] = Plain(p[i]);
-    const Root root = Solve(values);
-    if constexpr (std::is_arithmetic_v<T>) {
-      return root.current_A;
-    } else {
-      const int rs = device_.resistance_series;
-      const T vd = root.junction_voltage_V + root.current_A * (p[rs] - values[rs]);
-      const T f = JunctionCurrent(device_, p, vd);
-      return root.current_A + (f - Plain(f)) * root.factor;
     }
   }
 

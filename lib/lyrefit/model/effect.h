@@ -328,7 +328,7 @@ struct Effect {
   const char* finding = "";  // id under which a diagnosis reports it; empty: its own
   Where where = Where::kDevice;
   const char* equation = "";                // as printed in reports
-  const char* reference = "";               // source: DOI or clause
+  const char* reference = "";               // source: keys of cite/references.h, or words
   const char* sentence = "";                // for a technician
   const char* needs = "";                   // data that can show it
   const char* acts = "";                    // region of the curve where it shows

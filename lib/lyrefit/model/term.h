@@ -23,7 +23,7 @@ enum class TermKind {
   kShunt,         // {Rsh}      I = -Vd / Rsh
   // {Iph, d2mutau, NsVbi}  I = -Iph d2mutau / (NsVbi - Vd): recombination in the i-layer of
   // amorphous silicon and CdTe. d2mutau is in volt, NsVbi is the built-in voltage of all cells.
-  // Sources: Merten et al. 1998, doi:10.1109/16.661229; PVsyst; pvlib's bishop88.
+  // Sources: Merten et al. 1998, doi:10.1109/16.658676; PVsyst; pvlib's bishop88.
   kRecombination,
 };
 

@@ -167,12 +167,12 @@ std::vector<LegendEntry> LegendOf(const std::vector<std::string>& names, LegendM
 // megabyte.
 enum class PlotPoints { kThinned, kAll };
 
-// gnuplot commands that write the figure to standard output. `terminal` is "svg" or "png".
+// gnuplot commands that write the figure to standard output. `terminal` is "svg", "png" or "pdf".
 std::string FigureScript(const Figure& figure, const std::string& terminal,
                          PlotPoints points = PlotPoints::kThinned);
 
-// Draws into a .svg or .png file, completely or not at all. Errors: another extension, gnuplot
-// missing, `path` not writable.
+// Draws into a .svg, .png or .pdf file, completely or not at all. Errors: another extension, gnuplot
+// missing or without cairo (.png, .pdf), `path` not writable. Equal figures are equal files.
 Expected<void> DrawFigure(const Figure& figure, const std::string& path,
                           PlotPoints points = PlotPoints::kThinned);
 

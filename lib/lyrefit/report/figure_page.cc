@@ -28,6 +28,12 @@ std::string Terminal(const PageLayout& page, const std::string& terminal) {
         "set terminal svg size {},{} enhanced font 'DejaVu Sans,14' background '#ffffff'\n",
         page.width, page.height);
   }
+  if (terminal == "pdf") {  // in inches, of 96 pixels
+    return fmt::format(
+        "set terminal pdfcairo size {}in,{}in enhanced font 'DejaVu Sans,9.5' fontscale 1 "
+        "linewidth 1.5\n",
+        page.width / 96.0, page.height / 96.0);
+  }
   return fmt::format(
       "set terminal pngcairo size {},{} enhanced font 'DejaVu Sans,11' fontscale 1.5 linewidth "
       "1.5\n",

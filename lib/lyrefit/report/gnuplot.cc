@@ -81,16 +81,23 @@ int RunWith(std::FILE* input, std::FILE* output, std::FILE* messages) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// The terminal "svg" or "png" by the extension.
+// The terminal "svg", "png" or "pdf" by the extension.
 Expected<std::string> TerminalFor(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  if (extension == ".svg" || extension == ".png") return extension.substr(1);
-  return Fail(fmt::format("expected a plot file that ends in .svg or .png, found {}",
+  if (extension == ".svg" || extension == ".png" || extension == ".pdf") return extension.substr(1);
+  return Fail(fmt::format("expected a plot file that ends in .svg, .png or .pdf, found {}",
                           extension.empty() ? "no extension" : extension),
               path);
+}
+
+// Replaces the time in a PDF by one and the same, so that equal pictures are equal files.
+void ForgetTheTime(std::string* picture) {
+  constexpr char kTime[] = "/CreationDate (D:20000101000000Z";
+  const std::size_t at = picture->find("/CreationDate (D:");
+  if (at != std::string::npos) picture->replace(at, sizeof kTime - 1, kTime);
 }
 
 }  // namespace
@@ -125,16 +132,21 @@ Expected<std::string> RunGnuplot(const std::string& script) {
 
 Expected<void> DrawFigure(const Figure& figure, const std::string& path, PlotPoints points) {
   TRY(const std::string terminal, TerminalFor(path));
-  const Expected<std::string> picture = RunGnuplot(FigureScript(figure, terminal, points));
+  Expected<std::string> picture = RunGnuplot(FigureScript(figure, terminal, points));
   if (!picture) return Fail(picture.error().message, path);
+  if (terminal == "pdf") ForgetTheTime(&*picture);
   return WriteTextFile(path, *picture);
 }
 
 Expected<void> CheckPlot(const std::string& path) {
-  TRY(TerminalFor(path));
-  const Expected<std::string> answer = RunGnuplot("set print '-'; print GPVAL_VERSION\n");
+  TRY(const std::string terminal, TerminalFor(path));
+  const Expected<std::string> answer = RunGnuplot("set print '-'; print GPVAL_TERMINALS\n");
   if (!answer) return Fail(answer.error().message, path);
-  return {};
+  if (terminal == "svg" || answer->find(terminal + "cairo") != std::string::npos) return {};
+  return Fail(
+      fmt::format("a .{} needs a gnuplot with {}cairo (Debian: gnuplot-nox); a .svg does not",
+                  terminal, terminal),
+      path);
 }
 
 }  // namespace lyrefit

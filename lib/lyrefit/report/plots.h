@@ -8,7 +8,7 @@
 #include "lyrefit/report/figure.h"
 
 // Pictures of the records. One function makes the figure, which is data; another draws it into
-// `path`, a .svg or .png file, with the errors of DrawFigure.
+// `path`, a .svg, .png or .pdf file, with the errors of DrawFigure.
 namespace LYREFIT_PUBLIC lyrefit {
 
 struct FitReport;

@@ -18,16 +18,15 @@ Expected<BoundsSpec> PublishedBounds(const std::string& name, const std::string&
   std::error_code error;
   const fs::path curve(curve_file);
   const fs::path folder = fs::is_directory(curve, error) ? curve : curve.parent_path();
-  const fs::path file = folder / ("bounds-" + name + ".json");
+  const std::string stem = name == "table1" ? "paper" : name;  // its former name, which files have
+  const fs::path file = folder / ("bounds-" + stem + ".json");
   if (!fs::exists(file, error)) {
     // Readings from standard input or from memory have no file.
     const bool in_file = !curve_file.empty() && curve_file != "-";
     if (in_file && !fs::exists(curve, error)) return Fail("the file does not exist", curve_file);
     std::string others;
-    for (const char* other : {"paper", "literature"}) {
-      if (!fs::exists(folder / fmt::format("bounds-{}.json", other), error)) continue;
-      others += fmt::format("{}, ", other);
-    }
+    if (fs::exists(folder / "bounds-paper.json", error)) others += "table1, ";
+    if (fs::exists(folder / "bounds-literature.json", error)) others += "literature, ";
     return Fail(
         fmt::format("bounds {}: there is no {} beside the curve; there are {}physical and wide",
                     name, file.string(), others));
@@ -68,11 +67,13 @@ Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& cur
     spec.name = name;
     return spec;
   }
-  if (name == "paper" || name == "literature") return PublishedBounds(name, curve_file);
+  for (const char* published : {"table1", "paper", "literature"}) {
+    if (name == published) return PublishedBounds(name, curve_file);
+  }
   std::error_code error;
   if (!fs::exists(name, error)) {
     return Fail(
-        fmt::format("bounds: expected physical, wide, paper, literature or a JSON file, but "
+        fmt::format("bounds: expected physical, wide, table1, literature or a JSON file, but "
                     "there is no file '{}'",
                     name));
   }

@@ -13,9 +13,10 @@ namespace LYREFIT_PUBLIC lyrefit {
 // and ohm of the whole device, n per cell. Errors carry file, line and column.
 Expected<BoundsSpec> ReadBoundsFile(const std::string& path);
 
-// Bounds by name: "physical", "wide", the path of a bounds file, or "paper" or "literature". The
-// last two are read from bounds-NAME.json beside the file of the curve (or in its folder). Errors
-// without a file begin with "bounds".
+// Bounds by name: "physical", "wide", the path of a bounds file, or "table1" or "literature". The
+// last two are read from bounds-paper.json and bounds-literature.json beside the file of the curve
+// (or in its folder). "paper" is the former name of "table1". Errors without a file begin with
+// "bounds".
 Expected<BoundsSpec> NamedBounds(const std::string& name, const std::string& curve_file);
 
 }  // namespace lyrefit

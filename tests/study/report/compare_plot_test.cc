@@ -117,7 +117,7 @@ TEST(ComparePlots, QuoteNamesForGnuplot) {
 TEST(ComparePlots, RefuseOtherExtensionsAndEmptyComparisons) {
   const TempFolder folder;
   EXPECT_THAT(MessageOf(PlotBoxes(SampleComparison(), folder.Path("box.gif"))),
-              HasSubstr(".svg or .png"));
+              HasSubstr(".svg, .png or .pdf"));
   Comparison none = SampleComparison();
   none.problems.clear();
   EXPECT_THAT(MessageOf(PlotBoxes(none, folder.Path("box.svg"))), HasSubstr("nothing to draw"));

@@ -9,7 +9,7 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Pictures of a comparison, drawn with gnuplot into a .svg or .png file, one panel for each
+// Pictures of a comparison, drawn with gnuplot into a .svg, .png or .pdf file, one panel for each
 // problem. A file is written completely or not at all. Errors: another extension, missing gnuplot,
 // `path` not writable, nothing to draw. CheckPlot() of report/figure.h finds the first two
 // beforehand.

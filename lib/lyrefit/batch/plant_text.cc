@@ -78,6 +78,11 @@ std::string PlantVerdict(const PlantSummary& summary) {
           ? fmt::format("{} of {} pass{}", Counted(summary.passed), all, *verb ? "es" : "")
           : fmt::format("{} of {} show{} no cause",
                         Counted(summary.fine - summary.in_need - summary.to_repeat), all, verb);
+  const auto undecided = summary.zones.find("undecided");
+  if (undecided != summary.zones.end()) {
+    const std::int64_t rows = undecided->second.rows;
+    text += fmt::format("; {} {} undecided", Counted(rows), rows == 1 ? "is" : "are");
+  }
   if (summary.in_need > 0) {
     text += fmt::format("; {} need{} work: {}", Counted(summary.in_need),
                         summary.in_need == 1 ? "s" : "", Listed(summary.causes, 6));

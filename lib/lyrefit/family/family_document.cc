@@ -77,7 +77,7 @@ Section FamilyHead(const FamilyReport& report) {
       report.key_points
           ? fmt::format("key points (Isc, Voc, Vmp, Pmp); search: {}", ToText(report.objective))
           : ToText(report.objective);
-  AddField("objective",
+  AddFurtherField("objective",
            fmt::format("{}; constants {}; seed {}", objective, ToText(spec.constants),
                        report.search_options.seed),
            &head);
@@ -275,8 +275,8 @@ Section FamilyRmseSection(const FamilyReport& report) {
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A) && !key_points) {
-    AddField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
-    AddField("weights", WeightsText(report), &section);
+    AddFurtherField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
+    AddFurtherField("weights", WeightsText(report), &section);
   }
   return section;
 }

@@ -24,8 +24,7 @@ Section FitHead(const FitReport& report) {
   AddCurve(report.curve, &head);
   const std::string effects = EffectTitles(EffectsOf(report.device));
   if (!effects.empty()) AddField("effects", effects, &head);
-  const std::vector<std::string> assumed = SentencesOf(report.curve.assumptions);
-  if (!assumed.empty()) AddField("assumed", fmt::format("{}", fmt::join(assumed, "; ")), &head);
+  AddAssumed(report.curve.assumptions, &head);
   return head;
 }
 
@@ -236,20 +235,18 @@ void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table)
 bool IsWeighed(const FitReport& report) { return report.errors && report.errors->weighed; }
 
 // The search's best and the answer.
-Section RmseSection(const FitReport& report) {
-  Section section = {"RMSE (* what was fitted)"};
+void AddRmses(const FitReport& report, Section* section) {
   block::Table table = HeadOfRmse(report);
   const bool weighed = IsWeighed(report);
   AddRmse(fmt::format("searched ({})", ToText(report.search_options.algorithm)),
           report.rmse.searched, &table);
   AddRmse(weighed ? "refined, weighed by the errors" : "refined",
           report.polished ? report.rmse.refined : RmsePair{}, &table);
-  AddTable(std::move(table), &section);
+  AddTable(std::move(table), section);
   if (weighed) {
-    AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", &section);
+    AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", section);
   }
-  if (report.floor) AddSentence(FloorText(report), &section);
-  return section;
+  if (report.floor) AddSentence(FloorText(report), section);
 }
 
 // RMSEs to compare these with.
@@ -267,8 +264,8 @@ Section FurtherRmseSection(const FitReport& report) {
   return section;
 }
 
-Section KeyPointSection(const FitReport& report) {
-  if (IsDark(report.curve)) return {};  // it has none
+void AddKeyPoints(const FitReport& report, Section* section) {
+  if (IsDark(report.curve)) return;  // it has none
   const struct {
     const char* name;
     const char* unit;
@@ -290,7 +287,14 @@ Section KeyPointSection(const FitReport& report) {
     table.rows[1].push_back(Significant(simulated, kValueDigits));
     table.rows[2].push_back(Difference(measured, simulated));
   }
-  return {"Key points", {table}};
+  AddTable(std::move(table), section);
+}
+
+Section ResultSection(const FitReport& report) {
+  Section section = {"RMSE (* what was fitted) and key points"};
+  AddRmses(report, &section);
+  AddKeyPoints(report, &section);
+  return section;
 }
 
 // Sections of the reliability of the results.
@@ -344,10 +348,11 @@ Document FitDocument(const FitReport& report) {
       Banners(report.interrupted, report.usable, report.not_usable_because, report.doubts),
       FitHead(report)};
   AddSections({VerdictSection(report), ChoiceSection(report), ParameterSection(report),
-               RmseSection(report), KeyPointSection(report), WarningSection(report.warnings),
+               ResultSection(report), WarningSection(report.warnings),
                Further(VariantSection(report)), Further(IntervalSection(report)),
                Further(ErrorSection(report)), Further(FurtherRmseSection(report)),
-               Further(ResidualSection(report)), Further(SearchSection(report))},
+               Further(ResidualSection(report)), Further(SearchSection(report)),
+               Further(ListSection("Assumptions", SentencesOf(report.curve.assumptions)))},
               &document);
   document.verdict = FitVerdict(report);
   AddFigure(FigureBlock(report), &document.head);

@@ -25,6 +25,10 @@ std::string FitVerdict(const FitReport& report);
 std::string FloorText(const FitReport& report);
 // What residuals hold, for the middle of a sentence.
 std::string LeftWords(const FitReport& report);
+// Adds what was assumed as one field "assumed" of a few lines; what does not fit is counted. Of
+// readings, those of values first.
+void AddAssumed(const std::vector<Assumption>& assumptions, Section* section);
+void AddAssumed(const std::vector<std::string>& sentences, Section* section);
 // A part of Isc such as ", 0.10 % of Isc"; empty if Isc is unknown.
 std::string PartOfIsc(double rmse_A, double isc_A);
 

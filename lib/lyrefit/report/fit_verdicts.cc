@@ -49,7 +49,7 @@ std::string LeftWords(const FitReport& report) {
   if (!report.errors || !report.errors->believed || report.errors->stated) {
     return "consistent with independent noise: no pattern beyond chance";
   }
-  return fmt::format("independent noise, {}; the 95 % intervals allow for it",
+  return fmt::format("independent noise ({}), for which the 95 % intervals allow",
                      WhatScatters(*report.errors, dark));
 }
 
@@ -104,6 +104,29 @@ std::string FloorText(const FitReport& report) {
                                  : std::string("no lower bound is proved");
   return fmt::format("Floor, not settled: diodes with {} reach a {} of {} A, and {}; {}.{}", range,
                      rmse, Scientific(floor.rmse_A, 10), above, proved, own);
+}
+
+void AddAssumed(const std::vector<Assumption>& assumptions, Section* section) {
+  std::vector<std::string> of_values, of_reading;
+  for (const Assumption& one : assumptions) {
+    (one.about == About::kReading ? of_reading : of_values).push_back(one.sentence);
+  }
+  of_values.insert(of_values.end(), of_reading.begin(), of_reading.end());
+  AddAssumed(of_values, section);
+}
+
+void AddAssumed(const std::vector<std::string>& sentences, Section* section) {
+  constexpr std::size_t kMostLetters = 240;  // about three lines
+  std::string text;
+  std::size_t shown = 0;
+  for (const std::string& sentence : sentences) {
+    if (shown > 0 && text.size() + sentence.size() > kMostLetters) break;
+    text += (shown++ > 0 ? "; " : "") + sentence;
+  }
+  if (shown < sentences.size()) {
+    text += fmt::format("; {} more in the whole report", sentences.size() - shown);
+  }
+  if (shown > 0) AddField("assumed", text, section);
 }
 
 }  // namespace lyrefit

@@ -189,7 +189,7 @@ std::string WhatScatters(const ErrorReport& errors, bool dark) {
     text = "readings near Voc scatter more, as noise of the voltage does";
   }
   if (!of_voltage || errors.part_effect_A > errors.sizes.current_A) {
-    text += text.empty() ? "readings of large currents scatter more" : ", those of large currents too";
+    text += text.empty() ? "readings of large currents scatter more" : "; those of large currents too";
     text += ", in proportion to them";
   }
   return text;
@@ -199,14 +199,13 @@ std::string ErrorTests(const ErrorReport& errors, bool dark) {
   if (errors.weighed) {
     return "The fit is weighed by these errors and its intervals hold under them.";
   }
-  const auto gain = [](double value) { return Significant(value, 3); };
-  std::string text =
-      fmt::format("Tested by twice the gain in ln likelihood, above 5 to be believed: ");
+  std::string text = "Twice the gain in ln likelihood: ";
   if (std::isfinite(errors.path_gain)) {
-    text += fmt::format("a path that neighbours share, over independent errors of several sizes: {}; ",
-                        gain(errors.path_gain));
+    text += fmt::format("{} of a path that neighbours share over independent errors of three sizes, ",
+                        Significant(errors.path_gain, 3));
   }
-  text += fmt::format("these errors over independent ones of one size: {}.", gain(errors.gain));
+  text += fmt::format("{} of these errors over independent ones of one size.",
+                      Significant(errors.gain, 3));
   switch (errors.Taken()) {
     case ErrorsTaken::kEqual:
       return text + " The intervals take errors for independent and of one size.";

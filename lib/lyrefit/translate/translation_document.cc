@@ -5,6 +5,7 @@
 
 #include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/key_point_noise.h"
@@ -51,7 +52,7 @@ void AddHead(const TranslationReport& report, Section* head) {
   for (const std::string& sentence : report.assumptions) {
     if (std::find(read.begin(), read.end(), sentence) == read.end()) assumed.push_back(sentence);
   }
-  if (!assumed.empty()) AddField("assumed", fmt::format("{}", fmt::join(assumed, "; ")), head);
+  AddAssumed(assumed, head);
   const TranslationInputs& at = report.inputs.values;
   if (at.rear_irradiance_W_m2 > 0) {
     AddField(

@@ -69,9 +69,6 @@ void DeclareDiagnose(VerbLine* verb, DiagnoseRequest* request) {
       .Group("Catalogue");
   AddReportFlags(verb, "diagnosis", "the causes as a table, a row each", "diagnosis",
                  &request->output);
-  verb->AddSwitch("--verbose", &request->whole,
-                  "the whole report: parameters, evidence, every effect tried, gain, options")
-      .Group("Output");
   AddFullSwitches(verb, &request->output);
   const auto add_file = [verb](const char* flag, std::string* file, const char* doc) {
     verb->AddOption(flag, file, std::string(doc) + "; - for standard output, alone").Writes();
@@ -183,7 +180,7 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request, const
     std::string text;
     for (const Diagnosis& diagnosis : all.found) {
       const bool brief = output.brief || request.Several();
-      text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis, request.length());
+      text += brief ? BriefDiagnosis(diagnosis) : DiagnosisText(diagnosis, LengthWanted(verb));
     }
     return text;
   });

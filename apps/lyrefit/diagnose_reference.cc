@@ -44,7 +44,7 @@ Expected<void> Write(const VerbLine& verb, const DiagnoseRequest& request,
   return WriteText(verb, [&] {
     return output.brief
                ? BriefReference(comparison) + BriefDiagnosis(diagnosis)
-               : ReferenceText(comparison) + "\n" + DiagnosisText(diagnosis, request.length());
+               : ReferenceText(comparison) + "\n" + DiagnosisText(diagnosis, LengthWanted(verb));
   });
 }
 

@@ -27,11 +27,9 @@ struct DiagnoseRequest {
   bool list = false;
   std::string explain;
   ReportFlags output;
-  bool whole = false;
   std::string extend_file;
   std::string answers_file;
 
-  Length length() const { return whole ? Length::kWhole : Length::kShort; }
   bool Several() const { return files.size() > 1 && !together; }  // several measurements
 };
 

@@ -97,8 +97,9 @@ Expected<int> RunTranslate(VerbLine& verb, TranslateRequest& request) {
                  [&](const std::string& file) { return PlotTranslation(report, file); }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(TranslationDocument(report), TranslationJson(report)); }));
-  TRY(WriteText(verb,
-                [&] { return output.brief ? BriefTranslation(report) : TranslationText(report); }));
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefTranslation(report) : TranslationText(report, LengthWanted(verb));
+  }));
   if (report.interrupted) return kExitInterrupted;
   return report.Recommended() != nullptr ? kExitFine : kExitNotUsable;
 }

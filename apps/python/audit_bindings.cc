@@ -19,7 +19,7 @@ using Audited = std::shared_ptr<const AuditReport>;
 Record RecordOf(const Audited& audited) {
   Record record;
   record.json = [audited](JsonPoints) { return AuditJson(*audited); };
-  record.text = [audited] { return AuditText(*audited); };
+  record.text = [audited](Length) { return AuditText(*audited); };
   record.brief = [audited] { return BriefAudit(*audited); };
   record.document = [audited] { return AuditDocument(*audited); };
   record.csv = [audited] { return AuditCsv(*audited); };

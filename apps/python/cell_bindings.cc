@@ -21,7 +21,7 @@ using Cell = std::shared_ptr<const CellReport>;
 Record RecordOf(const Cell& cell) {
   Record record;
   record.json = [cell](JsonPoints) { return CellJson(*cell); };
-  record.text = [cell] { return CellText(*cell); };
+  record.text = [cell](Length length) { return CellText(*cell, length); };
   record.brief = [cell] { return BriefCell(*cell); };
   record.document = [cell] { return CellDocument(*cell); };
   record.csv = [cell] { return CellCsv(*cell); };

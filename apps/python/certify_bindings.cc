@@ -24,7 +24,7 @@ using Proof = std::shared_ptr<const Certificate>;
 Record RecordOf(const Proof& proof) {
   Record record;
   record.json = [proof](JsonPoints) { return CertificateJson(*proof); };
-  record.text = [proof] { return CertificateText(*proof); };
+  record.text = [proof](Length) { return CertificateText(*proof); };
   record.brief = [proof] { return BriefCertificate(*proof); };
   record.document = [proof] { return CertificateDocument(*proof); };
   record.csv = [proof] { return CertificateCsv(*proof); };

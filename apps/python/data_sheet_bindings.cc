@@ -31,7 +31,7 @@ std::string BriefSheet(const DataSheetFit& fit) {
 Record RecordOf(const SolvedSheet& found) {
   Record record;
   record.json = [found](JsonPoints) { return DataSheetJson(*found); };
-  record.text = [found] { return DataSheetText(*found); };
+  record.text = [found](Length) { return DataSheetText(*found); };
   record.brief = [found] { return BriefSheet(*found); };
   record.document = [found] { return DataSheetDocument(*found); };
   record.csv = [found] { return DataSheetCsv(*found); };

@@ -31,8 +31,8 @@ Record RecordOf(const Found& found) {
     return found->reference ? ReferenceJson(*found->reference, found->diagnosis)
                             : DiagnosisJson(found->diagnosis);
   };
-  record.text = [found] {
-    const std::string own = DiagnosisText(found->diagnosis);
+  record.text = [found](Length length) {
+    const std::string own = DiagnosisText(found->diagnosis, length);
     return found->reference ? ReferenceText(*found->reference) + "\n" + own : own;
   };
   record.brief = [found] {
@@ -90,7 +90,7 @@ class OutlierSweepsResult : public Result {
   static Record RecordOf(const std::shared_ptr<const OutlierSweeps>& outliers) {
     Record record;
     record.json = [outliers](JsonPoints) { return OutlierSweepsJson(*outliers); };
-    record.text = [outliers] { return OutlierSweepsText(*outliers); };
+    record.text = [outliers](Length) { return OutlierSweepsText(*outliers); };
     record.brief = [outliers] { return BriefOutlierSweeps(*outliers); };
     record.document = [outliers] { return OutlierSweepsDocument(*outliers); };
     record.csv = [outliers] { return OutlierSweepsCsv(*outliers); };

@@ -33,7 +33,7 @@ using Family = std::shared_ptr<const FittedFamily>;
 Record RecordOf(const Family& family) {
   Record record;
   record.json = [family](JsonPoints) { return FamilyJson(family->report); };
-  record.text = [family] { return FamilyText(family->report); };
+  record.text = [family](Length length) { return FamilyText(family->report, length); };
   record.brief = [family] { return BriefFamily(family->report); };
   record.document = [family] { return FamilyDocument(family->report, family->set); };
   record.csv = [family] { return IndividualFitsCsv(family->report); };

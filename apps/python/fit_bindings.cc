@@ -22,7 +22,9 @@ namespace {
 Record RecordOf(const std::shared_ptr<const FitReport>& report) {
   Record record;
   record.json = [report](JsonPoints points) { return JsonReport(*report, points); };
-  record.text = [report] { return FullReport(*report); };
+  record.text = [report](Length length) {
+    return length == Length::kWhole ? FullReport(*report) : ShortReport(*report);
+  };
   record.brief = [report] { return BriefReport(*report); };
   record.document = [report] { return FitDocument(*report); };
   record.csv = [report] { return FitsCsv({{report->curve.source, *report}}); };

@@ -111,8 +111,11 @@ void BindResult(py::module_* module) {
       .def_property_readonly("full_json", &Result::FullJson,
                              "str: the same with every reading (--full-json).")
       .def_property_readonly(
-          "text", [](const Result& r) { return r.record().text(); },
+          "text", [](const Result& r) { return r.record().text(Length::kShort); },
           "str: the report as the command prints it.")
+      .def_property_readonly(
+          "full_text", [](const Result& r) { return r.record().text(Length::kWhole); },
+          "str: the whole report (--verbose).")
       .def_property_readonly(
           "brief", [](const Result& r) { return r.record().brief(); }, "str: the same in short.")
       .def("save_page", &SavePage, py::arg("file"), py::arg("interactive") = true,
@@ -122,7 +125,7 @@ void BindResult(py::module_* module) {
       .def("_repr_html_", &HtmlOf)
       .def("_ipython_key_completions_", [words](const Result& r) { return py::list(words(r)); })
       .def("__repr__", &Describe)
-      .def("__str__", [](const Result& r) { return r.record().text(); });
+      .def("__str__", [](const Result& r) { return r.record().text(Length::kShort); });
 }
 
 }  // namespace lyrefit::python

@@ -17,7 +17,7 @@ namespace py = pybind11;
 // is computed on request; none uses Python objects.
 struct Record {
   std::function<std::string(JsonPoints points)> json;
-  std::function<std::string()> text;
+  std::function<std::string(Length)> text;
   std::function<std::string()> brief;
   std::function<Document()> document;
   std::function<std::string()> csv = {};  // empty: no table

@@ -26,7 +26,7 @@ using Compared = std::shared_ptr<const Comparison>;
 Record RecordOf(const Compared& comparison) {
   Record record;
   record.json = [comparison](JsonPoints) { return CompareJson(*comparison); };
-  record.text = [comparison] { return CompareText(*comparison); };
+  record.text = [comparison](Length) { return CompareText(*comparison); };
   record.brief = [comparison] {
     return "comparison of " + std::to_string(comparison->problems.size()) + " problems, " +
            std::to_string(comparison->options.runs) + " runs each";

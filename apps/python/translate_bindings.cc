@@ -21,7 +21,7 @@ using Translated = std::shared_ptr<const TranslationReport>;
 Record RecordOf(const Translated& report) {
   Record record;
   record.json = [report](JsonPoints) { return TranslationJson(*report); };
-  record.text = [report] { return TranslationText(*report); };
+  record.text = [report](Length length) { return TranslationText(*report, length); };
   record.brief = [report] { return BriefTranslation(*report); };
   record.document = [report] { return TranslationDocument(*report); };
   record.csv = [report] { return TranslationCsv(*report); };

@@ -22,7 +22,7 @@ using Trend = std::shared_ptr<const TrendReport>;
 Record RecordOf(const Trend& trend) {
   Record record;
   record.json = [trend](JsonPoints) { return TrendJson(*trend); };
-  record.text = [trend] { return TrendText(*trend); };
+  record.text = [trend](Length) { return TrendText(*trend); };
   record.brief = [trend] { return BriefTrend(*trend); };
   record.document = [trend] { return TrendDocument(*trend); };
   record.csv = [trend] { return TrendCsv(*trend); };

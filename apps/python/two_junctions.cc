@@ -29,7 +29,7 @@ constexpr const char* kNotOfTwo[] = {"model",  "with_",      "objective", "bound
 Record RecordOf(const Tandem& tandem) {
   Record record;
   record.json = [tandem](JsonPoints) { return TwoJunctionJson(*tandem); };
-  record.text = [tandem] { return TwoJunctionText(*tandem); };
+  record.text = [tandem](Length length) { return TwoJunctionText(*tandem, length); };
   record.brief = [tandem] { return BriefTwoJunctions(*tandem); };
   record.document = [tandem] { return TwoJunctionDocument(*tandem); };
   record.plot = [tandem](const std::string& file) { return PlotTwoJunctions(*tandem, file); };

@@ -127,7 +127,7 @@ TEST(TranslateVerb, WarnsOfStepsThatNobodyMeasured) {
 }
 
 TEST(TranslateVerb, SaysTheRecommendedResultFirst) {
-  const AppResult result = RunApp(kTranslateCell + kAt + kQuickTranslation + "--to STC");
+  const AppResult result = RunApp(kTranslateCell + kAt + kQuickTranslation + "--to STC --verbose");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::size_t answer = result.out.find("here, k = 2"), table = result.out.find("Procedures");
   ASSERT_NE(answer, std::string::npos) << result.out;

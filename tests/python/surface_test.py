@@ -77,7 +77,7 @@ class Surface(unittest.TestCase):
         known = {name for verb in ("fit", "simulate") for name, *_ in _lyrefit._keywords[verb]}
         other = {"cells": "cells_in_series", "with": "with_", "curve": "curve_index", "no_polish": "polish"}
         # What a file is written into or read from has no keyword, nor has what other verbs are for.
-        files = {"json", "csv", "plot", "html", "brief", "quiet", "full_json", "full_plot", "help", "list_columns",
+        files = {"json", "csv", "plot", "html", "brief", "verbose", "quiet", "full_json", "full_plot", "help", "list_columns",
                  "set", "from", "voltages", "out", "pvlib", "pan", "sam"}
         sections = re.split(r"^(\w[\w ]*):$", help_of("fit"), flags=re.MULTILINE)
         family = "".join(text for head, text in zip(sections[1::2], sections[2::2]) if head.startswith("Family"))

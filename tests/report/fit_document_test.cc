@@ -181,6 +181,49 @@ TEST(FitDocument, IsTheTextOfTheReport) {
   EXPECT_EQ(DrawText(FitDocument(SampleReport())), FullReport(SampleReport()));
 }
 
+TEST(ShortReport, HasTheVerdictFirstInTwoDozenLines) {
+  Golden golden("fit_short");
+  FitReport report = SampleReport();
+  golden.Add("equal errors", ShortReport(report));
+  EXPECT_LE(LinesOf(ShortReport(report)).size(), 24U);
+  report.errors = ErrorReport{};
+  report.errors->believed = true;
+  report.under_errors = report.estimates;
+  for (Estimate& e : report.under_errors) {
+    e.standard_error *= 2;
+    e.low_95 -= e.standard_error;
+    e.high_95 += e.standard_error;
+  }
+  report.errors->sizes = {5e-4, 2e-3, 0, 1, 0};
+  report.errors->voltage_effect_A = 4e-3;
+  report.errors->part_effect_A = 0;
+  golden.AddChanges("noise of the voltage", ShortReport(report));
+  report.errors->voltage_effect_A = 1e-4;
+  report.errors->part_effect_A = 2e-3;
+  golden.AddChanges("noise in proportion to the current", ShortReport(report));
+  report.errors->sizes.path = 2e-3;
+  golden.AddChanges("a path", ShortReport(report));
+  golden.Check();
+}
+
+// Whatever the tests of the residuals say, one report says one thing.
+TEST(ShortReport, NeverCallsErrorsSharedAndIndependent) {
+  for (const double path : {0.0, 2e-3}) {
+    for (const double p : {1e-4, 0.03, 0.8}) {
+      FitReport report = SampleReport();
+      report.errors = ErrorReport{};
+      report.errors->believed = true;
+      report.errors->sizes.path = path;
+      report.residuals.runs = 5;
+      report.residuals.runs_p_value = p;
+      const std::string text = ShortReport(report);
+      EXPECT_NE(text.find("go together") == std::string::npos,
+                text.find("independent") == std::string::npos)
+          << text;
+    }
+  }
+}
+
 TEST(BriefReport, IsOneLine) {
   Golden golden("fit_brief");
   FitReport report = SampleReport();

@@ -161,7 +161,7 @@ Judged JudgeOne(const World& world, const Maker& maker, double beta_V_K, double 
   judged.held_drawn = true_W >= power.drawn.low && true_W <= power.drawn.high;
   judged.zone = test->zone;
   judged.stated = test->probability_wrong;
-  judged.wrong = IsPass(test->zone) != (true_W >= test->lowest_W);
+  judged.wrong = (test->probability_conforms > 0.5) != (true_W >= test->lowest_W);
   return judged;
 }
 
@@ -178,7 +178,7 @@ struct Rates {
   double held = 0;
   double held_drawn = 0;
   std::array<Bin, 5> bins = {{{0.005}, {0.05}, {0.15}, {0.3}, {1.01}}};
-  std::array<int, 4> zones = {};
+  std::array<int, 5> zones = {};
 };
 
 Rates Count(const World& world, int strings) {
@@ -215,8 +215,8 @@ Rates Count(const World& world, int strings) {
 void Print(const char* name, const Rates& rates) {
   std::printf("%s: %d strings, value +- U holds %.1f %%, drawn interval %.1f %%\n", name,
               rates.done, 100 * rates.held, 100 * rates.held_drawn);
-  std::printf("  zones: %d pass, %d within, %d fail within, %d fail\n", rates.zones[0],
-              rates.zones[1], rates.zones[2], rates.zones[3]);
+  std::printf("  zones: %d pass, %d within, %d undecided, %d fail within, %d fail\n",
+              rates.zones[0], rates.zones[1], rates.zones[2], rates.zones[3], rates.zones[4]);
   for (const Bin& bin : rates.bins) {
     std::printf("  stated below %5.1f %%: %5d strings, mean stated %6.2f %%, wrong %6.2f %%\n",
                 100 * bin.to, bin.strings, 100 * bin.expected / std::max(1, bin.strings),

@@ -54,13 +54,16 @@ FieldTest Judged(const UncertainOutput& power, const FieldTestOptions& options,
   return test.value_or(FieldTest{});
 }
 
-TEST(FieldTest, HasFourZones) {
+TEST(FieldTest, HasFiveZones) {
   const FieldTestOptions options = Rated(400, "-0,+5");
   EXPECT_EQ(Judged(Power(410, 4), options).zone, Zone::kPass);
   EXPECT_EQ(Judged(Power(408, 4), options).zone, Zone::kPass) << "400 is enough";
   EXPECT_EQ(Judged(Power(407.9, 4), options).zone, Zone::kPassWithin);
-  EXPECT_EQ(Judged(Power(400, 4), options).zone, Zone::kPassWithin);
-  EXPECT_EQ(Judged(Power(399.9, 4), options).zone, Zone::kFailWithin);
+  EXPECT_EQ(Judged(Power(403.4, 4), options).zone, Zone::kPassWithin) << "80.2 %";
+  EXPECT_EQ(Judged(Power(403.3, 4), options).zone, Zone::kUndecided) << "79.5 %";
+  EXPECT_EQ(Judged(Power(400, 4), options).zone, Zone::kUndecided);
+  EXPECT_EQ(Judged(Power(396.7, 4), options).zone, Zone::kUndecided);
+  EXPECT_EQ(Judged(Power(396.6, 4), options).zone, Zone::kFailWithin);
   EXPECT_EQ(Judged(Power(392, 4), options).zone, Zone::kFailWithin);
   EXPECT_EQ(Judged(Power(391.9, 4), options).zone, Zone::kFail);
 }
@@ -85,9 +88,11 @@ TEST(FieldTest, ProbabilityOfAWrongVerdictIsThatOfTheOtherSide) {
   const FieldTest drawn = Judged(Power(404, 4, 100000), options);
   EXPECT_NEAR(drawn.probability_wrong, 0.158655, 0.005);
   EXPECT_DOUBLE_EQ(drawn.probability_step, 1e-5);
+  EXPECT_NEAR(Judged(Power(396, 4), options).probability_conforms, 0.158655, 1e-6);
   const FieldTest sure = Judged(Power(450, 4, 10000), options);
   EXPECT_EQ(sure.probability_wrong, 0);
-  EXPECT_THAT(sure.sentence, HasSubstr("less than 0.01 %")) << "10,000 draws show no less";
+  EXPECT_THAT(sure.sentence, HasSubstr("more than 99.99 %")) << "10,000 draws show no more";
+  EXPECT_THAT(Judged(Power(350, 4, 10000), options).sentence, HasSubstr("less than 0.01 %"));
 }
 
 TEST(FieldTest, AnUncertainRatingMakesTheVerdictLessSure) {
@@ -144,6 +149,25 @@ TEST(FieldTest, JudgesNoPowerFarAboveTheRating) {
       JudgeFieldTest(Power(520, 8), Measured(380), Rated(400, "-0,+5"), uncertainty);
   ASSERT_TRUE(bifacial);
   EXPECT_EQ(bifacial->zone, Zone::kPass);
+}
+
+// The power of one module held against the rating of a string, or another unit.
+TEST(FieldTest, JudgesNoPowerFarBelowTheRating) {
+  UncertaintyOptions uncertainty;
+  uncertainty.draws = 0;
+  const auto zone = [&](double power_W, double measured_W, int modules) {
+    FieldTestOptions options = Rated(400, "-0,+5");
+    options.modules = modules;
+    const auto test =
+        JudgeFieldTest(Power(power_W, 4), Measured(measured_W), options, uncertainty);
+    EXPECT_TRUE(test);
+    return test ? test->zone : Zone::kPass;
+  };
+  EXPECT_EQ(zone(0.4, 0.3, 1), Zone::kDoubtful);
+  EXPECT_EQ(zone(400, 300, 20), Zone::kDoubtful);
+  EXPECT_EQ(zone(400, 300, 5), Zone::kDoubtful) << "one of five";
+  EXPECT_EQ(zone(1200, 900, 5), Zone::kFail) << "three of five may be left";
+  EXPECT_EQ(zone(400, 300, 2), Zone::kFail) << "one of two may be left";
 }
 
 TEST(FieldTest, JudgesNoReadingsThatNoDeviceHas) {

@@ -63,6 +63,7 @@ struct Flag::Impl {
 
 struct VerbLine::Impl {
   const CommandLine* line;
+  bool* whole;
   const Verb* verb;
   CLI::App* app;
   std::function<Expected<int>()> run;
@@ -76,7 +77,8 @@ struct VerbLine::Impl {
 struct CommandLine::Impl {
   CLI::App app{"lyrefit: diode-model parameters from measured photovoltaic I-V curves", "lyrefit"};
   std::vector<std::unique_ptr<VerbLine>> verbs;
-  int verbosity = 0;
+  int log_level = 0;
+  bool whole = false;
 
   std::vector<const Verb*> Verbs() const {
     std::vector<const Verb*> all;
@@ -270,7 +272,12 @@ bool VerbLine::StandardOutputTaken() const {
 
 bool VerbLine::Forced() const { return impl_->force; }
 
-void VerbLine::AddForce() {
+bool VerbLine::Whole() const { return *impl_->whole; }
+
+void VerbLine::AddLast() {
+  if (impl_->verb->kind != VerbKind::kAbout) {
+    impl_->app->add_flag("-v,--verbose", *impl_->whole, "the whole report")->group(kOutput);
+  }
   const auto writes = [](const Flag::Impl& flag) { return flag.writes || flag.folder; };
   if (std::none_of(impl_->flags.begin(), impl_->flags.end(), writes)) return;
   impl_->app->add_flag("--force", impl_->force, "replace even what this run reads")->group(kOutput);
@@ -311,7 +318,8 @@ CommandLine::CommandLine(const std::string& footer) : impl_(std::make_unique<Imp
   app.footer(footer);
   app.require_subcommand(1);
   app.fallthrough();
-  app.add_flag("-v,--v,--verbose", impl_->verbosity, "log what happens inside; twice for more");
+  app.add_flag("-v,--v,--verbose", impl_->whole, "the whole report of any verb");
+  app.add_flag("--log", impl_->log_level, "log what happens inside; twice or --log=2 for more");
 }
 
 CommandLine::~CommandLine() = default;
@@ -319,6 +327,7 @@ CommandLine::~CommandLine() = default;
 void CommandLine::Add(const Verb& verb) {
   auto made = std::make_unique<VerbLine::Impl>();
   made->line = this;
+  made->whole = &impl_->whole;
   made->verb = &verb;
   made->app = impl_->app.add_subcommand(verb.name, verb.line);
   made->app->footer(verb.footer);
@@ -327,7 +336,7 @@ void CommandLine::Add(const Verb& verb) {
   impl_->verbs.push_back(std::make_unique<VerbLine>(std::move(made)));
   VerbLine* const line = impl_->verbs.back().get();
   line->impl_->run = verb.declare(line);
-  line->AddForce();
+  line->AddLast();
 }
 
 const VerbLine* CommandLine::Chosen() const {
@@ -385,7 +394,7 @@ std::vector<VerbText> CommandLine::Verbs() const {
   return verbs;
 }
 
-int CommandLine::verbosity() const { return impl_->verbosity; }
+int CommandLine::log_level() const { return impl_->log_level; }
 
 bool CommandLine::quiet() const {
   return std::any_of(impl_->verbs.begin(), impl_->verbs.end(), [](const auto& verb) {

@@ -138,6 +138,7 @@ class VerbLine {
   bool TextWanted() const;
   bool StandardOutputTaken() const;
   bool Forced() const;
+  bool Whole() const;  // --verbose: the whole report
 
   bool Given(const std::string& name) const;  // whether the flag is on the command line
   bool Has(const std::string& name) const;    // whether the flag was declared
@@ -151,12 +152,12 @@ class VerbLine {
   std::vector<FlagText> Texts() const;
   Expected<void> CheckNames() const;
   FilePlan Files() const;
-  void AddForce();  // last in --help
+  void AddLast();  // --verbose and --force
 
   std::unique_ptr<Impl> impl_;
 };
 
-// The whole command line: lyrefit [-v] VERB ...
+// The whole command line: lyrefit [--log] VERB ...
 class CommandLine {
  public:
   explicit CommandLine(const std::string& footer);
@@ -175,7 +176,7 @@ class CommandLine {
   // Text of `lyrefit VERB --help`.
   Expected<std::string> Help(const std::string& verb) const;
   std::vector<VerbText> Verbs() const;
-  int verbosity() const;
+  int log_level() const;
   bool quiet() const;  // --quiet of the given verb
 
  private:

@@ -68,7 +68,7 @@ std::string BashScript(const std::vector<VerbText>& verbs) {
          "    *)\n"
          "      case $verb in\n" +
          flags +
-         "        '') words=" + ShellWord(VerbNames(verbs) + " --help --version --verbose") +
+         "        '') words=" + ShellWord(VerbNames(verbs) + " --help --version --verbose --log") +
          " ;;\n"
          "      esac ;;\n"
          "  esac\n"

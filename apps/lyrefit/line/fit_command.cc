@@ -131,7 +131,9 @@ Expected<void> Write(const VerbLine& verb, const FitArguments& fit,
     std::string text;
     for (const FittedFile& file : fits) {
       if (!file.report) continue;
-      text += one && !output.brief ? FullReport(*file.report) : BriefReport(*file.report);
+      text += !one || output.brief ? BriefReport(*file.report)
+              : verb.Whole()       ? FullReport(*file.report)
+                                   : ShortReport(*file.report);
     }
     return text;
   });

@@ -18,6 +18,7 @@
 #include "lyrefit/estimate/fit/text_readers.h"
 #include "lyrefit/read/condition_options.h"
 #include "lyrefit/read/read_curve.h"
+#include "lyrefit/report/document.h"
 #include "lyrefit/report/figure.h"
 #include "lyrefit/report/json.h"
 #include "output.h"
@@ -232,6 +233,10 @@ Expected<void> WriteWanted(const std::string& file, const Make& make) {
 template <class Draw>
 Expected<void> DrawWanted(const std::string& file, const Draw& draw) {
   return file.empty() ? Expected<void>() : draw(file);
+}
+// The length of the text that is wanted.
+inline Length LengthWanted(const VerbLine& verb) {
+  return verb.Whole() ? Length::kWhole : Length::kShort;
 }
 // Writes the text to standard output, unless an output file uses it or --quiet is given.
 template <class Make>

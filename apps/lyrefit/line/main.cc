@@ -28,11 +28,11 @@ constexpr char kFooter[] =
     "lyrefit VERB --help lists every flag of a verb.\n"
     "lyrefit --cite prints BibTeX of the software and its methods.";
 
-void StartLogging(const char* program, int verbosity) {
+void StartLogging(const char* program, int log_level) {
   FLAGS_logtostderr = true;
   // The solver logs every rejected step as an error; the report states the outcome.
-  FLAGS_minloglevel = verbosity > 0 ? google::GLOG_INFO : google::GLOG_FATAL;
-  FLAGS_v = verbosity;
+  FLAGS_minloglevel = log_level > 0 ? google::GLOG_INFO : google::GLOG_FATAL;
+  FLAGS_v = log_level;
   google::InitGoogleLogging(program);
 }
 
@@ -58,7 +58,7 @@ int Main(int argc, char** argv) {
     return code;
   }
   if (!asked->empty()) return Print(*asked);
-  StartLogging(argv[0], line.verbosity());
+  StartLogging(argv[0], line.log_level());
   if (line.quiet()) SilenceProgress();
   const Expected<int> exit_code = line.Run();
   if (exit_code) return *exit_code;

@@ -59,7 +59,7 @@ std::string ManualPage(const std::vector<VerbText>& verbs) {
   std::string text = ".TH LYREFIT 1 \"\" \"lyrefit " + Roff(Version()) +
                      "\"\n.SH NAME\nlyrefit \\- diode\\-model parameters from measured "
                      "photovoltaic I\\-V curves\n"
-                     ".SH SYNOPSIS\n\\fBlyrefit\\fR [\\fB\\-v\\fR] \\fIVERB\\fR ...\n"
+                     ".SH SYNOPSIS\n\\fBlyrefit\\fR [\\fB\\-\\-log\\fR] \\fIVERB\\fR ...\n"
                      ".SH VERBS\n";
   for (const VerbText& verb : verbs) {
     text += ".TP\n\\fB" + Roff(verb.name) + "\\fR\n" + Roff(verb.line) + "\n";

@@ -28,7 +28,8 @@ std::vector<ResultColumn> FieldColumns() {
   std::vector<ResultColumn> columns = {
       {"zone", "", kText,
        "power at standard conditions against the least that the rating allows: pass, pass within "
-       "uncertainty, fail within uncertainty, fail; doubtful where that cannot be judged"},
+       "uncertainty, undecided (a probability from 20 to 80 %), fail within uncertainty, fail; "
+       "doubtful where that cannot be judged"},
       {"performance_factor", "", kNumber, "measured over predicted maximum power"},
       {"performance_factor_low", "", kNumber, "its interval, k = 2"},
       {"performance_factor_high", "", kNumber, "its interval, k = 2"},
@@ -166,8 +167,9 @@ BatchTaskType FieldTestTask(const TranslateOptions& asked) {
       result.status = RowStatus::kDoubtful;
       result.reason = report->field_test->doubt;
     }
-    const bool passes = !report->field_test || IsPass(report->field_test->zone);
-    result.failed = !usable || !passes || !report->causes.empty();
+    const bool fails = report->field_test && !IsPass(report->field_test->zone) &&
+                       report->field_test->zone != Zone::kUndecided;
+    result.failed = !usable || fails || !report->causes.empty();
     report->seconds = kUnknown;  // a page must not depend on the time used
     result.page = [report = std::make_shared<const TranslationReport>(std::move(*report))](
                       const PageOptions& page) {

@@ -35,9 +35,9 @@ std::vector<ResultColumn> FitColumns(const std::vector<ParameterInfo>& parameter
   columns.push_back(
       {"errors", "", CellType::kText,
        "what the standard errors take the errors of the readings for. independent: of "
-       "one size and knowing nothing of each other. correlated: noise of current and "
-       "voltage and wandering light, as the residuals clearly say. stated: of the "
-       "sizes that were stated"});
+       "one size and knowing nothing of each other. unequal: knowing nothing of each other, noise "
+       "of current and voltage. correlated: these and wandering light, as the residuals clearly "
+       "say. stated: of the sizes that were stated"});
   columns.push_back({"rmse_searched_solved_current_A", "A", CellType::kNumber,
                      "root mean square error of the search's best, by the solved current"});
   columns.push_back({"rmse_refined_solved_current_A", "A", CellType::kNumber,
@@ -59,7 +59,8 @@ std::string ErrorsOf(const FitReport& report) {
                                 [](const Estimate& e) { return std::isfinite(e.standard_error); });
   if (!told) return "";
   if (!report.errors || !report.errors->believed) return "independent";
-  return report.errors->stated ? "stated" : "correlated";
+  if (report.errors->stated) return "stated";
+  return report.errors->Taken() == ErrorsTaken::kPath ? "correlated" : "unequal";
 }
 
 std::vector<ResultCell> FitCells(const FitReport& report,

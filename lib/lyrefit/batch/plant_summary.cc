@@ -126,7 +126,7 @@ double PlantCounter::Number(const ResultRow& row, Known column) const {
 
 // By the zone of a field test if there is one, else by the existence of a cause.
 bool PlantCounter::NeedsWork(const std::string& zone, const std::string& cause) const {
-  if (Has(kZone)) return !zone.empty() && !Passes(zone);
+  if (Has(kZone)) return !zone.empty() && !Passes(zone) && zone != "undecided";
   return !IsNoCause(cause);
 }
 

@@ -111,6 +111,10 @@ std::string PlantVerdict(const PlantSummary& summary) {
                            const std::string& what) {
     if (count > 0) text += fmt::format(" {} {}{}.", Counted(count), count == 1 ? one : many, what);
   };
+  const auto undecided = summary.zones.find("undecided");
+  if (undecided != summary.zones.end()) {
+    add(undecided->second.rows, "is undecided", "are undecided", "");
+  }
   add(summary.in_need, "needs work: ", "need work: ", Listed(summary.causes, 6));
   if (summary.in_need > 0 && summary.recoverable_power_W > 0) {
     text += fmt::format(" Repair would give about {}.", Power(summary.recoverable_power_W));

@@ -281,22 +281,24 @@ Document CellDocument(const CellReport& report) {
   document.verdict = CellVerdict(report);
   std::vector<Section> sections = {{"", {block::Conclusion{document.verdict}}},
                                    SweepSection(report)};
-  for (const DirectionPair& pair : report.pairs) sections.push_back(PairSection(report, pair));
-  sections.push_back(IdealitySection(report));
-  sections.push_back(SeriesResistanceSection(report));
-  sections.push_back(FillFactorSection(report));
-  sections.push_back(SuperpositionSection(report));
-  sections.push_back(FitSection(report));
-  sections.push_back(JointSection(report));
-  sections.push_back(StatedSection(report));
+  for (const DirectionPair& pair : report.pairs) sections.push_back(Further(PairSection(report, pair)));
+  sections.push_back(Further(IdealitySection(report)));
+  sections.push_back(Further(SeriesResistanceSection(report)));
+  sections.push_back(Further(FillFactorSection(report)));
+  sections.push_back(Further(SuperpositionSection(report)));
+  sections.push_back(Further(FitSection(report)));
+  sections.push_back(Further(JointSection(report)));
+  sections.push_back(Further(StatedSection(report)));
   sections.push_back(WarningSection(report.warnings));
-  sections.push_back(ListSection("Assumptions", SentencesOf(report.assumptions)));
+  sections.push_back(Further(ListSection("Assumptions", SentencesOf(report.assumptions))));
   AddSections(std::move(sections), &document);
   AddFigure(FigureBlock(report), &document.head);
   return document;
 }
 
-std::string CellText(const CellReport& report) { return DrawText(CellDocument(report)); }
+std::string CellText(const CellReport& report, Length length) {
+  return DrawText(CellDocument(report), length);
+}
 
 std::string BriefCell(const CellReport& report) {
   std::string text = report.name + ": " + CellVerdict(report);

@@ -18,13 +18,13 @@ namespace LYREFIT_PUBLIC lyrefit {
 // A fit of two junctions: parameters, which measurement would decide those that are not
 // identifiable, and every curve with its light and the junction that limits.
 Document TwoJunctionDocument(const TwoJunctionReport& report);
-std::string TwoJunctionText(const TwoJunctionReport& report);
+std::string TwoJunctionText(const TwoJunctionReport& report, Length length = Length::kWhole);
 std::string BriefTwoJunctions(const TwoJunctionReport& report);
 
 // A laboratory cell: sweeps, hysteresis, ideality, series resistance, losses of the fill factor,
 // superposition. The brief text has its main figures.
 Document CellDocument(const CellReport& report);
-std::string CellText(const CellReport& report);
+std::string CellText(const CellReport& report, Length length = Length::kWhole);
 std::string BriefCell(const CellReport& report);
 
 // The device fitted to a data sheet, and its values beside the printed ones.

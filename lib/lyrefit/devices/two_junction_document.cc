@@ -122,15 +122,19 @@ Document TwoJunctionDocument(const TwoJunctionReport& report) {
   AddFigure({"Measured points and model of each curve; residuals below them.", "",
              TwoJunctionFigure(report)},
             &document.head);
-  AddSections({TwoJunctionParameters(report), ListSection("What would decide", report.decided_by),
-               RmseSection(report), CurveSection(report), HowSection(report),
-               WarningSection(report.warnings)},
+  AddSections({{"", {block::Conclusion{document.verdict}}},
+               TwoJunctionParameters(report),
+               ListSection("What would decide", report.decided_by),
+               RmseSection(report),
+               WarningSection(report.warnings),
+               Further(CurveSection(report)),
+               Further(HowSection(report))},
               &document);
   return document;
 }
 
-std::string TwoJunctionText(const TwoJunctionReport& report) {
-  return DrawText(TwoJunctionDocument(report));
+std::string TwoJunctionText(const TwoJunctionReport& report, Length length) {
+  return DrawText(TwoJunctionDocument(report), length);
 }
 
 std::string BriefTwoJunctions(const TwoJunctionReport& report) {

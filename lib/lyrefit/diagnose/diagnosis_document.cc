@@ -66,11 +66,6 @@ Section DiagnosisHead(const Diagnosis& diagnosis) {
   return head;
 }
 
-Section Folded(Section section) {
-  section.folded = true;
-  return section;
-}
-
 std::string WithUnit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
@@ -473,8 +468,7 @@ Document DiagnosisDocument(const Diagnosis& diagnosis) {
 }
 
 std::string DiagnosisText(const Diagnosis& diagnosis, Length length) {
-  const Document document = DiagnosisDocument(diagnosis);
-  return DrawText(length == Length::kShort ? WithoutFolds(document) : document);
+  return DrawText(DiagnosisDocument(diagnosis), length);
 }
 
 std::string BriefDiagnosis(const Diagnosis& diagnosis) {

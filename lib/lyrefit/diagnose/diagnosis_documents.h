@@ -18,9 +18,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // A diagnosis: the verdict, each cause with its place, size, power and what to do, then, folded,
 // parameters and evidence. Every RMSE is solved-current and labelled so.
 Document DiagnosisDocument(const Diagnosis& diagnosis);
-// The text without or with the folded sections.
-enum class Length { kShort, kWhole };
-std::string DiagnosisText(const Diagnosis& diagnosis, Length length = Length::kShort);
+std::string DiagnosisText(const Diagnosis& diagnosis, Length length = Length::kWhole);
 std::string BriefDiagnosis(const Diagnosis& diagnosis);
 
 // A sweep against reference sweeps: conclusion, table of measured and expected values, sweeps used.

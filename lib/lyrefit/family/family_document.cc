@@ -77,7 +77,7 @@ Section FamilyHead(const FamilyReport& report) {
       report.key_points
           ? fmt::format("key points (Isc, Voc, Vmp, Pmp); search: {}", ToText(report.objective))
           : ToText(report.objective);
-  AddField("objective",
+  AddFurtherField("objective",
            fmt::format("{}; constants {}; seed {}", objective, ToText(spec.constants),
                        report.search_options.seed),
            &head);
@@ -207,6 +207,12 @@ Section SharedSection(const FamilyReport& report) {
   }
   AddTable(std::move(table), &section);
   AddUnidentifiable(report.estimates, &section);
+  return section;
+}
+
+Section IntervalSection(const FamilyReport& report) {
+  Section section = {"Intervals"};
+  if (OneByOne(report)) return section;
   AddOtherIntervals(report, &section);
   if (report.errors) AddSentence(FamilyErrorText(*report.errors), &section);
   const std::string correlations = CorrelationsText(report.correlations);
@@ -269,8 +275,8 @@ Section FamilyRmseSection(const FamilyReport& report) {
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A) && !key_points) {
-    AddField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
-    AddField("weights", WeightsText(report), &section);
+    AddFurtherField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
+    AddFurtherField("weights", WeightsText(report), &section);
   }
   return section;
 }
@@ -304,20 +310,28 @@ Document FamilyDocument(const FamilyReport& report, const CurveSet& set) {
 Document FamilyDocument(const FamilyReport& report) {
   Document document = {Banners(report.interrupted, report.usable, {}, report.doubts),
                        FamilyHead(report)};
-  AddSections({CandidateSection(report), SharedSection(report), SensorSection(report),
+  document.verdict = FamilyVerdict(report);
+  AddSections({{"", {block::Conclusion{document.verdict}}},
+               CandidateSection(report),
+               SharedSection(report),
+               SensorSection(report),
                ReferenceSection(report)},
               &document);
   AddSections(KeyPointSections(report), &document);
-  AddSections({FamilyRmseSection(report)}, &document);
-  AddSections(FamilyCurveSections(report), &document);
-  AddSections({FamilySearchSection(report), ListSection("Assumptions", report.assumptions),
+  AddSections({FamilyRmseSection(report), Further(IntervalSection(report))}, &document);
+  for (Section& section : FamilyCurveSections(report)) {
+    AddSections({Further(std::move(section))}, &document);
+  }
+  AddSections({Further(FamilySearchSection(report)),
+               Further(ListSection("Assumptions", report.assumptions)),
                WarningSection(report.warnings)},
               &document);
-  document.verdict = FamilyVerdict(report);
   return document;
 }
 
-std::string FamilyText(const FamilyReport& report) { return DrawText(FamilyDocument(report)); }
+std::string FamilyText(const FamilyReport& report, Length length) {
+  return DrawText(FamilyDocument(report), length);
+}
 
 std::string BriefFamily(const FamilyReport& report) {
   const TranslationSpec& spec = report.translation.spec;

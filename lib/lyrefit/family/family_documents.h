@@ -20,7 +20,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 Document FamilyDocument(const FamilyReport& report);
 // With the picture of FamilyFigure(), which shows the readings of `set`.
 Document FamilyDocument(const FamilyReport& report, const CurveSet& set);
-std::string FamilyText(const FamilyReport& report);
+std::string FamilyText(const FamilyReport& report, Length length = Length::kWhole);
 std::string BriefFamily(const FamilyReport& report);
 
 // Every RMSE is a pair with the keys measured_current_A and solved_current_A.

@@ -1,11 +1,13 @@
 #include "lyrefit/report/document.h"
 
-#include <algorithm>
-
 namespace lyrefit {
 
 void AddField(std::string name, std::string text, Section* section) {
   section->blocks.push_back(block::Field{std::move(name), std::move(text)});
+}
+
+void AddFurtherField(std::string name, std::string text, Section* section) {
+  section->blocks.push_back(block::Field{std::move(name), std::move(text), true});
 }
 
 void AddSentence(std::string text, Section* section) {
@@ -35,12 +37,14 @@ Section WarningSection(std::vector<std::string> warnings) {
   return section;
 }
 
-Document WithoutFolds(Document document) {
-  std::vector<Section>& sections = document.sections;
-  sections.erase(std::remove_if(sections.begin(), sections.end(),
-                                [](const Section& section) { return section.folded; }),
-                 sections.end());
-  return document;
+Section Folded(Section section) {
+  section.folded = true;
+  return section;
+}
+
+Section Further(Section section) {
+  section.further = true;
+  return section;
 }
 
 void AddSections(std::vector<Section> sections, Document* document) {

@@ -20,6 +20,7 @@ namespace block {
 struct Field {
   std::string name;  // may be empty
   std::string text;  // a line or several sentences
+  bool further = false;  // see Section
 };
 
 // A paragraph.
@@ -113,6 +114,8 @@ struct Section {
   int depth = 0;                        // 0, or 1 below the last of 0
   bool warns = false;                   // holds warnings, which pages show first
   bool folded = false;                  // pages show its heading only, until it is opened
+  // Left out of a short text, as folded ones are. Pages show it.
+  bool further = false;
 };
 
 // A report: its sections in reading order, with banners before them.
@@ -129,13 +132,14 @@ struct Document {
 
 // Appends a block to a section.
 void AddField(std::string name, std::string text, Section* section);
+void AddFurtherField(std::string name, std::string text, Section* section);
 void AddSentence(std::string text, Section* section);
 void AddList(std::vector<std::string> sentences, Section* section);
 void AddTable(block::Table table, Section* section);
 void AddFigure(block::Figure figure, Section* section);  // ignored without panels
 
-// The document without its folded sections.
-Document WithoutFolds(Document document);
+Section Folded(Section section);
+Section Further(Section section);
 
 // A heading and a list below it.
 Section ListSection(std::string heading, std::vector<std::string> sentences);
@@ -146,8 +150,11 @@ Section WarningSection(std::vector<std::string> warnings);
 // Appends the sections in order and omits those without blocks.
 void AddSections(std::vector<Section> sections, Document* document);
 
+// How much of a report a text has: kShort is without what is folded or further.
+enum class Length { kShort, kWhole };
+
 // For a terminal of 100 columns. Ends with a newline.
-std::string DrawText(const Document& document);
+std::string DrawText(const Document& document, Length length = Length::kWhole);
 
 // Whether texts are plain, and so must be escaped, or Markdown already.
 enum class Texts { kPlain, kMarkdown };

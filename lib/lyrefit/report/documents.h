@@ -15,8 +15,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 struct FitReport;
 struct FittedFile;
 
-// A fit: results, then their reliability. '*' marks the fitted objective.
+// A fit: the verdict, the results and, left out of the short report, their reliability. '*' marks the fitted objective.
 Document FitDocument(const FitReport& report);
+std::string ShortReport(const FitReport& report);
 std::string FullReport(const FitReport& report);
 std::string BriefReport(const FitReport& report);
 

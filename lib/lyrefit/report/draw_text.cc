@@ -79,9 +79,11 @@ std::string TerminalText(const block::Figure&) { return ""; }  // shown by the o
 
 std::string TerminalText(const block::LongTable&) { return ""; }
 
-std::string TerminalText(const std::vector<block::Any>& blocks) {
+std::string TerminalText(const std::vector<block::Any>& blocks, Length length) {
   std::string text;
   for (const block::Any& one : blocks) {
+    const auto* const field = std::get_if<block::Field>(&one);
+    if (length == Length::kShort && field != nullptr && field->further) continue;
     text += std::visit([](const auto& any) { return TerminalText(any); }, one);
   }
   return text;
@@ -89,11 +91,11 @@ std::string TerminalText(const std::vector<block::Any>& blocks) {
 
 }  // namespace
 
-std::string DrawText(const Document& document) {
+std::string DrawText(const Document& document, Length length) {
   std::string text;
   for (const std::string& banner : document.banners) text += Wrap("", banner) + "\n";
   const Section& head = document.head;
-  text += (head.heading.empty() ? "" : head.heading + "\n") + TerminalText(head.blocks);
+  text += (head.heading.empty() ? "" : head.heading + "\n") + TerminalText(head.blocks, length);
   for (const Section& section : document.sections) {
     const bool seen =
         std::any_of(section.blocks.begin(), section.blocks.end(), [](const block::Any& any) {
@@ -101,9 +103,10 @@ std::string DrawText(const Document& document) {
                  !std::holds_alternative<block::LongTable>(any);
         });
     if (!seen && !section.blocks.empty()) continue;  // nothing that a terminal shows
+    if ((section.folded || section.further) && length == Length::kShort) continue;
     if (!text.empty()) text += "\n";
     if (!section.heading.empty()) text += Heading(section.heading);
-    text += TerminalText(section.blocks);
+    text += TerminalText(section.blocks, length);
   }
   return Readable(text);
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSearchedDigits = 5;
 constexpr int kValueDigits = 6;
 constexpr int kErrorDigits = 2;
-constexpr int kRmseDigits = 10;
+constexpr int kRmseDigits = 7;
 constexpr double kLargestPercent = 1000;  // above it a relative difference is meaningless
 
 Section FitHead(const FitReport& report) {
@@ -24,19 +24,22 @@ Section FitHead(const FitReport& report) {
   AddCurve(report.curve, &head);
   const std::string effects = EffectTitles(EffectsOf(report.device));
   if (!effects.empty()) AddField("effects", effects, &head);
-  AddField("objective",
-           fmt::format("{}; bounds {}; constants {}", ToText(report.objective), report.bounds_name,
-                       ToText(report.constants)),
-           &head);
+  AddAssumed(report.curve.assumptions, &head);
   return head;
 }
 
-std::vector<std::string> ParameterRow(const Estimate& e, bool polished) {
+// The estimates whose intervals are to be believed.
+const std::vector<Estimate>& Believed(const FitReport& report) {
+  return report.under_errors.empty() ? report.estimates : report.under_errors;
+}
+
+// `e` with the errors of `under`, which is the same parameter.
+std::vector<std::string> ParameterRow(const Estimate& e, const Estimate& under, bool polished) {
   return {LabelWithUnit(e.info),
           Significant(e.searched, kSearchedDigits),
           polished ? Significant(e.refined, kValueDigits) : "-",
-          Significant(e.standard_error, kErrorDigits),
-          Range(e.low_95, e.high_95),
+          Significant(under.standard_error, kErrorDigits),
+          Range(under.low_95, under.high_95),
           EstimateMarks(e)};
 }
 
@@ -58,45 +61,6 @@ std::string IntervalNote(const std::vector<Estimate>& estimates) {
 std::string Difference(double measured, double simulated) {
   const double percent = 100 * (simulated / measured - 1);
   return std::abs(percent) < kLargestPercent ? fmt::format("{:+.3f} %", percent) : "-";
-}
-
-// Distance of the result from the floor, which is that of any number of diodes. A gap below three
-// digits counts as closed.
-std::string FloorText(const FitReport& report) {
-  constexpr double kClosed = 1e-5;
-  const FloorReport& floor = *report.floor;
-  const std::string range =
-      fmt::format("n in [{:g}, {:g}]{}", floor.n_lower, floor.n_upper,
-                  report.steepest_n > 0 ? ", the part of the bounds that is searched," : "");
-  const std::string rmse = ToText(floor.objective) + " RMSE";
-  const bool closed = floor.gap <= kClosed;
-  const double within = floor.above + floor.gap;
-  std::string above =
-      fmt::format("the refined answer is {} % above it", Significant(100 * floor.above, 3));
-  if (floor.above <= kCertifiedGap) above = "the refined answer is as low";
-  if (closed && within <= kClosed) {
-    above = "the refined answer attains it";
-    if (within > kCertifiedGap) above += fmt::format(" to within {:.1g} of itself", within);
-  }
-  if (!floor.minimised) above += ", but it was not fitted for the least RMSE";
-  // A floor that is missed says nothing of what this number of diodes can do.
-  std::string own;
-  if (floor.above > kCertifiedGap && within > kClosed && floor.minimised) {
-    own = fmt::format(
-        " How low the {} model itself can go, lyrefit certify --models {} --objective {} proves "
-        "within the same bounds.",
-        ModelTitle(report.model), ToText(report.model), ToText(floor.objective));
-  }
-  if (closed) {
-    return fmt::format("Floor: no number of diodes with {} brings the {} below {} A, and {}.{}",
-                       range, rmse, BoundText(floor.lower_bound_A), above, own);
-  }
-  const std::string proved = floor.lower_bound_A > 0
-                                 ? fmt::format("only that nothing lies below {} A is proved",
-                                               BoundText(floor.lower_bound_A))
-                                 : std::string("no lower bound is proved");
-  return fmt::format("Floor, not settled: diodes with {} reach a {} of {} A, and {}; {}.{}", range,
-                     rmse, Scientific(floor.rmse_A, kRmseDigits), above, proved, own);
 }
 
 std::string Decimals(double value) {
@@ -200,20 +164,46 @@ Section VariantSection(const FitReport& report) {
   return {"Choice of the variant", {table}};
 }
 
+// The verdict, and what is not known or was not done.
+Section VerdictSection(const FitReport& report) {
+  Section section = {"", {block::Conclusion{FitVerdict(report)}}};
+  AddUnidentifiable(report.estimates, &section);
+  if (!report.polished) {
+    AddSentence("No polish was done: the searched values are the answer.", &section);
+  }
+  if (!report.no_intervals_because.empty()) {
+    AddSentence("95 % intervals: none, since " + report.no_intervals_because + ".", &section);
+  }
+  return section;
+}
+
 Section ParameterSection(const FitReport& report) {
   Section section = {"Parameters"};
   block::Table table = {"lrrrll",
                         {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
-  for (const Estimate& e : report.estimates) table.rows.push_back(ParameterRow(e, report.polished));
-  AddTable(std::move(table), &section);
-  if (!report.polished) {
-    AddSentence("No polish was done: the searched values are the answer.", &section);
+  const std::vector<Estimate>& believed = Believed(report);
+  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
+    table.rows.push_back(ParameterRow(report.estimates[i], believed[i], report.polished));
   }
-  AddUnidentifiable(report.estimates, &section);
-  const std::string intervals = IntervalNote(report.estimates);
+  AddTable(std::move(table), &section);
+  return section;
+}
+
+// How the intervals were found; of believed errors also those that take every reading for equal.
+Section IntervalSection(const FitReport& report) {
+  Section section = {"Intervals"};
+  const std::string intervals = IntervalNote(Believed(report));
   if (!intervals.empty()) AddSentence("95 % intervals: " + intervals, &section);
-  if (!report.no_intervals_because.empty()) {
-    AddSentence("95 % intervals: none, since " + report.no_intervals_because + ".", &section);
+  if (!report.under_errors.empty()) {
+    block::Table table = {"lrl",
+                          {{"parameter", "std err", "95 % interval if errors were independent and "
+                                                    "of one size"}}};
+    for (const Estimate& e : report.estimates) {
+      table.rows.push_back({LabelWithUnit(e.info), Significant(e.standard_error, kErrorDigits),
+                            Range(e.low_95, e.high_95)});
+    }
+    AddTable(std::move(table), &section);
+    AddSentence("95 % intervals: " + IntervalNote(report.estimates), &section);
   }
   AddSentence(fmt::format("nNsVth = {} V (n1 x cells in series x k T / q)",
                           Significant(report.nNsVth, kValueDigits)),
@@ -221,75 +211,90 @@ Section ParameterSection(const FitReport& report) {
   return section;
 }
 
-// The three error sizes, with their use.
 Section ErrorSection(const FitReport& report) {
   Section section = {"Errors of the readings"};
   if (!report.errors) return section;
   AddErrorSizes(*report.errors, IsDark(report.curve), &section);
-  if (!report.under_errors.empty()) {
-    block::Table table = {"lrl", {{"parameter", "std err", "95 % interval under these errors"}}};
-    for (const Estimate& e : report.under_errors) {
-      table.rows.push_back({LabelWithUnit(e.info), Significant(e.standard_error, kErrorDigits),
-                            Range(e.low_95, e.high_95)});
-    }
-    AddTable(std::move(table), &section);
-    AddSentence("95 % intervals: " + IntervalNote(report.under_errors), &section);
-  }
-  AddSentence(WhichToBelieve(*report.errors), &section);
+  AddSentence(ErrorTests(*report.errors, IsDark(report.curve)), &section);
   return section;
 }
 
-Section RmseSection(const FitReport& report) {
+block::Table HeadOfRmse(const FitReport& report) {
   const auto label = [&](Objective objective) {
     return ToText(objective) + (objective == report.objective ? " *" : "");
   };
-  block::Table table = {
-      "lrr", {{"", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)}}};
-  const auto add = [&table](const char* name, const RmsePair& rmse, bool known) {
-    const RmsePair shown = known ? rmse : RmsePair{};
-    table.rows.push_back({name, Scientific(shown.measured_current_A, kRmseDigits),
-                          Scientific(shown.solved_current_A, kRmseDigits)});
-  };
-  add("random points, as many", report.rmse.random_baseline, true);
-  add("searched (best candidate)", report.rmse.searched, true);
-  add("best candidate polished", report.rmse.refined_best_candidate, report.polished);
-  const bool weighed = report.errors && report.errors->weighed;
-  if (weighed) add("least squares", report.errors->least_squares, true);
-  add(weighed ? "weighed by the errors" : "refined (best of all starts)", report.rmse.refined,
-      report.polished);
+  return {"lrr",
+          {{"RMSE in A", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)}}};
+}
+
+void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table) {
+  table->rows.push_back({name, Scientific(rmse.measured_current_A, kRmseDigits),
+                         Scientific(rmse.solved_current_A, kRmseDigits)});
+}
+
+bool IsWeighed(const FitReport& report) { return report.errors && report.errors->weighed; }
+
+// The search's best and the answer.
+void AddRmses(const FitReport& report, Section* section) {
+  block::Table table = HeadOfRmse(report);
+  const bool weighed = IsWeighed(report);
+  AddRmse(fmt::format("searched ({})", ToText(report.search_options.algorithm)),
+          report.rmse.searched, &table);
+  AddRmse(weighed ? "refined, weighed by the errors" : "refined",
+          report.polished ? report.rmse.refined : RmsePair{}, &table);
+  AddTable(std::move(table), section);
+  if (weighed) {
+    AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", section);
+  }
+  if (report.floor) AddSentence(FloorText(report), section);
+}
+
+// RMSEs to compare these with.
+Section FurtherRmseSection(const FitReport& report) {
+  block::Table table = HeadOfRmse(report);
+  AddRmse("random points, as many", report.rmse.random_baseline, &table);
+  AddRmse("best candidate polished",
+          report.polished ? report.rmse.refined_best_candidate : RmsePair{}, &table);
+  if (IsWeighed(report)) AddRmse("least squares", report.errors->least_squares, &table);
   // The figures of most papers are of the other objective, each at its own optimum.
   const bool solved = report.objective == Objective::kSolvedCurrent;
-  Section section = {fmt::format("RMSE in A   (* the objective that was fitted{})",
+  Section section = {fmt::format("Further RMSE (* what was fitted{})",
                                  solved ? "; papers mostly fit measured-current" : "")};
   AddTable(std::move(table), &section);
-  if (weighed) {
-    AddSentence("The answer is weighed by the errors: its plain RMSE is not the lowest.", &section);
-  }
-  if (report.floor) AddSentence(FloorText(report), &section);
   return section;
 }
 
-Section KeyPointSection(const FitReport& report) {
-  if (IsDark(report.curve)) return {};  // it has none
+void AddKeyPoints(const FitReport& report, Section* section) {
+  if (IsDark(report.curve)) return;  // it has none
   const struct {
     const char* name;
     const char* unit;
     double KeyPoints::*field;
-  } rows[] = {{"Isc", "A", &KeyPoints::short_circuit_current_A},
-              {"Voc", "V", &KeyPoints::open_circuit_voltage_V},
-              {"Vmp", "V", &KeyPoints::max_power_voltage_V},
-              {"Imp", "A", &KeyPoints::max_power_current_A},
-              {"Pmp", "W", &KeyPoints::max_power_W},
-              {"fill factor", "", &KeyPoints::fill_factor}};
-  block::Table table = {"lrrrl", {{"", "measured", "simulated", "difference", "unit"}}};
-  for (const auto& row : rows) {
-    const double measured = report.measured.*row.field;
-    const double simulated = report.simulated.*row.field;
-    table.rows.push_back({row.name, Significant(measured, kValueDigits),
-                          Significant(simulated, kValueDigits), Difference(measured, simulated),
-                          row.unit});
+  } columns[] = {{"Isc", "A", &KeyPoints::short_circuit_current_A},
+                 {"Voc", "V", &KeyPoints::open_circuit_voltage_V},
+                 {"Vmp", "V", &KeyPoints::max_power_voltage_V},
+                 {"Imp", "A", &KeyPoints::max_power_current_A},
+                 {"Pmp", "W", &KeyPoints::max_power_W},
+                 {"FF", "", &KeyPoints::fill_factor}};
+  block::Table table = {
+      "lrrrrrr", {{""}}, {{"measured"}, {"simulated"}, {"difference"}}};
+  for (const auto& column : columns) {
+    const double measured = report.measured.*column.field;
+    const double simulated = report.simulated.*column.field;
+    const std::string unit = column.unit;
+    table.heads[0].push_back(column.name + (unit.empty() ? "" : " (" + unit + ")"));
+    table.rows[0].push_back(Significant(measured, kValueDigits));
+    table.rows[1].push_back(Significant(simulated, kValueDigits));
+    table.rows[2].push_back(Difference(measured, simulated));
   }
-  return {"Key points", {table}};
+  AddTable(std::move(table), section);
+}
+
+Section ResultSection(const FitReport& report) {
+  Section section = {"RMSE (* what was fitted) and key points"};
+  AddRmses(report, &section);
+  AddKeyPoints(report, &section);
+  return section;
 }
 
 // Sections of the reliability of the results.
@@ -307,7 +312,6 @@ Section ResidualSection(const FitReport& report) {
                        r.runs, Significant(r.expected_runs, 3), Significant(r.runs_p_value, 2),
                        Significant(r.durbin_watson, 3)),
            &section);
-  AddField("verdict", ResidualVerdict(r), &section);
   AddField("information",
            fmt::format("AICc {}, BIC {} ({} points, {} free parameters)",
                        Decimals(report.criteria.aicc), Decimals(report.criteria.bic),
@@ -329,6 +333,10 @@ Section SearchSection(const FitReport& report) {
   if (report.interval_seconds > 0) {
     AddField("intervals", Duration(report.interval_seconds), &section);
   }
+  AddField("objective",
+           fmt::format("{}; bounds {}; constants {}", ToText(report.objective), report.bounds_name,
+                       ToText(report.constants)),
+           &section);
   AddField("options", OptionsText(report.non_default_options), &section);
   return section;
 }
@@ -339,15 +347,20 @@ Document FitDocument(const FitReport& report) {
   Document document = {
       Banners(report.interrupted, report.usable, report.not_usable_because, report.doubts),
       FitHead(report)};
-  AddSections(
-      {ChoiceSection(report), VariantSection(report), ParameterSection(report),
-       ErrorSection(report), RmseSection(report), KeyPointSection(report), ResidualSection(report),
-       SearchSection(report), ListSection("Assumptions", SentencesOf(report.curve.assumptions)),
-       WarningSection(report.warnings)},
-      &document);
+  AddSections({VerdictSection(report), ChoiceSection(report), ParameterSection(report),
+               ResultSection(report), WarningSection(report.warnings),
+               Further(VariantSection(report)), Further(IntervalSection(report)),
+               Further(ErrorSection(report)), Further(FurtherRmseSection(report)),
+               Further(ResidualSection(report)), Further(SearchSection(report)),
+               Further(ListSection("Assumptions", SentencesOf(report.curve.assumptions)))},
+              &document);
   document.verdict = FitVerdict(report);
   AddFigure(FigureBlock(report), &document.head);
   return document;
+}
+
+std::string ShortReport(const FitReport& report) {
+  return DrawText(FitDocument(report), Length::kShort);
 }
 
 std::string FullReport(const FitReport& report) { return DrawText(FitDocument(report)); }

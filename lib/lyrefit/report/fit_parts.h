@@ -20,8 +20,15 @@ std::pair<double, double> ValueAndError(const FitReport& report, const Parameter
 // fit_verdicts.cc: conclusions of one or two sentences.
 std::string ResidualVerdict(const ResidualStatistics& residuals);
 std::string FitVerdict(const FitReport& report);
+// Distance of the result from the floor, which is that of any number of diodes. A gap below three
+// digits counts as closed.
+std::string FloorText(const FitReport& report);
 // What residuals hold, for the middle of a sentence.
-std::string LeftWords(const ResidualStatistics& residuals);
+std::string LeftWords(const FitReport& report);
+// Adds what was assumed as one field "assumed" of a few lines; what does not fit is counted. Of
+// readings, those of values first.
+void AddAssumed(const std::vector<Assumption>& assumptions, Section* section);
+void AddAssumed(const std::vector<std::string>& sentences, Section* section);
 // A part of Isc such as ", 0.10 % of Isc"; empty if Isc is unknown.
 std::string PartOfIsc(double rmse_A, double isc_A);
 

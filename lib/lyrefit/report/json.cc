@@ -93,7 +93,10 @@ void to_json(Json& j, const ErrorReport& errors) {
        {"path_length_of_voc", errors.sizes.length},
        {"sizes", origin(errors.stated)},
        {"current_noise", origin(errors.current_stated || errors.stated)},
+       {"current_noise_part", errors.sizes.current_part},
        {"gain", errors.gain},
+       {"path_gain", errors.path_gain},
+       {"kind", errors.Taken()},
        {"weighed", errors.weighed},
        {"believed", errors.believed}};
 }

@@ -157,6 +157,10 @@ void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section) {
   };
   add("current noise", Significant(errors.sizes.current_A, 2) + " A",
       errors.current_stated ? "stated" : found, "every current by itself");
+  if (errors.sizes.current_part > 0) {
+    add("in proportion", Significant(100 * errors.sizes.current_part, 2) + " % of each current",
+        found, "every current by itself");
+  }
   add("voltage noise", Significant(errors.sizes.voltage_V, 2) + " V", found,
       dark ? "of the junction's voltage, or what changes each current by an equal part"
            : "of a voltage near Voc, which shows where the curve is steep");
@@ -173,28 +177,41 @@ void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section) {
       found, "how far along the sweep they share it");
 }
 
-std::string WhichToBelieve(const ErrorReport& errors) {
+std::string WhatScatters(const ErrorReport& errors, bool dark) {
+  if (dark) return "readings of large currents scatter more, in proportion to them";
+  const bool of_voltage = errors.voltage_effect_A >= errors.part_effect_A;
+  std::string text;
+  if (of_voltage || errors.voltage_effect_A > errors.sizes.current_A) {
+    text = "readings near Voc scatter more, as noise of the voltage does";
+  }
+  if (!of_voltage || errors.part_effect_A > errors.sizes.current_A) {
+    text += text.empty() ? "readings of large currents scatter more" : "; those of large currents too";
+    text += ", in proportion to them";
+  }
+  return text;
+}
+
+std::string ErrorTests(const ErrorReport& errors, bool dark) {
   if (errors.weighed) {
     return "The fit is weighed by these errors and its intervals hold under them.";
   }
-  const std::string gain =
-      fmt::format("2 ln of the ratio of likelihoods {}", Significant(errors.gain, 3));
-  if (!errors.believed) {
-    return fmt::format(
-        "The residuals do not ask for more than independent errors ({}): the intervals above are "
-        "to be believed.",
-        gain);
+  std::string text = "Twice the gain in ln likelihood: ";
+  if (std::isfinite(errors.path_gain)) {
+    text += fmt::format("{} of a path that neighbours share over independent errors of three sizes, ",
+                        Significant(errors.path_gain, 3));
   }
-  if (!(errors.sizes.path > 0)) {
-    return fmt::format(
-        "The residuals say clearly that errors are not equal ({}): believe these intervals, not "
-        "those above, which take every reading for equally exact.",
-        gain);
+  text += fmt::format("{} of these errors over independent ones of one size.",
+                      Significant(errors.gain, 3));
+  switch (errors.Taken()) {
+    case ErrorsTaken::kEqual:
+      return text + " The intervals take errors for independent and of one size.";
+    case ErrorsTaken::kUnequal:
+      return text + fmt::format(" The intervals take errors for independent: {}.",
+                                WhatScatters(errors, dark));
+    case ErrorsTaken::kPath:
+      return text + " The intervals allow for errors that neighbours share.";
   }
-  return fmt::format(
-      "The residuals say clearly that errors hang together ({}): believe these intervals, not "
-      "those above, which take them for independent.",
-      gain);
+  return text;
 }
 
 void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section) {

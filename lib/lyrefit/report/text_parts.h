@@ -61,8 +61,10 @@ void AddCurve(const IvCurve& curve, Section* section);
 
 // Adds one field for each size of the errors of the readings, with its meaning.
 void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section);
-// One sentence on which intervals are reliable.
-std::string WhichToBelieve(const ErrorReport& errors);
+// Which readings scatter more, by independent errors of several sizes.
+std::string WhatScatters(const ErrorReport& errors, bool dark);
+// The tests that chose the errors of the intervals.
+std::string ErrorTests(const ErrorReport& errors, bool dark);
 
 // Adds a sentence for each parameter that is not identifiable.
 void AddUnidentifiable(const std::vector<Estimate>& estimates, Section* section);

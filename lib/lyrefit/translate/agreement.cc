@@ -78,7 +78,7 @@ void AddShapes(const UncertaintySources& sources, const UncertaintyBudget& budge
     const double share = line.entries[output].share;
     if (!(share > 0)) continue;
     reasons->push_back({sooner * share * share * of.standard_uncertainty,
-                        fmt::format("{:.0f} % of the variance is the {}, which is rectangular",
+                        fmt::format("{:.0f} % of the variance has a rectangular distribution ({})",
                                     100 * share, line.title)});
   }
   std::vector<double> reported;

@@ -17,6 +17,11 @@ constexpr double kStandardIrradiance_W_m2 = 1000;
 constexpr double kStandardTemperature_C = 25;
 // A bifacial module above snow reaches 1.3 times its rating, and a sensor error adds to it.
 constexpr double kMostOfRating = 1.5;
+// No fault that leaves a curve to be measured takes more than nine tenths.
+constexpr double kLeastOfRating = 0.1;
+constexpr int kManyModules = 3;
+constexpr double kNearOne = 0.15;
+constexpr double kDecided = 0.8;  // least probability of a verdict
 
 Expected<void> CheckFieldTest(const UncertainOutput& standard, const FieldTestOptions& options) {
   TRY(ValidateOptions(options, kFieldTestOptionTable));
@@ -164,18 +169,31 @@ Expected<void> AddPerformance(const FieldMeasurement& measurement, const FieldTe
 }
 
 // Why the power cannot be compared with the rating; empty: it can.
-std::string WhyNotJudged(const FieldMeasurement& measurement, const FieldTest& test) {
+std::string WhyNotJudged(const FieldMeasurement& measurement, const FieldTestOptions& options,
+                         const FieldTest& test) {
   if (!measurement.doubt.empty()) return measurement.doubt;
   constexpr char kReasons[] =
       "other units than were read (mA?), the rating of another device (of one module for a string: "
       "--modules), or more light than was stated";
-  if (test.performance_factor > kMostOfRating) {
+  constexpr char kSmall[] =
+      "other units than were read (A for mA?), the rating of a string or another device for one "
+      "module, or less light than was stated";
+  const auto no_device = [](double part) { return part > kMostOfRating || part < kLeastOfRating; };
+  const auto reasons = [&](double part) { return part > 1 ? kReasons : kSmall; };
+  if (no_device(test.performance_factor)) {
     return fmt::format("a performance factor of {:.4g} is of no device: {}",
-                       test.performance_factor, kReasons);
+                       test.performance_factor, reasons(test.performance_factor));
   }
-  if (test.standard_W > kMostOfRating * test.rated_W) {
-    return fmt::format("{:.4g} times the rating at standard conditions is of no device: {}",
-                       test.standard_W / test.rated_W, kReasons);
+  // The power of one of many modules, where two of three missing would be a fault.
+  const bool many = options.modules >= kManyModules;
+  if (many && std::fabs(test.performance_factor * options.modules - 1) < kNearOne) {
+    return fmt::format("a performance factor of {:.4g} is about one of {} modules: {}",
+                       test.performance_factor, options.modules, kSmall);
+  }
+  const double part = test.standard_W / test.rated_W;
+  if (no_device(part)) {
+    return fmt::format("{:.4g} times the rating at standard conditions is of no device: {}", part,
+                       reasons(part));
   }
   return "";
 }
@@ -191,12 +209,11 @@ std::string ZoneSentence(const FieldTest& test) {
                                         test.lowest_W, test.rated_W);
   const std::string have = fmt::format("{:.1f} W at standard conditions ({:.1f} .. {:.1f} W)",
                                        test.standard_W, test.standard_low_W, test.standard_high_W);
-  const std::string wrong = test.probability_wrong < test.probability_step
-                                ? fmt::format("less than {:.2g} %", 100 * test.probability_step)
-                                : fmt::format("{:.2g} %", 100 * test.probability_wrong);
-  const char* relation = IsPass(test.zone) ? "reaches" : "misses";
-  return fmt::format("{}: {} {} {}; the probability that this is wrong is {}", ToText(test.zone),
-                     have, relation, least, wrong);
+  const char* relation = IsPass(test.zone)   ? "reaches"
+                         : IsFail(test.zone) ? "misses"
+                                             : "may reach or miss";
+  return fmt::format("{}: {} {} {}; the probability of conformity is {}", ToText(test.zone), have,
+                     relation, least, ConformityText(test));
 }
 
 void AddNotes(const UncertaintyOptions& uncertainty, FieldTest* test) {
@@ -215,8 +232,18 @@ void AddNotes(const UncertaintyOptions& uncertainty, FieldTest* test) {
 
 }  // namespace
 
-Zone ZoneOf(double value, double low, double high, double limit) {
-  if (value >= limit) return low >= limit ? Zone::kPass : Zone::kPassWithin;
+std::string ConformityText(const FieldTest& test) {
+  const double conforms = test.probability_conforms;
+  if (!std::isfinite(conforms)) return "not judged";
+  const double step = test.probability_step;
+  if (conforms < step) return fmt::format("less than {:.2g} %", 100 * step);
+  if (1 - conforms < step) return fmt::format("more than {:.4g} %", 100 * (1 - step));
+  return fmt::format("{:.{}f} %", 100 * conforms, conforms < 0.1 || conforms > 0.9 ? 1 : 0);
+}
+
+Zone ZoneOf(double low, double high, double limit, double conforms) {
+  if (conforms >= kDecided) return low >= limit ? Zone::kPass : Zone::kPassWithin;
+  if (conforms > 1 - kDecided) return Zone::kUndecided;
   return high >= limit ? Zone::kFailWithin : Zone::kFail;
 }
 
@@ -235,17 +262,18 @@ Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
   test.standard_W = standard.value;
   test.standard_low_W = standard.low();
   test.standard_high_W = standard.high();
-  test.zone = ZoneOf(compared.value, compared.low(), compared.high(), test.lowest_W);
-  const double below = compared.ProbabilityBelow(test.lowest_W);
-  test.probability_wrong = IsPass(test.zone) ? below : 1 - below;
+  test.probability_conforms = 1 - compared.ProbabilityBelow(test.lowest_W);
+  test.zone =
+      ZoneOf(compared.low(), compared.high(), test.lowest_W, test.probability_conforms);
+  test.probability_wrong = std::min(test.probability_conforms, 1 - test.probability_conforms);
   if (!compared.samples.empty()) {
     test.probability_step = 1 / static_cast<double>(compared.samples.size());
   }
   TRY(AddPerformance(measurement, options, uncertainty, observer, &test));
-  test.doubt = WhyNotJudged(measurement, test);
+  test.doubt = WhyNotJudged(measurement, options, test);
   if (!test.doubt.empty()) {
     test.zone = Zone::kDoubtful;
-    test.probability_wrong = kUnknown;
+    test.probability_conforms = test.probability_wrong = kUnknown;
   }
   test.sentence = ZoneSentence(test);
   AddNotes(uncertainty, &test);

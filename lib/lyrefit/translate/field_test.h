@@ -15,26 +15,29 @@
 
 namespace LYREFIT_PUBLIC lyrefit {
 
-// Zone of Pmax at standard conditions against the least power L that the rating allows. The
-// interval is the expanded one, k = 2, or the drawn one where both disagree:
+// Zone of Pmax at standard conditions against the least power L that the rating allows, by the
+// probability of conformity (JCGM 106, 7.4): that the true power is at least L. The interval is the
+// expanded one, k = 2, or the drawn one where both disagree:
 //
-//   pass                     the interval is at or above L
-//   pass within uncertainty  the value is at or above L, a part of the interval is not
-//   fail within uncertainty  the value is below L, a part of the interval is not
-//   fail                     the interval is below L
+//   pass                     at least 80 %, and the interval is at or above L
+//   pass within uncertainty  at least 80 %, a part of the interval is below L
+//   undecided                more than 20 %, less than 80 %
+//   fail within uncertainty  at most 20 %, a part of the interval is at or above L
+//   fail                     at most 20 %, and the interval is below L
 //   doubtful                 not scored: implausible readings (curve/plausibility.h), or a power of
-//                            more than 1.5 times the rating (wrong units, the rating of another
-//                            device, wrong irradiance)
+//                            more than 1.5 times the rating or less than 0.1 of it (wrong units,
+//                            the rating of another device, wrong irradiance)
 //
 // Field instruments use these zones for Voc and Isc, with the instrument's error in place of the
 // uncertainty (HT I-V600 manual, 6.5.2.1). A power above the upper tolerance does not fail; it
 // casts doubt on the irradiance or the rating.
-enum class Zone { kPass, kPassWithin, kFailWithin, kFail, kDoubtful };
+enum class Zone { kPass, kPassWithin, kUndecided, kFailWithin, kFail, kDoubtful };
 
 template <>
 struct EnumTable<Zone> {
   static constexpr EnumText<Zone> kRows[] = {{Zone::kPass, "pass"},
                                              {Zone::kPassWithin, "pass within uncertainty"},
+                                             {Zone::kUndecided, "undecided"},
                                              {Zone::kFailWithin, "fail within uncertainty"},
                                              {Zone::kFail, "fail"},
                                              {Zone::kDoubtful, "doubtful"}};
@@ -42,6 +45,7 @@ struct EnumTable<Zone> {
 
 // Passes, with or without the interval crossing the limit.
 inline bool IsPass(Zone zone) { return zone == Zone::kPass || zone == Zone::kPassWithin; }
+inline bool IsFail(Zone zone) { return zone == Zone::kFail || zone == Zone::kFailWithin; }
 
 // One measurement, with its conditions.
 struct FieldMeasurement {
@@ -63,9 +67,10 @@ struct FieldTest {
   double standard_high_W = kUnknown;
   Zone zone = Zone::kPass;
   std::string doubt;  // why it is not scored; empty: it is
-  // Probability that the true power is on the other side of L. The prior is flat: no information
-  // but this measurement. NaN where the test is not scored.
-  double probability_wrong = kUnknown;
+  // Probability that the true power is at least L. The prior is flat: no information but this
+  // measurement. NaN where the test is not scored.
+  double probability_conforms = kUnknown;
+  double probability_wrong = kUnknown;  // that it is on the other, less probable side of L
   double probability_step = 0;  // resolution of the probability, 1 / draws; 0: no draws
   double measured_W = kUnknown;
   double predicted_W = kUnknown;  // at the conditions measured
@@ -89,6 +94,9 @@ Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
                                    const Observer& observer = {});
 
 // The zone of an interval against its limit.
-Zone ZoneOf(double value, double low, double high, double limit);
+Zone ZoneOf(double low, double high, double limit, double conforms);
+
+// The probability of conformity, "96.3 %".
+std::string ConformityText(const FieldTest& test);
 
 }  // namespace lyrefit

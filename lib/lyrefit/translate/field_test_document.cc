@@ -46,14 +46,6 @@ std::string InUnit(const std::string& text, const OutputQuantity& quantity) {
   return quantity.unit.empty() ? text : text + " " + quantity.unit;
 }
 
-std::string ProbabilityText(const FieldTest& test) {
-  if (!std::isfinite(test.probability_wrong)) return "not judged";
-  if (test.probability_wrong < test.probability_step) {
-    return fmt::format("less than {:.2g} %", 100 * test.probability_step);
-  }
-  return fmt::format("{:.2g} %", 100 * test.probability_wrong);
-}
-
 std::string WattRange(double low_W, double high_W) {
   return fmt::format("{:.1f} .. {:.1f} W", low_W, high_W);
 }
@@ -99,12 +91,12 @@ std::vector<Section> FieldTestSections(const FieldTest& test) {
                 {"Pmax predicted there", fmt::format("{:.1f} W", test.predicted_W), ""},
                 {"performance factor", fmt::format("{:.3f}", test.performance_factor),
                  fmt::format("{:.3f} .. {:.3f}", test.performance_low, test.performance_high)},
-                {"verdict is wrong with", ProbabilityText(test), ""}};
+                {"probability of conformity", ConformityText(test), ""}};
   AddTable(std::move(table), &section);
   AddSentence(
-      fmt::format("Predicted by {}. The probability is that of the true power being on the other "
-                  "side of the least allowed one, where nothing is known of the string but this "
-                  "measurement (flat prior)",
+      fmt::format("Predicted by {}. The probability of conformity (JCGM 106) is that of the true "
+                  "power being at least the least allowed one, where nothing is known of the "
+                  "string but this measurement (flat prior); from 20 to 80 % is undecided",
                   test.predicted_by),
       &section);
   if (!test.notes.empty()) AddList(test.notes, &section);

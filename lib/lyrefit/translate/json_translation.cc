@@ -85,6 +85,7 @@ void to_json(Json& j, const FieldTest& test) {
        {"zone", test.zone},
        {"pass", IsPass(test.zone)},
        {"doubt", test.doubt},
+       {"probability_conforms", test.probability_conforms},
        {"probability_wrong", test.probability_wrong},
        {"probability_step", test.probability_step},
        {"measured_W", test.measured_W},

@@ -5,6 +5,7 @@
 
 #include "lyrefit/diagnose/diagnosis_parts.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 #include "lyrefit/translate/key_point_noise.h"
@@ -46,6 +47,12 @@ std::string HeadOf(const OutputQuantity& quantity) {
 void AddHead(const TranslationReport& report, Section* head) {
   head->heading = fmt::format("{} at {}", report.curve.name, TargetWords(report.target));
   AddMeasurement(report, head);
+  const std::vector<std::string> read = SentencesOf(report.curve.assumptions);
+  std::vector<std::string> assumed;
+  for (const std::string& sentence : report.assumptions) {
+    if (std::find(read.begin(), read.end(), sentence) == read.end()) assumed.push_back(sentence);
+  }
+  AddAssumed(assumed, head);
   const TranslationInputs& at = report.inputs.values;
   if (at.rear_irradiance_W_m2 > 0) {
     AddField(
@@ -70,6 +77,21 @@ Section RunSection(const TranslationReport& report) {
   return section;
 }
 
+// The largest line of a budget: "Of the uncertainty of Pmax 78 % is of: irradiance, ...".
+std::string LargestPart(const UncertaintyBudget& budget, std::size_t output) {
+  const BudgetLine* largest = nullptr;
+  for (const BudgetLine& line : budget.lines) {
+    if (output >= line.entries.size() || !(line.entries[output].share > 0)) continue;
+    if (largest == nullptr || line.entries[output].share > largest->entries[output].share) {
+      largest = &line;
+    }
+  }
+  if (largest == nullptr) return "";
+  return fmt::format("{:.0f} % of the variance of {} comes of {}: {}.",
+                     100 * largest->entries[output].share, budget.outputs[output].quantity.title,
+                     largest->title, largest->source);
+}
+
 // The recommended result.
 Section AnswerSection(const TranslationReport& report) {
   Section section = {"At " + TargetWords(report.target)};
@@ -80,13 +102,16 @@ Section AnswerSection(const TranslationReport& report) {
   }
   const std::vector<double> source = KeyPointVector(report.source);
   const std::vector<double> target = KeyPointVector(best->key_points);
-  block::Table table = {"lrr", {{"", "measured", "here, k = 2"}}};
+  block::Table table = {"lrrrrrr", {{""}}, {{"measured"}, {"here, k = 2"}}};
   for (std::size_t k = 0; k < Quantities().size(); ++k) {
-    table.rows.push_back({HeadOf(Quantities()[k]), Significant(source[k], kDigits + 1),
-                          WithUncertainty(target[k], ExpandedOf(*best, k))});
+    table.heads[0].push_back(HeadOf(Quantities()[k]));
+    table.rows[0].push_back(Significant(source[k], kDigits + 1));
+    table.rows[1].push_back(WithUncertainty(target[k], ExpandedOf(*best, k)));
   }
   AddTable(std::move(table), &section);
   AddSentence(fmt::format("Recommended is {}: {}.", best->title, report.reason), &section);
+  const std::string largest = LargestPart(best->budget, kMaxPowerOutput);
+  if (!largest.empty()) AddSentence(largest, &section);
   // The sentence on Pmax is in its budget.
   for (std::size_t k = 0; k < best->budget.outputs.size(); ++k) {
     const std::string& sentence = best->budget.outputs[k].sentence;
@@ -172,31 +197,32 @@ Document TranslationDocument(const TranslationReport& report) {
   Document document;
   document.banners =
       Banners(report.interrupted, report.Recommended() != nullptr, report.reason, report.doubts);
+  document.verdict = TranslationVerdict(report);
   AddHead(report, &document.head);
-  AddSections({AnswerSection(report)}, &document);
+  AddSections({{"", {block::Conclusion{document.verdict}}}, AnswerSection(report)}, &document);
   std::vector<Section> tested;
   if (report.field_test) tested = FieldTestSections(*report.field_test);
-  if (!tested.empty()) AddSections({tested.front()}, &document);
+  if (!tested.empty()) AddSections({Further(tested.front())}, &document);
   Section curve = {"The curve"};
   AddFigure(FigureBlock(report), &curve);
   AddSections({std::move(curve)}, &document);
-  AddSections(CausesOf(report), &document);
+  for (Section& section : CausesOf(report)) AddSections({Further(std::move(section))}, &document);
   const TranslatedResult* best = report.Recommended();
   const UncertaintyBudget budget = best == nullptr ? UncertaintyBudget{} : best->budget;
-  AddSections({ProcedureSection(report), BudgetSection("Budget of Pmax", budget, kMaxPowerOutput)},
+  AddSections({Further(ProcedureSection(report)),
+               Further(BudgetSection("Budget of Pmax", budget, kMaxPowerOutput))},
               &document);
-  if (tested.size() > 1) AddSections({tested.begin() + 1, tested.end()}, &document);
-  AddSections({ChecklistSection(report.checklist), CoefficientSection(report),
-               ListSection("Assumptions", report.assumptions), RunSection(report),
+  if (tested.size() > 1) AddSections({Further(std::move(tested[1]))}, &document);
+  AddSections({Further(ChecklistSection(report.checklist)), Further(CoefficientSection(report)),
+               Further(ListSection("Assumptions", report.assumptions)), Further(RunSection(report)),
                WarningSection(report.warnings)},
               &document);
-  document.verdict = TranslationVerdict(report);
   document.signatures = {"Measured by, date", "Approved by, date"};
   return document;
 }
 
-std::string TranslationText(const TranslationReport& report) {
-  return DrawText(TranslationDocument(report));
+std::string TranslationText(const TranslationReport& report, Length length) {
+  return DrawText(TranslationDocument(report), length);
 }
 
 std::string BriefTranslation(const TranslationReport& report) {

@@ -13,10 +13,11 @@
 // report/documents.h, json.h, csv.h and plots.h.
 namespace LYREFIT_PUBLIC lyrefit {
 
-// A translated curve: the recommended result with its expanded uncertainties and the field test,
-// then all procedures, the budget, and the conditions of the measurement.
+// A translated curve: the verdict and the recommended result with its expanded uncertainties; left
+// out of a short text are the field test, all procedures, the budget, and the conditions of the
+// measurement.
 Document TranslationDocument(const TranslationReport& report);
-std::string TranslationText(const TranslationReport& report);
+std::string TranslationText(const TranslationReport& report, Length length = Length::kWhole);
 std::string BriefTranslation(const TranslationReport& report);
 
 // Uncertainties are in the units of their values; expanded ones have k = 2. `points` holds the

@@ -79,13 +79,11 @@ std::string PowerLine(const TranslationReport& report) {
   std::string zone = ToText(test.zone);
   zone.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(zone.front())));
   if (test.zone == Zone::kDoubtful) return FullSentence(zone + ": " + test.doubt);
-  const bool rare = test.probability_wrong < test.probability_step;
   return fmt::format(
       "{}: {} at 1000 W/m2 and 25 C ({:.0f} .. {}, k = 2), allowed are {} or more ({} rated, {}). "
-      "This is the wrong decision with a probability of {}{:.2g} %.",
+      "The probability of conformity is {}.",
       zone, Watts(test.standard_W), test.standard_low_W, Watts(test.standard_high_W),
-      Watts(test.lowest_W), Watts(test.rated_W), test.tolerance, rare ? "less than " : "",
-      100 * (rare ? test.probability_step : test.probability_wrong));
+      Watts(test.lowest_W), Watts(test.rated_W), test.tolerance, ConformityText(test));
 }
 
 block::Table CurveTable(const TranslationReport& report, const TranslatedResult& best) {
@@ -116,12 +114,12 @@ void AddMeasurement(const TranslationReport& report, Section* section) {
   AddCurve(report.curve, section);
   const FieldNotes& notes = report.notes;
   const std::string& date = report.curve.notes.date;
-  AddField("taken", date.empty() ? "time not stated" : date, section);
+  AddFurtherField("taken", date.empty() ? "time not stated" : date, section);
   AddField("irradiance", LightText(report), section);
   AddField("temperature", TemperatureText(report), section);
-  AddField("instrument", InstrumentText(notes), section);
-  if (!notes.operated_by.empty()) AddField("measured by", notes.operated_by, section);
-  if (!notes.remark.empty()) AddField("remark", notes.remark, section);
+  AddFurtherField("instrument", InstrumentText(notes), section);
+  if (!notes.operated_by.empty()) AddFurtherField("measured by", notes.operated_by, section);
+  if (!notes.remark.empty()) AddFurtherField("remark", notes.remark, section);
 }
 
 std::string TranslationVerdict(const TranslationReport& report) {
@@ -147,7 +145,7 @@ std::string TranslationVerdict(const TranslationReport& report) {
   }
   if (!report.diagnosis) return text;
   const Verdict& found = report.diagnosis->verdict;
-  const bool fails = report.field_test && !IsPass(report.field_test->zone);
+  const bool fails = report.field_test && IsFail(report.field_test->zone);
   if (fails && !found.found && !found.unexplained) {
     text +=
         "Cause: the shape of the curve shows none. What acts on all cells alike leaves no trace in "

@@ -51,6 +51,7 @@ ErrorShape AverageShape(const Grouping& first, const ErrorShape& shape) {
   means.current = MeanErrors(first, shape.current);
   means.voltage = MeanErrors(first, shape.voltage);
   means.stated = MeanErrors(first, shape.stated);
+  means.part = MeanErrors(first, shape.part);
   means.path = Means(first, shape.path);
   means.position = Means(first, shape.position);
   if (first.size() <= shape.position.size()) {
@@ -79,6 +80,7 @@ Differences DifferencesWithin(const Grouping& first, const ErrorShape& shape,
     append(shape.current, begin, end, &differences.shape.current);
     append(shape.voltage, begin, end, &differences.shape.voltage);
     append(shape.stated, begin, end, &differences.shape.stated);
+    append(shape.part, begin, end, &differences.shape.part);
     append(shape.path, begin, end, &differences.shape.path);
     differences.shape.position.push_back(widths[g] / count);
     differences.count.push_back(pairs);

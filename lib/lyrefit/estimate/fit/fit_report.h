@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/option.h"
@@ -151,17 +152,40 @@ struct ModelChoice {
   std::string sentence;
 };
 
+// What the believed intervals take the errors of the readings for.
+enum class ErrorsTaken {
+  kEqual,    // independent, of one size
+  kUnequal,  // independent, of sizes that differ: noise of the voltage, or in proportion to current
+  kPath,     // these, and a path that neighbours share
+};
+
+template <>
+struct EnumTable<ErrorsTaken> {
+  static constexpr EnumText<ErrorsTaken> kRows[] = {{ErrorsTaken::kEqual, "equal"},
+                                                    {ErrorsTaken::kUnequal, "unequal"},
+                                                    {ErrorsTaken::kPath, "path"}};
+};
+
 // Sizes of the errors of the readings, estimated from the residuals or stated.
 struct ErrorReport {
   ErrorSizes sizes;
+  double voltage_effect_A = kUnknown;  // largest effect of the voltage noise on one current
+  double part_effect_A = kUnknown;     // the same of the error in proportion to the current
   bool stated = false;          // stated in the options, not estimated
   bool current_stated = false;  // current_A is the sigma_A of the readings
   double gain = kUnknown;       // see FoundErrors; NaN if stated
+  double path_gain = kUnknown;  // of the path alone; NaN if it was not tested
   bool weighed = false;         // the polish used them as weights
-  // Whether the gain over independent errors is significant. Intervals under these errors are then
+  // Whether the gain over independent errors of one size is significant. Intervals under these errors are then
   // the ones to use.
   bool believed = false;
   RmsePair least_squares;  // if weighed: RMSE of the least-squares fit
+
+  // What the believed intervals take the errors for.
+  ErrorsTaken Taken() const {
+    if (!believed) return ErrorsTaken::kEqual;
+    return sizes.path > 0 ? ErrorsTaken::kPath : ErrorsTaken::kUnequal;
+  }
 };
 
 // Covariance of the parameters of a fit, for intervals of what is computed from them.

@@ -13,6 +13,10 @@
 namespace lyrefit {
 namespace {
 
+// Twice the gain in ln likelihood above which sizes of independent errors are taken for unlike.
+// Lower than that of a path: a mistake hardly changes the intervals.
+constexpr double kGainOfSizes = 2.7;
+
 std::string TooFewReadings(const PreparedFit& fit) {
   return fmt::format("{} different readings fix {} parameters without a remainder", fit.readings(),
                      fit.free_parameters);
@@ -72,6 +76,12 @@ void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double
   }
 }
 
+double LargestRatio(const std::vector<double>& above, const std::vector<double>& below) {
+  double largest = 0;
+  for (std::size_t k = 0; k < above.size(); ++k) largest = std::max(largest, above[k] / below[k]);
+  return largest;
+}
+
 // Estimates the errors of a least-squares fit, and finds intervals under them if they are believed
 // (kGainToBelieve).
 void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<double>& searched,
@@ -81,16 +91,20 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
   const bool wanted = fit.options.find_errors && fit.options.intervals != Intervals::kNone;
   if (refined.errors || !wanted || !possible || progress.stop().requested()) return;
   const RefineEnd& end = judged->end;
-  const std::optional<FoundErrors> found = FindErrors(fit.problem, fit.fitted(), end);
+  const std::optional<FoundErrors> found = FindErrors(fit.problem, fit.fitted(), end, false);
   if (!found) return;
   ErrorReport errors;
   errors.sizes = found->sizes;
   errors.gain = found->gain;
+  errors.path_gain = found->path_gain;
   errors.current_stated = !fit.fitted().sigma_A.empty();
-  errors.believed = found->gain > kGainToBelieve;
+  errors.believed =
+      found->gain > (found->sizes.path > 0 ? kGainToBelieve : kGainOfSizes);
+  const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
+  errors.voltage_effect_A = found->sizes.voltage_V * LargestRatio(shape.voltage, shape.current);
+  errors.part_effect_A = found->sizes.current_part * LargestRatio(shape.part, shape.current);
   judged->errors = errors;
   if (!errors.believed) return;
-  const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorModel model = MakeErrorModel(shape, sizes);
     return StandardErrors({fit.problem, end, fit.spare_readings(), &model});

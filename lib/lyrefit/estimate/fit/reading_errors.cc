@@ -77,10 +77,12 @@ void AppendErrorShape(const ReadingsAt& at, int chain, ErrorShape* shape) {
       // the junction's voltage.
       shape->voltage.push_back(unit * std::fabs(current[k]) / junction_V);
       shape->path.push_back(unit * std::fabs(current[k]));
+      shape->part.push_back(0);  // that of the voltage is one
     } else {
       // The error of a voltage is proportional to the voltage.
       shape->voltage.push_back(unit * slope * std::fabs(voltage) / at.open_circuit_V);
       shape->path.push_back(unit * at.p[kIph] * factor);
+      shape->part.push_back(unit * std::fabs(current[k]));
     }
     shape->chain.push_back(chain);
   }
@@ -92,6 +94,7 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
   AppendErrorShape({problem.device, problem.objective, problem.voltage_V, problem.current_A,
                     problem.weights, ScalesOf(problem, curve).voltage_V, p, IsDark(curve)},
                    0, &shape);
+  if (IsDark(curve) || !curve.sigma_A.empty()) shape.part.clear();
   for (std::size_t k = 0; k < curve.sigma_A.size(); ++k) {
     shape.stated.push_back(shape.current[k] * curve.sigma_A[k]);
   }
@@ -99,7 +102,7 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
 }
 
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
-                                      const RefineEnd& end) {
+                                      const RefineEnd& end, bool path_is_usual) {
   const RefineProblem plain = Plain(problem);
   const Linearization now = Linearize(CurveModel(plain), end, end.active);
   const auto spare = now.jacobian.rows() - now.jacobian.cols();
@@ -110,7 +113,7 @@ std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurv
   const Grouping groups = GroupNeighbours(problem.voltage_V, scales.voltage_V);
   const ErrorShape shape = ShapeOfErrors(problem, curve, end.p);
   ErrorPrior prior = UsualErrors(scales.current_A, scales.voltage_V);
-  prior.path_is_usual = !IsDark(curve);
+  prior.path_is_usual = path_is_usual && !IsDark(curve);
   FoundErrors found = FindErrorSizes(
       AverageShape(groups, shape), prior, AverageRows(groups, RowMatrix(now.residual)),
       AverageRows(groups, now.jacobian), DifferencesWithin(groups, shape, now.residual));

@@ -34,10 +34,10 @@ ErrorShape ShapeOfErrors(const RefineProblem& problem, const IvCurve& curve,
                          const std::vector<double>& p);
 
 // Error sizes estimated from the residuals at the end of a fit. None if there are too few readings
-// or the residuals are only rounding. The usual path is that of modules at light: a dark curve has
-// to show one of its own.
+// or the residuals are only rounding. With `path_is_usual`, a lit curve has the usual path of
+// modules unless the readings deny it; otherwise, and in the dark, it has to show one of its own.
 std::optional<FoundErrors> FindErrors(const RefineProblem& problem, const IvCurve& curve,
-                                      const RefineEnd& end);
+                                      const RefineEnd& end, bool path_is_usual);
 
 // The problem weighted by errors of the sizes of `spec` at parameters `p`. A long curve without
 // effects is replaced by averages of neighbours. Stated sizes replace sigma_A, too.

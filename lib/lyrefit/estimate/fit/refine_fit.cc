@@ -107,7 +107,7 @@ std::optional<WeighedFit> WeighAndRefine(ErrorSpec spec, const IvCurve& curve,
   how.stop = stop;
   for (int round = 0; round < kRounds && !stop.requested(); ++round) {
     if (!errors.stated) {
-      const std::optional<FoundErrors> found = FindErrors(plain.problem, curve, weighed.end);
+      const std::optional<FoundErrors> found = FindErrors(plain.problem, curve, weighed.end, true);
       if (!found) return {};
       weighed.found = found;
       const bool settled = AreClose(found->sizes, spec.sizes, kSettled);

@@ -73,7 +73,7 @@ double PValue(const RefineProblem& problem, double bound, double free, int extra
 double UnderTheirErrors(const RefinedFit& refined, const RefineProblem& wide, const RefineEnd& free,
                         const RefineOptions& how, int extra, int spare, double p) {
   const PreparedFit& fit = refined.prepared;
-  const std::optional<FoundErrors> found = FindErrors(wide, fit.fitted(), free);
+  const std::optional<FoundErrors> found = FindErrors(wide, fit.fitted(), free, true);
   if (!found || found->gain <= kGainToBelieve) return p;
   const RefineProblem beyond =
       WeighByErrors(wide, fit.fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);

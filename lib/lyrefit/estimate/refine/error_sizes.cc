@@ -17,7 +17,8 @@ namespace {
 constexpr double kLengthWidth = 8;
 constexpr double kLongerWidth = 0.5;
 
-using Logs = std::vector<double>;  // ln of current_A, voltage_V and, with a path, path, length
+// ln of current_A, voltage_V and, with a path, path, length, else current_part where it has a shape.
+using Logs = std::vector<double>;
 
 Logs LogsOf(const ErrorSizes& sizes) {
   return {std::log(sizes.current_A), std::log(sizes.voltage_V), std::log(sizes.path),
@@ -25,7 +26,8 @@ Logs LogsOf(const ErrorSizes& sizes) {
 }
 
 ErrorSizes SizesAt(const Logs& at) {
-  if (at.size() == 2) return {std::exp(at[0]), std::exp(at[1]), 0, 1};
+  const double part = at.size() == 3 ? std::exp(at[2]) : 0;
+  if (at.size() < 4) return {std::exp(at[0]), std::exp(at[1]), 0, 1, part};
   return {std::exp(at[0]), std::exp(at[1]), std::exp(at[2]), std::exp(at[3])};
 }
 
@@ -92,8 +94,9 @@ double LogLikelihood(const ErrorShape& shape, const ErrorSizes& sizes, const Row
     const double current =
         shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
     const double voltage = sizes.voltage_V * shape.voltage[k];
+    const double part = shape.part.empty() ? 0 : sizes.current_part * shape.part[k];
     const double path = sizes.path * shape.path[k];
-    double own = current * current + voltage * voltage;
+    double own = current * current + voltage * voltage + part * part;
     if (!shape.averaged_away.empty() && shape.averaged_away[k] > 0) {
       own -= path * path * AveragedAway(shape.averaged_away[k] * per_length);
     }
@@ -125,9 +128,11 @@ double LogLikelihood(const Differences& differences, const ErrorSizes& sizes) {
 }
 
 double LogPosterior(const Rows& rows, const ErrorPrior& prior, const Logs& at) {
-  const Logs center = LogsOf(prior.center);
-  const double width[] = {prior.width.current_A, prior.width.voltage_V, prior.width.path,
-                          prior.width.length};
+  const bool path = at.size() == 4;
+  Logs center = LogsOf(prior.center);
+  if (!path) center[2] = std::log(prior.center.current_part);
+  const double width[] = {prior.width.current_A, prior.width.voltage_V,
+                          path ? prior.width.path : prior.width.current_part, prior.width.length};
   const ErrorSizes sizes = SizesAt(at);
   double sum =
       LogLikelihood(rows.shape, sizes, rows.columns) + LogLikelihood(rows.differences, sizes);
@@ -168,16 +173,18 @@ Logs FindStart(const Rows& rows, const ErrorPrior& prior) {
   return highest > -HUGE_VAL ? best : usual;
 }
 
-// Of the first sizes; 0 for the others, and if the matrix is not positive definite.
-Eigen::Matrix4d InverseOf(const Eigen::MatrixXd& curvature) {
+// Of the sizes that are sought; 0 for the others, and if the matrix is not positive definite.
+ErrorMatrix InverseOf(const Eigen::MatrixXd& curvature) {
+  constexpr int kPart = 4;
   const Eigen::Index size = curvature.rows();
-  Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+  const auto place = [size](Eigen::Index i) { return size == 3 && i == 2 ? kPart : i; };
+  ErrorMatrix inverse = ErrorMatrix::Zero();
   for (Eigen::Index j = 0; j < size; ++j) {
     Eigen::VectorXd column;
     if (!SolvePositive(curvature, Eigen::VectorXd::Unit(size, j), &column)) {
-      return Eigen::Matrix4d::Zero();
+      return ErrorMatrix::Zero();
     }
-    inverse.col(j).head(size) = column;
+    for (Eigen::Index i = 0; i < size; ++i) inverse(place(i), place(j)) = column[i];
   }
   return inverse;
 }
@@ -218,6 +225,18 @@ Logs LongestAllowed(const std::function<double(const Logs&)>& value, const Logs&
   return longest;
 }
 
+// The best sizes of independent errors: the higher of two ascents, with an error in proportion to the
+// current that is large or small.
+Logs BestIndependent(const Rows& rows, const ErrorPrior& prior, const Logs& top) {
+  constexpr int kMostSteps = 30;
+  const auto value = [&](const Logs& there) { return LogPosterior(rows, prior, there); };
+  if (rows.shape.part.empty()) return NewtonAscent(value, {top[0], top[1]}, kMostSteps);
+  const double usual = std::log(prior.center.current_part);
+  const Logs small = NewtonAscent(value, {top[0], top[1], usual - 2}, kMostSteps);
+  const Logs large = NewtonAscent(value, {top[0] - 1, top[1], top[0] - std::log(prior.center.current_A) + usual}, kMostSteps);
+  return value(large) > value(small) ? large : small;
+}
+
 }  // namespace
 
 bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
@@ -225,7 +244,8 @@ bool AreClose(const ErrorSizes& a, const ErrorSizes& b, double tolerance) {
     return std::fabs(one - other) <= tolerance * std::fabs(other);
   };
   return close(a.current_A, b.current_A) && close(a.voltage_V, b.voltage_V) &&
-         close(a.path, b.path) && close(a.length, b.length);
+         close(a.path, b.path) && close(a.length, b.length) &&
+         close(a.current_part, b.current_part);
 }
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
@@ -235,7 +255,8 @@ ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
   for (std::size_t k = 0; k < shape.current.size(); ++k) {
     const double current =
         shape.stated.empty() ? sizes.current_A * shape.current[k] : shape.stated[k];
-    errors.white.push_back(std::hypot(current, sizes.voltage_V * shape.voltage[k]));
+    const double part = shape.part.empty() ? 0 : sizes.current_part * shape.part[k];
+    errors.white.push_back(std::hypot(current, sizes.voltage_V * shape.voltage[k], part));
     if (sizes.path > 0) errors.path.push_back(sizes.path * shape.path[k]);
   }
   for (const double position : shape.position) errors.position.push_back(position / sizes.length);
@@ -247,7 +268,7 @@ ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes) {
 }
 
 ErrorPrior UsualErrors(double isc_A, double voc_V) {
-  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3, 1}, {3, 3, 1, kLengthWidth}};
+  return {{3e-4 * isc_A, 3e-4 * voc_V, 1.2e-3, 1, 3e-4}, {3, 3, 1, kLengthWidth, 3}};
 }
 
 FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
@@ -265,9 +286,10 @@ FoundErrors FindErrorSizes(const ErrorShape& shape, const ErrorPrior& prior,
   found.uncertainty = InverseOf(-CurvatureAt(value, top));
   double likely = LogLikelihood(shape, found.sizes, all.columns);
   if (!prior.path_is_usual) {
-    const Logs alone = NewtonAscent(value, {top[0], top[1]}, kMostSteps);
+    const Logs alone = BestIndependent(all, prior, top);
     const double without = LogLikelihood(shape, SizesAt(alone), all.columns);
-    if (2 * (likely - without) <= kGainToBelieve) {
+    found.path_gain = 2 * (likely - without);
+    if (found.path_gain <= kGainToBelieve) {
       found.sizes = SizesAt(alone);
       found.uncertainty = InverseOf(-CurvatureAt(value, alone));
       likely = without;

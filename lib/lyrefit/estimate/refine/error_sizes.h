@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/numbers.h"
 #include "lyrefit/estimate/refine/error_model.h"
 #include "lyrefit/estimate/refine/error_terms.h"
 
@@ -19,6 +20,7 @@ struct ErrorShape {
   std::vector<double> averaged_away;  // part of path^2 per length of the path, if small
   std::vector<double> stated;         // standard deviation of a stated current error, in the
                                       // unit of the residuals; replaces `current`; empty: none
+  std::vector<double> part = {};      // of current_part; empty: no such error
 };
 
 ErrorModel MakeErrorModel(const ErrorShape& shape, const ErrorSizes& sizes);
@@ -33,7 +35,9 @@ struct ErrorPrior {
   ErrorSizes center;
   ErrorSizes width;
   // Whether devices of this kind are known to have a path of the prior's size. Otherwise a path that
-  // gains less than kGainToBelieve over independent errors of both kinds is 0.
+  // gains less than kGainToBelieve over independent errors of all kinds is 0. A path is at least 0,
+  // so one of known length gains that much by chance with 1.3 % (half a chi-square of one degree,
+  // Self and Liang 1987, doi:10.1080/01621459.1987.10478472).
   bool path_is_usual = true;
 };
 
@@ -43,16 +47,20 @@ struct ErrorPrior {
 // correlate only neighbours. Readings: a factor of 20 about those of tracers, a very weak prior.
 ErrorPrior UsualErrors(double isc_A, double voc_V);
 
+using ErrorMatrix = Eigen::Matrix<double, 5, 5>;
+
 // Error sizes estimated from residuals.
 struct FoundErrors {
   // Maximum of restricted likelihood times prior, or a longer path of nearly the same posterior.
   ErrorSizes sizes;
-  // Covariance of the logarithms of current, voltage, path and length, from the curvature at the
-  // maximum; 0 if there is no maximum.
-  Eigen::Matrix4d uncertainty = Eigen::Matrix4d::Zero();
+  // Covariance of the logarithms of current, voltage, path, length and part, from the curvature at
+  // the maximum; 0 if there is no maximum, and of sizes that were not sought.
+  ErrorMatrix uncertainty = ErrorMatrix::Zero();
   // Twice the gain in ln restricted likelihood over independent errors of the shape of `current`
   // (or `stated`) and their best size.
   double gain = 0;
+  // The same of a path over independent errors of all kinds. NaN if a path is usual.
+  double path_gain = kUnknown;
 };
 
 // For rows that are means of groups of readings: the differences of neighbours within each group.

@@ -12,6 +12,8 @@ struct ErrorSizes {
   double path = 0;       // of the light along the sweep, relative, or of a similar model error
   // Distance along the sweep, in Voc, over which the path's correlation falls to 1 / e.
   double length = 1;
+  // Standard deviation of an independent error in proportion to the current. Experimental.
+  double current_part = 0;
 };
 
 // Whether all sizes agree within a relative `tolerance`.

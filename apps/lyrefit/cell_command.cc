@@ -70,8 +70,11 @@ Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
                  [&](const std::string& file) { return PlotCell(report, file, output.marks()); }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(CellDocument(report), CellJson(report)); }));
-  TRY(WriteText(verb, [&] { return output.brief ? BriefCell(report) : CellText(report, LengthWanted(verb)); }));
-  return ExitOf(report);
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefCell(report) : CellText(report, LengthWanted(verb));
+  }));
+  if (report.interrupted) return kExitInterrupted;
+  return report.Usable() ? kExitFine : kExitNotUsable;
 }
 
 }  // namespace

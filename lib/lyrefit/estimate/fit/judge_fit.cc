@@ -98,8 +98,7 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
   errors.gain = found->gain;
   errors.path_gain = found->path_gain;
   errors.current_stated = !fit.fitted().sigma_A.empty();
-  errors.believed =
-      found->gain > (found->sizes.path > 0 ? kGainToBelieve : kGainOfSizes);
+  errors.believed = found->gain > (found->sizes.path > 0 ? kGainToBelieve : kGainOfSizes);
   const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
   errors.voltage_effect_A = found->sizes.voltage_V * LargestRatio(shape.voltage, shape.current);
   errors.part_effect_A = found->sizes.current_part * LargestRatio(shape.part, shape.current);

@@ -185,7 +185,8 @@ TEST(Readme, EveryCommandOfTheFirstPageIsRun) {
   std::string all;
   size_t commands = 0;
   for (std::string line; std::getline(page, line); all += line + '\n') {
-    commands += static_cast<size_t>(StartsWith(line, "    lyrefit ") && std::isalpha(line[12]) != 0);
+    commands +=
+        static_cast<size_t>(StartsWith(line, "    lyrefit ") && std::isalpha(line[12]) != 0);
   }
   std::istringstream text(all);
   EXPECT_EQ(CommandsOf(text).size(), commands);

@@ -22,7 +22,8 @@ if [[ ${1:-} == --commands ]]; then
     read -ra words <<< "$command"
     CCACHE_DISABLE=1 "$copy/lyrefit/cmake/${words[0]}" "${words[@]:1}" > "$copy/log" 2>&1 || Die "$command: $(tail -n 20 "$copy/log")"
     # Of all that ran so far: the second line of `times`, user and system.
-    Record "$command" "$(times | awk -F '[ms ]+' 'NR == 2 { print 60 * ($1 + $3) + $2 + $4 }')"
+    times > "$copy/times" # not in a pipe, whose shell has no such children
+    Record "$command" "$(awk -F '[ms ]+' 'NR == 2 { print 60 * ($1 + $3) + $2 + $4 }' "$copy/times")"
   done
   exit
 fi

@@ -4,7 +4,7 @@
 # commit's unless SOURCE_DATE_EPOCH says another.
 #   cmake/wheel.sh            (PYTHON=... in the environment for an interpreter other than Debian's, which needs pip,
 #                             build, setuptools, wheel and pybind11)
-#   cmake/wheel.sh --in SUITE instead on a system of its own of that release of Debian (bullseye, trixie; root makes it), for
+#   cmake/wheel.sh --in SUITE instead on a system of its own of that release of Debian (trixie; root makes it), for
 #                             its Python and its C library, and tries it on a second one (cmake/bare.sh --wheel SUITE)
 #   cmake/wheel.sh --try      instead installs that wheel in a fresh environment, compares its digits with those of the
 #                             command in build and runs examples on it

@@ -19,7 +19,7 @@ NAME = re.compile(r"`(?:build/tests/|\./)?([a-z0-9_/][a-z0-9_./]+?)/?`")
 # A program with its folder; one in a command without, which is not on the path; one that is only named.
 BUILT = re.compile(r"build/tests/([a-z0-9_/]+)")
 BARE = re.compile(r"(?:^    (?:\w+=\S+ )*|`)((?:lyrefit_[a-z]+|[a-z]\w*_(?:test|study))) ", re.M)
-NAMED = re.compile(r"`([a-z]\w*_(?:test|study))`")
+NAMED = re.compile(r"`((?!check_)[a-z]\w*_(?:test|study))`")
 
 
 def programs_of(root, tests):

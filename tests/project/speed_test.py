@@ -64,7 +64,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(self.said("no such command", "ReferenceSeconds() { echo 1; }"), "")
 
     def test_what_newcomers_run_first_is_in_the_record(self):
-        self.assertLess(self.recorded("quickstart.sh --fit-only"), self.recorded("quickstart.sh"))
+        self.assertGreater(self.recorded("quickstart.sh --fit-only"), 60)  # no compiler's cache
         self.assertGreater(self.recorded("reference"), 0)
 
     @staticmethod

@@ -66,16 +66,17 @@ std::vector<std::string> KeysOfReport(const std::string& json) {
 TEST(References, HaveKeysOfTheirOwnAndAreUsed) {
   std::set<std::string> keys, by_effects;
   for (const Effect* effect : Catalogue()) {
-    for (const Reference* named : ReferencesIn(effect->reference)) by_effects.insert(named->key);
+    for (const Publication* named : PublicationsIn(effect->reference))
+      by_effects.insert(named->key);
   }
-  for (const Reference& reference : References()) {
+  for (const Publication& reference : Publications()) {
     EXPECT_TRUE(keys.insert(reference.key).second) << reference.key;
     EXPECT_TRUE(*reference.used != '\0' || by_effects.count(reference.key) == 1) << reference.key;
     EXPECT_THAT(KeysOf(BibTeX(reference)), ElementsAre(reference.key));
-    EXPECT_EQ(FindReference(reference.key), &reference);
+    EXPECT_EQ(FindPublication(reference.key), &reference);
   }
   EXPECT_GT(keys.size(), 40U);
-  EXPECT_EQ(FindReference("nobody1900"), nullptr);
+  EXPECT_EQ(FindPublication("nobody1900"), nullptr);
 }
 
 // Its words are keys of the table, but for two effects that nobody published.
@@ -85,7 +86,7 @@ TEST(References, AreNamedByEveryEffect) {
     const bool published =
         std::set<std::string>{"clip", "range_switch", "unknown_structure"}.count(effect->id) == 0;
     const std::size_t parts = 1 + std::count(text.begin(), text.end(), ';');
-    EXPECT_EQ(ReferencesIn(text).size(), published ? parts : 0) << effect->id << ": " << text;
+    EXPECT_EQ(PublicationsIn(text).size(), published ? parts : 0) << effect->id << ": " << text;
   }
 }
 
@@ -100,9 +101,9 @@ TEST(References, AreShownAsOneCites) {
 }
 
 TEST(References, SayWhatIsMissing) {
-  EXPECT_THAT(BibTeX(*FindReference("mlo")),
+  EXPECT_THAT(BibTeX(*FindPublication("mlo")),
               HasSubstr("% missing: author, title, year, doi\n@article{mlo,\n"));
-  EXPECT_THAT(BibTeX(*FindReference("storn1997")), Not(HasSubstr("missing")));
+  EXPECT_THAT(BibTeX(*FindPublication("storn1997")), Not(HasSubstr("missing")));
 }
 
 TEST(Cite, TheSoftwareSaysItsVersion) {

@@ -52,7 +52,7 @@ class Archive(unittest.TestCase):
 
     def test_examples(self):
         examples = sorted(self.place.glob("*.py"))
-        self.assertEqual(len(examples), 15)
+        self.assertEqual(len(examples), 16)
         for file in examples:
             with self.subTest(file.name):
                 page = (SITE / "gallery" / f"{file.stem}.html").read_text(encoding="utf-8")

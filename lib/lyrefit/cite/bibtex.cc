@@ -17,7 +17,7 @@ std::vector<std::string> Split(const std::string& text, const std::string& by) {
 }
 
 // "Storn and Price 1997, doi:10.1023/A:1008202821328"; of a standard its number.
-std::string InShort(const Reference& reference) {
+std::string InShort(const Publication& reference) {
   if (std::string(reference.type) == "misc") return reference.in;
   std::string text;
   const std::vector<std::string> authors = Split(reference.author, " and ");
@@ -45,10 +45,11 @@ const char* PlaceField(const std::string& type) {
 
 }  // namespace
 
-std::vector<const Reference*> ReferencesIn(const std::string& text) {
-  std::vector<const Reference*> found;
+std::vector<const Publication*> PublicationsIn(const std::string& text) {
+  std::vector<const Publication*> found;
   for (const std::string& part : Split(text, "; ")) {
-    if (const Reference* one = FindReference(part.substr(0, part.find(' ')))) found.push_back(one);
+    if (const Publication* one = FindPublication(part.substr(0, part.find(' '))))
+      found.push_back(one);
   }
   return found;
 }
@@ -57,7 +58,7 @@ std::string ReferenceText(const std::string& text) {
   std::string shown;
   for (const std::string& part : Split(text, "; ")) {
     const std::size_t end = part.find(' ');
-    const Reference* const one = FindReference(part.substr(0, end));
+    const Publication* const one = FindPublication(part.substr(0, end));
     if (!shown.empty()) shown += "; ";
     shown += one == nullptr ? part : InShort(*one);
     if (one != nullptr && end != std::string::npos) shown += part.substr(end);
@@ -65,7 +66,7 @@ std::string ReferenceText(const std::string& text) {
   return shown;
 }
 
-std::string BibTeX(const Reference& reference) {
+std::string BibTeX(const Publication& reference) {
   const std::string type = reference.type;
   const bool article = type == "article";
   const struct {

@@ -31,7 +31,7 @@ bool Says(const Json& value) {
   return !value.empty() && value != "";
 }
 
-// Adds KEY and KEY=VALUE of all that the report says (Reference::used).
+// Adds KEY and KEY=VALUE of all that the report says (Publication::used).
 void Collect(const Json& value, const std::string& key, Facts* facts) {
   if (!Says(value)) return;
   if (!key.empty()) facts->insert(key);
@@ -52,7 +52,7 @@ bool IsFact(const std::string& pattern, const Facts& facts) {
   return next != facts.end() && next->compare(0, begin.size(), begin) == 0;
 }
 
-bool IsUsed(const Reference& reference, const Facts& facts) {
+bool IsUsed(const Publication& reference, const Facts& facts) {
   const std::string used = reference.used;
   for (std::size_t begin = 0; begin < used.size();) {
     const std::size_t end = std::min(used.find(' ', begin), used.size());
@@ -63,21 +63,21 @@ bool IsUsed(const Reference& reference, const Facts& facts) {
 }
 
 // References of the effects that a report fitted or named as causes.
-std::set<const Reference*> OfEffects(const Facts& facts) {
-  std::set<const Reference*> used;
+std::set<const Publication*> OfEffects(const Facts& facts) {
+  std::set<const Publication*> used;
   for (const Effect* effect : Catalogue()) {
     for (const char* key : {"effect=", "effects=", "causes="}) {
       if (facts.count(std::string(key) + effect->id) == 0) continue;
-      for (const Reference* reference : ReferencesIn(effect->reference)) used.insert(reference);
+      for (const Publication* reference : PublicationsIn(effect->reference)) used.insert(reference);
     }
   }
   return used;
 }
 
 std::string CiteFacts(const Facts& facts) {
-  const std::set<const Reference*> effects = OfEffects(facts);
+  const std::set<const Publication*> effects = OfEffects(facts);
   std::string text = CiteLyrefit();
-  for (const Reference& reference : References()) {
+  for (const Publication& reference : Publications()) {
     if (effects.count(&reference) > 0 || IsUsed(reference, facts)) text += "\n" + BibTeX(reference);
   }
   return text;

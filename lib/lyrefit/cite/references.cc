@@ -10,8 +10,8 @@ constexpr char kJcgm[] = "{Joint Committee for Guides in Metrology}";
 
 // Facts are those of texts at hand: of the publication, or of two or more that cite it alike. What
 // none states is empty.
-const std::vector<Reference>& References() {
-  static const std::vector<Reference> references = {
+const std::vector<Publication>& Publications() {
+  static const std::vector<Publication> references = {
       // Searches.
       {"mlo", "article", "", "", "Journal of Industrial and Management Optimization", "", "22", "1",
        "642--690", "",
@@ -219,8 +219,8 @@ const std::vector<Reference>& References() {
   return references;
 }
 
-const Reference* FindReference(const std::string& key) {
-  for (const Reference& reference : References()) {
+const Publication* FindPublication(const std::string& key) {
+  for (const Publication& reference : Publications()) {
     if (key == reference.key) return &reference;
   }
   return nullptr;

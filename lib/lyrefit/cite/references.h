@@ -9,7 +9,7 @@
 namespace LYREFIT_PUBLIC lyrefit {
 
 // A publication, as an entry of BibTeX. A field that no source at hand states is empty.
-struct Reference {
+struct Publication {
   const char* key;   // of the entry
   const char* type;  // "article", "inproceedings", "techreport", "software" or "misc" (a standard)
   const char*
@@ -27,19 +27,19 @@ struct Reference {
 };
 
 // The table of all references, in the order of reports.
-const std::vector<Reference>& References();
+const std::vector<Publication>& Publications();
 
 // The reference with this key, nullptr if there is none.
-const Reference* FindReference(const std::string& key);
+const Publication* FindPublication(const std::string& key);
 
 // The references that a text names: keys, each with a remark or none, such as "desoto2006 (linear);
 // mermoud2010". Effects have such a text (Effect::reference). Other words name none.
-std::vector<const Reference*> ReferencesIn(const std::string& text);
+std::vector<const Publication*> PublicationsIn(const std::string& text);
 
 // The text with its keys as one cites: "De Soto, Klein and Beckman 2006, doi:10.1016/... (linear)".
 std::string ReferenceText(const std::string& text);
 
 // The entry in BibTeX, below a line "% missing: ..." where fields are empty that one expects.
-std::string BibTeX(const Reference& reference);
+std::string BibTeX(const Publication& reference);
 
 }  // namespace lyrefit

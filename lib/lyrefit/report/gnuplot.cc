@@ -95,7 +95,7 @@ Expected<std::string> TerminalFor(const std::string& path) {
 
 // Replaces the time in a PDF by one and the same, so that equal pictures are equal files.
 void ForgetTheTime(std::string* picture) {
-  constexpr char kTime[] = "/CreationDate (D:20000101000000Z";
+  constexpr char kTime[] = "/CreationDate (D:20000101000000";
   const std::size_t at = picture->find("/CreationDate (D:");
   if (at != std::string::npos) picture->replace(at, sizeof kTime - 1, kTime);
 }

@@ -112,10 +112,8 @@ Section AnswerSection(const TranslationReport& report) {
   AddSentence(fmt::format("Recommended is {}: {}.", best->title, report.reason), &section);
   const std::string largest = LargestPart(best->budget, kMaxPowerOutput);
   if (!largest.empty()) AddSentence(largest, &section);
-  // The sentence on Pmax is in its budget.
-  for (std::size_t k = 0; k < best->budget.outputs.size(); ++k) {
-    const std::string& sentence = best->budget.outputs[k].sentence;
-    if (k != kMaxPowerOutput && !sentence.empty()) AddSentence(FullSentence(sentence), &section);
+  for (const UncertainOutput& output : best->budget.outputs) {
+    if (output.agreement == Agreement::kDisagree) AddSentence(FullSentence(output.sentence), &section);
   }
   return section;
 }
@@ -144,6 +142,13 @@ Section ProcedureSection(const TranslationReport& report) {
   if (!table.rows.empty()) {
     AddTable(std::move(table), &section);
     AddSentence("* recommended; Pmax +- its expanded uncertainty, k = 2", &section);
+  }
+  // The sentence on Pmax is in its budget; those of ends that disagree stand with the answer.
+  const TranslatedResult* best = report.Recommended();
+  for (std::size_t k = 0; best != nullptr && k < best->budget.outputs.size(); ++k) {
+    const UncertainOutput& output = best->budget.outputs[k];
+    const bool said = k == kMaxPowerOutput || output.agreement == Agreement::kDisagree;
+    if (!said && !output.sentence.empty()) AddSentence(FullSentence(output.sentence), &section);
   }
   if (!missing.empty()) {
     for (std::string& sentence : missing) sentence.insert(0, "not computed: ");

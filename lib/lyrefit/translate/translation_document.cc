@@ -77,7 +77,7 @@ Section RunSection(const TranslationReport& report) {
   return section;
 }
 
-// The largest line of a budget: "Of the uncertainty of Pmax 78 % is of: irradiance, ...".
+// The largest line of a budget: "78 % of the variance of Pmax comes of: irradiance, ...".
 std::string LargestPart(const UncertaintyBudget& budget, std::size_t output) {
   const BudgetLine* largest = nullptr;
   for (const BudgetLine& line : budget.lines) {
@@ -87,9 +87,9 @@ std::string LargestPart(const UncertaintyBudget& budget, std::size_t output) {
     }
   }
   if (largest == nullptr) return "";
-  return fmt::format("{:.0f} % of the variance of {} comes of {}: {}.",
+  return fmt::format("{:.0f} % of the variance of {} comes of: {}.",
                      100 * largest->entries[output].share, budget.outputs[output].quantity.title,
-                     largest->title, largest->source);
+                     largest->title);
 }
 
 // The recommended result.

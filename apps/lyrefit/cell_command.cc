@@ -80,7 +80,9 @@ Expected<int> RunCell(VerbLine& verb, CellRequest& request) {
                  [&](const std::string& file) { return PlotCell(report, file, output.marks()); }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(CellDocument(report), CellJson(report)); }));
-  TRY(WriteText(verb, [&] { return output.brief ? BriefCell(report) : CellText(report, LengthWanted(verb)); }));
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefCell(report) : CellText(report, LengthWanted(verb));
+  }));
   return ExitOf(report);
 }
 

@@ -81,7 +81,9 @@ Expected<void> Write(const VerbLine& verb, const FamilyReport& report, const Cur
   }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(FamilyDocument(report, set), FamilyJson(report)); }));
-  TRY(WriteText(verb, [&] { return output.brief ? BriefFamily(report) : FamilyText(report, LengthWanted(verb)); }));
+  TRY(WriteText(verb, [&] {
+    return output.brief ? BriefFamily(report) : FamilyText(report, LengthWanted(verb));
+  }));
   if (!flags.pvlib_file.empty()) TRY(WritePvlib(report, set, flags.pvlib_file));
   if (!flags.pan_file.empty()) TRY(WritePan(report, set, flags.pan_file));
   return flags.sam_file.empty() ? Expected<void>() : WriteSam(report, set, flags.sam_file);

@@ -42,8 +42,9 @@ Expected<void> WriteJunctions(const VerbLine& verb, const TwoJunctionReport& rep
   }));
   TRY(WriteWanted(output.html_file,
                   [&] { return DrawPage(TwoJunctionDocument(report), TwoJunctionJson(report)); }));
-  return WriteText(
-      verb, [&] { return output.brief ? BriefTwoJunctions(report) : TwoJunctionText(report, LengthWanted(verb)); });
+  return WriteText(verb, [&] {
+    return output.brief ? BriefTwoJunctions(report) : TwoJunctionText(report, LengthWanted(verb));
+  });
 }
 
 }  // namespace

@@ -158,8 +158,7 @@ TEST(FieldTest, JudgesNoPowerFarBelowTheRating) {
   const auto zone = [&](double power_W, double measured_W, int modules) {
     FieldTestOptions options = Rated(400, "-0,+5");
     options.modules = modules;
-    const auto test =
-        JudgeFieldTest(Power(power_W, 4), Measured(measured_W), options, uncertainty);
+    const auto test = JudgeFieldTest(Power(power_W, 4), Measured(measured_W), options, uncertainty);
     EXPECT_TRUE(test);
     return test ? test->zone : Zone::kPass;
   };

@@ -62,7 +62,8 @@ block::Table ZonesTable(const PlantSummary& summary) {
     table.rows.push_back({zone, Counted(rows), Share(rows, summary.rows)});
   };
   std::map<std::string, PlantShare> others = summary.zones;
-  for (const char* zone : {"pass", "pass within uncertainty", "undecided", "fail within uncertainty", "fail"}) {
+  for (const char* zone :
+       {"pass", "pass within uncertainty", "undecided", "fail within uncertainty", "fail"}) {
     add(zone, others[zone].rows);
     others.erase(zone);
   }

@@ -279,7 +279,8 @@ Document CellDocument(const CellReport& report) {
   document.verdict = CellVerdict(report);
   std::vector<Section> sections = {{"", {block::Conclusion{document.verdict}}},
                                    SweepSection(report)};
-  for (const DirectionPair& pair : report.pairs) sections.push_back(Further(PairSection(report, pair)));
+  for (const DirectionPair& pair : report.pairs)
+    sections.push_back(Further(PairSection(report, pair)));
   sections.push_back(Further(IdealitySection(report)));
   sections.push_back(Further(SeriesResistanceSection(report)));
   sections.push_back(Further(FillFactorSection(report)));

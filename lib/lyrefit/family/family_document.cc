@@ -78,9 +78,9 @@ Section FamilyHead(const FamilyReport& report) {
           ? fmt::format("key points (Isc, Voc, Vmp, Pmp); search: {}", ToText(report.objective))
           : ToText(report.objective);
   AddFurtherField("objective",
-           fmt::format("{}; constants {}; seed {}", objective, ToText(spec.constants),
-                       report.search_options.seed),
-           &head);
+                  fmt::format("{}; constants {}; seed {}", objective, ToText(spec.constants),
+                              report.search_options.seed),
+                  &head);
   return head;
 }
 
@@ -275,7 +275,8 @@ Section FamilyRmseSection(const FamilyReport& report) {
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A) && !key_points) {
-    AddFurtherField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation", &section);
+    AddFurtherField("noise", Significant(report.noise_A, 4) + " A, residual standard deviation",
+                    &section);
     AddFurtherField("weights", WeightsText(report), &section);
   }
   return section;
@@ -320,10 +321,10 @@ Document FamilyDocument(const FamilyReport& report) {
   AddSections(KeyPointSections(report), &document);
   AddSections({FamilyRmseSection(report), Further(IntervalSection(report))}, &document);
   AddSections(FamilyCurveSections(report), &document);
-  AddSections({Further(FamilySearchSection(report)),
-               Further(ListSection("Assumptions", report.assumptions)),
-               WarningSection(report.warnings)},
-              &document);
+  AddSections(
+      {Further(FamilySearchSection(report)),
+       Further(ListSection("Assumptions", report.assumptions)), WarningSection(report.warnings)},
+      &document);
   return document;
 }
 

@@ -18,8 +18,8 @@ namespace block {
 
 // A name and its text. A field without a name continues the named field above.
 struct Field {
-  std::string name;  // may be empty
-  std::string text;  // a line or several sentences
+  std::string name;      // may be empty
+  std::string text;      // a line or several sentences
   bool further = false;  // see Section
 };
 

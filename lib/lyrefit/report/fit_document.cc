@@ -196,8 +196,9 @@ Section IntervalSection(const FitReport& report) {
   if (!intervals.empty()) AddSentence("95 % intervals: " + intervals, &section);
   if (!report.under_errors.empty()) {
     block::Table table = {"lrl",
-                          {{"parameter", "std err", "95 % interval if errors were independent and "
-                                                    "of one size"}}};
+                          {{"parameter", "std err",
+                            "95 % interval if errors were independent and "
+                            "of one size"}}};
     for (const Estimate& e : report.estimates) {
       table.rows.push_back({LabelWithUnit(e.info), Significant(e.standard_error, kErrorDigits),
                             Range(e.low_95, e.high_95)});
@@ -224,7 +225,8 @@ block::Table HeadOfRmse(const FitReport& report) {
     return ToText(objective) + (objective == report.objective ? " *" : "");
   };
   return {"lrr",
-          {{"RMSE in A (* fitted)", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)}}};
+          {{"RMSE in A (* fitted)", label(Objective::kMeasuredCurrent),
+            label(Objective::kSolvedCurrent)}}};
 }
 
 void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table) {
@@ -276,8 +278,7 @@ void AddKeyPoints(const FitReport& report, Section* section) {
                  {"Imp", "A", &KeyPoints::max_power_current_A},
                  {"Pmp", "W", &KeyPoints::max_power_W},
                  {"FF", "", &KeyPoints::fill_factor}};
-  block::Table table = {
-      "lrrrrrr", {{""}}, {{"measured"}, {"simulated"}, {"difference"}}};
+  block::Table table = {"lrrrrrr", {{""}}, {{"measured"}, {"simulated"}, {"difference"}}};
   for (const auto& column : columns) {
     const double measured = report.measured.*column.field;
     const double simulated = report.simulated.*column.field;

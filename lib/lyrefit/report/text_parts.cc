@@ -189,7 +189,8 @@ std::string WhatScatters(const ErrorReport& errors, bool dark) {
     text = "readings near Voc scatter more, as noise of the voltage does";
   }
   if (!of_voltage || errors.part_effect_A > errors.sizes.current_A) {
-    text += text.empty() ? "readings of large currents scatter more" : "; those of large currents too";
+    text +=
+        text.empty() ? "readings of large currents scatter more" : "; those of large currents too";
     text += ", in proportion to them";
   }
   return text;
@@ -201,8 +202,9 @@ std::string ErrorTests(const ErrorReport& errors, bool dark) {
   }
   std::string text = "Twice the gain in ln likelihood: ";
   if (std::isfinite(errors.path_gain)) {
-    text += fmt::format("{} of a path that neighbours share over independent errors of three sizes, ",
-                        Significant(errors.path_gain, 3));
+    text +=
+        fmt::format("{} of a path that neighbours share over independent errors of three sizes, ",
+                    Significant(errors.path_gain, 3));
   }
   text += fmt::format("{} of these errors over independent ones of one size.",
                       Significant(errors.gain, 3));

@@ -263,8 +263,7 @@ Expected<FieldTest> JudgeFieldTest(const UncertainOutput& standard,
   test.standard_low_W = standard.low();
   test.standard_high_W = standard.high();
   test.probability_conforms = 1 - compared.ProbabilityBelow(test.lowest_W);
-  test.zone =
-      ZoneOf(compared.low(), compared.high(), test.lowest_W, test.probability_conforms);
+  test.zone = ZoneOf(compared.low(), compared.high(), test.lowest_W, test.probability_conforms);
   test.probability_wrong = std::min(test.probability_conforms, 1 - test.probability_conforms);
   if (!compared.samples.empty()) {
     test.probability_step = 1 / static_cast<double>(compared.samples.size());

@@ -35,12 +35,10 @@ enum class Zone { kPass, kPassWithin, kUndecided, kFailWithin, kFail, kDoubtful 
 
 template <>
 struct EnumTable<Zone> {
-  static constexpr EnumText<Zone> kRows[] = {{Zone::kPass, "pass"},
-                                             {Zone::kPassWithin, "pass within uncertainty"},
-                                             {Zone::kUndecided, "undecided"},
-                                             {Zone::kFailWithin, "fail within uncertainty"},
-                                             {Zone::kFail, "fail"},
-                                             {Zone::kDoubtful, "doubtful"}};
+  static constexpr EnumText<Zone> kRows[] = {
+      {Zone::kPass, "pass"},           {Zone::kPassWithin, "pass within uncertainty"},
+      {Zone::kUndecided, "undecided"}, {Zone::kFailWithin, "fail within uncertainty"},
+      {Zone::kFail, "fail"},           {Zone::kDoubtful, "doubtful"}};
 };
 
 // Passes, with or without the interval crossing the limit.
@@ -71,7 +69,7 @@ struct FieldTest {
   // measurement. NaN where the test is not scored.
   double probability_conforms = kUnknown;
   double probability_wrong = kUnknown;  // that it is on the other, less probable side of L
-  double probability_step = 0;  // resolution of the probability, 1 / draws; 0: no draws
+  double probability_step = 0;          // resolution of the probability, 1 / draws; 0: no draws
   double measured_W = kUnknown;
   double predicted_W = kUnknown;  // at the conditions measured
   std::string predicted_by;       // name of the prediction's model

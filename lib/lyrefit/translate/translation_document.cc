@@ -113,7 +113,8 @@ Section AnswerSection(const TranslationReport& report) {
   const std::string largest = LargestPart(best->budget, kMaxPowerOutput);
   if (!largest.empty()) AddSentence(largest, &section);
   for (const UncertainOutput& output : best->budget.outputs) {
-    if (output.agreement == Agreement::kDisagree) AddSentence(FullSentence(output.sentence), &section);
+    if (output.agreement == Agreement::kDisagree)
+      AddSentence(FullSentence(output.sentence), &section);
   }
   return section;
 }

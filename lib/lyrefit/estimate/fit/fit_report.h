@@ -171,11 +171,11 @@ struct ErrorReport {
   ErrorSizes sizes;
   double voltage_effect_A = kUnknown;  // largest effect of the voltage noise on one current
   double part_effect_A = kUnknown;     // the same of the error in proportion to the current
-  bool stated = false;          // stated in the options, not estimated
-  bool current_stated = false;  // current_A is the sigma_A of the readings
-  double gain = kUnknown;       // see FoundErrors; NaN if stated
-  double path_gain = kUnknown;  // of the path alone; NaN if it was not tested
-  bool weighed = false;         // the polish used them as weights
+  bool stated = false;                 // stated in the options, not estimated
+  bool current_stated = false;         // current_A is the sigma_A of the readings
+  double gain = kUnknown;              // see FoundErrors; NaN if stated
+  double path_gain = kUnknown;         // of the path alone; NaN if it was not tested
+  bool weighed = false;                // the polish used them as weights
   // Whether the gain over independent errors of one size is significant. Intervals under these errors are then
   // the ones to use.
   bool believed = false;

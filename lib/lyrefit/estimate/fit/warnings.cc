@@ -147,7 +147,7 @@ void WarnOfResiduals(const FitReport& report, Sentences* out) {
   if (!(report.residuals.runs_p_value < 0.01)) return;
   const bool allowed_for = report.errors && report.errors->Taken() == ErrorsTaken::kPath;
   const char* of_intervals = !report.no_intervals_because.empty() ? ""
-                             : allowed_for ? "; the intervals allow for it"
+                             : allowed_for                        ? "; the intervals allow for it"
                                            : "; the intervals are too narrow";
   out->push_back(fmt::format(
       "the residuals are not random ({} runs of one sign where {:.0f} are expected, p = {:.1g}): "

@@ -233,7 +233,8 @@ Logs BestIndependent(const Rows& rows, const ErrorPrior& prior, const Logs& top)
   if (rows.shape.part.empty()) return NewtonAscent(value, {top[0], top[1]}, kMostSteps);
   const double usual = std::log(prior.center.current_part);
   const Logs small = NewtonAscent(value, {top[0], top[1], usual - 2}, kMostSteps);
-  const Logs large = NewtonAscent(value, {top[0] - 1, top[1], top[0] - std::log(prior.center.current_A) + usual}, kMostSteps);
+  const Logs large = NewtonAscent(
+      value, {top[0] - 1, top[1], top[0] - std::log(prior.center.current_A) + usual}, kMostSteps);
   return value(large) > value(small) ? large : small;
 }
 

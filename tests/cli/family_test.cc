@@ -263,7 +263,8 @@ TEST_F(FamilyVerbOnASet, FitsAMatrixOfKeyPoints) {
   EXPECT_LT(j["key_points"]["rms"]["max_power_of_reference"].get<double>(), 1e-4);
   EXPECT_NEAR(j["curves"][3]["key_points"]["measured"]["max_power_W"].get<double>(), 249.27, 0.01);
   EXPECT_EQ(j["equal_devices"], nullptr);
-  const AppResult text = RunApp("fit '" + matrix + "' --cells 60 --family pvsyst" + kQuickFamily);
+  const AppResult text =
+      RunApp("fit '" + matrix + "' -v --cells 60 --family pvsyst" + kQuickFamily);
   EXPECT_THAT(text.out, HasSubstr("Key points, model less measured (%)"));
   EXPECT_THAT(text.out, HasSubstr("key points (Isc, Voc, Vmp, Pmp); search: solved-current"));
   ExpectRefused("'" + matrix + "' --family desoto --key-point-errors imp=1%",

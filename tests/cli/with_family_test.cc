@@ -69,7 +69,7 @@ std::vector<double> Sum(const json& one, const json& other) {
 
 TEST_F(WithFamily, AJointFitIsReportedDrawnAndSimulatedAgain) {
   const AppResult fit = Fit("--family desoto --with nonohmic_shunt --json " + Quoted("fit.json") +
-                            " --plot " + Quoted("fit.svg") + " --iterations 15 --population 12");
+                            " -v --plot " + Quoted("fit.svg") + " --iterations 15 --population 12");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_THAT(fit.out, HasSubstr("effects       non-ohmic shunt (nonohmic_shunt)"));
   EXPECT_THAT(fit.out, HasSubstr("nonohmic_shunt.k (A/V^m)"));

@@ -54,9 +54,10 @@ TEST(DrawPage, SaysVerdictAndWarningsFirstThenThePictureThenTheRest) {
   FitReport report = SampleReport();
   report.warnings = {"a warning"};
   const std::string html = DrawPage(FitDocument(report), JsonReport(report));
-  ExpectInOrder(html, {"<h1>", "<h2>Verdict</h2>", "<h2>Warnings</h2>", "a warning", "<main",
-                       "<figure id=\"figure-1\"", "<figcaption", "<dt>curve</dt>",
-                       "<nav class=\"contents\"", "<h2>Parameters</h2>", "<h2>Key points</h2>"});
+  ExpectInOrder(
+      html, {"<h1>", "<h2>Verdict</h2>", "<h2>Warnings</h2>", "a warning", "<main",
+             "<figure id=\"figure-1\"", "<figcaption", "<dt>curve</dt>", "<nav class=\"contents\"",
+             "<h2>Parameters</h2>", "measured-current", ">difference<"});
   EXPECT_EQ(Count(html, "<h2>Warnings</h2>"), 1);
 }
 

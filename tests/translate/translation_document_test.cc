@@ -34,7 +34,7 @@ TEST(TranslationText, IsShortWithoutWhatIsFurther) {
   const std::string text = TranslationText(SampleTranslation(), Length::kShort);
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24) << text;
   EXPECT_LT(text.find("Pmax "), text.find("here, k = 2"));
-  EXPECT_THAT(text, HasSubstr("% of the variance of Pmax comes of "));
+  EXPECT_THAT(text, HasSubstr("% of the variance of Pmax comes of: "));
   for (const char* part : {"Procedures", "Budget of", "Coefficients", "How it was made"}) {
     EXPECT_THAT(text, Not(HasSubstr(part)));
   }

@@ -287,7 +287,7 @@ Document CellDocument(const CellReport& report) {
   sections.push_back(Further(SeriesResistanceSection(report)));
   sections.push_back(Further(FillFactorSection(report)));
   sections.push_back(Further(SuperpositionSection(report)));
-  sections.push_back(Further(FitSection(report)));
+  sections.push_back(FitSection(report));
   sections.push_back(Further(JointSection(report)));
   sections.push_back(Further(StatedSection(report)));
   sections.push_back(WarningSection(report.warnings));

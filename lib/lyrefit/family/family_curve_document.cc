@@ -283,8 +283,17 @@ Section RejectedSection(const FamilyReport& report) {
 }  // namespace
 
 std::vector<Section> FamilyCurveSections(const FamilyReport& report) {
-  return {CurveSection(report),   OffsetSection(report),  IndividualFitSection(report),
-          HeldOutSection(report), OutlierSection(report), LeftOutSection(report),
+  // The answer of curves fitted one by one, and of a comparison that was asked for.
+  const auto unless = [](bool answer, Section section) {
+    return answer ? section : Further(std::move(section));
+  };
+  const bool alone = OneByOne(report);
+  return {unless(alone, CurveSection(report)),
+          unless(alone, OffsetSection(report)),
+          unless(alone, IndividualFitSection(report)),
+          unless(!report.against.empty(), HeldOutSection(report)),
+          OutlierSection(report),
+          LeftOutSection(report),
           RejectedSection(report)};
 }
 

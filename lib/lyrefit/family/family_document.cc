@@ -320,9 +320,7 @@ Document FamilyDocument(const FamilyReport& report) {
               &document);
   AddSections(KeyPointSections(report), &document);
   AddSections({FamilyRmseSection(report), Further(IntervalSection(report))}, &document);
-  for (Section& section : FamilyCurveSections(report)) {
-    AddSections({Further(std::move(section))}, &document);
-  }
+  AddSections(FamilyCurveSections(report), &document);
   AddSections(
       {Further(FamilySearchSection(report)),
        Further(ListSection("Assumptions", report.assumptions)), WarningSection(report.warnings)},

@@ -225,7 +225,8 @@ block::Table HeadOfRmse(const FitReport& report) {
     return ToText(objective) + (objective == report.objective ? " *" : "");
   };
   return {"lrr",
-          {{"RMSE in A", label(Objective::kMeasuredCurrent), label(Objective::kSolvedCurrent)}}};
+          {{"RMSE in A (* fitted)", label(Objective::kMeasuredCurrent),
+            label(Objective::kSolvedCurrent)}}};
 }
 
 void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table) {
@@ -259,8 +260,8 @@ Section FurtherRmseSection(const FitReport& report) {
   if (IsWeighed(report)) AddRmse("least squares", report.errors->least_squares, &table);
   // The figures of most papers are of the other objective, each at its own optimum.
   const bool solved = report.objective == Objective::kSolvedCurrent;
-  Section section = {fmt::format("Further RMSE (* what was fitted{})",
-                                 solved ? "; papers mostly fit measured-current" : "")};
+  Section section = {
+      fmt::format("Further RMSE{}", solved ? " (papers mostly fit measured-current)" : "")};
   AddTable(std::move(table), &section);
   return section;
 }
@@ -291,7 +292,7 @@ void AddKeyPoints(const FitReport& report, Section* section) {
 }
 
 Section ResultSection(const FitReport& report) {
-  Section section = {"RMSE (* what was fitted) and key points"};
+  Section section;
   AddRmses(report, &section);
   AddKeyPoints(report, &section);
   return section;

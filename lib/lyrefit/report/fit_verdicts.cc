@@ -11,6 +11,7 @@ namespace lyrefit {
 namespace {
 
 // Limits for the wording on residuals; no decision depends on them.
+constexpr char kTooFew[] = "too few points to say";
 constexpr double kSurprising = 0.05;
 constexpr double kCertain = 0.01;  // also that of the warning on residuals
 constexpr double kDurbinWatsonLow = 1.0;
@@ -19,7 +20,7 @@ constexpr double kDurbinWatsonHigh = 3.0;
 }  // namespace
 
 std::string ResidualVerdict(const ResidualStatistics& r) {
-  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return "too few points to say";
+  if (std::isnan(r.runs_p_value) && std::isnan(r.durbin_watson)) return kTooFew;
   const bool surprising = r.runs_p_value < kSurprising;
   if ((surprising && r.runs < r.expected_runs) || r.durbin_watson < kDurbinWatsonLow) {
     return "neighbouring residuals go together: the curve holds a shape that the model lacks, or "
@@ -41,6 +42,7 @@ std::string LeftWords(const FitReport& report) {
         dark ? "the device warmed" : "the light wandered");
   }
   const std::string words = ResidualVerdict(report.residuals);
+  if (words == kTooFew) return "not judged, for too few points";
   // What a test of the path denies, one of twenty tests of runs finds by chance.
   const bool denied = report.errors && report.residuals.runs_p_value > kCertain &&
                       report.residuals.durbin_watson > kDurbinWatsonLow &&

@@ -77,7 +77,7 @@ Section RunSection(const TranslationReport& report) {
   return section;
 }
 
-// The largest line of a budget: "Of the uncertainty of Pmax 78 % is of: irradiance, ...".
+// The largest line of a budget: "78 % of the variance of Pmax comes of: irradiance, ...".
 std::string LargestPart(const UncertaintyBudget& budget, std::size_t output) {
   const BudgetLine* largest = nullptr;
   for (const BudgetLine& line : budget.lines) {
@@ -87,9 +87,9 @@ std::string LargestPart(const UncertaintyBudget& budget, std::size_t output) {
     }
   }
   if (largest == nullptr) return "";
-  return fmt::format("{:.0f} % of the variance of {} comes of {}: {}.",
+  return fmt::format("{:.0f} % of the variance of {} comes of: {}.",
                      100 * largest->entries[output].share, budget.outputs[output].quantity.title,
-                     largest->title, largest->source);
+                     largest->title);
 }
 
 // The recommended result.
@@ -112,10 +112,9 @@ Section AnswerSection(const TranslationReport& report) {
   AddSentence(fmt::format("Recommended is {}: {}.", best->title, report.reason), &section);
   const std::string largest = LargestPart(best->budget, kMaxPowerOutput);
   if (!largest.empty()) AddSentence(largest, &section);
-  // The sentence on Pmax is in its budget.
-  for (std::size_t k = 0; k < best->budget.outputs.size(); ++k) {
-    const std::string& sentence = best->budget.outputs[k].sentence;
-    if (k != kMaxPowerOutput && !sentence.empty()) AddSentence(FullSentence(sentence), &section);
+  for (const UncertainOutput& output : best->budget.outputs) {
+    if (output.agreement == Agreement::kDisagree)
+      AddSentence(FullSentence(output.sentence), &section);
   }
   return section;
 }
@@ -144,6 +143,13 @@ Section ProcedureSection(const TranslationReport& report) {
   if (!table.rows.empty()) {
     AddTable(std::move(table), &section);
     AddSentence("* recommended; Pmax +- its expanded uncertainty, k = 2", &section);
+  }
+  // The sentence on Pmax is in its budget; those of ends that disagree stand with the answer.
+  const TranslatedResult* best = report.Recommended();
+  for (std::size_t k = 0; best != nullptr && k < best->budget.outputs.size(); ++k) {
+    const UncertainOutput& output = best->budget.outputs[k];
+    const bool said = k == kMaxPowerOutput || output.agreement == Agreement::kDisagree;
+    if (!said && !output.sentence.empty()) AddSentence(FullSentence(output.sentence), &section);
   }
   if (!missing.empty()) {
     for (std::string& sentence : missing) sentence.insert(0, "not computed: ");

@@ -68,6 +68,29 @@ TEST(ReadingErrors, WhiteOnesLeaveThePlainFitAlone) {
   EXPECT_LE(asked, 4);
 }
 
+// Errors of the voltages are independent: larger near Voc, but not shared by neighbours.
+TEST(ReadingErrors, NoiseOfVoltagesIsNotTakenForAPath) {
+  const IvCurve exact = ModuleCurve(Model::kSingleDiode, kSingleTruth, 0);
+  int unequal = 0, path = 0, holds = 0;
+  constexpr int kCurves = 40;
+  for (int seed = 1; seed <= kCurves; ++seed) {
+    IvCurve curve = exact;
+    RandomStream random(seed, 7);
+    for (double& voltage_V : curve.voltage_V) voltage_V *= 1 + 4e-4 * random.Normal();
+    for (double& current_A : curve.current_A) current_A += 4e-4 * random.Normal();
+    const FitReport report = FitWith(curve, {});
+    ASSERT_TRUE(report.errors.has_value());
+    unequal += report.errors->Taken() == ErrorsTaken::kUnequal ? 1 : 0;
+    path += report.errors->Taken() == ErrorsTaken::kPath ? 1 : 0;
+    if (report.under_errors.size() != 5U) continue;
+    const Estimate& rs = report.under_errors[3];
+    holds += rs.low_95 <= kSingleTruth[3] && kSingleTruth[3] <= rs.high_95 ? 1 : 0;
+  }
+  EXPECT_GE(unequal, 0.9 * kCurves);
+  EXPECT_LE(path, 0.1 * kCurves);
+  EXPECT_GE(holds, 0.85 * kCurves);
+}
+
 TEST(ReadingErrors, AreNotLookedForWhereNobodyAsks) {
   const IvCurve curve = WanderingCurve(1);
   FitOptions options;

@@ -13,10 +13,6 @@
 namespace lyrefit {
 namespace {
 
-// Twice the gain in ln likelihood above which sizes of independent errors are taken for unlike.
-// Lower than that of a path: a mistake hardly changes the intervals.
-constexpr double kGainOfSizes = 2.7;
-
 std::string TooFewReadings(const PreparedFit& fit) {
   return fmt::format("{} different readings fix {} parameters without a remainder", fit.readings(),
                      fit.free_parameters);
@@ -98,7 +94,7 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
   errors.gain = found->gain;
   errors.path_gain = found->path_gain;
   errors.current_stated = !fit.fitted().sigma_A.empty();
-  errors.believed = found->gain > (found->sizes.path > 0 ? kGainToBelieve : kGainOfSizes);
+  errors.believed = found->gain > kGainToBelieve;
   const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
   errors.voltage_effect_A = found->sizes.voltage_V * LargestRatio(shape.voltage, shape.current);
   errors.part_effect_A = found->sizes.current_part * LargestRatio(shape.part, shape.current);

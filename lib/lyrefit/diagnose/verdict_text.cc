@@ -280,7 +280,7 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }
   const std::string assumed = AssumedDiodes(traits);
-  if (!assumed.empty()) verdict->sentence += " The " + assumed + " (--bypass-diodes).";
+  if (!assumed.empty()) verdict->sentence += " Note: " + assumed + " (--bypass-diodes).";
 }
 
 }  // namespace lyrefit

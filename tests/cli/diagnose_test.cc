@@ -58,7 +58,7 @@ class DiagnosedString : public testing::Test {
     const AppResult result = RunApp("diagnose '" + curve_ + "' --no-held-out " + more);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("partial shading (100 %)"));
-    EXPECT_THAT(result.out, HasSubstr("4 of 60 substrings under 47 %"));
+    EXPECT_THAT(result.out, HasSubstr("4 of 60 substrings under 45 %"));
     return result.out;
   }
   const TempFolder folder_;

@@ -205,9 +205,9 @@ TEST(ReadHeadLineTest, AValueForEachPixelCountsIfAllAreEqual) {
 TEST(ReadHeadLineTest, LeavesWhatIsNotClear) {
   for (const char* line :
        {"Temp1 47.3", "T1(C),47.3", "Ambient temperature (C),20", "GHI (W/m2),800",
-        "Number of modules in series,1", "Reference irradiance (W/m2): 1000", "Rated power (W),240",
-        "Cells in parallel: 2", "Isc 8.90 Voc 36.0", "Area: 4", "Temperature: 320",
-        "Irradiance (W/m2): -5", "Number of cells: 2.5", "Light: 1"}) {
+        "Reference irradiance (W/m2): 1000", "Rated power (W),240", "Cells in parallel: 2",
+        "Isc 8.90 Voc 36.0", "Area: 4", "Temperature: 320", "Irradiance (W/m2): -5",
+        "Number of cells: 2.5", "Light: 1"}) {
     const TableHead head = Head(line);
     EXPECT_THAT(SentencesOf(head.assumptions), IsEmpty()) << line;
     EXPECT_THAT(head.left, ElementsAre(HasSubstr("line 3 '"))) << line;

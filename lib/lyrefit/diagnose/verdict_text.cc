@@ -259,8 +259,8 @@ std::string NotShownBy(const DataTraits& traits) {
 
 std::string AssumedDiodes(const DataTraits& traits) {
   if (traits.bypass_known || traits.substrings == 0) return "";
-  return fmt::format("{} bypass diodes assumed, one for {:.3g} cells", traits.substrings,
-                     static_cast<double>(traits.cells) / traits.substrings);
+  return fmt::format("number of bypass diodes not given: assumed {}, one for {:.3g} cells",
+                     traits.substrings, static_cast<double>(traits.cells) / traits.substrings);
 }
 
 void DescribeVerdict(const Selection& selection, const Floors& floors,
@@ -280,7 +280,7 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }
   const std::string assumed = AssumedDiodes(traits);
-  if (!assumed.empty()) verdict->sentence += " With " + assumed + " (--bypass-diodes N says it).";
+  if (!assumed.empty()) verdict->sentence += " Note: " + assumed + " (--bypass-diodes).";
 }
 
 }  // namespace lyrefit

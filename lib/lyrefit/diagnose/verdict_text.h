@@ -21,7 +21,7 @@ bool LeavesTooMuch(const Verdict& verdict, const Floors& floors);
 // What readings of this kind never show: "dirt or slight ageing of all cells alike, ..."
 std::string NotShownBy(const DataTraits& traits);
 
-// "60 bypass diodes assumed, one for 20 cells", of a string of which nobody states them; else empty.
+// "number of bypass diodes not given: assumed 60, one for 20 cells", of a string of which nobody states them; else empty.
 std::string AssumedDiodes(const DataTraits& traits);
 
 // The conclusion in words: fills `remaining`, `comparison`, `not_shown` and `sentence`. The causes

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/number_text.h"
@@ -76,8 +77,10 @@ Expected<ModuleJson> ReadModuleJson(const std::string& file) {
   const JsonFields fields(module.json, module.text, file);
   for (const auto& [key, value] : module.json.items()) {
     if (IsKey(key)) continue;
-    return fields.Refuse(
-        key, fmt::format("no value but those of a module's sheet ({})", fmt::join(kKeys, ", ")));
+    Error error = fields.Refuse(key, "").value();
+    error.message = fmt::format("\"{}\" is no key of a module's sheet: expected one of {}", key,
+                                fmt::join(kKeys, ", "));
+    return tl::unexpected(std::move(error));
   }
   return module;
 }
@@ -109,7 +112,12 @@ bool IsModuleSheet(const std::string& file) {
 void FillLayout(const DeviceLayout& layout, IvCurve* curve) {
   std::optional<int>& own = curve->notes.modules_in_series;
   if (!own) own = layout.modules_in_series;
-  const int modules = own.value_or(1);
+  const int stated =
+      curve->cells_known && layout.module_cells ? curve->conditions.cells_in_series : 0;
+  const int whole =
+      stated > 0 && stated % *layout.module_cells == 0 ? stated / *layout.module_cells : 1;
+  const int modules = own.value_or(whole);
+  const bool fits = stated == 0 || stated == modules * *layout.module_cells;
   std::string filled;
   const auto fill = [&](const std::optional<int>& of_module, const char* noun) {
     filled += (filled.empty() ? "" : " and ") +
@@ -117,7 +125,7 @@ void FillLayout(const DeviceLayout& layout, IvCurve* curve) {
     return modules * *of_module;
   };
   const bool cells = !curve->cells_known && layout.module_cells;
-  const bool diodes = !curve->notes.bypass_diodes && layout.module_diodes;
+  const bool diodes = !curve->notes.bypass_diodes && layout.module_diodes && fits;
   if (cells) {
     curve->conditions.cells_in_series = fill(layout.module_cells, "cell");
     curve->cells_known = true;

@@ -28,7 +28,8 @@ Expected<DeviceLayout> ReadDeviceLayout(const std::string& file);
 bool IsModuleSheet(const std::string& file);
 
 // Fills in the cells in series and bypass diodes that the curve does not state, with an assumption:
-// "1200 cells and 60 bypass diodes: 20 modules of 60 cells, module.json".
+// "1200 cells and 60 bypass diodes: 20 modules of 60 cells, module.json". Of stated cells the modules in
+// series follow where nobody states these; bypass diodes of other modules than the cells make are left.
 void FillLayout(const DeviceLayout& layout, IvCurve* curve);
 
 }  // namespace lyrefit

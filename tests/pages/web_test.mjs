@@ -393,6 +393,11 @@ test('translate: with the sheet of the module that was dropped beside the curve'
   await page.click('[aria-label="Remove sheet.json"]');
   await work(page, 'translate');
   assert.equal(JSON.parse((await saved(page, 'json')).text).field_test?.rated_W ?? null, null);
+  await drop(page, files.slice(0, 1));
+  await page.waitForFunction(() => lyrefitPage.looking() === 0);
+  assert.match(await page.textContent('#read-title'), /tracer\.csv$/);
+  assert.ok(await page.isVisible('#work'));
+  assert.equal(await page.inputValue('#options-of-translate [data-name=module] select'), 'sheet.json');
   assert.deepEqual(complaints, []);
   await close();
 });

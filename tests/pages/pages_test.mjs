@@ -81,6 +81,9 @@ for (const name of Object.keys(kPages)) {
     assert.ok(!await still.page.isVisible('button'));
     assert.ok((await still.page.textContent('main')).length > 500);
     await still.page.screenshot({path: file(`${name}_still.png`), fullPage: true});
+    await still.page.setViewportSize(kLooks.phone.viewport);
+    const pictures = await still.page.$$eval('.still svg', (all) => all.map((svg) => svg.getBoundingClientRect().right));
+    assert.ok(pictures.every((right) => right <= kLooks.phone.viewport.width), `cut on a phone: ${pictures}`);
     assert.deepEqual(still.complaints, []);
     await still.close();
 

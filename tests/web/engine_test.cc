@@ -94,13 +94,11 @@ TEST(Engine, TranslatesAsTheLibraryDoes) {
   const TempFolder folder;
   const std::string module =
       folder.Write("sheet.json", R"({"rated_power_W": 250, "alpha_sc_percent_K": 0.05})");
-  const json answer = Ask(
-      "translate", kTracer,
-      {{"module", module}, {"beta", "-0.3%"}, {"to", "800,40"}, {"draws", "200"}, {"seed", "3"}});
+  const json answer = Ask("translate", kTracer,
+                          {{"module", module}, {"beta", "-0.3%"}, {"draws", "200"}, {"seed", "3"}});
   ASSERT_FALSE(answer.contains("error")) << answer["error"];
   TranslateOptions options;
   options.coefficients.beta_percent_K = -0.3;
-  options.target = {800, 40};
   options.uncertainty.draws = 200;
   options.diagnosis.seed = 3;
   options.diagnosis.threads = 1;
@@ -109,8 +107,10 @@ TEST(Engine, TranslatesAsTheLibraryDoes) {
   const auto report = TranslateCurve(*ReadCurve(kTracer), options);
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_EQ(Timeless(answer["report_json"]), Timeless(TranslationJson(*report)));
-  EXPECT_EQ(Timeless(answer["report_json"])["field_test"]["rating"]["rated_W"], 250);
+  EXPECT_EQ(Timeless(answer["report_json"])["field_test"]["rated_W"], 250);
   EXPECT_THAT(answer["csv"].get<std::string>(), HasSubstr("procedure"));
+  const json elsewhere = Ask("translate", kTracer, {{"to", "800,40"}, {"draws", "0"}});
+  EXPECT_EQ(Timeless(elsewhere["report_json"])["target"]["irradiance_W_m2"], 800);
 }
 
 TEST(Engine, TakesFurtherCurvesOfOneDevice) {

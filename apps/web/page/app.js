@@ -134,15 +134,14 @@
     if (!files.includes(file)) return;
     const first = file.look === null;
     file.look = {curves: [], columns: [], assumptions: [], ...answer};
-    for (const of of [file.results, common.results]) {
-      for (const verb of verbs.names) if (of[verb]?.error && verb !== 'datasheet') delete of[verb];
-    }
+    const isOver = (of) => (verb) => of[verb]?.error && verb !== 'datasheet' && delete of[verb];
+    const over = [file.results, common.results].flatMap((of) => verbs.names.filter(isOver(of)));  // errors of what was said before
     if (!file.results[file.latest]) file.latest = Object.keys(file.results).at(-1) ?? null;
     if (first && isModule(file)) takeModule(file);
     listFiles();
     if (file === chosen) {
       showRead();
-      results.show();
+      if (over.length > 0) results.show();
     }
   }
 
@@ -153,7 +152,7 @@
       options.datasheet.module ??= file.name;
       openSheet(true);
     }
-    if (file === chosen && measurements().length > 0) chosen = measurements()[0];
+    if (file === chosen && measurements().length > 0) choose(measurements()[0]);
   }
 
   // A field that was filled anew while somebody typed does not tell that it has changed.

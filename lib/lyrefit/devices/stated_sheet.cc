@@ -49,7 +49,7 @@ Expected<ModuleSheet> SheetOfFile(const StatedSheet& stated) {
 }
 
 Error Missing(const StatedSheet& stated, const char* flag) {
-  if (stated.file.empty()) return {fmt::format("{} is required, without a FILE", flag), {}};
+  if (stated.file.empty()) return {fmt::format("{} is required: no file states it", flag), {}};
   return {fmt::format("the file does not state the value: say {}", flag), stated.file};
 }
 

@@ -39,10 +39,10 @@ find_program(LYREFIT_CHROMIUM NAMES chromium-headless-shell chromium chromium-br
              NO_CMAKE_FIND_ROOT_PATH)
 set(PAGES "${CMAKE_CURRENT_BINARY_DIR}/pages")
 if(LYREFIT_CHROMIUM AND LYREFIT_PLOTLY AND EXISTS "${PAGES}/node_modules/playwright-core")
-  foreach(script browser web_test)
+  foreach(script browser web_page web_test web_verbs_test)
     configure_file("pages/${script}.mjs" "${PAGES}/${script}.mjs" COPYONLY)
   endforeach()
-  add_test(NAME web/page COMMAND node --test "${PAGES}/web_test.mjs")
+  add_test(NAME web/page COMMAND node --test "${PAGES}/web_test.mjs" "${PAGES}/web_verbs_test.mjs")
   set_tests_properties(web/page PROPERTIES TIMEOUT 900 ENVIRONMENT
     "PAGE=${PROJECT_BINARY_DIR}/apps/web/lyrefit.html;APP=${LYREFIT_NATIVE};CHROMIUM=${LYREFIT_CHROMIUM};DATA=${PROJECT_SOURCE_DIR}/data;OUT=${PAGES}/out")
 else()

@@ -1,4 +1,5 @@
 #include "lyrefit/batch/plant_page.h"
+#include "lyrefit/batch/plant_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -129,6 +130,14 @@ TEST_F(PlantPageTest, TheVerdictCountsZonesCausesAndPower) {
       "3 of 7 strings pass. 3 need work: partial shading (2), no cause found (1). Repair would "
       "give about 3.2 kW. 1 of the strings that pass also shows a cause: uneven soiling (1). 1 "
       "could not be judged.");
+}
+
+TEST(ColumnInWords, HasNoUnitAndNoUnderscores) {
+  EXPECT_EQ(ColumnInWords("performance_factor"), "performance factor");
+  EXPECT_EQ(ColumnInWords("irradiance_Wm2"), "irradiance");
+  EXPECT_EQ(ColumnInWords("Pmax_stc_W"), "Pmax at standard conditions");
+  EXPECT_EQ(ColumnInWords("FF"), "FF");
+  EXPECT_EQ(ColumnInWords("_W"), " W");
 }
 
 TEST_F(PlantPageTest, WithoutZonesAStringWithACauseNeedsWork) {

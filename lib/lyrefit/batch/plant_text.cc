@@ -87,7 +87,9 @@ std::string ColumnInWords(const std::string& column) {
   std::string text = column;
   for (const std::string unit : kUnitsOfColumns) {
     const std::size_t end = text.size() - std::min(text.size(), unit.size());
-    if (end > 0 && text.compare(end, unit.size(), unit) == 0) text.erase(end);
+    if (end == 0 || text.compare(end, unit.size(), unit) != 0) continue;
+    text.erase(end);
+    break;
   }
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;

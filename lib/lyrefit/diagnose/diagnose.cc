@@ -122,8 +122,7 @@ std::string DescribeGain(const Selection& selection, const HeldOutErrors& held_o
   if (!field || held_out.by_sweeps) return sentence;
   return sentence +
          ". They are of the sweep that was fitted, so the model's own error is in them as well, "
-         "and "
-         "they cannot tell a fault from it. Three sweeps or more could";
+         "and they cannot tell a fault from it. Three sweeps or more could";
 }
 
 Gain MeasureGain(const Selection& selection, const AtReadings& at, const HeldOutErrors& held_out,

@@ -17,7 +17,7 @@ import sys
 
 # How long making each of a clone takes on two cores, where its Debian packages are there. Measured on an AMD EPYC: the wheel in
 # 290 s, the packages in 601 s of processor time, the site in 54 s of it beside those of the command and the Python module.
-MINUTES = {"wheel": 5, "packages": 5, "site": 7}
+MINUTES = {"page": 9, "wheel": 5, "packages": 5, "site": 7}
 
 
 def addresses(root):
@@ -28,20 +28,20 @@ def addresses(root):
 
 def readme(at):
     if not at["address"]:
-        return ("lyrefit is not published yet: there is no page to download from. In a clone `cmake/wheel.sh` makes the wheel\n"
-                f"({MINUTES['wheel']} minutes on two cores), `cmake/packages.sh` the packages ({MINUTES['packages']}) and "
-                f"`cmake/site.sh` the\n[site](apps/site/README.md) ({MINUTES['site']}): gallery, notebooks and references, to be "
-                "read without a network.")
+        return ("lyrefit is not published yet: there is nothing to download. A clone makes the page by `cmake/web.sh --build`\n"
+                f"({MINUTES['page']} minutes on two cores), the wheel by `cmake/wheel.sh` ({MINUTES['wheel']}), the packages by "
+                f"`cmake/packages.sh` ({MINUTES['packages']}).\nThe [site](apps/site/README.md) by `cmake/site.sh` "
+                f"({MINUTES['site']}) has gallery, notebooks and references, to be read without a network.")
     said = [f"[Project page]({at['address']})"]
     if at["releases"]:
-        said.append(f"[wheel and packages]({at['releases']})")
+        said.append(f"[page, wheel and packages]({at['releases']})")
     if at["site"]:
         said.append(f"[manual, gallery and references]({at['site']})")
     if at["tracker"]:
         said.append(f"[questions and mistakes]({at['tracker']})")
     clone = f"\n\n    git clone {at['source']}" if at["source"] else ""
-    return ". ".join([", ".join(said), "In a clone `cmake/wheel.sh` makes the wheel, `cmake/packages.sh` the packages, "
-                      "`cmake/site.sh` the [site](apps/site/README.md)."]) + clone
+    return ". ".join([", ".join(said), "In a clone `cmake/web.sh --build` makes the page, `cmake/wheel.sh` the wheel, "
+                      "`cmake/packages.sh` the packages, `cmake/site.sh` the [site](apps/site/README.md)."]) + clone
 
 
 def pyproject(at):

@@ -25,7 +25,9 @@ constexpr char kCurveDoc[] =
     "cells_in_series : int, optional\n"
     "temperature_C : float, optional\n"
     "    Of the cells, in degrees Celsius.\n"
-    "irradiance_Wm2 : float, optional\n\n"
+    "irradiance_Wm2 : float, optional\n"
+    "bypass_diodes : int, optional\n"
+    "    Of the whole device (experimental: may change in a minor version).\n\n"
     "Raises\n------\n"
     "lyrefit.Error\n"
     "    Where there is no curve in it.\n";

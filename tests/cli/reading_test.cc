@@ -83,7 +83,7 @@ TEST(ReadingFlags, AReportInThePlaceOfTheSidecarIsUnderstood) {
   const std::string report = folder.Path("module.json");
   const std::string fit = "fit " + curve + " --cells 60 --temperature-C 47" + kQuickFit;
   ASSERT_NE(RunApp(fit + " --json " + report + " --force").exit_code, 1);
-  const AppResult again = RunApp("fit " + curve + " --no-polish --intervals none");
+  const AppResult again = RunApp("fit -v " + curve + " --no-polish --intervals none");
   EXPECT_THAT(again.out, HasSubstr("module.json is a report of lyrefit, not a sidecar"));
   EXPECT_THAT(again.out, HasSubstr("60 cells"));
 }

@@ -33,7 +33,7 @@ std::string ReadFile(const std::string& file) {
 TEST(With, AFitIsReportedAndSimulatedAgain) {
   const TempFolder folder;
   const std::string file = folder.Path("fit.json");
-  const AppResult fit = RunApp("fit " + kShaded + " --with shading --json '" + file + "'");
+  const AppResult fit = RunApp("fit -v " + kShaded + " --with shading --json '" + file + "'");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_THAT(fit.out, HasSubstr("effects       partial shading (shading)\n"));
   EXPECT_THAT(fit.out, HasSubstr("shading.d"));

@@ -84,7 +84,8 @@ TEST(DeviceFindings, ALeakHasItsSizeItsPowerAndItsCauses) {
   EXPECT_GT(leak.value.high_95, 0.06);
   EXPECT_EQ(leak.healthy_limit, 0.016);
   EXPECT_NEAR(leak.power_loss, 0.04, 0.01);  // at Vmp, 0.8 of Voc, of Imp, 0.93 of Isc
-  EXPECT_THAT(leak.sentence, HasSubstr("times what healthy modules do (at most 1.6 %): -"));
+  EXPECT_THAT(leak.sentence,
+              HasSubstr("times what healthy modules do (at most 1.6 %), which takes "));
   EXPECT_THAT(leak.sentence, HasSubstr("potential-induced degradation"));
   EXPECT_THAT(d.verdict.sentence, HasSubstr("not as healthy ones are: a leak of 5.9 %"));
   EXPECT_THAT(d.verdict.sentence, Not(HasSubstr("Nothing to act on")));

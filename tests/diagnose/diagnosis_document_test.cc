@@ -15,15 +15,15 @@ namespace {
 TEST(DiagnosisText, SaysWhatATechnicianNeedsInAFewLines) {
   Golden golden("diagnosis_short");
   Diagnosis step = SampleDiagnosis();
-  golden.Add("a step of the light", DiagnosisText(step));
+  golden.Add("a step of the light", DiagnosisText(step, Length::kShort));
   Diagnosis shaded = step;
   shaded.verdict.causes = {SampleShadingCause()};
   shaded.verdict.sentence = "The data show partial shading (86 %).";
-  golden.Add("a cause with probabilities and power", DiagnosisText(shaded));
+  golden.Add("a cause with probabilities and power", DiagnosisText(shaded, Length::kShort));
   const auto add = [&](const std::string& title, const auto& change) {
     Diagnosis diagnosis = shaded;
     change(&diagnosis);
-    golden.AddChanges(title, DiagnosisText(diagnosis));
+    golden.AddChanges(title, DiagnosisText(diagnosis, Length::kShort));
   };
   add("a lower limit of the power", [](Diagnosis* diagnosis) {
     diagnosis->verdict.causes[0].at_least = true;
@@ -41,13 +41,13 @@ TEST(DiagnosisText, SaysWhatATechnicianNeedsInAFewLines) {
     diagnosis->warnings = {"the current rises", "the noise was guessed"};
     diagnosis->assumptions = {"nobody stated the temperature: 25 C was assumed"};
   });
-  golden.Add("none of the known causes", DiagnosisText(SampleLitAndDark()));
+  golden.Add("none of the known causes", DiagnosisText(SampleLitAndDark(), Length::kShort));
   golden.Check();
 }
 
 TEST(DiagnosisText, IsShort) {
   for (const Diagnosis& diagnosis : {SampleDiagnosis(), SampleLitAndDark()}) {
-    const std::string text = DiagnosisText(diagnosis);
+    const std::string text = DiagnosisText(diagnosis, Length::kShort);
     const std::vector<std::string> lines = LinesOf(text);
     EXPECT_LE(lines.size() - std::count(lines.begin(), lines.end(), ""), 15U) << text;
     EXPECT_EQ(text.find("e-0"), std::string::npos) << text;

@@ -115,7 +115,8 @@ TEST(Propagate, GivesTheAdditiveExamplesOfJcgm101) {
   EXPECT_NEAR(wide.outputs[0].drawn.low, -17.0, 0.05);
   EXPECT_NEAR(wide.outputs[0].drawn.high, 17.0, 0.05);
   EXPECT_EQ(wide.outputs[0].agreement, Agreement::kDisagree);
-  EXPECT_THAT(wide.outputs[0].sentence, HasSubstr("97 % of the variance is the 4, which is rect"));
+  EXPECT_THAT(wide.outputs[0].sentence,
+              HasSubstr("97 % of the variance has a rectangular distribution (4)"));
   EXPECT_DOUBLE_EQ(wide.outputs[0].low(), wide.outputs[0].drawn.low) << "the drawn one is quoted";
 }
 

@@ -60,11 +60,11 @@ int JunctionsPerCell(const std::string& technology);
 // Where a file states the conditions of a curve: "line 9", "\"cells_in_series\" of string.json". Empty:
 // it does not state them.
 struct ConditionSources {
-  std::string cells;
-  std::string temperature;
-  std::string irradiance;
-  std::string bypass_diodes;
-  std::string technology;
+  std::string cells;          // of the cells in series
+  std::string temperature;    // of the cell temperature
+  std::string irradiance;     // of the irradiance
+  std::string bypass_diodes;  // of the bypass diodes
+  std::string technology;     // of the technology
 };
 
 // A result that the file states for a sweep, such as Voc.

@@ -9,7 +9,7 @@
 namespace lyrefit {
 
 // The sheet of a module in JSON, and its text for the places of errors.
-struct ModuleJson {
+struct ModuleJson {  // NOLINT(bugprone-exception-escape): nlohmann's destructor
   std::string text;
   nlohmann::json json;
 };

@@ -138,7 +138,9 @@ void AddList(std::vector<std::string> sentences, Section* section);
 void AddTable(block::Table table, Section* section);
 void AddFigure(block::Figure figure, Section* section);  // ignored without panels
 
+// The section, folded on a page.
 Section Folded(Section section);
+// The section, which a short text leaves out.
 Section Further(Section section);
 
 // A heading and a list below it.

@@ -240,7 +240,8 @@ bool IsWeighed(const FitReport& report) { return report.errors && report.errors-
 void AddRmses(const FitReport& report, Section* section) {
   block::Table table = HeadOfRmse(report);
   const bool weighed = IsWeighed(report);
-  AddRmse(fmt::format("searched ({})", ToText(report.search_options.algorithm)),
+  AddRmse(fmt::format("searched ({}, seed {})", ToText(report.search_options.algorithm),
+                      report.search_options.seed),
           report.rmse.searched, &table);
   AddRmse(weighed ? "refined, weighed by the errors" : "refined",
           report.polished ? report.rmse.refined : RmsePair{}, &table);

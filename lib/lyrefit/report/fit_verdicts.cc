@@ -64,7 +64,7 @@ std::string FitVerdict(const FitReport& report) {
   if (!report.usable) return FullSentence("Not to be used: " + report.not_usable_because);
   const RmsePair& rmse = report.polished ? report.rmse.refined : report.rmse.searched;
   return FullSentence(fmt::format(
-      "The {} model{} follows the curve to {} A (solved-current RMSE{}): what it leaves is {}",
+      "The {} model{} follows the curve to {} A (solved-current RMSE{}). What it leaves is {}",
       ModelTitle(report.model), PlusEffects(EffectsOf(report.device)),
       Scientific(rmse.solved_current_A, 3),
       PartOfIsc(rmse.solved_current_A, report.simulated.short_circuit_current_A),
@@ -126,7 +126,7 @@ void AddAssumed(const std::vector<std::string>& sentences, Section* section) {
     text += (shown++ > 0 ? "; " : "") + sentence;
   }
   if (shown < sentences.size()) {
-    text += fmt::format("; {} more in the whole report", sentences.size() - shown);
+    text += fmt::format("; {} more in the whole report (--verbose)", sentences.size() - shown);
   }
   if (shown > 0) AddField("assumed", text, section);
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 
 #include "batch_request.h"
 #include "interrupt.h"
@@ -165,24 +166,61 @@ Expected<void> ReadLayouts(BatchRequest* request) {
   return {};
 }
 
+// How many strings a plan names; the rows come from several threads.
+struct PlanCount {
+  std::mutex lock;
+  std::int64_t strings = 0;
+  std::int64_t named = 0;
+  std::string not_named;  // the first by its id that the plan does not name
+};
+
+const PlannedString* FindInPlan(const BatchRequest& request, const std::string& id,
+                                PlanCount* count) {
+  if (!request.read_plan) return nullptr;
+  const PlannedString* const line = request.read_plan->Find(id);
+  const std::lock_guard<std::mutex> guard(count->lock);
+  ++count->strings;
+  if (line != nullptr) {
+    ++count->named;
+  } else if (count->not_named.empty() || id < count->not_named) {
+    count->not_named = id;
+  }
+  return line;
+}
+
+// Says which strings a plan does not name. Error: it names none.
+Expected<void> CheckPlan(const BatchRequest& request, const PlanCount& count) {
+  if (!request.read_plan || count.named == count.strings) return {};
+  if (count.named == 0) {
+    return Fail(fmt::format("no id fits a string: the first string is '{}', the first id of the "
+                            "plan '{}'",
+                            count.not_named, request.read_plan->lines().front().id),
+                request.plan);
+  }
+  PrintRemarks({fmt::format("{} names {} of {} strings; '{}' is the first that it does not name",
+                            request.plan, count.named, count.strings, count.not_named)});
+  return {};
+}
+
 // Adds what flags, plan and sheet say to the curve of an id.
-Expected<void> Prepare(const BatchRequest& request, const std::string& id, IvCurve* curve) {
+Expected<void> Prepare(const BatchRequest& request, const std::string& id, PlanCount* count,
+                       IvCurve* curve) {
   ConditionOptions conditions = Filling(request);
   const bool dark = curve->irradiance_known && curve->conditions.irradiance_W_m2 <= 0;
   // The light of a cell is that of its lit sweeps.
   if (request.task == kCellTask && dark) conditions.irradiance_W_m2.reset();
   TRY(ApplyConditionFlags(conditions, curve));
-  const PlannedString* const line = request.read_plan ? request.read_plan->Find(id) : nullptr;
+  const PlannedString* const line = FindInPlan(request, id, count);
   FillLayout(line == nullptr ? request.layout : LayoutOf(*line, request.layout), curve);
   return {};
 }
 
-BatchOptions Settled(const VerbLine& verb, const BatchRequest& request) {
+BatchOptions Settled(const VerbLine& verb, const BatchRequest& request, PlanCount* count) {
   BatchOptions options = request.options;
   if (request.resume) options.start = BatchStart::kResume;
   if (verb.Forced()) options.start = BatchStart::kReplace;
-  options.prepare = [request](const std::string& id, IvCurve* curve) {
-    return Prepare(request, id, curve);
+  options.prepare = [request, count](const std::string& id, IvCurve* curve) {
+    return Prepare(request, id, count, curve);
   };
   options.reading = NonDefaults(request.reading.reading, kReadOptionTable);
   AppendNonDefaults(request.conditions, kConditionOptionTable, &options.reading);
@@ -239,7 +277,8 @@ int ExitCode(const BatchSummary& summary) {
 Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
   TRY(CheckRequest(verb, request));
   TRY(ReadLayouts(&request));
-  const BatchOptions options = Settled(verb, request);
+  PlanCount count;
+  const BatchOptions options = Settled(verb, request, &count);
   BatchReadOptions reading = request.reading;
   reading.shard = options.shard;
   reading.reading.keep_limited = request.task == "diagnose";
@@ -252,6 +291,7 @@ Expected<int> RunBatchVerb(VerbLine& verb, BatchRequest& request) {
       RunBatch(source.get(), task, options,
                TerminalObserver({"batch", "Ctrl-C keeps the rows that are done for --resume"})));
   PrintRemarks(source->Remarks());
+  TRY(CheckPlan(request, count));
   if (!request.html_file.empty() && !summary.interrupted) {
     TRY(WritePlantPage(options.folder, request.html_file, PlantName(request)));
   }

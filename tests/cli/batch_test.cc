@@ -218,6 +218,20 @@ TEST_F(BatchConditions, CellsComeFromThePlanElseTheSheet) {
             "90 cells and 9 bypass diodes: 3 modules of 30 cells, plan and m.json");
 }
 
+TEST_F(BatchConditions, APlanSaysWhichStringsItDoesNotName) {
+  const std::string command = "batch '" + folder_.Path("plant") + "' --temperature-C 20 --force" +
+                              " --cells 30 --out '" + folder_.Path("planned") + "' --plan '";
+  const std::string none = folder_.Write("none.csv", "id,modules_in_series\nroof,3\n");
+  const AppResult refused = RunApp(command + none + "'");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("no id fits a string: the first string is 'inv/a', the first "
+                                     "id of the plan 'roof'"));
+  const std::string one = folder_.Write("one.csv", "id,modules_in_series\ninv/b,3\n");
+  const AppResult done = RunApp(command + one + "'");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("names 1 of 2 strings; 'inv/a' is the first that it does not"));
+}
+
 TEST_F(BatchCommand, CountsThePixelsOfASubstrate) {
   const std::string cells = "batch '" + DataFolder("cell") + "/substrate.csv' --task cell --out '" +
                             folder_.Path("cells") + "' ";

@@ -124,9 +124,9 @@ double PlantCounter::Number(const ResultRow& row, Known column) const {
   return Has(column) ? NumberAt(row, places_[column]) : kUnknown;
 }
 
-// By the zone of a field test if there is one, else by the existence of a cause.
+// By the zone of a field test that decides, else by the existence of a cause.
 bool PlantCounter::NeedsWork(const std::string& zone, const std::string& cause) const {
-  if (Has(kZone)) return !zone.empty() && !Passes(zone) && zone != "undecided";
+  if (Has(kZone) && zone != "undecided") return !zone.empty() && !Passes(zone);
   return !IsNoCause(cause);
 }
 

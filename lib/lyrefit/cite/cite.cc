@@ -28,7 +28,8 @@ const Facts& NotUsed() {
 bool Says(const Json& value) {
   if (value.is_number()) return value.get<double>() != 0;
   if (value.is_boolean()) return value.get<bool>();
-  return !value.empty() && value != "";
+  if (value.is_string()) return !value.get_ref<const std::string&>().empty();
+  return !value.empty();
 }
 
 // Adds KEY and KEY=VALUE of all that the report says (Publication::used).

@@ -21,6 +21,8 @@ bool MayBeStack(double open_circuit_voltage_V, int cells) {
          open_circuit_voltage_V < kHighestStack_V;
 }
 
+constexpr int kCellsOfAModule = 150;  // most of one module; more are modules in series
+
 constexpr char kStack[] =
     "or is this one cell of several junctions (a tandem: count them, --cells 2) or of a wide band "
     "gap";
@@ -107,6 +109,8 @@ void LookAtCells(const Examined& look, Findings* out) {
     const std::string instead =
         MayBeStack(voc, cells)
             ? fmt::format(": were cells in series forgotten (--cells {}), {}?", likely, kStack)
+        : likely > kCellsOfAModule && likely != cells
+            ? fmt::format(": give the cells of all modules in series (--cells, near {})?", likely)
         : likely != cells ? fmt::format(": give --cells {}?", likely)
                           : ": is the unit right?";
     out->push_back({"cells",

@@ -76,7 +76,7 @@ Expected<ModuleSheet> Complete(const StatedSheet& stated) {
   if (stated.dEgdT_1_K) sheet.dEgdT_1_K = stated.dEgdT_1_K;
   if (module.name.empty()) module.name = "module";
   if (stated.gamma.empty()) return module;
-  TRY(const PrintedValue gamma, ParsePrinted("--gamma", stated.gamma));
+  TRY(const PrintedValue gamma, ParsePrinted("--gamma", stated.gamma, 100));
   sheet.gamma_pmp_percent_K = gamma.value;
   return module;
 }

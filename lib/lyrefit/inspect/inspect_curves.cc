@@ -115,6 +115,7 @@ void TakeNext(const CurveSet& set, Inspection* found) {
     found->next.push_back("lyrefit fit " + file + " --family desoto|pvsyst" + flags);
   }
   found->next.push_back("lyrefit diagnose " + file + (side_by_side ? choose : "") + flags);
+  if (!several) found->next.push_back("lyrefit translate " + file + flags);
 }
 
 // A choice of options under which a refused file would be read.

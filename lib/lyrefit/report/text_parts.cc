@@ -179,17 +179,15 @@ void AddErrorSizes(const ErrorReport& errors, bool dark, Section* section) {
 
 std::string WhatScatters(const ErrorReport& errors, bool dark) {
   if (dark) return "readings of large currents scatter more, in proportion to them";
-  const bool of_voltage = errors.voltage_effect_A >= errors.part_effect_A;
-  std::string text;
-  if (of_voltage || errors.voltage_effect_A > errors.sizes.current_A) {
-    text = "readings near Voc scatter more, as noise of the voltage does";
+  // The two shapes are told apart only where one is much larger.
+  constexpr double kMuch = 3;
+  if (errors.voltage_effect_A > kMuch * errors.part_effect_A) {
+    return "readings near Voc scatter more, as noise of the voltage does";
   }
-  if (!of_voltage || errors.part_effect_A > errors.sizes.current_A) {
-    text +=
-        text.empty() ? "readings of large currents scatter more" : "; those of large currents too";
-    text += ", in proportion to them";
+  if (errors.part_effect_A > kMuch * errors.voltage_effect_A) {
+    return "readings of large currents scatter more, in proportion to them";
   }
-  return text;
+  return "readings scatter more in some parts of the curve than in others";
 }
 
 std::string ErrorTests(const ErrorReport& errors, bool dark) {

@@ -83,15 +83,16 @@ std::vector<Section> FieldTestSections(const FieldTest& test) {
   Section section = {"Field test"};
   section.blocks.emplace_back(block::Conclusion{FullSentence(test.sentence)});
   block::Table table = {"lrr", {{"", "value", "k = 2"}}};
-  table.rows = {{"rating of the string", fmt::format("{:.1f} W", test.rated_W), ""},
-                {"allowed (" + test.tolerance + ")", "", WattRange(test.lowest_W, test.highest_W)},
-                {"Pmax at 1000 W/m2, 25 C", fmt::format("{:.1f} W", test.standard_W),
-                 WattRange(test.standard_low_W, test.standard_high_W)},
-                {"Pmax measured", fmt::format("{:.1f} W", test.measured_W), ""},
-                {"Pmax predicted there", fmt::format("{:.1f} W", test.predicted_W), ""},
-                {"performance factor", fmt::format("{:.3f}", test.performance_factor),
-                 fmt::format("{:.3f} .. {:.3f}", test.performance_low, test.performance_high)},
-                {"probability of conformity", ConformityText(test), ""}};
+  table.rows = {
+      {"rating", fmt::format("{:.1f} W", test.rated_W), ""},
+      {"least allowed (" + test.tolerance + ")", fmt::format("{:.1f} W", test.lowest_W), ""},
+      {"Pmax at 1000 W/m2, 25 C", fmt::format("{:.1f} W", test.standard_W),
+       WattRange(test.standard_low_W, test.standard_high_W)},
+      {"Pmax measured", fmt::format("{:.1f} W", test.measured_W), ""},
+      {"Pmax predicted there", fmt::format("{:.1f} W", test.predicted_W), ""},
+      {"performance factor", fmt::format("{:.3f}", test.performance_factor),
+       fmt::format("{:.3f} .. {:.3f}", test.performance_low, test.performance_high)},
+      {"probability of conformity", ConformityText(test), ""}};
   AddTable(std::move(table), &section);
   AddSentence(
       fmt::format("Predicted by {}. The probability of conformity (JCGM 106) is that of the true "

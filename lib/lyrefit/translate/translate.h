@@ -15,8 +15,7 @@ namespace LYREFIT_PUBLIC lyrefit {
 // reason in `why_not`. Errors: an invalid or dark curve, readings that end before maximum power,
 // unknown irradiance or temperature, options outside their ranges, implausible coefficients, an
 // invalid rating.
-Expected<TranslationReport> TranslateCurve(const IvCurve& curve,
-                                           const TranslateOptions& options = {},
+Expected<TranslationReport> TranslateCurve(const IvCurve& given, const TranslateOptions& asked = {},
                                            const Observer& observer = {});
 
 }  // namespace lyrefit

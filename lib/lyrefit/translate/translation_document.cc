@@ -167,7 +167,7 @@ Section DiagnosisSection(const TranslationReport& report) {
   const auto add = [&](const char* what, const std::vector<std::string>& titles) {
     for (const std::string& title : titles) AddField(what, title, &section);
   };
-  add("acts at the target too", report.kept);
+  add("acts there too", report.kept);
   add("taken out", report.removed);
   return section;
 }

@@ -139,14 +139,15 @@ std::string TranslationVerdict(const TranslationReport& report) {
     }
   } else if (best->budget.outputs.size() > kMaxPowerOutput) {
     const UncertainOutput& power = best->budget.outputs[kMaxPowerOutput];
-    text = fmt::format("Pmax {} W at {:g} W/m2 and {:g} C ({}, k = 2).\n",
+    text = fmt::format("Pmax {} W at {:g} W/m2 and {:g} C ({} W, k = 2).\n",
                        Significant(power.value, 4), report.target.irradiance_W_m2,
                        report.target.temperature_C, Range(power.low(), power.high()));
   }
   if (!report.diagnosis) return text;
   const Verdict& found = report.diagnosis->verdict;
   const bool fails = report.field_test && IsFail(report.field_test->zone);
-  if (fails && !found.found && !found.unexplained) {
+  const bool silent = report.diagnosis->device_findings.empty();
+  if (fails && !found.found && !found.unexplained && silent) {
     text +=
         "Cause: the shape of the curve shows none. What acts on all cells alike leaves no trace in "
         "it: dirt, a wrong sensor of light or temperature, missing modules, a lower class.\n"
@@ -154,7 +155,8 @@ std::string TranslationVerdict(const TranslationReport& report) {
         "check its tilt, count the modules, clean one of them and measure again.\n";
     return text;
   }
-  text += FullSentence("Cause: " + found.sentence);
+  text += found.found || found.unexplained || !silent ? FullSentence("Cause: " + found.sentence)
+                                                      : std::string("Cause: none seen.");
   if (found.found && !found.causes.front().in_words.empty()) {
     std::string size = found.causes.front().in_words.front();
     text += " " + FullSentence(size);

@@ -172,7 +172,7 @@ TEST_F(CellTaskTest, TheCriterionIsAnOption) {
   EXPECT_EQ(done->samples[0].working(), 0);
   EXPECT_THAT(done->samples[0].not_working,
               ElementsAre("a: weak", "b: weak", "c: shorted", "d: dead"));
-  EXPECT_THAT(BatchText(*done), HasSubstr("an efficiency from 90 % on"));
+  EXPECT_THAT(BatchText(*done), HasSubstr("Weak: efficiency below 90 %"));
 }
 
 TEST_F(CellTaskTest, WhatCannotBeReadIsCountedAndNamed) {

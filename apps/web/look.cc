@@ -107,6 +107,9 @@ ordered_json ModuleJson(const std::string& file) {
   for (const OptionEcho& said : NonDefaults(options, kTranslateOptionTable)) {
     json["assumptions"].push_back(said.name + ": " + said.value);
   }
+  if (options.layout.modules_in_series) {
+    json["assumptions"].push_back(fmt::format("modules: {}", *options.layout.modules_in_series));
+  }
   if (!module && !sheet) json["error"] = sheet.error().ToString();
   return json;
 }

@@ -220,7 +220,7 @@ TEST_F(BatchConditions, CellsComeFromThePlanElseTheSheet) {
 
 TEST_F(BatchConditions, APlanSaysWhichStringsItDoesNotName) {
   const std::string command = "batch '" + folder_.Path("plant") + "' --temperature-C 20 --force" +
-                              " --cells 30 --out '" + folder_.Path("planned") + "' --plan '";
+                              " --cells 60 --out '" + folder_.Path("planned") + "' --plan '";
   const std::string none = folder_.Write("none.csv", "id,modules_in_series\nroof,3\n");
   const AppResult refused = RunApp(command + none + "'");
   EXPECT_EQ(refused.exit_code, 1);

@@ -229,9 +229,10 @@ block::Table HeadOfRmse(const FitReport& report) {
             label(Objective::kSolvedCurrent)}}};
 }
 
-void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table) {
-  table->rows.push_back({name, Scientific(rmse.measured_current_A, kRmseDigits),
-                         Scientific(rmse.solved_current_A, kRmseDigits)});
+void AddRmse(const std::string& name, const RmsePair& rmse, block::Table* table,
+             int digits = kRmseDigits) {
+  table->rows.push_back({name, Scientific(rmse.measured_current_A, digits),
+                         Scientific(rmse.solved_current_A, digits)});
 }
 
 bool IsWeighed(const FitReport& report) { return report.errors && report.errors->weighed; }
@@ -252,13 +253,20 @@ void AddRmses(const FitReport& report, Section* section) {
   if (report.floor) AddSentence(FloorText(report), section);
 }
 
-// RMSEs to compare these with.
+// RMSEs to compare these with, in as many digits as published ones have.
 Section FurtherRmseSection(const FitReport& report) {
+  constexpr int kDigits = 10;
   block::Table table = HeadOfRmse(report);
-  AddRmse("random points, as many", report.rmse.random_baseline, &table);
-  AddRmse("best candidate polished",
-          report.polished ? report.rmse.refined_best_candidate : RmsePair{}, &table);
-  if (IsWeighed(report)) AddRmse("least squares", report.errors->least_squares, &table);
+  const auto add = [&](const char* name, const RmsePair& rmse) {
+    AddRmse(name, rmse, &table, kDigits);
+  };
+  add("random points, as many", report.rmse.random_baseline);
+  add("searched", report.rmse.searched);
+  if (report.polished) {
+    add("best candidate polished", report.rmse.refined_best_candidate);
+    add("refined", report.rmse.refined);
+  }
+  if (IsWeighed(report)) add("least squares", report.errors->least_squares);
   // The figures of most papers are of the other objective, each at its own optimum.
   const bool solved = report.objective == Objective::kSolvedCurrent;
   Section section = {

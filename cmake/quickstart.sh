@@ -50,5 +50,5 @@ cat << EOT
     export PATH="$LYREFIT_ROOT/${whole%/lyrefit}:\$PATH"
     lyrefit diagnose data/diagnosis/shaded_module.csv
 
-or, for everybody on this machine:  sudo cmake --build build && sudo cmake --install build
+or, for everybody on this machine:  cmake --build build && sudo cmake --install build
 EOT

@@ -76,7 +76,7 @@ SayMinutes() {
   [[ $recorded && $reference ]] || return 0
   Say "$LYREFIT_COMMAND: $(awk -v there="$reference" -v here="$(ReferenceSeconds)" -v recorded="$recorded" -v processors="$(nproc)" \
     'BEGIN { minutes = recorded * here / there / 60
-      printf "about %.0f min on the %d processors here from scratch (%.0f of processor time), less where build has parts",
+      printf "about %.0f minutes on the %d processors here from scratch (%.0f of processor time), less where build has parts",
         minutes / processors + 0.5, processors, minutes }')"
 }
 

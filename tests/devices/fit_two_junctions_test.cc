@@ -68,8 +68,8 @@ TEST(FitTwoJunctions, FindsTheTandemOfExactCurves) {
   set.curves.push_back(TandemCurve("top alone", 1, 0));
   const auto report = FitTwoJunctions(set);
   ASSERT_TRUE(report) << report.error().ToString();
-  EXPECT_LT(report->refined_rmse_A, 1e-12);
-  EXPECT_GT(report->searched_rmse_A, report->refined_rmse_A);
+  EXPECT_LT(report->rmse.refined.solved_current_A, 1e-12);
+  EXPECT_GT(report->rmse.searched.solved_current_A, report->rmse.refined.solved_current_A);
   for (int i = 0; i < kTwoJunctionParameters; ++i) {
     EXPECT_NEAR(report->estimates[i].refined / kTandemTruth[i], 1, 1e-5)
         << report->estimates[i].info.symbol;
@@ -112,7 +112,7 @@ TEST(FitTwoJunctions, AnUnknownLightIsAPhotocurrentOfItsCurve) {
   const auto report = FitTwoJunctions(set, options);
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_FALSE(report->interchangeable);
-  EXPECT_LT(report->refined_rmse_A, 1e-7);
+  EXPECT_LT(report->rmse.refined.solved_current_A, 1e-7);
   EXPECT_EQ(report->estimates.size(), 10U);
   EXPECT_EQ(report->estimates.back().info.symbol, "Iph2[red]");
 }

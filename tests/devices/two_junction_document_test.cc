@@ -67,7 +67,7 @@ TEST(TwoJunctionJson, HoldsTheReport) {
   EXPECT_EQ(json["curves"][1]["light"]["bottom"], 0.8);
   EXPECT_EQ(json["curves"][1]["limiting"], 2);
   EXPECT_TRUE(json["rmse"]["refined"]["measured_current_A"].is_null());
-  EXPECT_EQ(json["rmse"]["refined"]["solved_current_A"], report.refined_rmse_A);
+  EXPECT_EQ(json["rmse"]["refined"]["solved_current_A"], report.rmse.refined.solved_current_A);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ FittedTandem FitOne(const JunctionsOptions& options, int s) {
       count += 1;
     }
   }
-  fitted.above = report->refined_rmse_A > std::sqrt(sum / count);
+  fitted.above = report->rmse.refined.solved_current_A > std::sqrt(sum / count);
   fitted.estimates = report->estimates;
   for (const Estimate& e : fitted.estimates) {
     fitted.truth.push_back(TruthOf(tandem, *report, e.info));

@@ -90,7 +90,8 @@ Section JointSection(const CellReport& report) {
   section.blocks.emplace_back(block::Legend{
       "what each adds: the standard error without it in multiples of that with all; not known: the "
       "others do not decide the parameter"});
-  if (!joint.converged) AddSentence("The joint fit did not converge.", &section);
+  if (joint.refine.termination != "converged")
+    AddSentence("The joint fit did not converge.", &section);
   return section;
 }
 

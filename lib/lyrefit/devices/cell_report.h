@@ -226,12 +226,10 @@ struct JointMeasurement {
 
 // Estimates of one diode model from all measurements of one direction together: curves under
 // several lights and in the dark, and Suns-Voc traces. Every curve has a photocurrent of its own.
-struct JointEstimate {
-  // The device's parameters, then `collection` (loss of photocurrent per volt of the junction), then
-  // photocurrents, and the factor of the lights that a Suns-Voc trace states.
-  std::vector<Estimate> estimates;
-  int shared = 0;                         // of them, the first, belong to every measurement
-  std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
+// Estimates: the device's parameters, then `collection` (loss of photocurrent per volt of the
+// junction), then photocurrents, and the factor of the lights that a Suns-Voc trace states.
+struct JointEstimate : EstimateReport {
+  int shared = 0;  // estimates, the first, that belong to every measurement
   std::vector<JointMeasurement> measurements;
   bool second_diode = false;              // of n = 2; the measurements need it
   double second_diode_p = kUnknown;       // p-value of one diode against it
@@ -240,8 +238,7 @@ struct JointEstimate {
   // Part of the conductance at short circuit under the brightest light that goes with the light, as
   // collection does and a shunt does not. NaN: the measurements do not tell the two apart.
   double collection_part = kUnknown;
-  bool converged = false;  // the fit
-  std::string missing;     // why there is no joint estimate; empty: there is one
+  std::string missing;  // why there is no joint estimate; empty: there is one
 };
 
 // Description of one cell.

@@ -6,32 +6,20 @@
 #include <cmath>
 #include <utility>
 
-#include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/base/version.h"
-#include "lyrefit/devices/two_junction_judge.h"
 #include "lyrefit/devices/two_junction_problem.h"
 #include "lyrefit/devices/two_junction_starts.h"
-#include "lyrefit/estimate/refine/multistart.h"
-#include "lyrefit/search/search.h"
+#include "lyrefit/estimate/fit/estimate_parameters.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr double kMostMisfit = 0.03;  // of Isc, as for one curve (fit/usable.h)
-constexpr double kSameEnd = 1e-9;     // relative difference of mean squares in one optimum
-constexpr double kNearBest = 1.5;     // mean square of an end that may lie inside the intervals
-constexpr std::size_t kMostOthers = 4;
-
-struct Descent : MultistartEnd {
-  RefineEnd end;
-  std::string origin;
-  double start_mean_square = HUGE_VAL;
-};
-
-bool IsSameEnd(const MultistartEnd& a, const MultistartEnd& b) {
-  return std::fabs(a.value - b.value) <= kSameEnd * std::max(a.value, b.value);
-}
+constexpr double kFarOutside = 9;     // rise at which a refit is given up, of that at the end
+constexpr IntervalRules kTwoJunctionRules = {
+    /*thorough=*/true, /*judge_open_ends=*/false, /*judge_absent_diodes=*/false,
+    "no shunt is visible: only a lower limit is known",
+    "the data do not fix it: another parameter takes its place"};
 
 Expected<void> ValidateAll(const TwoJunctionOptions& options) {
   TRY(ValidateThreads(options.threads));
@@ -39,87 +27,173 @@ Expected<void> ValidateAll(const TwoJunctionOptions& options) {
   return ValidateOptions(options.search, kSearchOptionTable);
 }
 
-std::vector<Descent> StartsOf(const PreparedTwoJunctions& prepared, const SearchSummary& search) {
-  std::vector<Descent> starts;
-  const auto add = [&](const std::vector<double>& x, std::string origin) {
-    Descent start;
-    start.end.p = ParametersAt(prepared, x.data());
-    start.origin = std::move(origin);
-    starts.push_back(std::move(start));
-  };
-  for (std::size_t k = 0; k < search.elites.size(); ++k) {
-    add(search.elites[k].x, k == 0 ? "best candidate" : fmt::format("elite {}", k + 1));
-  }
-  for (const std::vector<double>& x : TwoJunctionStarts(prepared)) add(x, "shape");
-  return starts;
+// The device has these limits by its nature; to reach one of them says something.
+bool IsNaturalEnd(const ParameterInfo& info, bool upper) {
+  if (info.kind == ParameterKind::kSeries || info.kind == ParameterKind::kPlain) return !upper;
+  return info.kind == ParameterKind::kPhotocurrent && !upper;
 }
 
-// Few steps for all starts, more for the better ones, then the best to convergence.
-Multistart<Descent> Polish(const TwoJunctionModel& model, std::vector<Descent> starts,
-                           const TwoJunctionOptions& options, const ProgressReporter& progress) {
-  const StopToken& stop = progress.stop();
-  const auto refine = [&](const MultistartStage& stage, Descent* at) {
-    RefineOptions how;
-    how.stop = stop;
-    if (stage.steps > 0) {
-      how.small = true;
-      how.max_rounds = 0;
-      how.first_iterations = stage.steps;
-      how.trust_radius = 1e4;
+// The estimates, with marks on parameters that the data limit on one side only.
+std::vector<Estimate> WithOpenEnds(std::vector<Estimate> estimates) {
+  for (Estimate& e : estimates) {
+    if (!e.free() || !e.identifiable || e.interval == IntervalMethod::kNone) continue;
+    const bool low = e.low_95 <= e.bounds.lower && !IsNaturalEnd(e.info, /*upper=*/false);
+    const bool high = e.high_95 >= e.bounds.upper && !IsNaturalEnd(e.info, /*upper=*/true);
+    const bool unsettled = e.interval == IntervalMethod::kUnsettled;
+    if (!low && !high && !unsettled) continue;
+    e.identifiable = false;
+    if (unsettled) {
+      e.reason = "an end of its interval was not found";
+    } else if (low && high) {
+      e.reason = "the data allow its whole range";
+    } else if (e.info.kind == ParameterKind::kPhotocurrent ||
+               e.info.kind == ParameterKind::kPlain) {
+      e.reason = "this junction does not limit the current, so only a lower limit is known";
+    } else {
+      e.reason = fmt::format("only {} limit is known: the data allow it to the end of its range",
+                             low ? "an upper" : "a lower");
     }
-    if (!std::isfinite(at->start_mean_square)) at->start_mean_square = model.MeanSquare(at->end);
-    at->end = RefineModel(model, at->end, how);
-    at->value = at->end.mean_square;
-  };
-  MultistartRules rules;
-  rules.stages = {{10, 16}, {40, 6}};
-  rules.apart = 1e-7;
-  rules.visits = 3;
-  rules.threads = options.threads;
-  Multistart<Descent> run;
-  RunMultistart(rules, std::move(starts), refine, IsSameEnd, &run);
-  return run;
+  }
+  return estimates;
 }
 
-void DescribeStarts(const Multistart<Descent>& run, TwoJunctionReport* report) {
-  for (const Descent& descent : run.ends) {
-    if (!descent.finished) continue;
-    report->starts.push_back({descent.origin, std::sqrt(descent.start_mean_square),
-                              std::sqrt(descent.value), IsSameEnd(descent, run.Best())});
+// Sum of both junctions' voltages under the reference light at open circuit.
+double OpenCircuit(const TwoJunctionProblem& problem, const std::vector<double>& p) {
+  return TwoJunctionVoltage(problem.thermal_voltage_V,
+                            JunctionsAtReference(problem, p.data()).data(), 0);
+}
+
+// The point with the saturation current of junction `j` moved so that the open-circuit voltage is
+// `voc_V`. Along a profile, one junction takes the voltage that the other one loses.
+FitPoint Compensated(const TwoJunctionModel& model, const TwoJunctionProblem& problem, int j,
+                     double voc_V, FitPoint at) {
+  const int i = JunctionSaturation(j);
+  const FitParameter& parameter = model.shape().parameters[i];
+  const double unit_V = problem.thermal_voltage_V * at.p[JunctionIdeality(j)];
+  for (int k = 0; k < 3; ++k) {
+    const double factor = std::exp((OpenCircuit(problem, at.p) - voc_V) / unit_V);
+    at.p[i] = std::min(std::max(at.p[i] * factor, parameter.lower), parameter.upper);
   }
+  return at;
+}
+
+// The point with the parameter of a refit fixed, as it is or with the open-circuit voltage of the best
+// fit, whichever fits better.
+FitPoint StartAt(const TwoJunctionProblem& problem, const TwoJunctionModel& model,
+                 const ProfileRefit& at, FitPoint from) {
+  const double voc_V = OpenCircuit(problem, at.best.p);
+  from.p[at.parameter] = at.value;
+  FitPoint lowest = from;
+  double least = model.MeanSquare(from);
+  for (int j = 0; j < 2; ++j) {
+    if (at.parameter == JunctionSaturation(j)) continue;
+    FitPoint moved = Compensated(model, problem, j, voc_V, from);
+    const double mean_square = model.MeanSquare(moved);
+    if (!(mean_square < least)) continue;
+    least = mean_square;
+    lowest = std::move(moved);
+  }
+  return lowest;
+}
+
+// The fit with one parameter fixed. Where the junctions are interchangeable, a refit that ends
+// outside the interval may have stopped in a bend of that way: it is tried again from the best
+// optimum.
+RefineEnd RefitAt(const TwoJunctionProblem& problem, ProfileRefit at, const FitPoint& start) {
+  // The way along which the sum of squares stays low is long and bent: steps are short.
+  at.how.function_tolerance = at.how.first_tolerance = 1e-2 * at.how.function_tolerance;
+  at.how.cutoff = at.best.mean_square + kFarOutside * (at.highest - at.best.mean_square);
+  TwoJunctionModel model(problem);
+  model.Fix(at.parameter, at.value);
+  RefineEnd end = RefineModel(model, StartAt(problem, model, at, start), at.how);
+  if (end.mean_square <= at.highest || end.stopped || !problem.ordered) return end;
+  RefineEnd again = RefineModel(model, StartAt(problem, model, at, at.best), at.how);
+  return again.mean_square < end.mean_square ? again : end;
 }
 
 // The best end with the junctions in each other's place, refined.
-FitPoint Exchanged(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
-                   FitPoint best, const StopToken& stop) {
+FitPoint Exchanged(const TwoJunctionProblem& problem, const TwoJunctionModel& model, FitPoint best,
+                   const StopToken& stop) {
   std::vector<double>& p = best.p;
   for (int i = 1; i < JunctionPhotocurrent(1); ++i) std::swap(p[i], p[JunctionPhotocurrent(1) + i]);
-  if (prepared.problem.ordered) p[JunctionPhotocurrent(1)] = 0.01;
+  if (problem.ordered) p[JunctionPhotocurrent(1)] = 0.01;
   RefineOptions how;
   how.stop = stop;
   return RefineModel(model, std::move(best), how);
 }
 
-// Distinct ends of the other starts, the best first, and the exchanged junctions.
-std::vector<FitPoint> OtherOptima(const PreparedTwoJunctions& prepared,
-                                  const TwoJunctionModel& model, const Multistart<Descent>& run,
-                                  const StopToken& stop) {
-  std::vector<const Descent*> others;
-  for (const Descent& descent : run.ends) {
-    const bool near = descent.value < kNearBest * run.Best().value;
-    if (near && !IsSameEnd(descent, run.Best())) others.push_back(&descent);
+// Which junctions limit in at least one curve.
+std::vector<bool> Limiting(const TwoJunctionProblem& problem, const std::vector<double>& p) {
+  std::vector<bool> limits(2, false);
+  for (std::size_t c = 0; c < problem.curves.size(); ++c) {
+    const auto device = DeviceIn(problem, static_cast<int>(c), p.data());
+    limits[device[JunctionPhotocurrent(0)] <= device[JunctionPhotocurrent(1)] ? 0 : 1] = true;
   }
-  std::stable_sort(others.begin(), others.end(),
-                   [](const Descent* a, const Descent* b) { return a->value < b->value; });
-  std::vector<FitPoint> points = {Exchanged(prepared, model, run.Best().end, stop)};
-  for (const Descent* descent : others) {
-    if (points.size() < kMostOthers) points.push_back(descent->end);
-  }
-  return points;
+  return limits;
 }
 
-void DescribeCurves(const CurveSet& set, const PreparedTwoJunctions& prepared,
-                    const std::vector<double>& p, TwoJunctionReport* report) {
+// 1 or 2: the junction whose name ends the parameter's symbol; 0: of both.
+int JunctionOf(const ParameterInfo& info) {
+  const std::string symbol = info.symbol.substr(0, info.symbol.find('['));
+  return symbol.back() == '1' ? 1 : symbol.back() == '2' ? 2 : 0;
+}
+
+// Symbols of parameters that are not identifiable, by the measurement that decides them.
+struct OpenParameters {
+  std::string saturation;  // of both junctions
+  std::string junction[2];
+  std::string common;
+};
+
+OpenParameters OpenOf(const std::vector<Estimate>& estimates) {
+  OpenParameters open;
+  for (const Estimate& e : estimates) {
+    if (e.identifiable) continue;
+    const int j = JunctionOf(e.info);
+    const bool saturation = e.info.kind == ParameterKind::kSaturation;
+    std::string& list = saturation ? open.saturation : j > 0 ? open.junction[j - 1] : open.common;
+    list += (list.empty() ? "" : ", ") + e.info.symbol;
+  }
+  return open;
+}
+
+std::vector<std::string> Deciding(const TwoJunctionProblem& problem, const std::vector<double>& p,
+                                  const std::vector<Estimate>& estimates) {
+  const OpenParameters open = OpenOf(estimates);
+  std::vector<std::string> sentences;
+  if (problem.ordered) {
+    sentences.push_back(
+        "which junction is the top one: a curve under a second spectrum, with the light of one "
+        "junction changed and the lights stated (--light CURVE=TOP:BOTTOM), decides");
+  }
+  const std::vector<bool> limits = Limiting(problem, p);
+  for (int j = 0; j < 2; ++j) {
+    if (open.junction[j].empty()) continue;
+    sentences.push_back(
+        limits[j] ? fmt::format("{}: curves under further spectra, or with less noise, decide",
+                                open.junction[j])
+                  : fmt::format("{}: a curve under a spectrum with so little light for junction "
+                                "{} that it limits the current decides",
+                                open.junction[j], j + 1));
+  }
+  if (!open.saturation.empty()) {
+    sentences.push_back(fmt::format(
+        "{}: without shunts only n1 ln Is1 + n2 ln Is2 shows, the open-circuit voltage of both; a "
+        "curve with light for one junction alone (--light CURVE=1:0), whose open-circuit voltage "
+        "is that junction's, decides",
+        open.saturation));
+  }
+  if (!open.common.empty()) {
+    sentences.push_back(
+        fmt::format("{}: curves at two lights of the same spectrum decide", open.common));
+  }
+  return sentences;
+}
+
+std::vector<TwoJunctionCurveReport> DescribeCurves(const CurveSet& set,
+                                                   const PreparedTwoJunctions& prepared,
+                                                   const std::vector<double>& p) {
+  std::vector<TwoJunctionCurveReport> curves;
   const TwoJunctionProblem& problem = prepared.problem;
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
     TwoJunctionCurveReport one;
@@ -138,24 +212,59 @@ void DescribeCurves(const CurveSet& set, const PreparedTwoJunctions& prepared,
     one.rmse_A = std::sqrt(sum / static_cast<double>(one.curve.size()));
     one.measured = FindKeyPoints(one.curve.voltage_V, one.curve.current_A);
     one.simulated = TwoJunctionKeyPoints(problem.thermal_voltage_V, device.data());
-    report->curves.push_back(std::move(one));
+    curves.push_back(std::move(one));
   }
+  return curves;
 }
 
-void Warn(const CurveSet& set, const PreparedTwoJunctions& prepared, TwoJunctionReport* report) {
-  if (!report->converged && !report->interrupted) {
-    report->warnings.push_back("the polish did not converge");
+std::vector<std::string> WarningsOf(const CurveSet& set, const EstimateReport& report) {
+  std::vector<std::string> warnings;
+  if (report.refine.termination == "no convergence") {
+    warnings.emplace_back("the polish did not converge");
   }
-  for (const IvCurve& curve : set.curves) {
-    for (const Assumption& assumption : curve.assumptions) {
-      if (set.curves.size() == 1) report->warnings.push_back(assumption.sentence);
-    }
+  if (set.curves.size() > 1) return warnings;
+  for (const Assumption& assumption : set.curves.front().assumptions) {
+    warnings.push_back(assumption.sentence);
   }
-  const double misfit = report->refined_rmse_A / prepared.problem.current_scale_A;
-  if (misfit <= kMostMisfit) return;
-  report->usable = false;
-  report->not_usable_because =
-      fmt::format("two junctions miss the readings by {:.2g} % of Isc", 100 * misfit);
+  return warnings;
+}
+
+// The problem of the estimator.
+EstimateProblem ProblemOf(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
+                          const TwoJunctionOptions& options) {
+  const TwoJunctionProblem& junctions = prepared.problem;
+  EstimateProblem problem{model, junctions.parameters, junctions.lower, junctions.upper};
+  problem.readings = prepared.readings;
+  problem.objective = Objective::kSolvedCurrent;
+  problem.box = TwoJunctionBox(prepared);
+  problem.parameters_at = [&](const double* x) { return ParametersAt(prepared, x); };
+  const std::vector<std::vector<double>> shapes = TwoJunctionStarts(prepared);
+  for (const std::vector<double>& x : shapes) {
+    problem.starts.push_back({"shape", ParametersAt(prepared, x.data())});
+  }
+  if (options.search.algorithm == Algorithm::kMloShape) problem.box.initial = shapes;
+  // Few steps for all starts, more for the better ones, then the best to convergence.
+  problem.polish.stages = {{10, 16}, {40, 6}};
+  problem.polish.apart = 1e-7;
+  problem.polish.visits = 3;
+  problem.why_not_usable = [&](const RefineEnd& end) {
+    const double misfit = std::sqrt(end.mean_square) / junctions.current_scale_A;
+    return misfit <= kMostMisfit
+               ? std::string()
+               : fmt::format("two junctions miss the readings by {:.2g} % of Isc", 100 * misfit);
+  };
+  // The share of each junction in the voltage is known through the shunts alone, if at all. All
+  // parameters depend on it, and not linearly.
+  problem.several_optima = true;
+  problem.more_optima = [&](const RefineEnd& best, const StopToken& stop) {
+    return std::vector<FitPoint>{Exchanged(junctions, model, best, stop)};
+  };
+  problem.refit = [&](const ProfileRefit& at, const FitPoint& start) {
+    return RefitAt(junctions, at, start);
+  };
+  problem.intervals = kTwoJunctionRules;
+  problem.restarts = 3;
+  return problem;
 }
 
 }  // namespace
@@ -164,49 +273,21 @@ Expected<TwoJunctionReport> FitTwoJunctions(const CurveSet& set, const TwoJuncti
                                             const Observer& observer) {
   TRY(ValidateAll(options));
   TRY(const PreparedTwoJunctions prepared, PrepareTwoJunctions(set, options));
-  const TwoJunctionProblem& problem = prepared.problem;
-  const TwoJunctionModel model(problem);
-  const ProgressReporter progress(observer);
+  const TwoJunctionModel model(prepared.problem);
+  EstimatedParameters found =
+      EstimateParameters(ProblemOf(prepared, model, options),
+                         {options.search, options.intervals, options.threads}, observer);
   TwoJunctionReport report;
-  report.version = Version();
+  static_cast<EstimateReport&>(report) = std::move(found.report);
   report.name = set.name;
   report.constants = options.constants;
   report.temperature_K = set.curves.front().conditions.cell_temperature_K;
-  report.interchangeable = problem.ordered;
-  report.search_options = options.search;
+  report.interchangeable = prepared.problem.ordered;
   report.non_default_options = NonDefaults(options, kTwoJunctionOptionTable);
-
-  Box box = TwoJunctionBox(prepared);
-  if (options.search.algorithm == Algorithm::kMloShape) box.initial = TwoJunctionStarts(prepared);
-  const ObjectiveFunction objective = [&](const double* x) {
-    return std::sqrt(model.MeanSquare({ParametersAt(prepared, x), {}}));
-  };
-  report.search = Search(objective, box, options.search, observer);
-  if (report.search.termination == SearchTermination::kInterrupted) progress.stop().Request();
-  const std::vector<double> searched = ParametersAt(prepared, report.search.best.x.data());
-  report.searched_rmse_A = std::sqrt(model.MeanSquare({searched, {}}));
-
-  Instant begin = Now();
-  progress.Begin("polish", 0);
-  const Multistart<Descent> run =
-      Polish(model, StartsOf(prepared, report.search), options, progress);
-  report.refine_seconds = SecondsSince(begin);
-  DescribeStarts(run, &report);
-  TwoJunctionEnd end{run.Best().end, OtherOptima(prepared, model, run, progress.stop())};
-  begin = Now();
-  progress.Begin("intervals", 0);
-  // Around parameters of curves that the model does not describe no interval means anything.
-  TwoJunctionOptions judging = options;
-  const double misfit = std::sqrt(end.best.mean_square) / problem.current_scale_A;
-  if (misfit > kMostMisfit) judging.intervals = Intervals::kNone;
-  JudgeTwoJunctions(prepared, judging, searched, progress, &end, &report);
-  report.interval_seconds = SecondsSince(begin);
-  report.converged = end.best.converged;
-  report.projected_gradient = end.best.projected_gradient;
-  report.refined_rmse_A = std::sqrt(end.best.mean_square);
-  report.interrupted = progress.stop().requested();
-  DescribeCurves(set, prepared, end.best.p, &report);
-  Warn(set, prepared, &report);
+  report.estimates = WithOpenEnds(std::move(report.estimates));
+  report.decided_by = Deciding(prepared.problem, found.end.p, report.estimates);
+  report.curves = DescribeCurves(set, prepared, found.end.p);
+  report.warnings = WarningsOf(set, report);
   return report;
 }
 

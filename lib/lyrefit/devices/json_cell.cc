@@ -97,7 +97,7 @@ Json JointJson(const JointEstimate& joint) {
           {"second_diode", joint.second_diode},
           {"second_diode_p", joint.second_diode_p},
           {"shunt", joint.shunt},
-          {"converged", joint.converged},
+          {"converged", joint.refine.termination == "converged"},
           {"void_because", joint.void_because},
           {"missing", joint.missing}};
 }

@@ -38,7 +38,7 @@ std::string TwoJunctionJson(const TwoJunctionReport& report) {
   Json parameters = Json::object();
   for (const Estimate& e : report.estimates) parameters[ParameterKey(e.info)] = e;
   Json starts = Json::array();
-  for (const StartReport& start : report.starts) {
+  for (const StartReport& start : report.refine.starts) {
     starts.push_back({{"origin", start.origin},
                       {"start_rmse_A", start.start_rmse_A},
                       {"end_rmse_A", start.end_rmse_A},
@@ -55,16 +55,14 @@ std::string TwoJunctionJson(const TwoJunctionReport& report) {
       {"parameters", parameters},
       {"decided_by", report.decided_by},
       {"correlations", report.correlations},
-      {"rmse",
-       {{"searched", RmsePair{kUnknown, report.searched_rmse_A}},
-        {"refined", RmsePair{kUnknown, report.refined_rmse_A}}}},
+      {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},
       {"curves", report.curves},
       {"search", SearchJson(report.search_options, report.search, report.search.evaluations)},
       {"refine",
-       {{"termination", report.converged ? "converged" : "no convergence"},
-        {"projected_gradient", report.projected_gradient},
-        {"condition", report.condition},
-        {"seconds", report.refine_seconds},
+       {{"termination", report.refine.termination},
+        {"projected_gradient", report.refine.projected_gradient},
+        {"condition", report.refine.condition},
+        {"seconds", report.refine.seconds},
         {"start_list", starts}}},
       {"intervals", {{"seconds", report.interval_seconds}}},
       {"options", report.non_default_options},

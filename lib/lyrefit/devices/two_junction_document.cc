@@ -77,9 +77,10 @@ Section CurveSection(const TwoJunctionReport& report) {
 
 Section RmseSection(const TwoJunctionReport& report) {
   block::Table table = {"lr", {{"", "solved-current *"}}};
-  table.rows = {
-      {"searched (best candidate)", Scientific(report.searched_rmse_A, kJunctionRmseDigits)},
-      {"refined (best of all starts)", Scientific(report.refined_rmse_A, kJunctionRmseDigits)}};
+  table.rows = {{"searched (best candidate)",
+                 Scientific(report.rmse.searched.solved_current_A, kJunctionRmseDigits)},
+                {"refined (best of all starts)",
+                 Scientific(report.rmse.refined.solved_current_A, kJunctionRmseDigits)}};
   return {"RMSE in A", {table}};
 }
 
@@ -88,14 +89,14 @@ Section HowSection(const TwoJunctionReport& report) {
   AddField("search", SearchText(report.search_options, report.search, report.search.evaluations),
            &section);
   int agreeing = 0;
-  for (const StartReport& start : report.starts) agreeing += start.agrees ? 1 : 0;
+  for (const StartReport& start : report.refine.starts) agreeing += start.agrees ? 1 : 0;
   AddField("polish",
            fmt::format("{}: {}; {} of {} that went to their end came to the same curve; projected "
                        "gradient {}; condition {}",
-                       Duration(report.refine_seconds),
-                       report.converged ? "converged" : "no convergence", agreeing,
-                       Plural(report.starts.size(), "start"),
-                       Significant(report.projected_gradient, 2), Significant(report.condition, 2)),
+                       Duration(report.refine.seconds), report.refine.termination, agreeing,
+                       Plural(report.refine.starts.size(), "start"),
+                       Significant(report.refine.projected_gradient, 2),
+                       Significant(report.refine.condition, 2)),
            &section);
   AddField("intervals", Duration(report.interval_seconds), &section);
   AddField("options", OptionsText(report.non_default_options), &section);
@@ -108,7 +109,7 @@ std::string TwoJunctionVerdict(const TwoJunctionReport& report) {
     if (!e.identifiable) open += (open.empty() ? "" : ", ") + e.info.symbol;
   }
   return fmt::format(
-      "RMSE {} A (solved-current); {}", Scientific(report.refined_rmse_A, 4),
+      "RMSE {} A (solved-current); {}", Scientific(report.rmse.refined.solved_current_A, 4),
       open.empty() ? "every parameter is identifiable" : "not identifiable: " + open);
 }
 

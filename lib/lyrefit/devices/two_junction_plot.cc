@@ -31,7 +31,7 @@ Series ModelLine(const TwoJunctionReport& report, const TwoJunctionCurveReport& 
 Figure TwoJunctionFigure(const TwoJunctionReport& report) {
   Figure figure;
   figure.title = fmt::format("{}, two junctions: RMSE {:.4g} A solved-current", report.name,
-                             report.refined_rmse_A);
+                             report.rmse.refined.solved_current_A);
   Panel curves{"Measured points and model", {"Voltage (V)"}, {"Current (A)"}};
   Panel residuals{"Residuals, solved-current", {"Voltage (V)"}, {"Model - measured (A)"}};
   curves.zero_line = residuals.zero_line = true;

@@ -6,13 +6,11 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/devices/two_junction_options.h"
-#include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/search/search_summary.h"
+#include "lyrefit/estimate/fit/estimate_report.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -29,35 +27,17 @@ struct TwoJunctionCurveReport {
 };
 
 // Report of FitTwoJunctions(). The objective is the solved current; there is no explicit right-hand
-// side for the measured one.
-struct TwoJunctionReport {
-  std::string version;  // of lyrefit
-  std::string name;     // of the set
+// side for the measured one. Estimates: shared parameters, then photocurrents of single curves.
+struct TwoJunctionReport : EstimateReport {
+  std::string name;  // of the set
   ConstantSet constants = ConstantSet::kCodata;
   double temperature_K = kUnknown;  // of all curves
   // Nothing but their order tells the junctions apart: junction 1 is the one with the lower
   // photocurrent, and `estimates` has the excess of the other one's in place of Iph2.
   bool interchangeable = false;
-  std::vector<Estimate> estimates;        // shared parameters, then photocurrents of single curves
-  std::vector<Correlation> correlations;  // |value| > 0.9, strongest first
-  double searched_rmse_A = kUnknown;      // best candidate of the search, solved-current
-  double refined_rmse_A = kUnknown;       // best end of all starts, solved-current
   std::vector<TwoJunctionCurveReport> curves;
   // Which measurement would decide the parameters that are not identifiable; empty: all are.
   std::vector<std::string> decided_by;
-  SearchOptions search_options;
-  SearchSummary search;
-  std::vector<StartReport> starts;       // of the polish, those that ran to their end
-  bool converged = false;                // the polish
-  double projected_gradient = kUnknown;  // as in RefineReport
-  double condition = kUnknown;           // of the scaled Jacobian
-  double refine_seconds = 0;             // of the polish
-  double interval_seconds = 0;           // of the intervals
-  std::vector<OptionEcho> non_default_options;
-  std::vector<std::string> warnings;
-  bool usable = true;
-  std::string not_usable_because;  // empty: usable
-  bool interrupted = false;
 };
 
 }  // namespace lyrefit

@@ -37,6 +37,8 @@ ResidualStatistics StatisticsOfDistinct(const PreparedFit& fit, const std::vecto
 struct Answer {
   std::vector<double> p;
   RmsePair rmse;
+  InformationCriteria criteria;
+  std::string not_usable_because;
   ModelResults results;
 };
 
@@ -44,7 +46,7 @@ struct Answer {
 Answer AnswerAt(const PreparedFit& fit, const std::vector<double>& p, bool at_its_end) {
   const IvCurve& curve = fit.curve;
   const RefineProblem& problem = fit.problem;
-  Answer answer{p, BothRmse(fit.device, p, curve), {}};
+  Answer answer{p, BothRmse(fit.device, p, curve), {}, {}, {}};
   ModelResults& results = answer.results;
   results.nNsVth = p[IdealityIndex(0)] * fit.device.module_thermal_voltage_V;
   if (!IsDark(curve)) {  // in the dark a current of 0 is at 0 V, or where an offset has it
@@ -60,14 +62,13 @@ Answer AnswerAt(const PreparedFit& fit, const std::vector<double>& p, bool at_it
   }
   const double mean_square =
       MeanSquare(fit.device, problem.objective, p.data(), problem.points, *problem.kernel);
-  results.criteria = FindInformation(mean_square, fit.readings(), fit.free_parameters);
+  answer.criteria = FindInformation(mean_square, fit.readings(), fit.free_parameters);
   results.residuals = all ? FindResidualStatistics(curve.voltage_V, results.residual_A)
                           : StatisticsOfDistinct(fit, p);
-  results.not_usable_because =
+  answer.not_usable_because =
       WhyNotUsable(curve, results,
-                   {answer.rmse.solved_current_A, at_its_end, fit.options.loss != Loss::kSquared,
-                    !fit.doubts.empty()});
-  results.usable = results.not_usable_because.empty();
+                   {answer.criteria, answer.rmse.solved_current_A, at_its_end,
+                    fit.options.loss != Loss::kSquared, !fit.doubts.empty()});
   return answer;
 }
 
@@ -102,6 +103,9 @@ FitReport WithAnswer(FitReport report, const PreparedFit& fit, Answer answer) {
   report.device = fit.device;
   report.variant_penalty = fit.variant_penalty;
   static_cast<ModelResults&>(report) = std::move(answer.results);
+  report.criteria = answer.criteria;
+  report.not_usable_because = std::move(answer.not_usable_because);
+  report.usable = report.not_usable_because.empty();
   report.refined = std::move(answer.p);
   return report;
 }
@@ -140,7 +144,8 @@ BoundedFit PolishedReport(FitReport report, const PreparedFit& prepared,
   };
   Answer answer = answer_at(refined.end.p);
   const Instant begin = Now();
-  JudgedFit judged = JudgeFit(refined, report.searched, answer.results.usable, progress);
+  JudgedFit judged =
+      JudgeFit(refined, report.searched, answer.not_usable_because.empty(), progress);
   report.interval_seconds = SecondsSince(begin);
   if (judged.end.p != refined.end.p) answer = answer_at(judged.end.p);
 

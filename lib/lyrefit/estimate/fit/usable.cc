@@ -85,7 +85,7 @@ std::string WhyNotUsable(const IvCurve& curve, const ModelResults& results,
   }
   const Scale scale = ScaleOf(curve, results.measured);
   const double misfit = facts.robust ? RobustScale(results.residual_A) : facts.rmse_A;
-  if (LineDoesAsWell(curve, results.criteria, misfit, facts.robust, facts.at_its_end)) {
+  if (LineDoesAsWell(curve, facts.criteria, misfit, facts.robust, facts.at_its_end)) {
     return "a straight line describes these points as well";
   }
   if (!facts.at_its_end || !(misfit > kLargestMisfit * scale.current_A)) return "";

@@ -7,10 +7,11 @@
 namespace lyrefit {
 
 struct UsabilityFacts {
-  double rmse_A = 0;        // solved-current, of all readings
-  bool at_its_end = false;  // the fit was polished and not interrupted
-  bool robust = false;      // the fit has a robust loss
-  bool doubtful = false;    // there are doubts about the readings
+  InformationCriteria criteria;  // of the fit
+  double rmse_A = 0;             // solved-current, of all readings
+  bool at_its_end = false;       // the fit was polished and not interrupted
+  bool robust = false;           // the fit has a robust loss
+  bool doubtful = false;         // there are doubts about the readings
 };
 
 // Largest misfit of a usable fit, in Isc.

@@ -12,6 +12,8 @@ import subprocess
 import threading
 import time
 
+from rounding import Rounding, rounding
+
 # What differs from run to run of one build: durations, and nothing else. Both builds run under the same name in a folder
 # of the same path, so that no path differs.
 MASKS = [
@@ -52,7 +54,9 @@ class Runner:
         for name, target in self.links.items():
             (self.folder / name).symlink_to(target)
         for name, text in case.given:
-            (self.folder / name).write_text(text, encoding="utf-8")
+            file = self.folder / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
 
     def _step(self, binary, step, limit):
         """The exit code and both outputs of a step; nothing if the limit ended it."""
@@ -169,12 +173,13 @@ def faults(outcome):
     return found
 
 
-def differences(old, new, masks=MASKS):
-    """What differs between two outcomes: (what, lines that show it) of each part."""
+def differences(old, new, masks=MASKS, relative=None):
+    """What differs between two outcomes: (what, lines that show it) of each part. Given a relative tolerance, outcomes that differ
+    by rounding alone have that `Rounding` instead."""
     if old.parts is None or new.parts is None:
         ended = "new" if new.parts is None else "old"
         return [("time", [f"the {ended} one did not end within the limit, the other one did"])]
-    found = []
+    found, rounded = [], Rounding()
     for what in [*old.parts, *(what for what in new.parts if what not in old.parts)]:
         pair = old.parts.get(what), new.parts.get(what)
         if pair[0] == pair[1]:
@@ -184,5 +189,9 @@ def differences(old, new, masks=MASKS):
             continue
         pair = masked(pair[0], masks), masked(pair[1], masks)
         if pair[0] != pair[1]:
-            found.append((what, excerpt(*pair)))
-    return found
+            within = rounding(what, *pair, relative) if relative is not None else None
+            if within:
+                rounded.add(within)
+            else:
+                found.append((what, excerpt(*pair)))
+    return rounded if rounded.numbers and not found else found

@@ -19,7 +19,10 @@ sys.path.insert(0, str(HERE.parent / "stable"))
 
 import names
 from cases import SWEEPS, all_cases
+from corpus import NAMES as KINDS
+from corpus import corpus_cases
 from running import MASKS, Runner, differences, faults
+from rounding import Rounding
 
 DIFFERENT, NOT_COMPARED = 1, 3  # exit codes
 
@@ -49,9 +52,10 @@ def accepted(file):
     return reasons
 
 
-def compare(cases, old, new, links, work, *, jobs=1, limit=60.0, masks=MASKS, tell=lambda text: None):
+def compare(cases, old, new, links, work, *, jobs=1, limit=60.0, masks=MASKS, relative=None, tell=lambda text: None):
     """(case, seconds of both, differences or None if both hit the limit) of each case, in the order of the cases. Cases
-    that take longest run first. Without a new build: faults of the old one instead of differences."""
+    that take longest run first. Without a new build: faults of the old one instead of differences. Given a relative tolerance,
+    a `Rounding` stands for differences that are no more than that."""
     order = sorted(range(len(cases)), key=lambda number: -cases[number].seconds)
     results = [None] * len(cases)
     lock, next_place, failures = threading.Lock(), iter(order), []
@@ -68,11 +72,11 @@ def compare(cases, old, new, links, work, *, jobs=1, limit=60.0, masks=MASKS, te
             if all(outcome.parts is None for outcome in outcomes):
                 found = None
             else:
-                found = differences(*outcomes, masks) if new else faults(*outcomes)
+                found = differences(*outcomes, masks, relative) if new else faults(*outcomes)
             results[number] = (cases[number], [outcome.seconds for outcome in outcomes], found)
             with lock:
                 counts["done"] += 1
-                counts["different"] += bool(found)
+                counts["different"] += isinstance(found, list) and bool(found)
                 tell(f"{counts['done']} of {len(cases)} cases, {counts['different']} {'different' if new else 'with faults'}")
 
     def work_or_fail(folder):
@@ -99,7 +103,9 @@ def compare(cases, old, new, links, work, *, jobs=1, limit=60.0, masks=MASKS, te
 def by_hand(case, binary, links):
     """A line of shell that runs a case."""
     parts = ["cd $(mktemp -d)", "ln -s " + " ".join(shlex.quote(str(path)) for path in links.values()) + " ."]
-    parts += [f"printf %s {shlex.quote(text)} > {name}" for name, text in case.given]
+    for name, text in case.given:
+        folder = os.path.dirname(name)
+        parts += ([f"mkdir -p {folder}"] if folder else []) + [f"printf %s {shlex.quote(text)} > {name}"]
     return " && ".join(parts) + " && { " + case.shown(binary) + " ; }"
 
 
@@ -120,41 +126,64 @@ def flags_without_case(binary, cases):
             if name not in given and not name.startswith("exit code") and "(-" in name or entry.notes == "value"]
 
 
-def report(results, reasons, old, new, links):
+SAME, UNLIKE, ACCEPTED, MISSED, ROUNDED = range(1, 6)  # columns of the table of results
+
+
+def verdict(case, found, reasons):
+    if found is None:
+        return MISSED
+    if isinstance(found, Rounding):
+        return ROUNDED
+    return SAME if not found else ACCEPTED if case.name in reasons else UNLIKE
+
+
+def report(results, reasons, old, new, links, relative=None):
     """Prints what was found; returns the exit code."""
     table = {}
-    for case, seconds, found in results:
-        row = table.setdefault(case.verb, [0] * 5 + [0.0, 0.0])
+    judged = [(case, seconds, found, verdict(case, found, reasons)) for case, seconds, found in results]
+    for case, seconds, found, what in judged:
+        row = table.setdefault(case.verb, [0] * 6 + [0.0] * 2)
         row[0] += 1
-        row[4 if found is None else 1 if not found else 3 if case.name in reasons else 2] += 1
-        row[5] += seconds[0]
-        row[6] += seconds[-1]
-    for case, _, found in results:
-        if found and case.name not in reasons:
+        row[what] += 1
+        row[6] += seconds[0]
+        row[7] += seconds[-1]
+    for case, _, found, what in judged:
+        if what == UNLIKE:
             print(f"\n{'DIFFERENT' if new else 'FAULT'} {case.name}")
-            for what, lines in found:
-                print(f"  {what}", *(f"    {line}" for line in lines), sep="\n")
+            for part, lines in found:
+                print(f"  {part}", *(f"    {line}" for line in lines), sep="\n")
             print("  by hand:", *(f"    {by_hand(case, binary, links)}" for binary in (old, new) if binary), sep="\n")
-    for case, _, found in results:
-        if found and case.name in reasons:
+    for case, _, found, what in judged:
+        if what == ACCEPTED:
             print(f"\naccepted {case.name}: {reasons[case.name]}\n  {case.shown()}")
-            print(*(f"  {what}" for what, _ in found), sep="\n")
-    for case, seconds, found in results:
-        if found is None:
+            print(*(f"  {part}" for part, _ in found), sep="\n")
+    for case, _, _, what in judged:
+        if what == MISSED:
             print(f"\nNOT {'COMPARED, both' if new else 'JUDGED, it'} hit the limit: {case.name}\n  {case.shown()}")
-    equal = {case.name for case, _, found in results if found == []}
+    equal = {case.name for case, _, _, what in judged if what == SAME}
     for name in reasons:
         if name in equal:
             print(f"\nno longer different: {name}")
-    rows = [*table.items(), ("all", [sum(column) for column in zip(*table.values())] or [0] * 7)]
-    if new:
-        print(f"\n{'verb':12}{'cases':>7}{'same':>7}{'different':>11}{'accepted':>10}{'not compared':>14}{'s old':>9}{'s new':>9}")
-    else:
-        print(f"\n{'verb':12}{'cases':>7}{'clean':>7}{'faults':>11}{'accepted':>10}{'not judged':>14}{'s':>9}")
-    for verb, row in rows:
-        print(f"{verb:12}{row[0]:7}{row[1]:7}{row[2]:11}{row[3]:10}{row[4]:14}{row[5]:9.1f}" + (f"{row[6]:9.1f}" if new else ""))
-    total = rows[-1][1]
-    return DIFFERENT if total[2] else NOT_COMPARED if total[4] else 0
+    total = [sum(column) for column in zip(*table.values())] or [0] * 8
+    heads = {0: "cases", SAME: "same", ROUNDED: "rounding", UNLIKE: "different", ACCEPTED: "accepted", MISSED: "not compared",
+             6: "s old", 7: "s new"}
+    if not new:
+        heads = {0: "cases", SAME: "clean", UNLIKE: "faults", ACCEPTED: "accepted", MISSED: "not judged", 6: "s"}
+    elif relative is None:
+        del heads[ROUNDED]
+    widths = {column: max(9, len(head) + 2) for column, head in heads.items()}
+    print(f"\n{'verb':12}" + "".join(f"{heads[column]:>{width}}" for column, width in widths.items()))
+    for verb, row in [*table.items(), ("all", total)]:
+        cells = (f"{row[column]:.1f}" if column > 5 else f"{row[column]}" for column in widths)
+        print(f"{verb:12}" + "".join(f"{cell:>{width}}" for cell, width in zip(cells, widths.values())))
+    for verb in table:
+        of_verb = [(case, found) for case, _, found, what in judged if what == ROUNDED and case.verb == verb]
+        if of_verb:
+            case, found = max(of_verb, key=lambda pair: (pair[1].largest, pair[1].last_digits))
+            print(f"{verb}: equal but for rounding {len(of_verb)}, {sum(each.numbers for _, each in of_verb)} numbers, the largest "
+                  f"difference {found.largest:.1e} ({case.name}), {sum(each.last_digits for _, each in of_verb)} by one in the last "
+                  "printed digit")
+    return DIFFERENT if total[UNLIKE] else NOT_COMPARED if total[MISSED] else 0
 
 
 def arguments():
@@ -168,6 +197,10 @@ def arguments():
     parser.add_argument("--share", type=int, default=1, metavar="N", help="every Nth case, which its name chooses")
     parser.add_argument("--data", action="append", metavar="FOLDER", help="measurements beside data/, as often as wanted; "
                         "else LYREFIT_FIELD_DATA of the environment")
+    parser.add_argument("--corpus", nargs="*", choices=KINDS, metavar="KIND", help="the corpus of made cases instead, all kinds or "
+                        "these: " + ", ".join(KINDS))
+    parser.add_argument("--rounding", type=float, metavar="R", help="numbers that agree within this relative difference are told apart "
+                        "from differences (cmake/same/rounding.py)")
     parser.add_argument("--verb", action="append", metavar="NAME", help="cases of this verb alone, as often as wanted")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="cases at once (all processors)")
     parser.add_argument("--limit", type=float, metavar="SECONDS", help="of a case with one build (60, with --full 1200)")
@@ -186,7 +219,10 @@ def main():
     given = arguments()
     field = os.environ.get("LYREFIT_FIELD_DATA")
     links = links_of([ROOT / "data", *(given.data or ([field] if field else []))])
-    cases = all_cases(ROOT, links, None if given.full else given.sweeps)
+    if given.corpus is None:
+        cases = all_cases(ROOT, links, None if given.full else given.sweeps)
+    else:
+        cases = corpus_cases(given.corpus)
     if given.sanitized:  # which are slow: the commands of pages run on many curves
         cases = [case for case in cases if case.verb != "pages"]
     cases = [case for case in cases if zlib.crc32(case.name.encode()) % given.share == 0]
@@ -209,9 +245,9 @@ def main():
 
     with tempfile.TemporaryDirectory(prefix="lyrefit-same-") as work:
         results = compare(cases, old, new, links, pathlib.Path(work), jobs=given.jobs, masks=[] if given.unmasked else MASKS,
-                          limit=given.limit or (1200 if given.full else 60), tell=tell)
-    code = report(results, reasons, old, new, links)
-    if not given.verb and given.share == 1:
+                          limit=given.limit or (1200 if given.full else 60), relative=given.rounding, tell=tell)
+    code = report(results, reasons, old, new, links, given.rounding)
+    if not given.verb and given.share == 1 and given.corpus is None:
         for name in flags_without_case(old, cases):
             print(f"no case gives {name}")
     print(f"{time.monotonic() - begin:.0f} s, {given.jobs} at once")

@@ -46,7 +46,7 @@ void JointFit(benchmark::State& state, int curves, FamilyOptions options) {
   options.threads = 1;
   for (auto _ : state) {
     const auto report = FitFamily(set, options);
-    if (!report || report->termination != "converged") state.SkipWithError("no joint fit");
+    if (!report || report->refine.termination != "converged") state.SkipWithError("no joint fit");
     benchmark::DoNotOptimize(report);
   }
 }

@@ -62,7 +62,7 @@ TEST_P(FamilyOfThePvue125, PredictsTheCurvesItDidNotSeeBetterThanTheDataSheet) {
   EXPECT_EQ(Count(*report, CurveRole::kLeftOut), 0);
   EXPECT_TRUE(report->rejected.empty());
   EXPECT_TRUE(report->usable);
-  EXPECT_EQ(report->termination, "converged");
+  EXPECT_EQ(report->refine.termination, "converged");
   ASSERT_TRUE(report->held_out.has_value());
   EXPECT_EQ(report->held_out->curves, 548);
   const double isc = report->reference.short_circuit_current_A;
@@ -125,7 +125,7 @@ TEST(FamiliesOfThePanel, AreAllReadAndFittedWithIntervals) {
     const Expected<FamilyReport> report = FitFamily(set, options);
     ASSERT_TRUE(report.has_value()) << report.error().ToString();
     EXPECT_TRUE(report->usable);
-    EXPECT_EQ(report->termination, "converged");
+    EXPECT_EQ(report->refine.termination, "converged");
     for (const Estimate& e : report->estimates) {
       if (e.fixed || e.at_bound != BoundSide::kNone) continue;
       EXPECT_TRUE(std::isfinite(e.low_95) && std::isfinite(e.high_95)) << e.info.name;

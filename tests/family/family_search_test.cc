@@ -33,11 +33,11 @@ TEST_F(FamilySearchTest, TakesASearchOfTheUsersOwnAndFollowsItsCandidateAlone) {
   options_.plain_polish = true;
   const FamilyReport report = Fit();
   EXPECT_EQ(asked, 1);
-  const double searched = report.rmse.searched_all.solved_current_A;
+  const double searched = report.searched_all.solved_current_A;
   EXPECT_LE(report.rmse.plain_polished.solved_current_A, searched);
   EXPECT_LE(report.rmse.refined_best_candidate.solved_current_A, searched);
   EXPECT_EQ(report.refined_best_candidate.size(), report.refined.size());
-  EXPECT_GE(report.best_candidate_seconds, 0);
+  EXPECT_GE(report.refine.best_candidate_seconds, 0);
   EXPECT_NEAR(report.rmse.refined.solved_current_A / usual.rmse.refined.solved_current_A, 1, 1e-6);
   options_.starts = StartsFrom::kSearch;
   const FamilyReport alone = Fit();

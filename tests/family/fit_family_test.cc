@@ -47,7 +47,7 @@ TEST_P(EveryFamily, IsRecoveredWithinItsIntervals) {
   const Expected<FamilyReport> report = FitFamily(set, options);
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_TRUE(report->usable);
-  EXPECT_EQ(report->termination, "converged");
+  EXPECT_EQ(report->refine.termination, "converged");
   EXPECT_LT(report->projected_gradient, 1e-6);
   EXPECT_NEAR(report->noise_A, 2e-4, 3e-5);
   for (int i = 0; i < law.size(); ++i) {

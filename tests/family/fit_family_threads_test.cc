@@ -28,12 +28,12 @@ class Numbers {
     for (const Coefficient& c : report.coefficients) Add(c.value);
     for (const Interval& interval : report.jackknife) Add(interval);
     for (const Correlation& c : report.correlations) AddAll({c.value});
-    const FamilyRmseTable& table = report.rmse;
+    const RmseTable& table = report.rmse;
     for (const RmsePair& pair :
          {table.random_baseline, table.searched, table.searched_all, table.refined}) {
       Add(pair);
     }
-    AddAll({report.noise_A, report.projected_gradient, report.reference.max_power_W});
+    AddAll({report.noise_A, report.refine.projected_gradient, report.reference.max_power_W});
     for (const FamilyCurve& curve : report.curves) {
       Add(curve.irradiance_offset_W_m2);
       Add(curve.temperature_offset_K);
@@ -144,7 +144,7 @@ TEST(FitFamily, StopsInTheMiddleOfAJointSolve) {
     });
     EXPECT_EQ(asked, 3) << stage;
     EXPECT_TRUE(report.interrupted);
-    EXPECT_EQ(report.termination, stage == "joint fit" ? "interrupted" : "converged");
+    EXPECT_EQ(report.refine.termination, stage == "joint fit" ? "interrupted" : "converged");
     EXPECT_TRUE(report.jackknife.empty());
   }
 }
@@ -180,7 +180,7 @@ TEST(FitFamily, FitsFiveHundredCurves) {
   options.individual_fits = false;
   options.irradiance_accuracy = 0.01;
   const FamilyReport report = *FitFamily(set, options);
-  EXPECT_EQ(report.termination, "converged");
+  EXPECT_EQ(report.refine.termination, "converged");
   EXPECT_NEAR(report.refined[law.n], 1.2, 0.02);
   EXPECT_NEAR(report.noise_A, 2e-3, 2e-4);
 }

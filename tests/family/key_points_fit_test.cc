@@ -129,8 +129,8 @@ TEST_P(ExactMatrix, GivesTheModuleBack) {
   }
   ASSERT_TRUE(report->key_points);
   EXPECT_LT(report->key_points->max_power_of_reference, 1e-8);
-  EXPECT_LT(report->rmse.refined_key_points, 1e-5);
-  EXPECT_GT(report->rmse.searched_key_points, 1);
+  EXPECT_LT(report->refined_key_points, 1e-5);
+  EXPECT_GT(report->searched_key_points, 1);
   EXPECT_FALSE(report->equal_devices);
 }
 

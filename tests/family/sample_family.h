@@ -93,7 +93,7 @@ inline FamilyReport SampleFamilyHead() {
   report.reference = {5.0026, 21.9, 17.5, 4.7, 82.25, 0.7507};
   report.rmse.random_baseline = {3.1e-1, 2.9e-1};
   report.rmse.searched = {9.8e-3, 7.7e-3};
-  report.rmse.searched_all = {9.9e-3, 7.8e-3};
+  report.searched_all = {9.9e-3, 7.8e-3};
   report.rmse.refined = {1.534e-3, 1.4321e-3};
   report.noise_A = 1.44e-3;
   report.search_ids = {"sweep-3", "sweep-5"};
@@ -130,8 +130,8 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.search.evaluations = 1830;
   report.search.termination = SearchTermination::kIterations;
   report.search.trace = {{0, 30, 0.2}, {60, 1830, 7.7e-3}};
-  report.termination = "converged";
-  report.projected_gradient = 1e-13;
+  report.refine.termination = "converged";
+  report.refine.projected_gradient = 1e-13;
   report.seconds = 1.5;
   report.individual_seconds = 0.4;
   report.rejected = {{"torn", Error{"expected a number, found 'abc'", "torn.csv", 7, 3}}};

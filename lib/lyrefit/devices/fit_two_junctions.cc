@@ -233,7 +233,8 @@ std::vector<std::string> WarningsOf(const CurveSet& set, const EstimateReport& r
 EstimateProblem ProblemOf(const PreparedTwoJunctions& prepared, const TwoJunctionModel& model,
                           const TwoJunctionOptions& options) {
   const TwoJunctionProblem& junctions = prepared.problem;
-  EstimateProblem problem{model, junctions.parameters, junctions.lower, junctions.upper};
+  EstimateProblem problem{model,
+                          MakeEstimates(junctions.parameters, junctions.lower, junctions.upper)};
   problem.readings = prepared.readings;
   problem.objective = Objective::kSolvedCurrent;
   problem.box = TwoJunctionBox(prepared);

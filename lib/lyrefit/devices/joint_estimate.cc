@@ -41,7 +41,8 @@ class JointCandidate {
                  const CellOptions& options, JointKind kind)
       : cell(MakeJointCell(report, lights, dark, options, kind == JointKind::kTwoDiodes)),
         model(cell.problem),
-        problem{model, cell.problem.parameters, cell.problem.lower, cell.problem.upper} {
+        problem{model,
+                MakeEstimates(cell.problem.parameters, cell.problem.lower, cell.problem.upper)} {
     for (const CellBlock& block : cell.problem.blocks) {
       problem.readings += static_cast<int>(block.voltage_V.size());
     }

@@ -271,7 +271,7 @@ Section FamilyRmseSection(const FamilyReport& report) {
       fmt::format("all {} fitted", Plural(Count(report, CurveRole::kFitted), "curve"));
   add("random points, as many", report.rmse.random_baseline, seen);
   add("searched (best candidate)", report.rmse.searched, seen);
-  add("searched (best candidate)", report.rmse.searched_all, all);
+  add("searched (best candidate)", report.searched_all, all);
   add("refined", report.rmse.refined, all);
   AddTable(std::move(table), &section);
   if (!std::isnan(report.noise_A) && !key_points) {
@@ -288,9 +288,8 @@ Section FamilySearchSection(const FamilyReport& report) {
     AddField("search", SearchText(report.search_options, report.search, report.search.evaluations),
              &section);
     AddField("joint fit",
-             fmt::format("{}; projected gradient {}",
-                         report.termination.empty() ? "not run" : report.termination,
-                         Significant(report.projected_gradient, 2)),
+             fmt::format("{}; projected gradient {}", report.refine.termination,
+                         Significant(report.refine.projected_gradient, 2)),
              &section);
   }
   if (report.individual_seconds > 0)

@@ -205,7 +205,7 @@ std::vector<Interval> IntervalsUnder(const Spread& spread, double t,
 }  // namespace
 
 FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest,
-                                         const JudgedFamily& judged) {
+                                         const JudgedEnd& judged) {
   constexpr int kFewest = 3;        // fewest curves that show an error common to a curve
   constexpr double kExact = 1e-11;  // relative to the currents: rounding errors only
   const JointProblem& problem = fit.problem;
@@ -242,7 +242,7 @@ FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProb
   all.shape = WithPower(all, brightest, errors.path_power);
   const Spread spread = FindSpread(fit.model, fit.best, fit.best.active,
                                    ProductOf(problem, fit.model, all, errors.sizes));
-  return {errors, IntervalsUnder(spread, StudentT95(curves - 1), judged.estimates)};
+  return {errors, IntervalsUnder(spread, StudentT95(curves - 1), judged.estimate.estimates)};
 }
 
 }  // namespace lyrefit

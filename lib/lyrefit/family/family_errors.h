@@ -15,8 +15,8 @@ namespace lyrefit {
 // half; fewer than six curves are tested with their own sizes. A richer kind must be clearly
 // better.
 //
-// `report` has the results of JudgeFamily.
+// `judged` has the results of JudgeFamily.
 FamilyErrorIntervals FindFamilyIntervals(const ReportedFit& fit, const JointProblem& rest,
-                                         const JudgedFamily& judged);
+                                         const JudgedEnd& judged);
 
 }  // namespace lyrefit

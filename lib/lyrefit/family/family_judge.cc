@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "lyrefit/base/observer.h"
+#include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/refine/intervals.h"
 #include "lyrefit/estimate/refine/other_optima.h"
 #include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/extended_set.h"
@@ -36,6 +36,7 @@ struct Judged {
   const ReportedFit& fit;
   const FamilyOptions& options;
   double variance = 0;  // of the noise, at weight 1
+  int degrees = 1;      // of freedom
   double t = 2;         // Student's, for 95 %
   JointSpread spread;
   std::vector<FitPoint> local_optima;  // other optima that the data allow
@@ -61,7 +62,7 @@ std::vector<FitPoint> FindMoreOptima(const ReportedFit& fit, const ProgressRepor
 
 Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
                 const ProgressReporter& progress) {
-  Judged judged{fit, options, 0, 2, {}, {}};
+  Judged judged{fit, options, 0, 1, 2, {}, {}};
   if (options.intervals && fit.family.translation.extended) {
     judged.local_optima = FindMoreOptima(fit, progress);
   }
@@ -69,49 +70,42 @@ Judged SpreadOf(const ReportedFit& fit, const FamilyOptions& options,
   const JointSpread known = FindJointSpread(fit.problem, fit.model, fit.best, noise_A * noise_A);
   const double degrees = JointDegrees(fit.problem, fit.family.free_parameters, known.local_degrees);
   judged.variance = fit.end.squares / degrees;
-  judged.t = StudentT95(static_cast<int>(degrees));
+  judged.degrees = static_cast<int>(degrees);
+  judged.t = StudentT95(judged.degrees);
   judged.spread = FindJointSpread(fit.problem, fit.model, fit.best, judged.variance);
   return judged;
 }
 
-std::vector<Estimate> EstimatesOf(const Judged& judged, const std::vector<double>& searched) {
-  const FamilyProblem& family = judged.fit.family;
-  const Translation& at = family.translation;
-  std::vector<Estimate> estimates;
-  estimates.reserve(at.size());
+// The shared parameters with their bounds.
+std::vector<Estimate> ParametersOf(const ReportedFit& fit) {
+  const Translation& at = fit.family.translation;
+  std::vector<Estimate> parameters(at.size());
   for (int i = 0; i < at.size(); ++i) {
-    Estimate e;
-    e.info = at.parameters[i];
-    e.bounds = ReportedBounds(SpanOf(at), family.bounds[i], judged.fit.end.point.shared, i);
-    e.fixed = !std::isnan(family.fixed[i]);
-    e.searched = searched.empty() ? kUnknown : searched[i];
-    e.refined = judged.fit.best.p[i];
-    estimates.push_back(std::move(e));
+    parameters[i].info = at.parameters[i];
+    parameters[i].bounds =
+        ReportedBounds(SpanOf(at), fit.family.bounds[i], fit.end.point.shared, i);
+    parameters[i].fixed = !std::isnan(fit.family.fixed[i]);
   }
-  return estimates;
+  return parameters;
 }
 
-IntervalReport IntervalsOf(const Judged& judged, const std::vector<double>& searched,
+EstimateReport EstimatesOf(const Judged& judged, const std::vector<double>& searched,
                            const ProgressReporter& progress) {
-  JointOptions how;
-  how.stop = progress.stop();
-  IntervalProblem problem;
-  problem.estimates = EstimatesOf(judged, searched);
-  problem.active = judged.fit.best.active;
-  problem.effects = SpanOf(judged.fit.family.translation);
-  problem.last = judged.options.intervals ? IntervalStep::kProfile : IntervalStep::kErrors;
-  problem.rules = kRules;
-  problem.threads = judged.options.threads;
-  problem.spread = judged.spread;
-  problem.t.assign(problem.estimates.size(), judged.t);
+  const ReportedFit& fit = judged.fit;
+  EstimateProblem problem{fit.model, ParametersOf(fit)};
+  problem.effects = SpanOf(fit.family.translation);
   problem.further = {"dG", "dT"};
-  problem.variance = judged.variance;
-  problem.several_optima = !judged.local_optima.empty();
-  problem.profile = [&](ProfileQuery query) {
-    query.local_optima = judged.local_optima;
-    return FindProfileSide(judged.fit.model, judged.fit.best, query, HowToRefine(how));
+  problem.errors = [&](const RefineEnd&) {
+    return EstimateErrors{judged.variance, judged.degrees, judged.spread};
   };
-  return FindIntervals(std::move(problem), progress);
+  problem.several_optima = !judged.local_optima.empty();
+  problem.refits = HowToRefine({});
+  problem.intervals = kRules;
+  EstimateOptions options;
+  options.intervals = judged.options.intervals ? Intervals::kProfile : Intervals::kNone;
+  options.threads = judged.options.threads;
+  return JudgeParameters(problem, {fit.best, judged.local_optima, {}}, searched, options, progress)
+      .report;
 }
 
 Interval Derived(const Judged& judged, const std::vector<double>& refined,
@@ -225,9 +219,7 @@ JudgedEnd JudgeFamily(const ReportedFit& fit, const FamilyOptions& options,
   const Judged judged = SpreadOf(fit, options, progress);
   family.noise_A = std::sqrt(judged.variance);
   if (options.intervals) progress.Begin("intervals", 0);
-  IntervalReport intervals = IntervalsOf(judged, ReportedShared(at, searched), progress);
-  family.estimates = std::move(intervals.estimates);
-  family.correlations = std::move(intervals.correlations);
+  family.estimate = EstimatesOf(judged, ReportedShared(at, searched), progress);
   if (options.intervals) family.coefficients = Coefficients(judged, family.refined);
   DescribeSensors(judged, &family);
   family.reference = AtReference(at, family.refined);

@@ -33,6 +33,7 @@ struct CurveOffsets {
 };
 
 struct JudgedEnd : JudgedFamily {
+  EstimateReport estimate;            // of the shared parameters
   std::vector<CurveOffsets> offsets;  // of the fitted curves
 };
 

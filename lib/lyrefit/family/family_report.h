@@ -87,22 +87,6 @@ struct FamilyCurve {
   bool outlier = false;                   // the curve does not belong to the device of the others
 };
 
-// RMSE over all points of the named curves, after each stage of a joint fit.
-struct FamilyRmseTable {
-  RmsePair random_baseline;  // on the curves of the search
-  RmsePair searched;         // on the curves of the search
-  RmsePair searched_all;     // the searched parameters on all fitted curves
-  // The search's best candidate on all fitted curves, after one bounded solve and after a joint fit
-  // of its own. Filled only if requested (FamilyOptions::plain_polish).
-  RmsePair plain_polished;
-  RmsePair refined_best_candidate;
-  RmsePair refined;  // on all fitted curves
-  // Root mean square of the residuals of key points on all fitted curves, in units of their errors
-  // (KeyPointErrors). NaN: not fitted.
-  double searched_key_points = kUnknown;
-  double refined_key_points = kUnknown;
-};
-
 // Root mean squares of model / measured - 1 over the fitted curves of a joint fit of key points.
 struct KeyPointSummary {
   KeyPointErrors errors;                    // that weighed the residuals
@@ -210,8 +194,6 @@ struct FamilyErrors {
 struct JudgedFamily {
   // Shared parameters in the translation's order; those of effects are in internal units.
   std::vector<double> refined;
-  std::vector<Estimate> estimates;        // in the same order, in reporting units
-  std::vector<Correlation> correlations;  // |value| > 0.9 among shared parameters
   Interval irradiance_offset_W_m2;  // of the sensor, common to all curves; NaN if not requested
   Interval temperature_offset_K;
   std::vector<Coefficient> coefficients;
@@ -235,9 +217,10 @@ struct FamilyErrorIntervals {
   std::vector<Interval> under_errors;  // empty if the errors are independent
 };
 
-// All results of a joint fit of many curves.
-struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
-  std::string version;
+// All results of a joint fit of many curves. Estimates are those of the shared parameters, in the
+// translation's order; RMSEs are those over all points, of random points and the search on the
+// curves of the search, of the others on all fitted curves. The warnings include the doubts.
+struct FamilyReport : EstimateReport, JudgedFamily, FamilyTests, FamilyErrorIntervals {
   std::string name;    // of the set
   std::string source;  // file or folder that the set was read from
   bool free = false;   // individual fits of every curve, no shared parameters
@@ -247,11 +230,15 @@ struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
   // As `refined`. All other fields are in reporting units.
   std::vector<double> searched;
   std::vector<double> refined_best_candidate;  // in reporting units; empty: not requested
-  FamilyRmseTable rmse;                        // of search and joint fit
-  std::vector<FamilyCurve> curves;             // in the set's order
-  std::vector<std::string> search_ids;         // curves of the search
-  std::optional<KeyPointSummary> key_points;   // if the residuals are those of key points
-  std::optional<EqualDevices> equal_devices;   // none: the curves determine the parameters
+  RmsePair searched_all;                       // the searched parameters on all fitted curves
+  // Root mean square of the residuals of key points on all fitted curves, in units of their errors
+  // (KeyPointErrors). NaN: not fitted.
+  double searched_key_points = kUnknown;
+  double refined_key_points = kUnknown;
+  std::vector<FamilyCurve> curves;            // in the set's order
+  std::vector<std::string> search_ids;        // curves of the search
+  std::optional<KeyPointSummary> key_points;  // if the residuals are those of key points
+  std::optional<EqualDevices> equal_devices;  // none: the curves determine the parameters
   std::optional<WithoutOutliers> without_outliers;
   std::vector<FamilyCandidate> candidates;  // of FitFamilyAuto
   // The weights of the curves in the residuals.
@@ -262,25 +249,15 @@ struct FamilyReport : JudgedFamily, FamilyTests, FamilyErrorIntervals {
   // Shared intervals if whole curves, not points, are independent (delete-one-curve jackknife). In
   // the order of `estimates`; empty if not computed.
   std::vector<Interval> jackknife;
-  SearchOptions search_options;
-  SearchSummary search;
-  std::string termination;               // of the joint fit
-  double projected_gradient = kUnknown;  // as in RefineReport
   double seconds = 0;
-  double individual_seconds = 0;             // of the individual fits
-  double joint_seconds = 0;                  // of the joint fit, from all its starts
-  double plain_seconds = kUnknown;           // of the best candidate's plain solve
-  double best_candidate_seconds = kUnknown;  // of its own joint fit
+  double individual_seconds = 0;    // of the individual fits
+  double plain_seconds = kUnknown;  // of the best candidate's plain solve
   // Effects added to the diodes, and the curves that they were evaluated on.
   std::vector<EffectUse> with;
   std::shared_ptr<const CurveSet> taken;  // none: no effects
   std::vector<RejectedCurve> rejected;    // files or curves that could not be read
-  std::vector<OptionEcho> non_default_options;
-  std::vector<std::string> assumptions;  // assumptions of the reader
-  std::vector<std::string> doubts;       // about the readings, before any fit; see CheckReadings
-  std::vector<std::string> warnings;     // includes `doubts`
-  bool interrupted = false;
-  bool usable = true;
+  std::vector<std::string> assumptions;   // assumptions of the reader
+  std::vector<std::string> doubts;        // about the readings, before any fit; see CheckReadings
 };
 
 }  // namespace lyrefit

@@ -148,7 +148,6 @@ FamilyReport SearchReport(const PreparedFamily& prepared, const FamilySearchEnd&
   report.non_default_options = NonDefaults(options, kFamilyOptionTable);
   report.with = options.with;
   if (at.extended) report.taken = at.extended->effects->set;
-  report.termination = "not run";
   report.search = searched.summary;
   for (const int c : prepared.search_curves) report.search_ids.push_back(set.curves[c].name);
   const JointProblem problem = JointProblemOn(prepared.family, options, prepared.search_curves);
@@ -235,7 +234,7 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
     judged.key_points = SummariseKeyPoints(judged.curves, refined, options, judged.end.noise_A,
                                            judged.end.reference);
     if (options.intervals) {
-      judged.equal_devices = FindEqualDevices(refined, judged.end.estimates, observer);
+      judged.equal_devices = FindEqualDevices(refined, judged.end.estimate.estimates, observer);
     }
   }
   OutlierFit outliers = FitWithoutOutliers(refined, prepared.set, observer);
@@ -244,7 +243,7 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
   judged.without_outliers = std::move(outliers.without_outliers);
   const std::size_t curves = refined.problem.curves.size();
   if (options.intervals && curves > 2 && curves <= kMostJackknifed) {
-    auto jackknife = Jackknife(reported, judged.end.estimates, options.threads, observer);
+    auto jackknife = Jackknife(reported, judged.end.estimate.estimates, options.threads, observer);
     if (!jackknife) return judged;
     judged.jackknife = std::move(*jackknife);
   }
@@ -252,38 +251,34 @@ JudgedJointFit JudgeJointFit(const PreparedFamily& prepared, const RefinedFamily
   return judged;
 }
 
-// The RMSEs of search and joint fit.
-FamilyRmseTable RmseOf(FamilyRmseTable rmse, const RefinedFamily& refined) {
-  if (refined.candidate) {
-    rmse.plain_polished = FamilyRmse(refined.problem, refined.candidate->plain.point);
-    rmse.refined_best_candidate = FamilyRmse(refined.problem, refined.candidate->own.point);
-  }
-  rmse.searched_all = refined.searched;
-  if (refined.family.curves.key_points) {
-    rmse.searched_key_points = refined.searched_key_points;
-    rmse.refined_key_points = KeyPointRms(refined.problem, refined.end.point);
-  }
-  rmse.refined = FamilyRmse(refined.problem, refined.end.point);
-  return rmse;
-}
-
 // The report with the joint fit.
 FamilyReport WithJointFit(FamilyReport report, const RefinedFamily& refined,
                           JudgedJointFit judged) {
   const Translation& at = refined.family.translation;
   const JointEnd& end = refined.end;
-  report.rmse = RmseOf(report.rmse, refined);
   if (refined.candidate) {
+    report.rmse.plain_polished = FamilyRmse(refined.problem, refined.candidate->plain.point);
+    report.rmse.refined_best_candidate = FamilyRmse(refined.problem, refined.candidate->own.point);
     report.refined_best_candidate = ReportedShared(at, refined.candidate->own.point.shared);
     report.refined_best_candidate.resize(at.size());
     report.plain_seconds = refined.candidate->plain_seconds;
-    report.best_candidate_seconds = refined.candidate->own_seconds;
+    report.refine.best_candidate_seconds = refined.candidate->own_seconds;
   }
   report.weights = refined.weights.used;
   report.weights_gain = refined.weights.gain;
-  report.joint_seconds = refined.seconds;
-  report.termination = end.stopped ? "interrupted" : end.converged ? "converged" : "no convergence";
-  report.projected_gradient = end.projected_gradient;
+  report.searched_all = refined.searched;
+  if (refined.family.curves.key_points) {
+    report.searched_key_points = refined.searched_key_points;
+    report.refined_key_points = KeyPointRms(refined.problem, end.point);
+  }
+  report.rmse.refined = FamilyRmse(refined.problem, end.point);
+  report.refine.seconds = refined.seconds;
+  report.refine.termination = end.stopped     ? "interrupted"
+                              : end.converged ? "converged"
+                                              : "no convergence";
+  report.refine.projected_gradient = end.projected_gradient;
+  report.estimates = std::move(judged.end.estimate.estimates);
+  report.correlations = std::move(judged.end.estimate.correlations);
   static_cast<JudgedFamily&>(report) = std::move(judged.end);
   static_cast<FamilyErrorIntervals&>(report) = std::move(judged.error_intervals);
   static_cast<FamilyTests&>(report) = std::move(judged.tests);

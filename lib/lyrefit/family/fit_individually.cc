@@ -98,7 +98,6 @@ FamilyReport FreeHead(const CurveSet& set, const FamilyOptions& options) {
   report.rejected = set.rejected;
   report.assumptions = SentencesOf(set.assumptions);
   report.search_options = options.search;
-  report.termination = "not run";
   return report;
 }
 

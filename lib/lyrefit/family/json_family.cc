@@ -59,21 +59,6 @@ void to_json(Json& j, const RejectedCurve& curve) {
   j = {{"id", curve.id}, {"error", curve.error.ToString()}};
 }
 
-void to_json(Json& j, const FamilyRmseTable& rmse) {
-  const auto over = [](const RmsePair& pair, const char* curves) {
-    Json json = pair;
-    json["curves"] = curves;
-    return json;
-  };
-  j = {{"random_baseline", over(rmse.random_baseline, "search")},
-       {"searched", over(rmse.searched, "search")},
-       {"searched_all", over(rmse.searched_all, "fitted")},
-       {"refined", over(rmse.refined, "fitted")}};
-  if (std::isnan(rmse.refined_key_points)) return;
-  j["searched_key_points"] = rmse.searched_key_points;
-  j["refined_key_points"] = rmse.refined_key_points;
-}
-
 void to_json(Json& j, const KeyPointFit& fit) {
   j = {
       {"measured", fit.measured}, {"model", fit.model}, {"held_out_power_W", fit.held_out_power_W}};
@@ -106,6 +91,22 @@ namespace {
 
 // The values of a parameter vector by name.
 Json ValuesJson(const std::vector<ParameterInfo>& infos, const std::vector<double>& values);
+
+Json FamilyRmseJson(const FamilyReport& report) {
+  const auto over = [](const RmsePair& pair, const char* curves) {
+    Json json = pair;
+    json["curves"] = curves;
+    return json;
+  };
+  Json j = {{"random_baseline", over(report.rmse.random_baseline, "search")},
+            {"searched", over(report.rmse.searched, "search")},
+            {"searched_all", over(report.searched_all, "fitted")},
+            {"refined", over(report.rmse.refined, "fitted")}};
+  if (std::isnan(report.refined_key_points)) return j;
+  j["searched_key_points"] = report.searched_key_points;
+  j["refined_key_points"] = report.refined_key_points;
+  return j;
+}
 
 Json EqualDevicesJson(const FamilyReport& report) {
   if (!report.equal_devices) return nullptr;
@@ -206,7 +207,7 @@ void AddFamilyAnswer(const FamilyReport& report, Json* json) {
                          {"temperature_K", report.temperature_offset_K}};
   j["temperature_coefficients"] = CoefficientsJson(report);
   j["reference"] = shared ? Json(report.reference) : Json();
-  j["rmse"] = report.rmse;
+  j["rmse"] = FamilyRmseJson(report);
   j["residuals"] = report.key_points ? "key-points" : "currents";
   j["key_points"] = report.key_points;
   j["equal_devices"] = EqualDevicesJson(report);
@@ -227,8 +228,8 @@ void AddFamilyEvidence(const FamilyReport& report, Json* json) {
   j["correlations"] = report.correlations;
   j["search"] = SearchJson(report.search_options, report.search, report.search.evaluations);
   j["search"]["curves"] = report.search_ids;
-  j["refine"] = {{"termination", report.termination},
-                 {"projected_gradient", report.projected_gradient}};
+  j["refine"] = {{"termination", report.refine.termination},
+                 {"projected_gradient", report.refine.projected_gradient}};
   j["seconds"] = report.seconds;
   j["individual_fits"] = {{"seconds", report.individual_seconds}};
   j["options"] = report.non_default_options;

@@ -72,12 +72,12 @@ Section KeyPointSection(const FamilyReport& report) {
                          summary.held_out),
              &section);
   }
-  AddField("fit",
-           fmt::format("rms of the residuals in units of the errors {}: searched {}, refined {}",
-                       KeyPointErrorsText(summary.errors),
-                       Significant(report.rmse.searched_key_points, 4),
-                       Significant(report.rmse.refined_key_points, 4)),
-           &section);
+  AddField(
+      "fit",
+      fmt::format("rms of the residuals in units of the errors {}: searched {}, refined {}",
+                  KeyPointErrorsText(summary.errors), Significant(report.searched_key_points, 4),
+                  Significant(report.refined_key_points, 4)),
+      &section);
   if (any_outside) {
     AddSentence(
         "outside: the measured Pmp lies outside the interval in which a fit without this condition "

@@ -100,13 +100,13 @@ RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, i
   RunOutcome outcome;
   FillSearch(report.search, run, &outcome);
   RunRecord& record = outcome.record;
-  record.searched_A = report.rmse.searched_all.Of(objective);
+  record.searched_A = report.searched_all.Of(objective);
   record.plain_polished_A = report.rmse.plain_polished.Of(objective);
   record.own_polished_A = report.rmse.refined_best_candidate.Of(objective);
   record.polished_A = report.rmse.refined.Of(objective);
-  record.polish_seconds = report.individual_seconds + report.joint_seconds;
+  record.polish_seconds = report.individual_seconds + report.refine.seconds;
   record.plain_seconds = report.plain_seconds;
-  record.own_seconds = report.best_candidate_seconds;
+  record.own_seconds = report.refine.best_candidate_seconds;
   // The search used only some of the curves, so its trace is not comparable with the reference.
   outcome.gains.push_back({0, report.search.evaluations, record.searched_A});
   for (const Estimate& e : report.estimates) outcome.parameters.push_back(e.refined);

@@ -9,7 +9,6 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/refine/profile.h"
 
 namespace lyrefit {
 namespace {
@@ -117,6 +116,11 @@ IntervalStep LastStepOf(Intervals wanted, const EstimateProblem& problem, const 
                                                     : IntervalStep::kSymmetric;
 }
 
+int FreeParameters(const EstimateProblem& problem) {
+  return static_cast<int>(std::count_if(problem.parameters.begin(), problem.parameters.end(),
+                                        [](const Estimate& e) { return !e.fixed; }));
+}
+
 // The profiles around one end.
 struct Profiles {
   const EstimateProblem& problem;
@@ -127,11 +131,11 @@ struct Profiles {
 
   ProfileSide Find(ProfileQuery query) const {
     query.local_optima = others;
-    if (!problem.refit) {
-      return FindProfileSide(problem.model, best, query, ProfileOptions(stop));
-    }
+    RefineOptions how = problem.refits;
+    how.stop = stop;
+    if (!problem.refit) return FindProfileSide(problem.model, best, query, how);
     const auto refit = [&](double value, const FitPoint& start, double target, double tolerance) {
-      ProfileRefit at{best, highest, query.parameter, value, ProfileOptions(stop)};
+      ProfileRefit at{best, highest, query.parameter, value, how};
       at.how.target = target;
       at.how.function_tolerance = tolerance;
       return problem.refit(at, start);
@@ -145,7 +149,9 @@ IntervalReport IntervalsAt(const EstimateProblem& problem, const RefineEnd& end,
                            const EstimateOptions& options, const ProgressReporter& progress) {
   EstimateErrors errors = ErrorsAt(problem, end);
   IntervalProblem intervals;
-  intervals.estimates = MakeEstimates(problem.infos, problem.lower, problem.upper, searched, end.p);
+  intervals.estimates = WithValues(problem.parameters, searched, end.p);
+  intervals.effects = problem.effects;
+  intervals.further = problem.further;
   intervals.active = end.active;
   intervals.rules = problem.intervals;
   intervals.threads = options.threads;
@@ -206,14 +212,6 @@ SearchedParameters SearchParameters(const EstimateProblem& problem, const Estima
 }
 
 }  // namespace
-
-int FreeParameters(const EstimateProblem& problem) {
-  int free = 0;
-  for (std::size_t i = 0; i < problem.lower.size(); ++i) {
-    free += problem.lower[i] < problem.upper[i] ? 1 : 0;
-  }
-  return free;
-}
 
 int DegreesOfFreedom(const EstimateProblem& problem) {
   return std::max(problem.readings - FreeParameters(problem), 1);
@@ -278,7 +276,9 @@ EstimatedParameters JudgeParameters(const EstimateProblem& problem,
     report.refine.termination = end.converged ? "converged" : "no convergence";
   }
   report.rmse.refined = RmseOf(problem, end.mean_square);
-  report.criteria = FindInformation(end.mean_square, problem.readings, FreeParameters(problem));
+  if (problem.readings > 0) {
+    report.criteria = FindInformation(end.mean_square, problem.readings, FreeParameters(problem));
+  }
   report.interrupted = stop.requested();
   return {std::move(improved.end), std::move(report)};
 }

@@ -11,6 +11,8 @@
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/refine/intervals.h"
 #include "lyrefit/estimate/refine/multistart.h"
+#include "lyrefit/estimate/refine/profile.h"
+#include "lyrefit/model/reporting_units.h"
 #include "lyrefit/search/search.h"
 
 // From a model and its measurements to an estimate: search, polish, judgement. A new kind of
@@ -40,14 +42,13 @@ struct ProfileRefit {
   RefineOptions how;
 };
 
-// What is estimated. The model has no local unknowns. Members that are functions may be empty: what
+// What is estimated. Members that are functions may be empty: what
 // is then done stands beside them.
 struct EstimateProblem {
   const FitModel& model;
-  std::vector<ParameterInfo> infos = {};  // of the model's parameters
-  std::vector<double> lower = {};         // bounds as they are reported; equal: fixed
-  std::vector<double> upper = {};
-  int readings = 0;                         // residuals without priors
+  // Info, bounds and whether fixed. The model may have further parameters after these.
+  std::vector<Estimate> parameters;
+  int readings = 0;                         // residuals without priors; 0: no criteria
   std::optional<Objective> objective = {};  // of the residuals; none: they are of several kinds
 
   // The search, and the parameters at a point of its box. Empty: no search.
@@ -70,12 +71,12 @@ struct EstimateProblem {
   std::function<std::vector<FitPoint>(const RefineEnd&, const StopToken&)> more_optima = {};
   // Of profiles. Empty: RefineModel.
   std::function<RefineEnd(const ProfileRefit&, const FitPoint& start)> refit = {};
+  RefineOptions refits = ProfileOptions({});  // of profiles
   IntervalRules intervals = {};
-  int restarts = 0;  // most polishes from lower optima that profiles find
+  EffectSpan effects = {};                // among the parameters
+  std::vector<std::string> further = {};  // symbols of the further parameters
+  int restarts = 0;                       // most polishes from lower optima that profiles find
 };
-
-// Number of parameters that are not fixed.
-int FreeParameters(const EstimateProblem& problem);
 
 // Readings minus free parameters, at least 1.
 int DegreesOfFreedom(const EstimateProblem& problem);

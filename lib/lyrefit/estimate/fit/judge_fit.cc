@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lyrefit/estimate/fit/error_degrees.h"
+#include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/order_alike.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 
@@ -20,19 +21,22 @@ std::string TooFewReadings(const PreparedFit& fit) {
 
 bool IsSaturated(const PreparedFit& fit) { return fit.readings() <= fit.free_parameters; }
 
-// Also finds bounds that are refuted.
-std::string WhyNoIntervals(const RefinedFit& refined, bool usable, const ProgressReporter& progress,
-                           RefutedBounds* refuted) {
+// Why there are no intervals; with wider bounds if those of the fit are refuted.
+RefutedBounds WhyNoIntervals(const RefinedFit& refined, bool usable,
+                             const ProgressReporter& progress) {
   const PreparedFit& fit = refined.prepared;
-  if (fit.options.intervals == Intervals::kNone) return "";
+  if (fit.options.intervals == Intervals::kNone) return {};
   if (!usable) {
-    return "the fit is not usable: around parameters of a curve that the model does not describe "
-           "no "
-           "interval means anything";
+    return {
+        "the fit is not usable: around parameters of a curve that the model does not describe "
+        "no interval means anything",
+        {},
+        {}};
   }
-  if (IsSaturated(fit)) return TooFewReadings(fit) + ", and nothing is left over to tell how well";
-  *refuted = FindRefutedBounds(refined, progress);
-  return refuted->because;
+  if (IsSaturated(fit)) {
+    return {TooFewReadings(fit) + ", and nothing is left over to tell how well", {}, {}};
+  }
+  return FindRefutedBounds(refined, progress);
 }
 
 // Method of the intervals. With many correlated readings that are not averaged, profiles would take
@@ -45,31 +49,37 @@ Intervals MethodOf(const RefinedFit& refined) {
   return many && wanted == Intervals::kProfile ? Intervals::kSymmetric : wanted;
 }
 
-void FindIntervalsAndImprove(const RefinedFit& refined, const std::vector<double>& searched,
-                             const ProgressReporter& progress, JudgedFit* judged) {
+JudgedFit WithIntervals(JudgedFit judged, const RefinedFit& refined,
+                        const std::vector<double>& searched, const ProgressReporter& progress) {
   const PreparedFit& fit = refined.prepared;
   const Intervals method =
-      judged->no_intervals_because.empty() ? MethodOf(refined) : Intervals::kNone;
-  constexpr int kRestarts = 3;
-  for (int round = 0; round <= kRestarts; ++round) {
-    OrderAlike(fit.device, fit.bounds, &judged->end.p, &judged->end.active);
-    CurveIntervals found = FindIntervals(
-        {refined.problem, judged->end, fit.spare_readings()},
-        EstimatesOf(fit, searched, judged->end.p),
-        {method, refined.ends, refined.degrees, fit.options.threads, /*final=*/round == kRestarts},
-        progress);
-    judged->estimates = std::move(found.estimates);
-    judged->correlations = std::move(found.correlations);
-    judged->covariance = std::move(found.covariance);
-    judged->condition = found.condition;
-    const std::vector<double>& better = found.lower_optimum;
-    if (better.empty() || round == kRestarts) break;
-    RefineOptions how;
-    how.stop = progress.stop();
-    judged->end = Refine(refined.problem, better, how);
-    judged->restarts.push_back({"profile", std::sqrt(MeanSquare(refined.problem, better)),
-                                std::sqrt(judged->end.mean_square), true});
-  }
+      judged.no_intervals_because.empty() ? MethodOf(refined) : Intervals::kNone;
+  const auto ordered = [&](RefineEnd end) {
+    OrderAlike(fit.device, fit.bounds, &end.p, &end.active);
+    return end;
+  };
+  auto improved = ImproveByIntervals(
+      ordered(refined.end), /*restarts=*/3,
+      [&](const RefineEnd& end, bool final) {
+        return FindIntervals(
+            {refined.problem, end, fit.spare_readings()}, EstimatesOf(fit, searched, end.p),
+            {method, refined.ends, refined.degrees, fit.options.threads, final}, progress);
+      },
+      [](const CurveIntervals& found) { return found.lower_optimum; },
+      [&](const std::vector<double>& from) {
+        RefineOptions how;
+        how.stop = progress.stop();
+        RefineEnd end = Refine(refined.problem, from, how);
+        judged.restarts.push_back({"profile", std::sqrt(MeanSquare(refined.problem, from)),
+                                   std::sqrt(end.mean_square), true});
+        return ordered(std::move(end));
+      });
+  judged.end = std::move(improved.end);
+  judged.estimates = std::move(improved.found.estimates);
+  judged.correlations = std::move(improved.found.correlations);
+  judged.covariance = std::move(improved.found.covariance);
+  judged.condition = improved.found.condition;
+  return judged;
 }
 
 double LargestRatio(const std::vector<double>& above, const std::vector<double>& below) {
@@ -80,15 +90,15 @@ double LargestRatio(const std::vector<double>& above, const std::vector<double>&
 
 // Estimates the errors of a least-squares fit, and finds intervals under them if they are believed
 // (kGainToBelieve).
-void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<double>& searched,
-                              const ProgressReporter& progress, JudgedFit* judged) {
+JudgedFit WithErrors(JudgedFit judged, const RefinedFit& refined,
+                     const std::vector<double>& searched, const ProgressReporter& progress) {
   const PreparedFit& fit = refined.prepared;
-  const bool possible = fit.options.loss == Loss::kSquared && judged->no_intervals_because.empty();
+  const bool possible = fit.options.loss == Loss::kSquared && judged.no_intervals_because.empty();
   const bool wanted = fit.options.find_errors && fit.options.intervals != Intervals::kNone;
-  if (refined.errors || !wanted || !possible || progress.stop().requested()) return;
-  const RefineEnd& end = judged->end;
+  if (refined.errors || !wanted || !possible || progress.stop().requested()) return judged;
+  const RefineEnd& end = judged.end;
   const std::optional<FoundErrors> found = FindErrors(fit.problem, fit.fitted(), end, false);
-  if (!found) return;
+  if (!found) return judged;
   ErrorReport errors;
   errors.sizes = found->sizes;
   errors.gain = found->gain;
@@ -98,8 +108,8 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
   const ErrorShape shape = ShapeOfErrors(fit.problem, fit.fitted(), end.p);
   errors.voltage_effect_A = found->sizes.voltage_V * LargestRatio(shape.voltage, shape.current);
   errors.part_effect_A = found->sizes.current_part * LargestRatio(shape.part, shape.current);
-  judged->errors = errors;
-  if (!errors.believed) return;
+  judged.errors = errors;
+  if (!errors.believed) return judged;
   const auto errors_at = [&](const ErrorSizes& sizes) {
     const ErrorModel model = MakeErrorModel(shape, sizes);
     return StandardErrors({fit.problem, end, fit.spare_readings(), &model});
@@ -111,8 +121,9 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
        fit.options.threads,
        /*final=*/true},
       progress);
-  judged->under_errors = std::move(under.estimates);
-  judged->covariance = std::move(under.covariance);
+  judged.under_errors = std::move(under.estimates);
+  judged.covariance = std::move(under.covariance);
+  return judged;
 }
 
 }  // namespace
@@ -120,10 +131,10 @@ void FindIntervalsUnderErrors(const RefinedFit& refined, const std::vector<doubl
 JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searched, bool usable,
                    const ProgressReporter& progress) {
   JudgedFit judged;
-  judged.end = refined.end;
   judged.errors = refined.errors;
-  judged.no_intervals_because = WhyNoIntervals(refined, usable, progress, &judged.refuted);
-  FindIntervalsAndImprove(refined, searched, progress, &judged);
+  judged.refuted = WhyNoIntervals(refined, usable, progress);
+  judged.no_intervals_because = judged.refuted.because;
+  judged = WithIntervals(std::move(judged), refined, searched, progress);
   if (IsSaturated(refined.prepared)) {
     for (Estimate& e : judged.estimates) {
       if (e.fixed) continue;
@@ -131,8 +142,7 @@ JudgedFit JudgeFit(const RefinedFit& refined, const std::vector<double>& searche
       e.reason = TooFewReadings(refined.prepared);
     }
   }
-  FindIntervalsUnderErrors(refined, searched, progress, &judged);
-  return judged;
+  return WithErrors(std::move(judged), refined, searched, progress);
 }
 
 }  // namespace lyrefit

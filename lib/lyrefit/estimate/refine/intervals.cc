@@ -297,19 +297,23 @@ ParameterRange SymmetricRange(ParameterKind kind, double value, double standard_
 
 std::vector<Estimate> MakeEstimates(const std::vector<ParameterInfo>& infos,
                                     const std::vector<double>& lower,
-                                    const std::vector<double>& upper,
-                                    const std::vector<double>& searched,
-                                    const std::vector<double>& refined) {
-  std::vector<Estimate> estimates;
+                                    const std::vector<double>& upper) {
+  std::vector<Estimate> estimates(infos.size());
   for (std::size_t i = 0; i < infos.size(); ++i) {
-    Estimate e;
-    e.info = infos[i];
-    e.bounds.lower = lower[i];
-    e.bounds.upper = upper[i];
-    e.fixed = lower[i] == upper[i];
-    if (!searched.empty()) e.searched = searched[i];
-    e.refined = refined[i];
-    estimates.push_back(std::move(e));
+    estimates[i].info = infos[i];
+    estimates[i].bounds.lower = lower[i];
+    estimates[i].bounds.upper = upper[i];
+    estimates[i].fixed = lower[i] == upper[i];
+  }
+  return estimates;
+}
+
+std::vector<Estimate> WithValues(std::vector<Estimate> estimates,
+                                 const std::vector<double>& searched,
+                                 const std::vector<double>& refined) {
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (!searched.empty()) estimates[i].searched = searched[i];
+    estimates[i].refined = refined[i];
   }
   return estimates;
 }

@@ -58,13 +58,15 @@ struct IntervalProblem {
   std::function<ProfileSide(const ProfileQuery&)> profile;
 };
 
-// Estimates of parameters with these bounds, equal ones of a fixed parameter. `searched`: values
-// before the fit; empty: none.
+// Estimates of parameters with these bounds, equal ones of a fixed parameter; without values.
 std::vector<Estimate> MakeEstimates(const std::vector<ParameterInfo>& infos,
                                     const std::vector<double>& lower,
-                                    const std::vector<double>& upper,
-                                    const std::vector<double>& searched,
-                                    const std::vector<double>& refined);
+                                    const std::vector<double>& upper);
+
+// `searched`: values before the fit; empty: none.
+std::vector<Estimate> WithValues(std::vector<Estimate> estimates,
+                                 const std::vector<double>& searched,
+                                 const std::vector<double>& refined);
 
 struct IntervalReport {
   std::vector<Estimate> estimates;

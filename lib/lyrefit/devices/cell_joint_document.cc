@@ -4,6 +4,7 @@
 
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/devices/cell_parts.h"
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
@@ -11,19 +12,22 @@ namespace lyrefit {
 namespace {
 
 block::Table JointParameters(const CellReport& report, const JointEstimate& joint) {
-  block::Table table = {"lrrrll", {{"parameter", "value", "per area", "std err", "95 % interval"}}};
-  const bool area = std::isfinite(report.area_cm2);
-  for (const Estimate& e : joint.estimates) {
-    const bool resistance = e.info.unit == "ohm";
-    // A perfect shunt is a bound of its conductance.
+  // A perfect shunt is a bound of its conductance.
+  const auto value = [](const Estimate& e) {
     const bool perfect = IsConductance(e.info.kind) && e.at_bound == BoundSide::kUpper;
-    const double value = perfect ? kInfinity : e.refined;
-    table.rows.push_back(
-        {LabelWithUnit(e.info), Significant(value, 5),
-         area && resistance ? Significant(report.PerArea(value), 4) + " ohm cm2" : "",
-         Significant(e.standard_error, 2), Range(e.low_95, e.high_95), EstimateMarks(e)});
-  }
-  return table;
+    return perfect ? kInfinity : e.refined;
+  };
+  const bool area = std::isfinite(report.area_cm2);
+  const EstimateColumn per_area = {
+      "per area", 'r', [=, &report](const Estimate& e) {
+        const bool resistance = e.info.unit == "ohm";
+        return area && resistance ? Significant(report.PerArea(value(e)), 4) + " ohm cm2" : "";
+      }};
+  return EstimateTable(joint.estimates,
+                       {{"value", 'r', [=](const Estimate& e) { return Significant(value(e), 5); }},
+                        per_area,
+                        ErrorColumn(),
+                        IntervalColumn()});
 }
 
 // Rows of measurements, columns of the shared parameters.

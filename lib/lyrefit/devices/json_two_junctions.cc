@@ -4,6 +4,7 @@
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/model/two_junctions.h"
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
@@ -37,39 +38,23 @@ void to_json(Json& j, const TwoJunctionCurveReport& one) {
 std::string TwoJunctionJson(const TwoJunctionReport& report) {
   Json parameters = Json::object();
   for (const Estimate& e : report.estimates) parameters[ParameterKey(e.info)] = e;
-  Json starts = Json::array();
-  for (const StartReport& start : report.refine.starts) {
-    starts.push_back({{"origin", start.origin},
-                      {"start_rmse_A", start.start_rmse_A},
-                      {"end_rmse_A", start.end_rmse_A},
-                      {"agrees", start.agrees}});
-  }
-  const Json j = {
-      {"lyrefit_version", report.version},
-      {"name", report.name},
-      {"junctions", 2},
-      {"objective", ToText(Objective::kSolvedCurrent)},
-      {"constants", report.constants},
-      {"cell_temperature_C", RoundCelsius(report.temperature_K - kZeroCelsius_K)},
-      {"interchangeable", report.interchangeable},
-      {"parameters", parameters},
-      {"decided_by", report.decided_by},
-      {"correlations", report.correlations},
-      {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},
-      {"curves", report.curves},
-      {"search", SearchJson(report.search_options, report.search, report.search.evaluations)},
-      {"refine",
-       {{"termination", report.refine.termination},
-        {"projected_gradient", report.refine.projected_gradient},
-        {"condition", report.refine.condition},
-        {"seconds", report.refine.seconds},
-        {"start_list", starts}}},
-      {"intervals", {{"seconds", report.interval_seconds}}},
-      {"options", report.non_default_options},
-      {"usable", report.usable},
-      {"not_usable_because", report.not_usable_because},
-      {"interrupted", report.interrupted},
-      {"warnings", report.warnings}};
+  Json j = {{"lyrefit_version", report.version},
+            {"name", report.name},
+            {"junctions", 2},
+            {"objective", ToText(Objective::kSolvedCurrent)},
+            {"constants", report.constants},
+            {"cell_temperature_C", RoundCelsius(report.temperature_K - kZeroCelsius_K)},
+            {"interchangeable", report.interchangeable},
+            {"parameters", parameters},
+            {"decided_by", report.decided_by},
+            {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},
+            {"curves", report.curves}};
+  j.update(CourseJson(report));
+  j.update(Json({{"options", report.non_default_options},
+                 {"usable", report.usable},
+                 {"not_usable_because", report.not_usable_because},
+                 {"interrupted", report.interrupted},
+                 {"warnings", report.warnings}}));
   return Dump(j);
 }
 

@@ -6,6 +6,7 @@
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -13,7 +14,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kJunctionDigits = 6;
 constexpr int kJunctionSearchedDigits = 5;
 constexpr int kJunctionRmseDigits = 7;
 
@@ -43,14 +43,9 @@ Section TwoJunctionHead(const TwoJunctionReport& report) {
 
 Section TwoJunctionParameters(const TwoJunctionReport& report) {
   Section section = {"Parameters"};
-  block::Table table = {"lrrrll",
-                        {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
-  for (const Estimate& e : report.estimates) {
-    table.rows.push_back({LabelWithUnit(e.info), Significant(e.searched, kJunctionSearchedDigits),
-                          Significant(e.refined, kJunctionDigits), Significant(e.standard_error, 2),
-                          Range(e.low_95, e.high_95), EstimateMarks(e)});
-  }
-  AddTable(std::move(table), &section);
+  AddTable(EstimateTable(report.estimates,
+                         {SearchedColumn(), RefinedColumn(), ErrorColumn(), IntervalColumn()}),
+           &section);
   AddUnidentifiable(report.estimates, &section);
   if (!report.correlations.empty()) {
     AddSentence("Correlations above 0.9: " + CorrelationsText(report.correlations), &section);
@@ -84,25 +79,6 @@ Section RmseSection(const TwoJunctionReport& report) {
   return {"RMSE in A", {table}};
 }
 
-Section HowSection(const TwoJunctionReport& report) {
-  Section section = {"How it was found"};
-  AddField("search", SearchText(report.search_options, report.search, report.search.evaluations),
-           &section);
-  int agreeing = 0;
-  for (const StartReport& start : report.refine.starts) agreeing += start.agrees ? 1 : 0;
-  AddField("polish",
-           fmt::format("{}: {}; {} of {} that went to their end came to the same curve; projected "
-                       "gradient {}; condition {}",
-                       Duration(report.refine.seconds), report.refine.termination, agreeing,
-                       Plural(report.refine.starts.size(), "start"),
-                       Significant(report.refine.projected_gradient, 2),
-                       Significant(report.refine.condition, 2)),
-           &section);
-  AddField("intervals", Duration(report.interval_seconds), &section);
-  AddField("options", OptionsText(report.non_default_options), &section);
-  return section;
-}
-
 std::string TwoJunctionVerdict(const TwoJunctionReport& report) {
   std::string open;
   for (const Estimate& e : report.estimates) {
@@ -129,7 +105,7 @@ Document TwoJunctionDocument(const TwoJunctionReport& report) {
                RmseSection(report),
                WarningSection(report.warnings),
                Further(CurveSection(report)),
-               Further(HowSection(report))},
+               Further(CourseSection(report))},
               &document);
   return document;
 }

@@ -6,13 +6,13 @@
 #include "lyrefit/family/family_documents.h"
 #include "lyrefit/family/family_parts.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 
 namespace lyrefit {
 namespace {
 
-constexpr int kFamilySearchedDigits = 4;
 constexpr int kFamilyValueDigits = 6;
 constexpr int kFamilyRmseDigits = 7;
 
@@ -199,13 +199,10 @@ void AddOtherIntervals(const FamilyReport& report, Section* section) {
 Section SharedSection(const FamilyReport& report) {
   Section section = {"Shared parameters at 1000 W/m2 and 25 C"};
   if (OneByOne(report)) return section;
-  block::Table table = {"llrrll", {{"parameter", "name", "searched", "refined", "95 % interval"}}};
-  for (const Estimate& e : report.estimates) {
-    table.rows.push_back(
-        {LabelWithUnit(e.info), e.info.name, Significant(e.searched, kFamilySearchedDigits),
-         Significant(e.refined, kFamilyValueDigits), Range(e.low_95, e.high_95), EstimateMarks(e)});
-  }
-  AddTable(std::move(table), &section);
+  const EstimateColumn name = {"name", 'l', [](const Estimate& e) { return e.info.name; }};
+  AddTable(EstimateTable(report.estimates, {name, SearchedColumn(),
+                                            RefinedColumn(kFamilyValueDigits), IntervalColumn()}),
+           &section);
   AddUnidentifiable(report.estimates, &section);
   return section;
 }
@@ -283,18 +280,14 @@ Section FamilyRmseSection(const FamilyReport& report) {
 }
 
 Section FamilySearchSection(const FamilyReport& report) {
-  Section section = {"How it was found"};
-  if (!OneByOne(report)) {
-    AddField("search", SearchText(report.search_options, report.search, report.search.evaluations),
-             &section);
-    AddField("joint fit",
-             fmt::format("{}; projected gradient {}", report.refine.termination,
-                         Significant(report.refine.projected_gradient, 2)),
-             &section);
+  std::vector<std::pair<std::string, std::string>> times;
+  if (report.individual_seconds > 0) {
+    times.emplace_back("one by one", Duration(report.individual_seconds));
   }
-  if (report.individual_seconds > 0)
-    AddField("one by one", Duration(report.individual_seconds), &section);
-  AddField("time", Duration(report.seconds), &section);
+  times.emplace_back("time", Duration(report.seconds));
+  if (!OneByOne(report)) return CourseSection(report, times);
+  Section section = {"How it was found"};
+  for (const auto& [name, text] : times) AddField(name, text, &section);
   AddField("options", OptionsText(report.non_default_options), &section);
   return section;
 }

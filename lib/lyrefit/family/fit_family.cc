@@ -149,6 +149,7 @@ FamilyReport SearchReport(const PreparedFamily& prepared, const FamilySearchEnd&
   report.with = options.with;
   if (at.extended) report.taken = at.extended->effects->set;
   report.search = searched.summary;
+  report.curve_evaluations = searched.summary.evaluations;
   for (const int c : prepared.search_curves) report.search_ids.push_back(set.curves[c].name);
   const JointProblem problem = JointProblemOn(prepared.family, options, prepared.search_curves);
   report.rmse.searched = FamilyRmse(problem, searched.elites[0]);
@@ -277,6 +278,8 @@ FamilyReport WithJointFit(FamilyReport report, const RefinedFamily& refined,
                               : end.converged ? "converged"
                                               : "no convergence";
   report.refine.projected_gradient = end.projected_gradient;
+  report.refine.condition = judged.end.estimate.refine.condition;
+  report.interval_seconds = judged.end.estimate.interval_seconds;
   report.estimates = std::move(judged.end.estimate.estimates);
   report.correlations = std::move(judged.end.estimate.correlations);
   static_cast<JudgedFamily&>(report) = std::move(judged.end);

@@ -5,6 +5,7 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/report/documents.h"
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/fit_parts.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -12,7 +13,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr int kSearchedDigits = 5;
 constexpr int kValueDigits = 6;
 constexpr int kErrorDigits = 2;
 constexpr int kRmseDigits = 7;
@@ -31,16 +31,6 @@ Section FitHead(const FitReport& report) {
 // The estimates whose intervals are to be believed.
 const std::vector<Estimate>& Believed(const FitReport& report) {
   return report.under_errors.empty() ? report.estimates : report.under_errors;
-}
-
-// `e` with the errors of `under`, which is the same parameter.
-std::vector<std::string> ParameterRow(const Estimate& e, const Estimate& under, bool polished) {
-  return {LabelWithUnit(e.info),
-          Significant(e.searched, kSearchedDigits),
-          polished ? Significant(e.refined, kValueDigits) : "-",
-          Significant(under.standard_error, kErrorDigits),
-          Range(under.low_95, under.high_95),
-          EstimateMarks(e)};
 }
 
 // "95 % intervals: profile (Rs, n2), symmetric (Iph)".
@@ -65,72 +55,6 @@ std::string Difference(double measured, double simulated) {
 
 std::string Decimals(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.2f}", value);
-}
-
-std::string PolishText(const RefineReport& refine) {
-  std::string text = Duration(refine.seconds) + ": " + refine.termination;
-  if (!refine.message.empty()) text += fmt::format(" ({})", refine.message);
-  return text + fmt::format("; projected gradient {}; condition {}",
-                            Significant(refine.projected_gradient, 2),
-                            Significant(refine.condition, 2));
-}
-
-std::string Optima(int count) {
-  return fmt::format("{} local {}", count, count == 1 ? "optimum" : "optima");
-}
-
-std::string BestVisits(int count) {
-  if (count == 0) return "none of them the best";  // the fit was interrupted
-  return "the best of them reached " + (count == 1 ? "once" : fmt::format("{} times", count));
-}
-
-// A sentence such as "14 of 49 went to their end, in 3 local optima, the best of them reached 6
-// times; the other 35 were ..."
-std::string DescentStarts(const OptimumCount& count, int starts) {
-  if (count.ends == 0) return fmt::format("none of {} went to its end", starts);
-  std::string text = fmt::format("{} of {} went to {} end, in {}, {}", count.ends, starts,
-                                 count.ends == 1 ? "its" : "their", Optima(count.local_optima),
-                                 BestVisits(count.best_visits));
-  const int others = starts - count.ends;
-  if (others > 0) {
-    text += fmt::format(
-        "; {} given up: out of reach of the best, or that had been reached often enough",
-        others == 1 ? "the other one was" : fmt::format("the other {} were", others));
-  }
-  return text;
-}
-
-// An estimate of local optima that were not found.
-std::string UnseenText(const OptimumCount& count) {
-  const OptimumCount::Independent& of = count.independent;
-  std::string text;
-  if (of.ends < count.ends) {
-    text = fmt::format(
-        "{} of the {} did not begin beside an earlier end, {} of those in the best; ", of.ends,
-        Plural(count.ends, "end"), of.best_visits == 0 ? "none" : std::to_string(of.best_visits));
-  }
-  if (!std::isfinite(count.unseen)) {
-    return text + "too few descents to estimate how many local optima were not seen";
-  }
-  text += "by Chao's estimate (doi:10.2307/2531532) ";
-  if (count.unseen > 0) {
-    return text + fmt::format("{} more were probably not seen: {} of {} were reached just once",
-                              Significant(count.unseen, 2), of.once, Optima(of.local_optima));
-  }
-  return text + fmt::format("none was left unseen: {} was reached just once",
-                            of.once == 0 ? "none" : "only one");
-}
-
-std::string StartsText(const RefineReport& refine) {
-  const int starts = static_cast<int>(refine.starts.size());
-  std::string text = refine.local_optima
-                         ? DescentStarts(*refine.local_optima, starts)
-                         : fmt::format("{} of {} came to the same curve", refine.agreeing, starts);
-  if (refine.winner >= 0 && refine.winner < starts) {
-    text += fmt::format("; the best end came from start {}: {}", refine.winner + 1,
-                        refine.starts[refine.winner].origin);
-  }
-  return text;
 }
 
 // Sections of the results.
@@ -177,15 +101,25 @@ Section VerdictSection(const FitReport& report) {
   return section;
 }
 
+// The estimates as they are shown: with the errors that are to be believed, without refined values if
+// there was no polish.
+std::vector<Estimate> Shown(const FitReport& report) {
+  std::vector<Estimate> shown = report.estimates;
+  const std::vector<Estimate>& believed = Believed(report);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!report.polished) shown[i].refined = kUnknown;
+    shown[i].standard_error = believed[i].standard_error;
+    shown[i].low_95 = believed[i].low_95;
+    shown[i].high_95 = believed[i].high_95;
+  }
+  return shown;
+}
+
 Section ParameterSection(const FitReport& report) {
   Section section = {"Parameters"};
-  block::Table table = {"lrrrll",
-                        {{"parameter", "searched", "refined", "std err", "95 % interval"}}};
-  const std::vector<Estimate>& believed = Believed(report);
-  for (std::size_t i = 0; i < report.estimates.size(); ++i) {
-    table.rows.push_back(ParameterRow(report.estimates[i], believed[i], report.polished));
-  }
-  AddTable(std::move(table), &section);
+  AddTable(EstimateTable(Shown(report),
+                         {SearchedColumn(), RefinedColumn(), ErrorColumn(), IntervalColumn()}),
+           &section);
   return section;
 }
 
@@ -333,22 +267,9 @@ Section ResidualSection(const FitReport& report) {
 }
 
 Section SearchSection(const FitReport& report) {
-  Section section = {"How it was found"};
-  AddField("search", SearchText(report.search_options, report.search, report.curve_evaluations),
-           &section);
-  AddField("polish", report.polished ? PolishText(report.refine) : "none", &section);
-  if (report.polished) AddField("starts", StartsText(report.refine), &section);
-  const bool counted = report.refine.local_optima && report.refine.local_optima->ends > 0;
-  if (counted) AddField("local optima", UnseenText(*report.refine.local_optima), &section);
-  if (report.interval_seconds > 0) {
-    AddField("intervals", Duration(report.interval_seconds), &section);
-  }
-  AddField("objective",
-           fmt::format("{}; bounds {}; constants {}", ToText(report.objective), report.bounds_name,
-                       ToText(report.constants)),
-           &section);
-  AddField("options", OptionsText(report.non_default_options), &section);
-  return section;
+  return CourseSection(
+      report, {{"objective", fmt::format("{}; bounds {}; constants {}", ToText(report.objective),
+                                         report.bounds_name, ToText(report.constants))}});
 }
 
 }  // namespace

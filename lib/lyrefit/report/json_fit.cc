@@ -1,3 +1,4 @@
+#include "lyrefit/report/estimate_parts.h"
 #include "lyrefit/report/json_parts.h"
 
 namespace lyrefit {
@@ -146,11 +147,7 @@ Json FitJson(const FitReport& report, JsonPoints points) {
   // Search and reliability.
   j["information"] = report.criteria;
   j["residuals"] = report.residuals;
-  j["correlations"] = report.correlations;
-  j["search"] = SearchJson(report.search_options, report.search, report.curve_evaluations);
-  j["refine"] = report.refine;
-  j["intervals"] = {{"seconds", report.interval_seconds},
-                    {"none_because", report.no_intervals_because}};
+  j.update(CourseJson(report));
   j["model_choice"] = report.choice;
   j["variants"] = report.variants.empty() ? Json() : Json(report.variants);
   j["options"] = report.non_default_options;

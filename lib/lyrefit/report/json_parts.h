@@ -62,6 +62,7 @@ void to_json(Json& j, const KeyPoints& record);
 void to_json(Json& j, const Correlation& record);
 void to_json(Json& j, const ResidualStatistics& record);  // all but the largest error
 void to_json(Json& j, const ErrorReport& errors);
+void to_json(Json& j, const RefineReport& refine);
 void to_json(Json& j, const TracePoint& point);
 
 // A parameter of an effect, with the effect's own names for it.

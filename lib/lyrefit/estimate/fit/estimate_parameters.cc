@@ -297,6 +297,7 @@ EstimatedParameters EstimateParameters(const EstimateProblem& problem,
       PolishParameters(problem, std::move(starts), options, progress);
   progress.Begin("intervals", 0);
   EstimatedParameters found = JudgeParameters(problem, polished, candidate, options, progress);
+  found.report.curve_evaluations = searched.summary.evaluations;
   found.report.search = std::move(searched.summary);
   if (!candidate.empty()) {
     found.report.rmse.searched = RmseOf(problem, problem.model.MeanSquare({candidate, {}}));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,12 +100,15 @@ struct EstimateReport {
   RmseTable rmse;                         // RMSEs of search and polish
   SearchOptions search_options;           // options of the search
   SearchSummary search;                   // result of the search
-  RefineReport refine;                    // starts and end of the polish
-  double interval_seconds = 0;            // for profiles and intervals
-  InformationCriteria criteria;           // of the parameters
-  bool usable = true;                     // finite and near the readings; see WhyNotUsable
-  std::string not_usable_because;         // empty: usable
-  std::string no_intervals_because;       // empty: present, or not requested
+  // Evaluations of all readings by the search: those of its candidates, and of a curve with
+  // Algorithm::kMloShape those that rank the points it begins with.
+  std::int64_t curve_evaluations = 0;
+  RefineReport refine;               // starts and end of the polish
+  double interval_seconds = 0;       // for profiles and intervals
+  InformationCriteria criteria;      // of the parameters
+  bool usable = true;                // finite and near the readings; see WhyNotUsable
+  std::string not_usable_because;    // empty: usable
+  std::string no_intervals_because;  // empty: present, or not requested
   std::vector<OptionEcho> non_default_options;
   std::vector<std::string> warnings;  // sentences
   bool interrupted = false;

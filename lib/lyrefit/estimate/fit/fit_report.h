@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -154,9 +153,6 @@ struct FitReport : EstimateReport, ModelResults {
   // Of `under_errors`, or of `estimates` where that is empty.
   FitCovariance covariance;
   std::optional<FloorReport> floor;  // only if requested
-  // Evaluations of the whole curve by the search: those of its candidates, and with
-  // Algorithm::kMloShape those that rank the points it begins with.
-  std::int64_t curve_evaluations = 0;
   // Factors on the RMSE for the comparison of model variants by BIC: points ^ ((free parameters -
   // those of the smallest variant) / (2 points)). `variant_penalty` is that of the reported fit,
   // the other that of the best candidate and its own polish. Both are 1 if there is one variant.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lyrefit/base/roots.h"
+
 namespace lyrefit {
 namespace {
 

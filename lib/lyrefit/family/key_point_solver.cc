@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/model/translation.h"
@@ -40,12 +41,8 @@ double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
 std::vector<KeyPointCurve> PhysicalCurves(const KeyPointSheet& sheet, double lowest,
                                           double highest) {
   const auto border = [&](double inside, double outside) {
-    for (int k = 0; k < 100; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      if (middle == inside || middle == outside) break;
-      (PhysicalCurve(sheet, middle) ? inside : outside) = middle;
-    }
-    return *PhysicalCurve(sheet, inside);
+    const auto physical = [&](double n) { return PhysicalCurve(sheet, n).has_value(); };
+    return *PhysicalCurve(sheet, LastWhere(physical, inside, outside));
   };
   std::vector<KeyPointCurve> curves;
   double before = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace lyrefit {
 
@@ -23,23 +24,30 @@ double RootBetween(const F& f, double a, double b) {
   return 0.5 * (low + high);
 }
 
-// The number next to `outside` at which `holds` is still true, by bisection from `inside`, where it
-// is. (Boost's bisection wants its ends in order, and throws.)
+// Bisects between `inside`, where a predicate holds, and `outside`, until no number lies between.
+// (Boost's bisection wants its ends in order, and throws.)
 template <class Predicate>
-double LastWhere(const Predicate& holds, double inside, double outside) {
+std::pair<double, double> Bisected(const Predicate& holds, double inside, double outside) {
   for (;;) {
     const double middle = 0.5 * (inside + outside);
-    if (middle == inside || middle == outside || std::isnan(middle)) return inside;
+    if (middle == inside || middle == outside || std::isnan(middle)) return {inside, outside};
     (holds(middle) ? inside : outside) = middle;
   }
 }
 
+// The last number before `outside` where the predicate holds.
+template <class Predicate>
+double LastWhere(const Predicate& holds, double inside, double outside) {
+  return Bisected(holds, inside, outside).first;
+}
+
 // Where a function between `a` and `b` changes its sign, by its sign alone: its values may be
-// infinite. The number next to `b` if it does not.
+// infinite. About `b` if it does not.
 template <class F>
 double SignChange(const F& f, double a, double b) {
   const bool positive = f(a) > 0;
-  return LastWhere([&](double x) { return (f(x) > 0) == positive; }, a, b);
+  const auto ends = Bisected([&](double x) { return (f(x) > 0) == positive; }, a, b);
+  return 0.5 * (ends.first + ends.second);
 }
 
 // Where a function is largest between `a` and a larger `b`, to half the digits, by Brent's method.

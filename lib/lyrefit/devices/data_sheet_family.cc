@@ -30,8 +30,8 @@ constexpr MemberConditions kConditions[] = {{200, 25}, {1000, 50}, {1000, 75}};
 // that ends the family (`bound`) is set to exactly 0.
 KeyPointCurve LastCurve(const KeyPointSheet& sheet, double inside, double outside,
                         FamilyBound* bound) {
-  const auto member = [&](double n) { return PhysicalCurve(sheet, n).has_value(); };
-  const double last = LastWhere(member, inside, outside);
+  const auto member = [&](double n) { return PhysicalCurve(sheet, n) ? 1.0 : -1.0; };
+  const double last = SignChange(member, inside, outside);
   const double near[] = {std::max(inside, last * (1 - 1e-7)), last * (1 + 1e-7)};
   const auto no_series = [&](double n) { return CurveThrough(sheet, n, 0); };
   const auto slope = [&](double n) { return no_series(n).slope_error; };

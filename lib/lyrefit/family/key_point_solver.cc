@@ -20,7 +20,9 @@ constexpr int kIdealities = 120;
 constexpr double kUsualIdeality = 1.2;
 constexpr double kNothing = 1e-9;  // V across Rs, or 1/V through the shunt: counts as 0
 
-// Residual current at Voc + 2 K beta_oc and 27 C, which is 0 for an exact solution.
+// Residual current at Voc + 2 K beta_oc and 27 C, which is 0 for an exact solution. As in
+// CurveThrough exponentials are relative to that at Voc, since Is may underflow a double: no Device
+// can hold it.
 double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   const double k_eV = ThermalVoltage(1.0, sheet.constants);
   const double warm_K = kReferenceTemperature_K + kVocStep_K;

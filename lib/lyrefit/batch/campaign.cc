@@ -95,9 +95,9 @@ double ScatterOf(const Compared& compared, const Changes& changes, const Indices
   std::vector<double> sizes;
   sizes.reserve(members.size());
   for (const std::int32_t i : members) {
-    sizes.push_back(std::fabs(changes[i].own[q]) / compared.weights[i][q]);
+    sizes.push_back(changes[i].own[q] / compared.weights[i][q]);
   }
-  return std::fmax(kNormalMad * Median(std::move(sizes)), kLeastScatter);
+  return std::fmax(RobustScale(std::move(sizes)), kLeastScatter);
 }
 
 // Own changes of strings that have one reference, and their scatter. `groups`: number of medians.
@@ -141,8 +141,8 @@ void AdjustFill(const Indices& members, Changes* changes) {
     const auto left = [&](const CampaignChange& change) {
       return change.own[kCFillFactor] - by_isc * change.own[kCIsc] - by_voc * change.own[kCVoc];
     };
-    for (const std::int32_t i : members) sizes.push_back(std::fabs(left((*changes)[i])));
-    const double scatter = kNormalMad * Median(std::move(sizes));
+    for (const std::int32_t i : members) sizes.push_back(left((*changes)[i]));
+    const double scatter = RobustScale(std::move(sizes));
     double ii = 0, iv = 0, vv = 0, fi = 0, fv = 0;
     for (const std::int32_t i : members) {
       const CampaignChange& change = (*changes)[i];
@@ -281,7 +281,7 @@ void FindGroups(const Compared& compared, Campaign* campaign) {
     for (const CampaignGroup& group : campaign->groups) shifts.push_back(group.shift[q]);
     const double middle = Median(shifts);
     for (double& shift : shifts) shift = std::fabs(shift - middle);
-    const double scatter = kNormalMad * Median(shifts);
+    const double scatter = RobustScale(shifts);
     const double degrees = std::max(kMadEfficiency * (count - 1), 1.0);
     const double t = StudentQuantile(1 - campaign->level / (kTwoSided * kTested * count), degrees);
     for (std::size_t g = 0; g < shifts.size(); ++g) {

@@ -9,11 +9,6 @@
 
 namespace lyrefit {
 
-// Ratio of the standard deviation to the median of |x|, for a normal x, and the efficiency of that
-// estimate.
-inline constexpr double kNormalMad = 1.4826;
-inline constexpr double kMadEfficiency = 0.37;
-
 // Median of |deviation| of any number of values in constant memory. Bins begin at kSmallest and
 // grow by the factor kStep.
 class DeviationBins {

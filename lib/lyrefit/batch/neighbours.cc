@@ -84,7 +84,7 @@ std::array<double, kNeighbourQuantities> NeighbourScatter::Limits(
     const double plant = count.bins.Median();
     const double own = Median(Sizes(group, q));
     const double t = StudentQuantile(1 - level / (2 * kNeighbourQuantities), degrees);
-    limits[q] = t * kNormalMad * std::fmax(plant, own);
+    limits[q] = t * kMedianToSigma * std::fmax(plant, own);
   }
   return limits;
 }

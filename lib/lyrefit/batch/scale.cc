@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
@@ -62,7 +63,7 @@ ScaleDevice::ScaleDevice(const StringFigures& figures, int cells, double tempera
   if (std::isfinite(temperature_K)) temperature_K_ = temperature_K;
   diode_.photocurrent = figures.isc_A;
   diode_.scale_V = kIdeality * cells_ * ThermalVoltage(temperature_K_);
-  diode_.saturation = figures.isc_A / std::expm1(figures.voc_V / diode_.scale_V);
+  diode_.saturation = SaturationCurrent(figures.isc_A, figures.voc_V, diode_.scale_V);
   const double slope =
       std::isfinite(figures.slope_ohm) ? figures.slope_ohm : 0.08 * figures.voc_V / figures.isc_A;
   diode_.series = std::max(slope - diode_.scale_V / figures.isc_A, 0.1 * slope);
@@ -70,7 +71,7 @@ ScaleDevice::ScaleDevice(const StringFigures& figures, int cells, double tempera
 }
 
 double ScaleDevice::VoltageAt(const Diode& diode, double current) {
-  return diode.scale_V * std::log1p((diode.photocurrent - current) / diode.saturation) -
+  return DiodeVoltage(diode.photocurrent - current, diode.saturation, diode.scale_V) -
          current * diode.series;
 }
 
@@ -89,23 +90,9 @@ ScaleVector ScaleDevice::LogsOfDiode(const Diode& diode, double reversed) {
   figures.voc_V = voltage(0);
   const double step = 1e-4 * diode.photocurrent;
   figures.slope_ohm = (voltage(-step) - voltage(step)) / (2 * step);
-  double low = 0, high = diode.photocurrent;
-  for (int i = 0; i < 40; ++i) {  // Isc
-    const double middle = (low + high) / 2;
-    (voltage(middle) > 0 ? low : high) = middle;
-  }
-  figures.isc_A = low;
-  constexpr double kGolden = 0.6180339887498949;
-  double a = 0.5 * figures.isc_A, b = figures.isc_A;
-  for (int i = 0; i < 40; ++i) {  // maximum power
-    const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
-    if (left * voltage(left) > right * voltage(right)) {
-      b = right;
-    } else {
-      a = left;
-    }
-  }
-  figures.imp_A = (a + b) / 2;
+  figures.isc_A = RootBetween(voltage, 0, diode.photocurrent);
+  const auto power = [&](double current) { return current * voltage(current); };
+  figures.imp_A = MaximumBetween(power, 0.5 * figures.isc_A, figures.isc_A);
   figures.vmp_V = voltage(figures.imp_A);
   return LogsOf(figures);
 }
@@ -123,7 +110,7 @@ ScaleVector ScaleDevice::ByWarmth(double kelvin) const {
   warm.photocurrent *= 1 + kAlpha_1_K * kelvin;
   warm.scale_V *= (temperature_K_ + kelvin) / temperature_K_;
   const double warm_V = voc_V - kelvin * cells_ * (at_zero_V - cell_V) / temperature_K_;
-  warm.saturation = warm.photocurrent / std::expm1(warm_V / warm.scale_V);
+  warm.saturation = SaturationCurrent(warm.photocurrent, warm_V, warm.scale_V);
   return Difference(LogsOfDiode(warm), healthy_);
 }
 

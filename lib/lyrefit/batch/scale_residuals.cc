@@ -181,12 +181,12 @@ ScaleErrors ScaleScatter::ErrorsOf(const std::vector<ScaleResidual>& group) cons
   for (int q = 0; q < kScaleQuantities; ++q) {
     std::vector<double> own;
     for (const ScaleResidual& one : group) {
-      if (std::isfinite(one.deviation[q])) own.push_back(std::fabs(one.deviation[q]));
+      if (std::isfinite(one.deviation[q])) own.push_back(one.deviation[q]);
     }
-    const double plant = mixed(kUsualErrors[q], kNormalMad * bins_[q].Median(), degrees);
+    const double plant = mixed(kUsualErrors[q], kMedianToSigma * bins_[q].Median(), degrees);
     const double own_degrees = kMadEfficiency * (static_cast<double>(own.size()) - 1);
     errors.sizes[q] =
-        std::max(plant, mixed(kUsualErrors[q], kNormalMad * Median(own), own_degrees));
+        std::max(plant, mixed(kUsualErrors[q], RobustScale(std::move(own)), own_degrees));
   }
   errors.degrees = kUsualDegrees + degrees;
   return errors;

@@ -58,7 +58,6 @@ double SmallestStep(std::vector<double> values) {
 // Infinite if they are too few to tell.
 double NoiseNearZero(const IvCurve& curve) {
   constexpr std::size_t kReadings = 9;
-  constexpr double kToSigma = 1.4826;  // of the median of |normal values|
   const std::vector<int> next = NextToZero(curve, kReadings, /*reverse_alone=*/true);
   if (next.size() < kReadings) return HUGE_VAL;
   double v = 0, i = 0, vv = 0, vi = 0;
@@ -74,9 +73,9 @@ double NoiseNearZero(const IvCurve& curve) {
   std::vector<double> away;
   away.reserve(next.size());
   for (const int k : next) {
-    away.push_back(std::fabs(curve.current_A[k] - i - slope * (curve.voltage_V[k] - v)));
+    away.push_back(curve.current_A[k] - i - slope * (curve.voltage_V[k] - v));
   }
-  return std::max(kToSigma * Median(std::move(away)), SmallestStep(curve.current_A));
+  return std::max(RobustScale(std::move(away)), SmallestStep(curve.current_A));
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "lyrefit/base/median.h"
 
 namespace lyrefit {
 namespace {
@@ -64,12 +67,10 @@ std::vector<StepPoint> Smooth(const std::vector<StepPoint>& points) {
 double NoiseOf(const std::vector<StepPoint>& points) {
   std::vector<double> differences;
   for (std::size_t k = 1; k + 1 < points.size(); ++k) {
-    differences.push_back(
-        std::fabs(points[k - 1].current_A - 2 * points[k].current_A + points[k + 1].current_A));
+    differences.push_back(points[k - 1].current_A - 2 * points[k].current_A +
+                          points[k + 1].current_A);
   }
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return 1.4826 * *middle / std::sqrt(6.0);
+  return RobustScale(std::move(differences), UpperMedian) / std::sqrt(6.0);
 }
 
 // Whether b lies on or below the line from a to c.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lyrefit/base/roots.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/devices/family_of_sheet.h"

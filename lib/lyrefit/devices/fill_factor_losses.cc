@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "lyrefit/devices/series_resistance.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr char kShuntOrCollection[] = "shunt or collection";
-constexpr int kBisections = 200;
 enum DiodeValue { kPhoto, kSaturation, kN, kSeries, kShunt, kCount };
 
 // Iph, Is, n, Rs and the shunt conductance.
@@ -20,30 +20,18 @@ using Values = std::array<double, kCount>;
 // Losses by recombination, shunt and series resistance, and the fitted fill factor.
 using Parts = std::array<double, 4>;
 
-// The zero of a falling function in [low, high].
-template <class Function>
-double ZeroOf(const Function& falling, double low, double high) {
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = (low + high) / 2;
-    (falling(middle) > 0 ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
-// Current of the junction at its voltage.
-double JunctionCurrent(const Values& p, double nNsVth, double voltage) {
-  return p[kPhoto] - p[kSaturation] * std::expm1(voltage / nNsVth) - voltage * p[kShunt];
+KeyPoints PointsOf(Values p, double thermal_V) {
+  Device device = MakeDevice(Model::kSingleDiode, {});
+  device.module_thermal_voltage_V = thermal_V;
+  p[kShunt] = 1 / p[kShunt];
+  return ModelKeyPoints(device, p.data());
 }
 
 // The curve of the parameters by its ends.
 DiodeThroughEnds EndsOf(const Values& p, double thermal_V) {
-  const double a = p[kN] * thermal_V;
-  const auto current = [&](double v) { return JunctionCurrent(p, a, v); };
-  const double top = a * std::log1p(p[kPhoto] / p[kSaturation]);
-  const double voc = ZeroOf(current, 0, top);
-  const double rs = p[kSeries];
-  const double junction = ZeroOf([&](double v) { return rs * current(v) - v; }, 0, top);
-  return {current(junction), voc, a, rs, p[kShunt]};
+  const KeyPoints points = PointsOf(p, thermal_V);
+  return {points.short_circuit_current_A, points.open_circuit_voltage_V, p[kN] * thermal_V,
+          p[kSeries], p[kShunt]};
 }
 
 Parts PartsOf(const Values& p, double thermal_V) {
@@ -142,19 +130,12 @@ std::string WhyNone(const CellSweep& lit) {
 double FillFactorOf(const DiodeThroughEnds& diode) {
   const double a = diode.nNsVth, rs = diode.series_ohm, g = diode.shunt_S;
   const double isc = diode.isc_A, voc = diode.voc_V;
+  // The current at both ends is linear in Iph and Is.
+  const auto per_ampere = [&](double v) { return DiodeCurrent(1.0, 1 / a, v); };
   const double saturation =
-      (isc * (1 + rs * g) - voc * g) / (std::exp(voc / a) - std::exp(isc * rs / a));
+      (isc * (1 + rs * g) - voc * g) / (per_ampere(isc * rs) - per_ampere(voc));
   if (!(saturation > 0)) return kUnknown;
-  const Values p = {voc * g + saturation * std::expm1(voc / a), saturation, kUnknown, rs, g};
-  const auto current = [&](double v) { return JunctionCurrent(p, a, v); };
-  // Power over the junction voltage v: (v - I Rs) I.
-  const double best = ZeroOf(
-      [&](double v) {
-        const double i = current(v), slope = -saturation / a * std::exp(v / a) - g;
-        return slope * (v - i * rs) + i * (1 - slope * rs);
-      },
-      isc * rs, voc);
-  return current(best) * (best - current(best) * rs) / (isc * voc);
+  return PointsOf({voc * g - saturation * per_ampere(voc), saturation, 1, rs, g}, a).fill_factor;
 }
 
 double GreenFillFactor(double voc_V, double nNsVth) {

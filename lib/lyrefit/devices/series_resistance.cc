@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/roots.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "lyrefit/devices/ideality_over_light.h"
 
@@ -172,13 +173,11 @@ double PseudoFillFactorOf(double isc_A, const std::vector<VocPoint>& points) {
     const auto light = [&](double v) {
       return points[k - 1].light_A * std::exp(rate * (v - points[k - 1].voc_V));
     };
-    double low = points[k - 1].voc_V, high = std::min(points[k].voc_V, voc);
+    const double low = points[k - 1].voc_V, high = std::min(points[k].voc_V, voc);
     if (!(low < high)) continue;
-    for (int i = 0; i < 100; ++i) {
-      const double v = (low + high) / 2;
-      (isc_A - light(v) * (1 + rate * v) > 0 ? low : high) = v;
-    }
-    const double power = low * (isc_A - light(low));
+    const double best_V =
+        RootBetween([&](double v) { return isc_A - light(v) * (1 + rate * v); }, low, high);
+    const double power = best_V * (isc_A - light(best_V));
     if (!(power <= best)) best = power;
   }
   // A maximum at the first point lies outside the points.

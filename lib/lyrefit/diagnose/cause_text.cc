@@ -6,8 +6,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "lyrefit/base/roots.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/effect_size.h"
+#include "lyrefit/model/cell.h"
 #include "lyrefit/model/law.h"
 
 namespace lyrefit {
@@ -296,91 +298,55 @@ std::vector<std::string> OfCurrent(const Described& of) {
                       VoltageOf(of, points[most]))};
 }
 
-// Voltage of a cell without a fault as a function of current, from a table. The voltage falls with
-// the current.
-class HealthyCell {
- public:
-  HealthyCell(const WeightedData& weighted, const LawFit& fit) : grid_(*weighted.readings) {
-    Reading at = grid_.points.front();
-    for (const Reading& r : grid_.points) {
-      if (r.irradiance > at.irradiance) at = r;
-    }
-    at.x = at.rate = 0;
-    grid_.points.assign(kSteps + 1, at);
-    law_ = fit.law;
-    law_.effects.clear();
-    for (int k = 0; k <= kSteps; ++k) grid_.points[k].voltage = VoltageAt(k);
-    LawWorkspace workspace;
-    current_.resize(grid_.points.size());
-    usable_ = EvaluateLaw(law_, grid_, fit.p.data(), &workspace, current_.data(), nullptr);
-  }
-  double Voltage(double current) const {
-    if (!usable_) return 0;
-    const auto below =
-        std::find_if(current_.begin(), current_.end(), [&](double at) { return at < current; });
-    return VoltageAt(static_cast<int>(below - current_.begin()));
-  }
-  double ShortCircuit() const { return usable_ ? current_.front() : 0; }
-
- private:
-  static constexpr int kSteps = 400;
-  double VoltageAt(int step) const {
-    return 1.1 * grid_.pivot_voltage * std::min(step, kSteps) / kSteps;
-  }
-
-  Readings grid_;
-  Law law_;
-  std::vector<double> current_;
-  bool usable_ = false;
-};
-
-// Reverse voltage (below 0) of the weak cell at a current above its photocurrent, by bisection.
-double ReverseVoltage(const double* p, double photocurrent, double conductance, double current) {
+// Reverse voltage (below 0) of the weak cell at a current above its photocurrent.
+double ReverseVoltage(const Effect& weak_cell, const double* p, double photocurrent,
+                      double conductance, double current) {
   const double beyond = current - LightOfWeakCell(p) * photocurrent;
   if (beyond <= 0) return 0;
-  const double leak = conductance + p[2];
-  const auto carried = [&](double v) {  // current at -v
-    if (p[7] > 0) return leak * v + photocurrent * std::pow(v / p[7], p[6]);
-    const double gap = std::max(1 - v / p[5], 1e-3);
-    return leak * v + conductance * p[4] * v * std::pow(gap, -p[6]);
+  const std::vector<Pack> own(p, p + weak_cell.size());
+  CellGroup<Pack> groups[kMostGroups];
+  Cell<Pack> cell{};
+  cell.group = groups;
+  cell.photocurrent = photocurrent;
+  cell.conductance = conductance;
+  weak_cell.cell.value(own.data(), &cell);
+  const auto missing = [&](double v) {  // at -v
+    return (conductance + p[2]) * v + ReverseCurrent(cell, Tangent<Pack>(-v)).a[0] - beyond;
   };
-  double low = 0, high = p[7] > 0 ? 200 : p[5];
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (carried(middle) < beyond ? low : high) = middle;
-  }
-  return -low;
+  return -RootBetween(missing, 0, p[7] > 0 ? 200 : p[5]);
 }
 
 }  // namespace
 
 HotCell FindHotCell(const WeightedData& weighted, const LawFit& fit, int index) {
   const Readings& readings = *weighted.readings;
+  const Effect& weak_cell = *fit.law.effects[index];
   const double* p = fit.p.data() + fit.law.Offset(index);
-  const HealthyCell reference(weighted, fit);
-  double brightest = 0;
-  for (const Reading& r : readings.points) brightest = std::max(brightest, r.irradiance);
-  const double photocurrent = fit.p[kIph] * brightest / readings.scale.current_A;
+  Readings at = InBrightestLight(readings);
+  const LawFit rest = WithoutEffects(fit);
+  const auto healthy = [&](double voltage) {  // current of a cell without a fault
+    at.points.front().voltage = voltage;
+    LawWorkspace workspace;
+    double current = 0;
+    EvaluateLaw(rest.law, at, rest.p.data(), &workspace, &current, nullptr);
+    return current;
+  };
+  const double photocurrent = fit.p[kIph] * at.points.front().irradiance / readings.scale.current_A;
   const double conductance = readings.scale.resistance_ohm() / fit.p[kRsh];
   const double cells = readings.traits.cells;
   const double mates = cells / SubstringsOf(readings.traits) - 1;
   const bool bypassed = SubstringsOf(readings.traits) > 1;
-  // Voltage balance at the current of the weak cell. Its root is the current of the shorted module,
-  // or of a substring whose bypass diode conducts.
-  const auto excess = [&](double current) {
-    const double own = ReverseVoltage(p, photocurrent, conductance, current);
-    return bypassed ? own + mates * reference.Voltage(current) + p[3]
-                    : own + (cells - 1) * reference.Voltage(current);
+  // Voltage balance at the voltage of its mates. Its root is that of the shorted module, or of a
+  // substring whose bypass diode conducts.
+  const auto excess = [&](double voltage) {
+    const double own = ReverseVoltage(weak_cell, p, photocurrent, conductance, healthy(voltage));
+    return bypassed ? own + mates * voltage + p[3] : own + (cells - 1) * voltage;
   };
-  double low = LightOfWeakCell(p) * photocurrent, high = reference.ShortCircuit();
-  if (!(high > low)) return {};
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (excess(middle) > 0 ? low : high) = middle;
-  }
+  if (!(healthy(0) > LightOfWeakCell(p) * photocurrent)) return {};
+  const double current = healthy(RootBetween(excess, 0, 1.1 * readings.pivot_voltage));
   HotCell hot;
-  hot.voltage_V = ReverseVoltage(p, photocurrent, conductance, low);
-  hot.heat_W = -hot.voltage_V * low * readings.scale.current_A / p[8];
+  hot.voltage_V = ReverseVoltage(weak_cell, p, photocurrent, conductance, current);
+  hot.heat_W = -hot.voltage_V * current * readings.scale.current_A / p[8];
   return hot;
 }
 

@@ -43,23 +43,6 @@ DeviceTerms DeviceTermsOf(const LawFit& fit) {
   return DeviceTermsOf(fit, [](int) { return true; });
 }
 
-// Readings without points, and a reading at the conditions of the brightest light.
-struct Bare {
-  Readings grid;
-  Reading at;
-};
-
-Bare BareReadings(const Readings& measured) {
-  Bare bare{measured, measured.points.front()};
-  bare.grid.points.clear();
-  for (const Reading& r : measured.points) {
-    if (r.irradiance > bare.at.irradiance) bare.at = r;
-  }
-  bare.at.x = bare.at.rate = 0;
-  bare.at.current = bare.at.irradiance > 0 ? 1 : 0;
-  return bare;
-}
-
 // In current scales and V per cell.
 struct PowerPoint {
   double voltage = kUnknown;
@@ -68,18 +51,15 @@ struct PowerPoint {
 
 // Up to voltages that end beyond open circuit, which without a cause may lie far beyond the
 // readings.
-PowerPoint FindPowerPoint(const Bare& bare, const DeviceTerms& terms) {
+PowerPoint FindPowerPoint(const Readings& bare, const DeviceTerms& terms) {
   constexpr int kPoints = 400, kMostTimes = 6;
   Readings grid;
   std::vector<double> current(kPoints + 1, 1);
-  double top = 1.1 * bare.grid.pivot_voltage;
+  double top = 1.1 * bare.pivot_voltage;
   for (int times = 0; times < kMostTimes && current.back() > 0; ++times, top *= 1.5) {
-    grid = bare.grid;
-    Reading at = bare.at;
-    for (int k = 0; k <= kPoints; ++k) {
-      at.voltage = top * k / kPoints;
-      grid.points.push_back(at);
-    }
+    grid = bare;
+    grid.points.resize(kPoints + 1, bare.points.front());
+    for (int k = 0; k <= kPoints; ++k) grid.points[k].voltage = top * k / kPoints;
     LawWorkspace workspace;
     if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, current.data(), nullptr)) {
       return {};
@@ -107,16 +87,15 @@ double InWatts(const WeightedData& weighted, const PowerPoint& peak) {
 
 // Derivative of the maximum power by all coordinates of the fit, in its unit. Empty if the law
 // cannot be evaluated.
-std::vector<double> SlopesOfPower(const LawFit& fit, Bare bare, const DeviceTerms& terms,
+std::vector<double> SlopesOfPower(const LawFit& fit, Readings bare, const DeviceTerms& terms,
                                   const PowerPoint& peak) {
   if (!(peak.power > 0)) return {};
   // To first order the power at its peak changes as the current at that voltage.
-  bare.at.voltage = peak.voltage;
-  bare.grid.points = {bare.at};
+  bare.points.front().voltage = peak.voltage;
   LawWorkspace workspace;
   double current = 0;
   std::vector<double> derivative(terms.p.size());
-  const LawCoordinates coordinates(terms.law, bare.grid);
+  const LawCoordinates coordinates(terms.law, bare);
   const std::vector<double> theta = coordinates.Of(terms.p);
   if (!coordinates.Evaluate(theta.data(), &workspace, &current, derivative.data())) return {};
   std::vector<double> by(fit.p.size(), 0.0);
@@ -133,7 +112,7 @@ double ErrorBy(const WeightedData& weighted, const LawFit& fit, const std::vecto
 }
 
 // Relative standard error of the maximum power.
-double ErrorOf(const WeightedData& weighted, const LawFit& fit, const Bare& bare,
+double ErrorOf(const WeightedData& weighted, const LawFit& fit, const Readings& bare,
                const DeviceTerms& terms, const PowerPoint& peak) {
   return ErrorBy(weighted, fit, SlopesOfPower(fit, bare, terms, peak)) / peak.power;
 }
@@ -141,7 +120,7 @@ double ErrorOf(const WeightedData& weighted, const LawFit& fit, const Bare& bare
 // Gain of the device with the `rest` of its terms.
 PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTerms& rest) {
   const DeviceTerms terms = DeviceTermsOf(fit);
-  const Bare bare = BareReadings(*weighted.readings);
+  const Readings bare = InBrightestLight(*weighted.readings);
   const PowerPoint now = FindPowerPoint(bare, terms), then = FindPowerPoint(bare, rest);
   std::vector<double> by = SlopesOfPower(fit, bare, rest, then);
   const std::vector<double> by_now = SlopesOfPower(fit, bare, terms, now);
@@ -160,13 +139,26 @@ PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTe
 
 }  // namespace
 
+Readings InBrightestLight(const Readings& measured) {
+  Reading at = measured.points.front();
+  for (const Reading& r : measured.points) {
+    if (r.irradiance > at.irradiance) at = r;
+  }
+  at.x = at.rate = 0;
+  at.current = at.irradiance > 0 ? 1 : 0;
+  Readings bare = measured;
+  bare.points = {at};
+  return bare;
+}
+
 double DevicePower(const WeightedData& weighted, const LawFit& fit) {
-  return InWatts(weighted, FindPowerPoint(BareReadings(*weighted.readings), DeviceTermsOf(fit)));
+  return InWatts(weighted,
+                 FindPowerPoint(InBrightestLight(*weighted.readings), DeviceTermsOf(fit)));
 }
 
 PowerAndError DevicePowerAndError(const WeightedData& weighted, const LawFit& fit) {
   const DeviceTerms terms = DeviceTermsOf(fit);
-  const Bare bare = BareReadings(*weighted.readings);
+  const Readings bare = InBrightestLight(*weighted.readings);
   const PowerPoint peak = FindPowerPoint(bare, terms);
   return {InWatts(weighted, peak), ErrorOf(weighted, fit, bare, terms, peak)};
 }

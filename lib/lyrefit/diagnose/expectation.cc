@@ -91,7 +91,7 @@ Eigen::MatrixXd Slopes(const Rows& rows, const std::vector<char>& keep) {
 // Marks sweeps that are no outliers: within a few median absolute deviations of the regression in
 // every quantity. Of the shape distance only large values are outliers.
 std::vector<char> KeepUsual(const Rows& rows) {
-  constexpr double kFar = 4, kToDeviation = 1.4826;
+  constexpr double kFar = 4;
   constexpr int kFewest = 8, kRounds = 4;
   const int count = static_cast<int>(rows.x.rows()), columns = static_cast<int>(rows.x.cols());
   std::vector<char> keep(count, 1);
@@ -104,7 +104,7 @@ std::vector<char> KeepUsual(const Rows& rows) {
       sizes.reserve(count);
       for (int i = 0; i < count; ++i) sizes.push_back(std::fabs(off(i, j)));
       const double widen = std::sqrt(static_cast<double>(count) / (count - columns));
-      const double far = kFar * kToDeviation * widen * Median(sizes);
+      const double far = kFar * kMedianToSigma * widen * Median(sizes);
       for (int i = 0; i < count; ++i) {
         const double size = j == kShapeOff ? off(i, j) : sizes[i];
         if (size > far) usual[i] = 0;

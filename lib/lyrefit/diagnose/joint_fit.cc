@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/diagnose/law_coordinates.h"
 
 namespace lyrefit {
@@ -21,30 +22,25 @@ bool Currents(const CurveLaw& own, const Readings& readings, double* current,
       .Evaluate(own.theta.data(), &workspace, current, jacobian);
 }
 
-// Sets the voltage of readings above 0 V to the law's Voc, by bisection. These curves have no
-// unknown bypass drop, so `unknown` changes light and temperature only.
+// Sets the voltage of readings above 0 V to the law's Voc. These curves have no unknown bypass drop,
+// so `unknown` changes light and temperature only.
 bool FindOpenCircuit(const CurveLaw& own, const std::vector<double>& unknown, PlannedCurve* curve) {
-  constexpr int kHalvings = 40;
-  std::vector<Reading>& points = curve->readings.points;
-  std::vector<double> low, high, current(points.size());
-  for (const Reading& r : points) {
-    low.push_back(0);
-    high.push_back(r.voltage + kOpenCircuit);
+  const Readings all = Under(*curve, unknown);
+  Readings one = all;
+  bool found = true;
+  const auto current = [&](double voltage) {
+    one.points.front().voltage = voltage;
+    double result = 0;
+    found = found && Currents(own, one, &result);
+    return result;
+  };
+  for (std::size_t k = 0; k < all.points.size(); ++k) {
+    double& voltage = curve->readings.points[k].voltage;
+    if (!(voltage > 0)) continue;
+    one.points = {all.points[k]};
+    voltage = RootBetween(current, 0, voltage + kOpenCircuit);
   }
-  for (int round = 0; round < kHalvings; ++round) {
-    Readings at = Under(*curve, unknown);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      if (points[k].voltage > 0) at.points[k].voltage = 0.5 * (low[k] + high[k]);
-    }
-    if (!Currents(own, at, current.data())) return false;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      (current[k] > 0 ? low[k] : high[k]) = 0.5 * (low[k] + high[k]);
-    }
-  }
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].voltage > 0) points[k].voltage = 0.5 * (low[k] + high[k]);
-  }
-  return true;
+  return found;
 }
 
 // Noise of the used reading with the nearest current.

@@ -23,7 +23,7 @@ double PowerWith(const FittedSweep& sweep, int quantity, double expected) {
   const auto power = [&](double n, double series, double shunt) {
     shunt = std::max(shunt, 1e-15);
     const double saturation =
-        (s.photocurrent_A - shunt * s.voc_V) / std::expm1(s.voc_V / (n * thermal_V));
+        SaturationCurrent(s.photocurrent_A - shunt * s.voc_V, s.voc_V, n * thermal_V);
     const double p[] = {s.photocurrent_A, saturation, n, std::max(series, 0.0), 1 / shunt};
     return ModelKeyPoints(device, p).max_power_W;
   };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lyrefit/base/roots.h"
+
 namespace lyrefit {
 namespace {
 
@@ -9,7 +11,7 @@ constexpr int kResistances = 32;
 
 }  // namespace
 
-// All exponentials are relative to that at Voc.
+// Two linear equations in Is and 1 / Rsh. All exponentials are relative to that at Voc.
 KeyPointCurve CurveThrough(const KeyPointSheet& sheet, double n, double rs) {
   const double a = n * sheet.thermal_V;
   const double isc = sheet.values.short_circuit_current_A;

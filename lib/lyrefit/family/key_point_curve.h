@@ -10,18 +10,6 @@
 
 namespace lyrefit {
 
-// Bisects to a sign change of f between a and b, to the last bit.
-template <class F>
-double SignChange(const F& f, double a, double b) {
-  const bool positive = f(a) > 0;
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (a + b);
-    if (middle == a || middle == b) break;
-    ((f(middle) > 0) == positive ? a : b) = middle;
-  }
-  return 0.5 * (a + b);
-}
-
 // The curve through the three points for given n and Rs. `diode_A` is Is exp(Voc / (n Ns Vt)),
 // since Is itself may underflow a double.
 struct KeyPointCurve {

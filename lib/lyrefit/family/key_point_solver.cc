@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/model/translation.h"
@@ -19,7 +20,9 @@ constexpr int kIdealities = 120;
 constexpr double kUsualIdeality = 1.2;
 constexpr double kNothing = 1e-9;  // V across Rs, or 1/V through the shunt: counts as 0
 
-// Residual current at Voc + 2 K beta_oc and 27 C, which is 0 for an exact solution.
+// Residual current at Voc + 2 K beta_oc and 27 C, which is 0 for an exact solution. As in
+// CurveThrough exponentials are relative to that at Voc, since Is may underflow a double: no Device
+// can hold it.
 double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
   const double k_eV = ThermalVoltage(1.0, sheet.constants);
   const double warm_K = kReferenceTemperature_K + kVocStep_K;
@@ -40,12 +43,8 @@ double WarmError(const KeyPointSheet& sheet, const KeyPointCurve& c) {
 std::vector<KeyPointCurve> PhysicalCurves(const KeyPointSheet& sheet, double lowest,
                                           double highest) {
   const auto border = [&](double inside, double outside) {
-    for (int k = 0; k < 100; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      if (middle == inside || middle == outside) break;
-      (PhysicalCurve(sheet, middle) ? inside : outside) = middle;
-    }
-    return *PhysicalCurve(sheet, inside);
+    const auto physical = [&](double n) { return PhysicalCurve(sheet, n).has_value(); };
+    return *PhysicalCurve(sheet, LastWhere(physical, inside, outside));
   };
   std::vector<KeyPointCurve> curves;
   double before = 0;

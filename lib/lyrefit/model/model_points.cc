@@ -1,32 +1,15 @@
 #include "lyrefit/model/model_points.h"
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/device_effects.h"
 
 namespace lyrefit {
 namespace {
-
-// Root of a falling function between a (value not negative) and b (value not positive), by
-// doi:10.1145/210089.210111.
-template <class F>
-double RootBetween(const F& f, double a, double b) {
-  const double at_a = f(a), at_b = f(b);
-  if (!(at_a > 0)) return a;
-  if (!(at_b < 0)) return b;
-  constexpr int kDigits = std::numeric_limits<double>::digits;
-  std::uintmax_t most = 200;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      f, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(kDigits), most);
-  return 0.5 * (low + high);
-}
 
 // Key points of a device with effects, from a fine sweep from short circuit to 5 % beyond the
 // base's Voc.

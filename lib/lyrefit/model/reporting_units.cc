@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/roots.h"
 
 namespace lyrefit {
 
@@ -24,18 +25,11 @@ double InternalValue(const Effect& effect, int k, double value, std::vector<doub
   };
   if (info.convert == nullptr) return value / info.ReportedFactor(p.data(), scale);
   // If the factor does not depend on the parameter itself, one division gives the value. Otherwise
-  // bisection does, since the reported value is monotone.
+  // a root does, since the reported value is monotone.
   const double middle = 0.5 * (info.lower + info.upper);
   const double straight = value / (reported(middle) / middle);
   if (std::fabs(reported(straight) - value) <= 1e-12 * std::fabs(value)) return straight;
-  double low = info.lower, high = info.upper;
-  const bool rises = reported(low) < reported(high);
-  for (int step = 0; step < 200 && low < high; ++step) {
-    const double x = 0.5 * (low + high);
-    if (x == low || x == high) break;
-    ((reported(x) < value) == rises ? low : high) = x;
-  }
-  return 0.5 * (low + high);
+  return RootBetween([&](double x) { return reported(x) - value; }, info.lower, info.upper);
 }
 
 // The factor of a parameter may depend on parameters after it, so the last one is converted first.

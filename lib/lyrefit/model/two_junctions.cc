@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/model/term.h"
 
 namespace lyrefit {
@@ -169,18 +170,17 @@ KeyPoints TwoJunctionKeyPoints(double thermal_voltage_V, const double* p) {
   const double voc = TwoJunctionVoltage(thermal_voltage_V, p, 0);
   if (!(voc > 0) || !(isc > 0)) return points;
   points.open_circuit_voltage_V = voc;
-  // Power is concave in the current: bisection of its derivative V + I dV/dI.
+  // Power is concave in the current: the root of its derivative V + I dV/dI.
   const double series = p[kTwoJunctionSeries];
   TwoPoints at = JunctionsOf(thermal_voltage_V, p);
-  double low = 0, high = isc;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    Settle(middle, series, &at);
-    (at.Voltage(middle, series) > middle * at.resistance ? low : high) = middle;
-  }
-  points.max_power_current_A = low;
-  points.max_power_voltage_V = TwoJunctionVoltage(thermal_voltage_V, p, low);
-  points.max_power_W = low * points.max_power_voltage_V;
+  const auto slope = [&](double current) {
+    Settle(current, series, &at);
+    return at.Voltage(current, series) - current * at.resistance;
+  };
+  const double imp = RootBetween(slope, 0, isc);
+  points.max_power_current_A = imp;
+  points.max_power_voltage_V = TwoJunctionVoltage(thermal_voltage_V, p, imp);
+  points.max_power_W = imp * points.max_power_voltage_V;
   points.fill_factor = points.max_power_W / (isc * voc);
   return points;
 }

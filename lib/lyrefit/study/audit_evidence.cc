@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 
 namespace lyrefit {
 namespace {
@@ -44,13 +45,8 @@ AuditTemperatures ScanTemperatures(const AuditSubject& subject) {
       found.best_C = celsius;
     }
     if ((now_A > claim) != (previous_A > claim)) {
-      double low = previous_C;
-      double high = celsius;
-      for (int k = 0; k < 40; ++k) {
-        const double middle = 0.5 * (low + high);
-        ((rmse(middle) > claim) == (previous_A > claim) ? low : high) = middle;
-      }
-      found.at_claim_C.push_back(low);
+      found.at_claim_C.push_back(
+          SignChange([&](double at_C) { return rmse(at_C) - claim; }, previous_C, celsius));
     }
     previous_C = celsius;
     previous_A = now_A;

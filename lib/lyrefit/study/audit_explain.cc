@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 
 namespace lyrefit {
 namespace {
@@ -76,11 +77,8 @@ double EndOfRange(const ReadingPlan& plan, ConstantSet set, int direction, Sough
     inside = outside;
     outside *= 2;
   }
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (reproduces(middle) ? inside : outside) = middle;
-  }
-  return plan.conditions.cell_temperature_K + direction * inside - kZeroCelsius_K;
+  return plan.conditions.cell_temperature_K + direction * LastWhere(reproduces, inside, outside) -
+         kZeroCelsius_K;
 }
 
 AuditExplanation Explanation(const ReadingPlan& plan, Sought* sought) {

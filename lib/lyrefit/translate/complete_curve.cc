@@ -4,38 +4,30 @@
 #include <cmath>
 
 #include "lyrefit/base/groups.h"
-#include "lyrefit/base/numbers.h"
+#include "lyrefit/model/single_diodes.h"
 
 namespace lyrefit {
 namespace {
 
 constexpr int kMostSteps = 400;
 
-double JunctionCurrentOf(const SingleDiodeFit& d, double junction_V) {
-  return d.photocurrent_A - d.saturation_current_A * std::expm1(junction_V / d.nNsVth_V) -
-         junction_V / d.resistance_shunt_ohm;
+// The diode without its series resistance: its voltage is that of the junction.
+SingleDiodes JunctionOf(const SingleDiodeFit& d) {
+  static constexpr double kNone = 0;
+  return {1,        {&d.photocurrent_A},       {&d.saturation_current_A},
+          {&kNone}, {&d.resistance_shunt_ohm}, {&d.nNsVth_V}};
 }
 
-// The junction voltage at which the diode delivers this current. The current falls ever faster with
-// voltage. Newton's iteration therefore approaches the root from the right and overshoots at most
-// in its first step.
+double JunctionCurrentOf(const SingleDiodeFit& d, double junction_V) {
+  double current_A = 0;
+  CurrentsAt(JunctionOf(d), {&junction_V}, &current_A);
+  return current_A;
+}
+
 double JunctionAt(const SingleDiodeFit& d, double current_A) {
-  const double through_diode = d.photocurrent_A - current_A;
-  // Start without shunt current; if the diode cannot carry the current, with all of it in the
-  // shunt.
-  const double alone = through_diode / d.saturation_current_A;
-  double v = alone > -0.5 ? d.nNsVth_V * std::log1p(alone)
-                          : (through_diode + d.saturation_current_A) * d.resistance_shunt_ohm;
-  if (!std::isfinite(v)) return kUnknown;
-  for (int k = 0; k < 60; ++k) {
-    const double rise = d.saturation_current_A * std::expm1(v / d.nNsVth_V);
-    const double off = through_diode - rise - v / d.resistance_shunt_ohm;
-    const double slope = (rise + d.saturation_current_A) / d.nNsVth_V + 1 / d.resistance_shunt_ohm;
-    const double step = off / slope;
-    v += step;
-    if (!(std::fabs(step) > 1e-14 * (std::fabs(v) + d.nNsVth_V))) break;
-  }
-  return v;
+  double junction_V = 0;
+  VoltagesAt(JunctionOf(d), {&current_A}, &junction_V);
+  return junction_V;
 }
 
 // Adds points from the last reading to lower currents.

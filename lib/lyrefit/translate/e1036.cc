@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lyrefit/base/dense.h"
+#include "lyrefit/base/roots.h"
 
 namespace lyrefit {
 namespace {
@@ -46,27 +47,18 @@ double ValueAt(const Eigen::VectorXd& coefficients, double x) {
   return value;
 }
 
-// Position of the polynomial's maximum within the window: an even grid, then golden section. None
+// Position of the polynomial's maximum within the window: an even grid, then Brent's method. None
 // where the maximum of the grid is at an end.
 std::optional<double> Top(const Eigen::VectorXd& coefficients, double low, double high) {
   constexpr int kGrid = 200;
-  constexpr double kGolden = 0.6180339887498949;
   int best = 0;
   const auto place = [&](int i) { return low + (high - low) * i / kGrid; };
   for (int i = 1; i <= kGrid; ++i) {
     if (ValueAt(coefficients, place(i)) > ValueAt(coefficients, place(best))) best = i;
   }
   if (best == 0 || best == kGrid) return std::nullopt;
-  double a = place(best - 1), b = place(best + 1);
-  for (int i = 0; i < 60; ++i) {
-    const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
-    if (ValueAt(coefficients, left) > ValueAt(coefficients, right)) {
-      b = right;
-    } else {
-      a = left;
-    }
-  }
-  return 0.5 * (a + b);
+  const auto value = [&](double x) { return ValueAt(coefficients, x); };
+  return MaximumBetween(value, place(best - 1), place(best + 1));
 }
 
 }  // namespace

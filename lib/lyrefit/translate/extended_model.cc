@@ -122,7 +122,7 @@ Expected<PlacedModel> Place(const ExtendedModel& model, const TranslationInputs&
   const double nNsVth = model.cells_in_series * p[IdealityIndex(0)] *
                         ThermalVoltage(in.temperature_C + kZeroCelsius_K);
   const double voc_source =
-      nNsVth * std::log1p(model.parameters[kIph] * in.current_gain / p[SaturationCurrentIndex(0)]);
+      DiodeVoltage(model.parameters[kIph] * in.current_gain, p[SaturationCurrentIndex(0)], nNsVth);
   placed.highest_V = 1.03 * (voc_source + nNsVth * std::max(0.0, std::log(suns)) +
                              0.005 * model.cells_in_series * std::max(0.0, in.temperature_C - t_C));
   return placed;

@@ -1,11 +1,11 @@
 #include "lyrefit/translate/model_procedures.h"
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
@@ -106,19 +106,15 @@ double InputForBeta(const std::shared_ptr<const Translation>& law, const SingleD
     const double cold = Voc(*carried, kReferenceTemperature_C - kStep_K);
     return (warm - cold) / (2 * kStep_K) - inputs.beta_oc_V_K;
   };
-  const double at_low = beyond(low), at_high = beyond(high);
-  if (!(at_low * at_high < 0)) return kUnknown;
+  if (!(beyond(low) * beyond(high) < 0)) return kUnknown;
   bool lost = false;  // no device at some value in between
   const auto finite = [&](double value) {
     const double at = beyond(value);
     lost = lost || !std::isfinite(at);
     return lost ? 0 : at;
   };
-  constexpr int kBits = 45;
-  std::uintmax_t most = 50;
-  const auto [below, above] = boost::math::tools::toms748_solve(
-      finite, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(kBits), most);
-  return lost ? kUnknown : 0.5 * (below + above);
+  const double found = RootBetween(finite, low, high);
+  return lost ? kUnknown : found;
 }
 
 std::optional<BetaAnchor> Anchor(Procedure procedure, const SingleDiodeFit& diode, int cells,

@@ -52,12 +52,10 @@ std::optional<SingleDiodeFit> DiodeOf(const Expected<FitReport>& fit, std::strin
 double NoiseOf(const FitReport& fit) {
   std::vector<double> second;
   for (std::size_t i = 2; i < fit.residual_A.size(); ++i) {
-    second.push_back(
-        std::fabs(fit.residual_A[i] - 2 * fit.residual_A[i - 1] + fit.residual_A[i - 2]));
+    second.push_back(fit.residual_A[i] - 2 * fit.residual_A[i - 1] + fit.residual_A[i - 2]);
   }
   if (second.size() < 5) return fit.rmse.refined.solved_current_A;
-  constexpr double kOfMedian = 1.4826;
-  return kOfMedian * Median(std::move(second)) / std::sqrt(6.0);
+  return RobustScale(std::move(second)) / std::sqrt(6.0);
 }
 
 Expected<void> RequireConditions(const IvCurve& curve) {

@@ -6,6 +6,7 @@
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/refine/least_squares.h"
+#include "lyrefit/estimate/refine/model_current.h"
 
 namespace lyrefit {
 namespace {
@@ -14,69 +15,75 @@ namespace {
 enum FittedAt { kFitIph, kFitFirst, kFitSecond, kFitRs, kFitGsh, kFitN, kFitted };
 
 struct SweepData {
-  const std::vector<double>& voltage;
-  const std::vector<double>& current;
+  PointSet points;
   double thermal_V;
   double isc;
   double voc;
 };
 
-// Current through the junction and its slope at a junction voltage.
-struct Junction {
-  double first;  // currents of the diodes
-  double second;
-  double current;
-  double slope;  // of what the diodes and the shunt take, over voltage
-};
-
-Junction AtJunction(const SweepData& data, const double* p, double junction_V) {
-  const double a = p[kFitN] * data.thermal_V;
-  const double half = std::exp(std::min(0.5 * (junction_V - data.voc) / a, 100.0));
-  Junction at{};
-  at.first = data.isc * p[kFitFirst] * half * half;
-  at.second = data.isc * p[kFitSecond] * half;
-  at.current = p[kFitIph] - at.first - at.second - p[kFitGsh] * junction_V;
-  at.slope = (at.first + 0.5 * at.second) / a + p[kFitGsh];
-  return at;
-}
-
-// Newton's method for V = Vd - I Rs from the junction voltage of the measured current on.
-double JunctionVoltage(const SweepData& data, const double* p, double voltage, double current) {
-  double junction = voltage + current * p[kFitRs];
-  constexpr int kSteps = 30;
-  for (int step = 0; step < kSteps; ++step) {
-    const Junction at = AtJunction(data, p, junction);
-    const double miss = junction - voltage - p[kFitRs] * at.current;
-    const double change = miss / (1 + p[kFitRs] * at.slope);
-    junction -= change;
-    if (std::fabs(change) < 1e-12 * data.voc) break;
-  }
-  return junction;
-}
-
 // Currents of the readings less the measured ones, and their derivatives by the implicit equation.
+// Newton's method for I = F(V + I Rs), of all readings at once and from the measured currents on.
 bool EvaluateSweep(const SweepData& data, const double* p, double* residuals, double* jacobian) {
-  const double a = p[kFitN] * data.thermal_V;
-  for (std::size_t k = 0; k < data.voltage.size(); ++k) {
-    const double junction = JunctionVoltage(data, p, data.voltage[k], data.current[k]);
-    const Junction at = AtJunction(data, p, junction);
-    residuals[k] = at.current - data.current[k];
+  constexpr int kSteps = 30;
+  const double rs = p[kFitRs], a = p[kFitN] * data.thermal_V;
+  // Saturation currents of diodes that carry Isc at Voc.
+  const double unit[] = {data.isc * std::exp(-data.voc / a),
+                         data.isc * std::exp(-0.5 * data.voc / a)};
+  const PreparedDevice device =
+      TwoDiodes(p[kFitIph], p[kFitGsh], p[kFitFirst] * unit[0], p[kFitSecond] * unit[1], a);
+  const std::size_t length = data.points.voltage_V.size();
+  const auto size = static_cast<std::size_t>(data.points.size);
+  Block* const current = ScratchBlocks((3 + 2 * device.count) * length);
+  std::copy(data.points.current_A.begin(), data.points.current_A.end(), current);
+  double* const solved = current->lane;
+  const double* const rows = NumbersOf(current + length);
+  const auto row = [&](int r) { return rows + r * length * Block::kLanes; };
+  const double* const slope = row(1);
+  for (int step = 0; step < kSteps; ++step) {
+    FastestKernel().explicit_currents(device.terms, device.count, rs, data.points, current,
+                                      current + length);
+    double most = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const double change = (rows[k] - solved[k]) / (1 - rs * slope[k]);
+      solved[k] += change;
+      most = std::max(most, std::fabs(change));
+    }
+    if (!(rs * most > 1e-12 * data.voc)) break;
+  }
+  const double* const measured = NumbersOf(data.points.current_A.data());
+  for (std::size_t k = 0; k < size; ++k) {
+    residuals[k] = solved[k] - measured[k];
     if (!std::isfinite(residuals[k])) return false;
     if (jacobian == nullptr) continue;
-    const double factor = 1 / (1 + p[kFitRs] * at.slope);
-    const double half = std::exp(std::min(0.5 * (junction - data.voc) / a, 100.0));
-    double* const row = jacobian + k * kFitted;
-    row[kFitIph] = factor;
-    row[kFitFirst] = -factor * data.isc * half * half;
-    row[kFitSecond] = -factor * data.isc * half;
-    row[kFitRs] = -factor * at.current * at.slope;
-    row[kFitGsh] = -factor * junction;
-    row[kFitN] = factor * (at.first + 0.5 * at.second) * (junction - data.voc) / (a * p[kFitN]);
+    const double factor = 1 / (1 - rs * slope[k]);
+    double* const to = jacobian + k * kFitted;
+    to[kFitIph] = factor;
+    to[kFitRs] = factor * solved[k] * slope[k];
+    to[kFitGsh] = factor * row(4)[k];
+    to[kFitN] = 0;
+    for (int d = 0; d < 2; ++d) {
+      const PreparedTerm<double>& diode = device.terms[2 + d];
+      const double by_saturation = row(6 + 2 * d)[k] - 1;  // with that of the light
+      to[kFitFirst + d] = factor * by_saturation * unit[d];
+      to[kFitN] +=
+          factor * (by_saturation * diode.a * data.voc - row(7 + 2 * d)[k]) * diode.b / p[kFitN];
+    }
   }
   return true;
 }
 
 }  // namespace
+
+PreparedDevice TwoDiodes(double light_A, double conductance_S, double first_A, double second_A,
+                         double nNsVth) {
+  PreparedDevice device;
+  device.count = 4;
+  device.terms[0] = {TermKind::kPhotocurrent, light_A - first_A - second_A, 0};
+  device.terms[1] = {TermKind::kShunt, conductance_S, 0};
+  device.terms[2] = {TermKind::kDiode, first_A, 1 / nNsVth};
+  device.terms[3] = {TermKind::kDiode, second_A, 0.5 / nNsVth};
+  return device;
+}
 
 SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double>& current_A,
                   double thermal_V, double n, SweepFree free) {
@@ -84,7 +91,7 @@ SweepFit FitSweep(const std::vector<double>& voltage_V, const std::vector<double
   const KeyPoints key = FindKeyPoints(voltage_V, current_A);
   const double isc = key.short_circuit_current_A, voc = key.open_circuit_voltage_V;
   if (!(isc > 0) || !(voc > 0)) return out;
-  const SweepData data = {voltage_V, current_A, thermal_V, isc, voc};
+  const SweepData data = {MakePointSet(voltage_V, current_A), thermal_V, isc, voc};
   const double scale = voc / isc;
   const bool single = free == SweepFree::kIdeality;
   LeastSquaresProblem problem;

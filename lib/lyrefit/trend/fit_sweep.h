@@ -3,8 +3,15 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/model/solve.h"
 
 namespace lyrefit {
+
+// The model's terms of two diodes of idealities n and 2 n: light, shunt and the diodes by their
+// saturation currents. `light_A` is Iph + Is1 + Is2, the current at no voltage. `nNsVth`: of the
+// first diode. For PreparedBent and the kernels, which need no positive second diode.
+PreparedDevice TwoDiodes(double light_A, double conductance_S, double first_A, double second_A,
+                         double nNsVth);
 
 // Two diodes of idealities n and 2 n, fitted to one sweep.
 struct SweepFit {

@@ -16,7 +16,6 @@ namespace lyrefit {
 namespace {
 
 constexpr double kWeek_s = 7 * kDay_s;
-constexpr double kMedianToSigma = 1.4826;
 constexpr std::size_t kLeastRows = 12;  // of a week
 
 // What is found of a week: series resistance in ohm, voltage in V.
@@ -119,13 +118,13 @@ void MarkOff(const TrendDevice& device, const RowsOfDay& days, const std::vector
   std::vector<double> departures, powers;
   for (const auto& [day, of_day] : days) {
     for (const std::size_t i : of_day) {
-      departures.push_back(std::fabs(own[i] - around.at(day)));
+      departures.push_back(own[i] - around.at(day));
       powers.push_back((*rows)[i].power_W());
     }
   }
   if (departures.empty()) return;
   constexpr double kLeast = 0.03, kTimes = 4, kAtLimit = 0.98;
-  const double most = std::max(kLeast, kTimes * kMedianToSigma * Median(departures));
+  const double most = std::max(kLeast, kTimes * RobustScale(std::move(departures)));
   std::sort(powers.begin(), powers.end());
   const double highest = Quantile(powers, 0.998);
   for (const auto& [day, of_day] : days) {
@@ -207,15 +206,10 @@ bool FitWeek(const TrendDevice& device, const std::vector<TrendRow>& rows,
     if (!change.allFinite()) return false;
     week->series = std::max(week->series + ohm * change[0], 0.0);
     week->voltage += volt * change[1];
-    std::vector<double> sizes(of_week.size());
-    for (std::size_t k = 0; k < sizes.size(); ++k) {
-      sizes[k] = std::fabs(residuals[static_cast<Eigen::Index>(k)]);
-    }
-    const double sigma = kMedianToSigma * Median(sizes);
+    const double sigma = RobustScale({residuals.begin(), residuals.end()});
     if (!(sigma > 0)) break;
     for (Eigen::Index k = 0; k < x.rows(); ++k) {
-      const double size = std::fabs(residuals[k]) / sigma;
-      weight[k] = size <= kHuber ? 1 : kHuber / size;
+      weight[k] = HuberWeight(std::fabs(residuals[k]) / sigma, kHuber);
     }
   }
   return std::isfinite(week->series) && std::isfinite(week->voltage);

@@ -9,14 +9,12 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kHuberAt = 1.5;     // standard deviations
-constexpr double kToSigma = 1.4826;  // of a median of absolute normal deviates
-constexpr double kDimmest = 0.1;     // below, the features stay what they are there
+constexpr double kHuberAt = 1.5;  // standard deviations
+constexpr double kDimmest = 0.1;  // below, the features stay what they are there
 constexpr std::size_t kLeastValues = 30;
 
 double WeightOf(double residual, double sigma) {
-  const double size = std::fabs(residual);
-  return size <= kHuberAt * sigma ? 1 : kHuberAt * sigma / size;
+  return HuberWeight(std::fabs(residual), kHuberAt * sigma);
 }
 
 // Ends of the blocks in `values`, which are ordered by them.
@@ -80,11 +78,7 @@ Features FitWithinBlocks(const std::vector<ConditionedValue>& values) {
     const Eigen::VectorXd residuals =
         rows.rightCols(1).col(0) - rows.leftCols(kConditionFeatures) * found;
     for (int f = 0; f < kConditionFeatures; ++f) out[f] = found[f];
-    std::vector<double> sizes(values.size());
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      sizes[i] = std::fabs(residuals[static_cast<Eigen::Index>(i)]);
-    }
-    const double sigma = kToSigma * Median(sizes);
+    const double sigma = RobustScale({residuals.begin(), residuals.end()});
     if (!(sigma > 0)) break;
     for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] = WeightOf(residuals[i], sigma);
   }
@@ -99,10 +93,9 @@ double BlockMean(const std::vector<ConditionedValue>& values, const Features& co
   }
   double mean = Median(plain);
   if (plain.size() < 3) return mean;
-  std::vector<double> sizes(plain.size());
-  std::transform(plain.begin(), plain.end(), sizes.begin(),
-                 [&](double value) { return std::fabs(value - mean); });
-  const double sigma = kToSigma * Median(sizes);
+  std::vector<double> off = plain;
+  for (double& value : off) value -= mean;
+  const double sigma = RobustScale(std::move(off));
   if (!(sigma > 0)) return mean;
   constexpr int kRounds = 10;
   for (int round = 0; round < kRounds; ++round) {

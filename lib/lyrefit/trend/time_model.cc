@@ -168,8 +168,7 @@ double TimeFit::t_95() const { return StudentQuantile(0.975, std::max(degrees, 3
 
 TimeFit FitTime(const TimeSeries& series, const Eigen::MatrixXd& design) {
   constexpr int kRounds = 4;
-  constexpr double kHuber = 2.5;             // residuals beyond it count less
-  constexpr double kMedianToSigma = 1.4826;  // of a median of absolute normal deviates
+  constexpr double kHuber = 2.5;  // residuals beyond it count less
   TimeSeries weighted = series;
   std::vector<double> outlying(series.days.size(), 1);
   BestNoise noise;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/trend/fit_sweep.h"
@@ -44,7 +45,8 @@ SaturationShift ShiftAt(const TrendDevice& device, double temperature_C) {
   return {3 * ratio + barrier, 2.5 * ratio + 0.5 * barrier};
 }
 
-// exp(V / 2 a) at which diodes with these saturation currents carry a current.
+// exp(V / 2 a) at which diodes with these saturation currents carry a current: without a shunt the
+// root of a quadratic equation, in a thirtieth of the time of ModelOpenCircuit.
 double HalfExponential(double current, double first, double second) {
   if (!(first > 0)) return current / second;
   return 2 * current / (second + std::sqrt(second * second + 4 * first * current));
@@ -137,34 +139,23 @@ DeviceState StateOf(const TrendDevice& device,
 
 TrendPoint MaximumPowerPoint(const TrendDevice& device, const DeviceState& state,
                              double temperature_C) {
-  // P = I (Vd - I Rs), where I is a function of the junction voltage Vd alone. Newton's method on
-  // dP/dVd = I + Vd I' - 2 Rs I I'.
+  // P = I (Vd - I Rs), where I is a function of the junction voltage Vd alone: the root of
+  // dP/dVd = I + (Vd - 2 Rs I) I'.
   const double a = device.ThermalVoltage(temperature_C);
   const double iph = state.photocurrent_A, rs = state.resistance_series_ohm;
   const double voc =
       2 * a *
       std::log(HalfExponential(iph, state.saturation_current_A, state.saturation_current_2_A));
-  double junction = voc - a * std::log(std::max(voc / a, 2.0));
-  double low = 0, high = voc, current = 0;
-  constexpr int kSteps = 60;
-  for (int step = 0; step < kSteps; ++step) {
-    const double half = std::exp(0.5 * junction / a);
-    const double first = state.saturation_current_A * half * half;
-    const double second = state.saturation_current_2_A * half;
-    current = iph - first - second - state.shunt_conductance_S * junction;
-    const double slope = -(first + 0.5 * second) / a - state.shunt_conductance_S;
-    const double bend = -(first + 0.25 * second) / (a * a);
-    const double rise = current + junction * slope - 2 * rs * current * slope;
-    const double curvature =
-        2 * slope + junction * bend - 2 * rs * (slope * slope + current * bend);
-    (rise > 0 ? low : high) = junction;
-    double next = curvature < 0 ? junction - rise / curvature : 0.5 * (low + high);
-    if (!(next > low) || !(next < high)) next = 0.5 * (low + high);
-    const double change = std::fabs(next - junction);
-    junction = next;
-    if (change < 1e-11 * voc) break;
-  }
-  return {junction - current * rs, current};
+  const PreparedDevice terms = TwoDiodes(iph, state.shunt_conductance_S, state.saturation_current_A,
+                                         state.saturation_current_2_A, a);
+  BentCurrent<double> at{};
+  const auto rise = [&](double junction) {
+    PreparedBent<1>(terms, &junction, &at);
+    return at.value + (junction - 2 * rs * at.value) * at.slope;
+  };
+  const double junction = RootBetween(rise, 0, voc);
+  rise(junction);
+  return {junction - at.value * rs, at.value};
 }
 
 Expected<TrendDevice> DeviceOfModule(const NamedParameters& module) {

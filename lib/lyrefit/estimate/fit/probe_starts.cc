@@ -13,6 +13,7 @@
 #include "lyrefit/estimate/refine/separable.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {
@@ -174,7 +175,7 @@ std::vector<double> TypicalDevice(const RefineProblem& problem, const std::vecto
   p[kRs] = 0.02 * voltage / current;
   p[kRsh] = 100 * voltage / current;
   p[SaturationCurrentIndex(0)] =
-      current / std::expm1(voltage / (kIdeality * problem.device.module_thermal_voltage_V));
+      SaturationCurrent(current, voltage, kIdeality * problem.device.module_thermal_voltage_V);
   for (int d = 0; d < DiodeCount(problem.device); ++d) p[IdealityIndex(d)] = kIdeality;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p[i] = std::min(std::max(p[i], problem.lower[i]), problem.upper[i]);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/median.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/estimate/fit/error_degrees.h"
 #include "lyrefit/estimate/fit/intervals.h"
@@ -60,14 +61,14 @@ WeightedEnd Robustify(const FitOptions& options, const StopToken& stop, Weighted
   how.stop = stop;
   for (int round = 0; round < kRounds && !stop.Stopped(); ++round) {
     const std::vector<double> residual = WeightedResiduals(fit.problem, fit.end, given);
-    const double unit = RobustScale(residual) * options.loss_scale;
+    const double unit = RobustScale(residual, UpperMedian) * options.loss_scale;
     if (!(unit > 0)) break;
     std::vector<double> weights;
     weights.reserve(given.size());
     for (std::size_t k = 0; k < given.size(); ++k) {
       const double u = std::fabs(residual[k]) / unit;
       weights.push_back(given[k] *
-                        (options.loss == Loss::kHuber ? std::min(1.0, 1 / u) : 1 / (1 + u * u)));
+                        (options.loss == Loss::kHuber ? HuberWeight(u, 1) : 1 / (1 + u * u)));
     }
     const RefineProblem& old = fit.problem;
     RefineProblem weighted =

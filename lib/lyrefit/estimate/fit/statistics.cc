@@ -77,12 +77,6 @@ ResidualStatistics FindResidualStatistics(const std::vector<double>& voltage_V,
   return result;
 }
 
-double RobustScale(std::vector<double> values) {
-  if (values.empty()) return 0;
-  for (double& value : values) value = std::fabs(value);
-  return 1.4826 * UpperMedian(std::move(values));
-}
-
 double NoiseFromDifferences(const std::vector<double>& voltage_V,
                             const std::vector<double>& values) {
   if (values.size() < 5) return 0;
@@ -96,7 +90,7 @@ double NoiseFromDifferences(const std::vector<double>& voltage_V,
   for (std::size_t k = 1; k + 1 < order.size(); ++k) {
     differences.push_back(values[order[k - 1]] - 2 * values[order[k]] + values[order[k + 1]]);
   }
-  return RobustScale(std::move(differences)) / std::sqrt(6.0);
+  return RobustScale(std::move(differences), UpperMedian) / std::sqrt(6.0);
 }
 
 }  // namespace lyrefit

@@ -31,7 +31,4 @@ std::vector<int> OrderByVoltage(const std::vector<double>& voltage_V);
 double NoiseFromDifferences(const std::vector<double>& voltage_V,
                             const std::vector<double>& values);
 
-// 1.4826 x median of |values|.
-double RobustScale(std::vector<double> values);
-
 }  // namespace lyrefit

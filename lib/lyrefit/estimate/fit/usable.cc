@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "lyrefit/base/largest.h"
+#include "lyrefit/base/median.h"
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/find_step.h"
 #include "lyrefit/estimate/fit/statistics.h"
@@ -35,7 +36,7 @@ std::vector<double> StraightLineResiduals(const IvCurve& curve) {
 }
 
 double Typical(const std::vector<double>& residuals, bool robust) {
-  if (robust) return RobustScale(residuals);
+  if (robust) return RobustScale(residuals, UpperMedian);
   double squares = 0;
   for (const double one : residuals) squares += one * one;
   return std::sqrt(squares / static_cast<double>(residuals.size()));
@@ -84,7 +85,7 @@ std::string WhyNotUsable(const IvCurve& curve, const ModelResults& results,
                        curve.conditions.irradiance_W_m2);
   }
   const Scale scale = ScaleOf(curve, results.measured);
-  const double misfit = facts.robust ? RobustScale(results.residual_A) : facts.rmse_A;
+  const double misfit = facts.robust ? RobustScale(results.residual_A, UpperMedian) : facts.rmse_A;
   if (LineDoesAsWell(curve, facts.criteria, misfit, facts.robust, facts.at_its_end)) {
     return "a straight line describes these points as well";
   }

@@ -80,9 +80,8 @@ Campaign Compare(const TwoCampaigns& two, double level = 0.05) {
 }
 
 CampaignSummary SummaryOf(const TwoCampaigns& two) {
-  CampaignSummary summary;
+  CampaignSummary summary = SummariseCampaign(Compare(two), two.before, two.after);
   summary.before_version = "0.1.0";
-  SummariseCampaign(Compare(two), two.before, two.after, &summary);
   return summary;
 }
 

@@ -9,12 +9,12 @@ TEST(CountRows, KeepsTheFirstOfAKindAndNotTooManyKinds) {
   const std::vector<ResultColumn> columns = {{"status", "", CellType::kText, ""},
                                              {"reason", "", CellType::kText, ""},
                                              {"where", "", CellType::kText, ""}};
-  BatchSummary summary;
-  RowCounter counter(columns, &summary);
+  RowCounter counter(columns);
   for (int i = 0; i < 3 * kMostReasons; ++i) {
     const std::string kind(1 + i % (2 * kMostReasons), 'x');
     counter.Count({{std::string("broken"), kind, "row " + std::to_string(i)}});
   }
+  BatchCounts summary = counter.counts();
   EXPECT_EQ(summary.rows, 3 * kMostReasons);
   EXPECT_EQ(summary.statuses["broken"], 3 * kMostReasons);
   EXPECT_EQ(summary.reasons.size(), kMostReasons + 1U);

@@ -24,7 +24,7 @@ CellReport Described(const std::vector<IvCurve>& curves, const CellOptions& opti
 
 const SeriesResistance* Method(const CellReport& report, const std::string& begin) {
   for (const SeriesResistance& one : report.series_resistance) {
-    if (one.method.rfind(begin, 0) == 0) return &one;
+    if (one.Name().rfind(begin, 0) == 0) return &one;
   }
   return nullptr;
 }
@@ -106,7 +106,7 @@ TEST(DescribeCell, LossesOfTheFillFactorAddUpAndHoldTheTruth) {
   }
   EXPECT_NEAR(left, losses.measured, 1e-14);
   EXPECT_NEAR(losses.green_n1, losses.ideal, 2e-3);
-  EXPECT_EQ(report.pseudo.source, "the fit with Rs = 0");
+  EXPECT_EQ(report.pseudo.source, PseudoSource::kFit);
   EXPECT_EQ(report.pseudo.value, losses.without_series);
 }
 
@@ -120,7 +120,7 @@ TEST(DescribeCell, AShuntInVocOverLightGivesNoNegativeSeriesResistance) {
   ASSERT_NE(voc, nullptr);
   EXPECT_TRUE(std::isnan(voc->ohm.value));
   EXPECT_THAT(voc->missing, HasSubstr("below 0 as no resistance is; a shunt"));
-  EXPECT_EQ(report.pseudo.source, "the fit with Rs = 0");
+  EXPECT_EQ(report.pseudo.source, PseudoSource::kFit);
   EXPECT_GT(report.pseudo.value, report.sweeps[report.main].key.fill_factor);
 }
 

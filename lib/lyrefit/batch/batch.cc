@@ -7,12 +7,14 @@
 #include <optional>
 #include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/batch/campaign_results.h"
 #include "lyrefit/batch/checkpoint.h"
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/pipeline.h"
 #include "lyrefit/batch/result_columns.h"
 #include "lyrefit/batch/row_text.h"
@@ -77,19 +79,15 @@ std::string ReasonOf(const Error& error) {
   return fmt::format("line {}, column {}: {}", error.line, error.column, error.message);
 }
 
-void AddDoubt(const BatchCurve& curve, TaskResult* result) {
+// The result of a curve, which is doubtful where its readings are.
+TaskResult WithDoubt(TaskResult result, const BatchCurve& curve) {
   const std::optional<std::string> doubt =
       PlausibilityProblem(*curve.curve, RatedPowerBeside(curve));
-  if (!doubt) return;
-  if (result->status == RowStatus::kFine) result->status = RowStatus::kDoubtful;
-  if (result->reason.find(*doubt) != std::string::npos) return;
-  result->reason += (result->reason.empty() ? "" : "; ") + *doubt;
-}
-
-std::size_t ColumnNamed(const char* name, const std::vector<ResultColumn>& columns) {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [name](const ResultColumn& c) { return c.name == name; });
-  return static_cast<std::size_t>(found - columns.begin());
+  if (!doubt) return result;
+  if (result.status == RowStatus::kFine) result.status = RowStatus::kDoubtful;
+  if (result.reason.find(*doubt) != std::string::npos) return result;
+  result.reason += (result.reason.empty() ? "" : "; ") + *doubt;
+  return result;
 }
 
 ResultCell BypassDiodes(const BatchCurve& curve) {
@@ -109,7 +107,7 @@ class RowMaker {
         task_(task),
         options_(options),
         columns_(RowColumns(task, options)),
-        remark_(ColumnNamed("remark", columns_)) {}
+        remark_(ColumnPlace(columns_, "remark")) {}
 
   PipelineStep Make(const BatchItem& item, const StopToken& stop) const {
     BatchCurve curve = source_.Read(item);
@@ -119,45 +117,39 @@ class RowMaker {
     TaskResult result{RowStatus::kBroken, "", {}, false};
     if (curve.curve) {
       result = task_.run(curve, SeedOf(options_.seed, curve.id), stop.AsObserver());
-      if (is_curve) AddDoubt(curve, &result);
+      if (is_curve) result = WithDoubt(std::move(result), curve);
     } else {
       result.reason = ReasonOf(curve.curve.error());
     }
     ResultRow row = {CommonCells(curve, item, result)};
     result.cells.resize(task_.columns.size());
-    for (ResultCell& cell : result.cells) row.cells.push_back(std::move(cell));
+    Append(std::move(result.cells), &row.cells);
     if (!options_.before.empty()) row.cells.push_back(BypassDiodes(curve));
-    for (const std::string& remark : remarks) AddRemark(remark, &row);
     PipelineStep step;
     step.broken = result.status == RowStatus::kBroken;
     step.interrupted = result.interrupted;
     if (options_.pages != PagesOf::kNone) {
-      row.cells.emplace_back();
-      if (!result.interrupted) AddPage(curve.id, result, &row);
+      const Expected<ResultCell> page = PageOf(curve.id, result);
+      row.cells.push_back(page.value_or(ResultCell()));
+      if (!page) remarks.push_back("no page: " + page.error().message);
+    }
+    for (const std::string& remark : remarks) {
+      const auto* const before = std::get_if<std::string>(&row.cells[remark_]);
+      row.cells[remark_] = (before == nullptr ? "" : *before + "; ") + remark;
     }
     step.text = RowJson(columns_, row) + "\n";
     return step;
   }
 
  private:
-  // Writes the curve's page before its row and puts the path into the row's last cell. A page that
-  // cannot be written becomes a remark on the row.
-  void AddPage(const std::string& id, const TaskResult& result, ResultRow* row) const {
-    if (!result.page || (options_.pages == PagesOf::kFailed && !result.failed)) return;
+  // Writes the curve's page before its row, whose last cell is the path. A page that cannot be
+  // written is a remark on the row.
+  Expected<ResultCell> PageOf(const std::string& id, const TaskResult& result) const {
+    const bool wanted = options_.pages != PagesOf::kFailed || result.failed;
+    if (result.interrupted || !result.page || !wanted) return ResultCell();
     const std::string path = StringPagePath(id);
-    const auto written =
-        WriteStringPage(options_.folder, path, result.page({options_.interactive_pages}));
-    if (written) {
-      row->cells.back() = path;
-      return;
-    }
-    AddRemark("no page: " + written.error().message, row);
-  }
-
-  void AddRemark(const std::string& text, ResultRow* row) const {
-    ResultCell& remark = row->cells[remark_];
-    const auto* const before = std::get_if<std::string>(&remark);
-    remark = (before == nullptr ? "" : *before + "; ") + text;
+    TRY(WriteStringPage(options_.folder, path, result.page({options_.interactive_pages})));
+    return path;
   }
 
   // Adds the known conditions and validates the readings. Returns what has to be said of that.
@@ -227,7 +219,7 @@ std::optional<std::pair<int, std::int64_t>> Pair(const std::optional<PipelinePla
 Expected<std::string> TakeEarlier(const BatchTaskType& task, const BatchOptions& options,
                                   CheckpointHead* head) {
   if (options.before.empty()) return std::string();
-  if (ColumnNamed(kFigureColumns[0], task.columns) == task.columns.size()) {
+  if (ColumnPlace(task.columns, kFigureColumns[0]) == task.columns.size()) {
     return Fail(
         "earlier results are compared at standard conditions: --before is for --task "
         "field-test");
@@ -319,15 +311,12 @@ Expected<BatchSummary> RunBatch(BatchSource* source, const BatchTaskType& task,
   summary.seconds = SecondsSince(begin);
   if (summary.interrupted) return summary;
   if (shard) {
-    TRY(CountRows(path, &summary));
+    TRY(static_cast<BatchCounts&>(summary), CountRows(path));
   } else {
-    const BatchSummary before = summary;
-    TRY(WriteResults({path}, options.folder, observer, row_observer, &summary));
-    if (summary.interrupted) {  // the counts are incomplete
-      summary = before;
-      summary.interrupted = true;
-      return summary;
-    }
+    TRY(auto results, WriteResults({path}, options.folder, observer, row_observer));
+    summary.interrupted = !results;
+    if (summary.interrupted) return summary;
+    static_cast<BatchResults&>(summary) = std::move(*results);
     TRY(part->Remove());
     std::error_code error;  // there is none without earlier results
     std::filesystem::remove(EarlierCopyPath(options.folder), error);

@@ -51,17 +51,9 @@ struct ReasonCount {
   std::string first;      // its reason; empty: of many reasons
 };
 
-// Summary of a run.
-struct BatchSummary {
-  std::string version;  // of lyrefit
-  std::string task;     // "fit", "diagnose", "field-test", "cell"
-  std::string folder;   // folder of the results
-  std::uint64_t seed = 0;
-  std::int64_t rows = 0;         // number of rows in the results
-  std::int64_t rows_before = 0;  // of `rows`: written by earlier runs
-  double seconds = 0;
-  bool interrupted = false;   // there are no results yet; the members below are empty
-  bool was_complete = false;  // the results were complete before the run
+// Rows in numbers.
+struct BatchCounts {
+  std::int64_t rows = 0;                         // number of rows in the results
   std::map<std::string, std::int64_t> statuses;  // number of rows for each status
   std::map<std::string, std::int64_t> zones;     // number of rows for each zone of a field test
   // Number of rows for each cause, if the task reports causes.
@@ -72,12 +64,28 @@ struct BatchSummary {
   std::map<std::string, std::int64_t> abouts;
   // Reasons with all numbers replaced by "N". Reasons beyond kMostReasons are counted together.
   std::map<std::string, ReasonCount> reasons;
+  std::int64_t compared = 0;  // number of strings with neighbours
+  std::int64_t flagged = 0;   // of `compared`: flagged as different
+};
+
+// What the results of a whole run say of it.
+struct BatchResults : BatchCounts {
   std::vector<ResultColumn> columns;   // columns of the results
-  std::int64_t compared = 0;           // number of strings with neighbours
-  std::int64_t flagged = 0;            // of `compared`: flagged as different
-  std::vector<SampleSummary> samples;  // of task `cell`, of whole runs
+  std::vector<SampleSummary> samples;  // of task `cell`
   std::string working_pixel;           // when a pixel works, in one sentence
-  CampaignSummary campaign;            // with earlier results, of whole runs
+  CampaignSummary campaign;            // with earlier results
+};
+
+// Summary of a run. A shard has counts alone.
+struct BatchSummary : BatchResults {
+  std::string version;  // of lyrefit
+  std::string task;     // "fit", "diagnose", "field-test", "cell"
+  std::string folder;   // folder of the results
+  std::uint64_t seed = 0;
+  std::int64_t rows_before = 0;  // of `rows`: written by earlier runs
+  double seconds = 0;
+  bool interrupted = false;   // there are no results yet, and nothing of BatchResults but `rows`
+  bool was_complete = false;  // the results were complete before the run
 };
 
 // Number of different reasons that are counted separately.

@@ -119,9 +119,10 @@ std::vector<ResultColumn> CampaignColumns();
 std::vector<ResultCell> CampaignCells(const Campaign& campaign,
                                       const std::vector<CampaignString>& before,
                                       const std::vector<CampaignString>& after, std::size_t i);
-// Fills in all members but those of the earlier run.
-void SummariseCampaign(const Campaign& campaign, const std::vector<CampaignString>& before,
-                       const std::vector<CampaignString>& after, CampaignSummary* summary);
+// All members but those of the earlier run.
+CampaignSummary SummariseCampaign(const Campaign& campaign,
+                                  const std::vector<CampaignString>& before,
+                                  const std::vector<CampaignString>& after);
 
 // campaign_kinds.cc: what changed, the power lost by it, and the ranks. `compared`: number of strings
 // with changes.

@@ -143,28 +143,30 @@ std::vector<ResultCell> CampaignCells(const Campaign& campaign,
   return cells;
 }
 
-void SummariseCampaign(const Campaign& campaign, const std::vector<CampaignString>& before,
-                       const std::vector<CampaignString>& after, CampaignSummary* summary) {
-  summary->level = campaign.level;
-  summary->plant = CommonChangeOf(campaign.plant);
-  summary->compared = campaign.plant.strings;
+CampaignSummary SummariseCampaign(const Campaign& campaign,
+                                  const std::vector<CampaignString>& before,
+                                  const std::vector<CampaignString>& after) {
+  CampaignSummary summary;
+  summary.level = campaign.level;
+  summary.plant = CommonChangeOf(campaign.plant);
+  summary.compared = campaign.plant.strings;
   for (const CampaignGroup& group : campaign.groups) {
-    if (group.differs) summary->groups.push_back(CommonChangeOf(group));
+    if (group.differs) summary.groups.push_back(CommonChangeOf(group));
   }
   for (std::size_t i = 0; i < after.size(); ++i) {
     const CampaignChange& change = campaign.changes[i];
     const bool fresh = change.kind == CampaignKind::kNew || change.kind == CampaignKind::kRenamed;
     if (fresh) {
-      ++summary->fresh;
-      if (summary->fresh_ids.size() < kMostChanges) summary->fresh_ids.push_back(after[i].id);
+      ++summary.fresh;
+      if (summary.fresh_ids.size() < kMostChanges) summary.fresh_ids.push_back(after[i].id);
     }
     const auto self = static_cast<std::int32_t>(i);
     if (change.kind == CampaignKind::kExchanged && self < change.partner) {
-      summary->exchanged.emplace_back(after[i].id, after[change.partner].id);
+      summary.exchanged.emplace_back(after[i].id, after[change.partner].id);
     }
     if (change.rank > 0) {
-      ++summary->changed;
-      (change.lost_W > 0 ? summary->lost_W : summary->gained_W) += std::fabs(change.lost_W);
+      ++summary.changed;
+      (change.lost_W > 0 ? summary.lost_W : summary.gained_W) += std::fabs(change.lost_W);
     }
     const bool listed = change.kind == CampaignKind::kRenamed || change.rank > 0;
     if (!listed || change.rank > static_cast<std::int32_t>(kMostChanges)) continue;
@@ -172,22 +174,23 @@ void SummariseCampaign(const Campaign& campaign, const std::vector<CampaignStrin
     const auto percent = [&](int q) {
       return HasChange(change) ? Percent(change.own[q]) : kUnknown;
     };
-    summary->changes.push_back({change.rank, after[i].id, ToText(change.kind), texts.sentence,
-                                texts.candidates, texts.action, percent(kCIsc), percent(kCVoc),
-                                percent(change.adjusted ? int{kAdjustedFill} : int{kCFillFactor}),
-                                change.lost_W, change.lost_low_W, change.lost_high_W});
+    summary.changes.push_back({change.rank, after[i].id, ToText(change.kind), texts.sentence,
+                               texts.candidates, texts.action, percent(kCIsc), percent(kCVoc),
+                               percent(change.adjusted ? int{kAdjustedFill} : int{kCFillFactor}),
+                               change.lost_W, change.lost_low_W, change.lost_high_W});
   }
-  std::stable_sort(summary->changes.begin(), summary->changes.end(),
+  std::stable_sort(summary.changes.begin(), summary.changes.end(),
                    [](const StringChange& one, const StringChange& other) {
                      const auto last = [](std::int64_t rank) { return rank == 0 ? 1 : 0; };
                      return std::pair(last(one.rank), one.rank) <
                             std::pair(last(other.rank), other.rank);
                    });
-  summary->gone = static_cast<std::int64_t>(campaign.gone.size());
-  summary->not_repeated = campaign.not_repeated;
+  summary.gone = static_cast<std::int64_t>(campaign.gone.size());
+  summary.not_repeated = campaign.not_repeated;
   for (const std::int32_t k : campaign.gone) {
-    if (summary->gone_ids.size() < kMostChanges) summary->gone_ids.push_back(before[k].id);
+    if (summary.gone_ids.size() < kMostChanges) summary.gone_ids.push_back(before[k].id);
   }
+  return summary;
 }
 
 }  // namespace lyrefit

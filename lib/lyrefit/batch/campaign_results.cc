@@ -87,13 +87,12 @@ std::vector<ResultCell> CampaignResults::NextCells() {
 }
 
 CampaignSummary CampaignResults::Summary() const {
-  CampaignSummary summary;
+  CampaignSummary summary = SummariseCampaign(campaign_, earlier_.strings, later_);
   summary.before_version = earlier_.version;
   summary.before_rows = static_cast<std::int64_t>(earlier_.strings.size());
   summary.before_first_date = earlier_.first_date;
   summary.before_last_date = earlier_.last_date;
   summary.remarks = RemarksOn(earlier_);
-  SummariseCampaign(campaign_, earlier_.strings, later_, &summary);
   return summary;
 }
 

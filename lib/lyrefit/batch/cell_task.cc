@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/batch/samples.h"
@@ -53,11 +54,13 @@ std::vector<ResultColumn> CellColumns() {
   return columns;
 }
 
-void AppendSweep(const CellSweep* sweep, std::vector<ResultCell>* cells) {
+std::vector<ResultCell> CellsOfSweep(const CellSweep* sweep) {
+  std::vector<ResultCell> cells;
   for (const CellField& field : CellFields()) {
-    cells->push_back(sweep == nullptr ? ResultCell() : NumberCell(field.value(*sweep)));
+    cells.push_back(sweep == nullptr ? ResultCell() : NumberCell(field.value(*sweep)));
   }
-  cells->push_back(sweep == nullptr ? ResultCell() : TextCell(VoidReasons(*sweep)));
+  cells.push_back(sweep == nullptr ? ResultCell() : TextCell(VoidReasons(*sweep)));
+  return cells;
 }
 
 // The pair of the two sweeps; null if there is none.
@@ -83,8 +86,8 @@ std::vector<ResultCell> CellsOf(const std::string& sample, const CellReport& rep
       best == nullptr ? ResultCell() : TextCell(ToText(best->direction)),
       best == nullptr ? ResultCell() : NumberCell(best->jsc_mA_cm2),
       best == nullptr ? ResultCell() : NumberCell(best->efficiency)};
-  AppendSweep(sweeps.forward, &cells);
-  AppendSweep(sweeps.reverse, &cells);
+  Append(CellsOfSweep(sweeps.forward), &cells);
+  Append(CellsOfSweep(sweeps.reverse), &cells);
   const DirectionPair* const pair = PairOf(report, sweeps);
   cells.push_back(pair == nullptr ? ResultCell() : TextCell(ToText(pair->sense)));
   cells.push_back(pair == nullptr ? ResultCell() : NumberCell(pair->index_power));

@@ -20,7 +20,7 @@ std::size_t ColumnPlace(const std::vector<ResultColumn>& columns, const char* na
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-RowCounter::RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* summary)
+RowCounter::RowCounter(const std::vector<ResultColumn>& columns)
     : status_(ColumnPlace(columns, "status")),
       reason_(ColumnPlace(columns, "reason")),
       where_(ColumnPlace(columns, "where")),
@@ -28,26 +28,23 @@ RowCounter::RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* s
       cause_(ColumnPlace(columns, "cause")),
       about_(ColumnPlace(columns, "cause_about")),
       flag_(ColumnPlace(columns, "group_flag")),
-      plan_(ColumnPlace(columns, "plan_cause")),
-      summary_(summary) {
-  summary_->rows = 0;
-}
+      plan_(ColumnPlace(columns, "plan_cause")) {}
 
 void RowCounter::Count(const ResultRow& row) {
-  ++summary_->rows;
-  if (const auto* status = In<std::string>(row, status_)) ++summary_->statuses[*status];
-  if (const auto* zone = In<std::string>(row, zone_)) ++summary_->zones[*zone];
-  if (const auto* cause = In<std::string>(row, cause_)) ++summary_->causes[*cause];
-  if (const auto* plan = In<std::string>(row, plan_)) ++summary_->plan_causes[*plan];
-  if (const auto* about = In<std::string>(row, about_)) ++summary_->abouts[*about];
+  ++counts_.rows;
+  if (const auto* status = In<std::string>(row, status_)) ++counts_.statuses[*status];
+  if (const auto* zone = In<std::string>(row, zone_)) ++counts_.zones[*zone];
+  if (const auto* cause = In<std::string>(row, cause_)) ++counts_.causes[*cause];
+  if (const auto* plan = In<std::string>(row, plan_)) ++counts_.plan_causes[*plan];
+  if (const auto* about = In<std::string>(row, about_)) ++counts_.abouts[*about];
   if (const bool* flag = In<bool>(row, flag_)) {
-    ++summary_->compared;
-    summary_->flagged += *flag ? 1 : 0;
+    ++counts_.compared;
+    counts_.flagged += *flag ? 1 : 0;
   }
   const auto* const reason = In<std::string>(row, reason_);
   if (reason == nullptr) return;
   std::string kind = WithoutNumbers(*reason);
-  auto& reasons = summary_->reasons;
+  auto& reasons = counts_.reasons;
   if (reasons.count(kind) == 0 && reasons.size() >= kMostReasons) kind = kOthers;
   ReasonCount& count = reasons[kind];
   const auto* const where = In<std::string>(row, where_);

@@ -14,14 +14,14 @@ constexpr char kOthers[] = "other reasons";  // the key of those beyond kMostRea
 // Counts rows for the summary of a run, in constant memory.
 class RowCounter {
  public:
-  // `summary` must outlive the counter.
-  RowCounter(const std::vector<ResultColumn>& columns, BatchSummary* summary);
+  explicit RowCounter(const std::vector<ResultColumn>& columns);
   void Count(const ResultRow& row);
+  const BatchCounts& counts() const { return counts_; }
 
  private:
   // Positions of columns; the number of columns for a missing one.
   std::size_t status_, reason_, where_, zone_, cause_, about_, flag_, plan_;
-  BatchSummary* const summary_;
+  BatchCounts counts_;
 };
 
 // Position of a column; the number of columns if there is none of the name.

@@ -170,7 +170,8 @@ Expected<BatchSummary> MergeShards(const std::vector<std::string>& folders,
   summary.folder = options.folder;
   summary.seed = reader.head().at("options").value("seed", std::uint64_t{0});
   for (const std::string& path : paths) TRY(BringStringPages(path, options.folder));
-  TRY(WriteResults(paths, options.folder, {}, row_observer, &summary));
+  TRY(auto results, WriteResults(paths, options.folder, {}, row_observer));
+  static_cast<BatchResults&>(summary) = std::move(*results);  // nobody stops it
   summary.seconds = SecondsSince(begin);
   return summary;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "lyrefit/batch/count_rows.h"
 #include "lyrefit/batch/neighbours.h"
 #include "lyrefit/batch/plant_figures.h"
 #include "lyrefit/batch/plant_text.h"
@@ -18,17 +19,19 @@ constexpr std::size_t kAllParts = std::size(kPlantLossParts);
 
 using NamedLosses = std::pair<std::string, PlantLosses>;
 
-void AddLoss(const std::vector<double>& percents, double weight, double now_percent,
-             PlantLosses* to) {
-  to->weights.resize(kAllParts, 0);
-  to->parts.resize(kAllParts, 0);
-  ++to->rows;
+// The sums with those of one more string.
+PlantLosses WithLoss(PlantLosses sums, const std::vector<double>& percents, double weight,
+                     double now_percent) {
+  sums.weights.resize(kAllParts, 0);
+  sums.parts.resize(kAllParts, 0);
+  ++sums.rows;
   for (std::size_t p = 0; p < kAllParts; ++p) {
     if (!std::isfinite(percents[p])) continue;
-    to->weights[p] += weight;
-    to->parts[p] += weight * percents[p];
+    sums.weights[p] += weight;
+    sums.parts[p] += weight * percents[p];
   }
-  if (std::isfinite(now_percent)) to->lost_W += weight * now_percent / 100;
+  if (std::isfinite(now_percent)) sums.lost_W += weight * now_percent / 100;
+  return sums;
 }
 
 // Mean of the strings that tell the part; NaN: none does.
@@ -94,18 +97,13 @@ block::Table::Row LossRow(const std::string& name, const PlantLosses& losses) {
 }  // namespace
 
 PlantLossCounter::PlantLossCounter(const std::vector<ResultColumn>& columns) {
-  const auto place = [&](const std::string& name) {
-    const auto at = std::find_if(columns.begin(), columns.end(),
-                                 [&](const ResultColumn& column) { return column.name == name; });
-    return static_cast<std::size_t>(at - columns.begin());
-  };
   for (const PlantLossPart& part : kPlantLossParts) {
-    const std::size_t at = place(part.column);
+    const std::size_t at = ColumnPlace(columns, part.column);
     if (at < columns.size()) places_.push_back(at);
   }
   if (places_.size() < kAllParts) places_.clear();
-  power_ = place("reference_power_W");
-  now_ = place("loss_now_total_percent");
+  power_ = ColumnPlace(columns, "reference_power_W");
+  now_ = ColumnPlace(columns, "loss_now_total_percent");
 }
 
 void PlantLossCounter::Add(const std::string& id, const ResultRow& row) {
@@ -114,12 +112,13 @@ void PlantLossCounter::Add(const std::string& id, const ResultRow& row) {
   for (const std::size_t at : places_) percents.push_back(NumberAt(row, at));
   const double power_W = NumberAt(row, power_);
   if (!std::isfinite(percents.back()) || !(power_W > 0)) return;
-  AddLoss(percents, power_W, NumberAt(row, now_), &summary_.plant);
+  const auto add = [&](PlantLosses& sums) {
+    sums = WithLoss(std::move(sums), percents, power_W, NumberAt(row, now_));
+  };
+  add(summary_.plant);
   const std::string parent = ParentOf(id);
   const bool fits = summary_.groups.size() < kPlantMostNodes || summary_.groups.count(parent) > 0;
-  if (!parent.empty() && fits) {
-    AddLoss(percents, power_W, NumberAt(row, now_), &summary_.groups[parent]);
-  }
+  if (!parent.empty() && fits) add(summary_.groups[parent]);
 }
 
 block::Figure LossesFigure(const PlantLossSummary& losses) {

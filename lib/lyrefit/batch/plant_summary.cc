@@ -138,17 +138,15 @@ bool PlantCounter::ToRepeat(const std::string& about, const std::string& zone) c
 
 // A cause of the scale takes the place of the cause of the curve, which is none or of the
 // measurement alone.
-void PlantCounter::TakePlan(const ResultRow& row, PlantRow* named, std::string* about) const {
-  const std::string cause = Text(row, kPlanCause);
-  if (cause.empty()) return;
-  named->plan_sentence = Text(row, kPlanSentence);
-  named->plan_action = Text(row, kPlanAction);
-  named->plan_equivalents = Text(row, kPlanEquivalents);
-  named->plan_lost_W = Number(row, kPlanLost);
-  named->cause = cause;
-  named->cause_title = Text(row, kPlanTitle);
-  named->recoverable_power_W = named->plan_lost_W;
-  *about = Text(row, kPlanAbout);
+PlantRow PlantCounter::WithPlan(PlantRow named, const ResultRow& row) const {
+  named.plan_sentence = Text(row, kPlanSentence);
+  named.plan_action = Text(row, kPlanAction);
+  named.plan_equivalents = Text(row, kPlanEquivalents);
+  named.plan_lost_W = Number(row, kPlanLost);
+  named.cause = Text(row, kPlanCause);
+  named.cause_title = Text(row, kPlanTitle);
+  named.recoverable_power_W = named.plan_lost_W;
+  return named;
 }
 
 bool PlantCounter::Differs(const ResultRow& row) const {
@@ -229,8 +227,9 @@ void PlantCounter::Add(const ResultRow& row) {
   named.performance_factor = Number(row, kPerformance);
   named.Pmax_stc_W = Number(row, kPower);
   named.recoverable_power_W = Number(row, kRecoverable);
-  std::string about = Text(row, kCauseAbout);
-  TakePlan(row, &named, &about);
+  const bool planned = !Text(row, kPlanCause).empty();
+  const std::string about = Text(row, planned ? kPlanAbout : kCauseAbout);
+  if (planned) named = WithPlan(std::move(named), row);
   const std::string status = Text(row, kStatus);
   const bool fine = IsFine(status);
   const bool to_repeat = fine && ToRepeat(about, named.zone);

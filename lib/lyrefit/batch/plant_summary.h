@@ -140,7 +140,7 @@ class PlantCounter {
   bool Has(Known column) const { return places_[column] >= 0; }
   bool NeedsWork(const std::string& zone, const std::string& cause) const;
   bool ToRepeat(const std::string& about, const std::string& zone) const;
-  void TakePlan(const ResultRow& row, PlantRow* named, std::string* about) const;
+  PlantRow WithPlan(PlantRow named, const ResultRow& row) const;
   bool Differs(const ResultRow& row) const;
   double Badness(const ResultRow& row) const;
   void CountWords(const PlantRow& row, const std::string& status, bool needs_work, bool to_repeat);

@@ -58,11 +58,8 @@ Section NotWorkingSection(const std::vector<SampleSummary>& samples, std::size_t
   block::Table table = {"lw", {{"sample", "pixels"}}};
   for (std::size_t i = 0; i < shown; ++i) {
     if (samples[i].not_working.empty()) continue;
-    std::string names;
-    for (const std::string& one : samples[i].not_working) {
-      names += (names.empty() ? "" : "; ") + one;
-    }
-    table.rows.push_back({samples[i].name, names});
+    table.rows.push_back(
+        {samples[i].name, fmt::format("{}", fmt::join(samples[i].not_working, "; "))});
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
   return section;

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/file.h"
 #include "lyrefit/base/new_file.h"
 #include "lyrefit/base/try.h"
@@ -245,10 +246,6 @@ std::string CampaignText(const CampaignSummary& summary) {
   return CampaignJson(summary).dump(2, ' ', false, BatchJson::error_handler_t::replace) + "\n";
 }
 
-void Append(std::vector<ResultCell> cells, ResultRow* row) {
-  for (ResultCell& cell : cells) row->cells.push_back(std::move(cell));
-}
-
 Expected<void> WriteSamples(const std::vector<SampleSummary>& samples, CsvTexts texts, NewFile* csv,
                             NewFile* lines) {
   const std::vector<ResultColumn> columns = SampleColumns();
@@ -269,15 +266,14 @@ void AddScale(const ResultsPlan& plan, const ScaleScatter& scatter, Group* group
     const auto residuals = ScaleResiduals(members);
     const ScaleErrors errors = scatter.ErrorsOf(residuals);
     for (auto& cells : ScaleCells(members, residuals, errors, plan.level)) {
-      ResultRow& row = group->rows[i++];
-      for (ResultCell& cell : cells) row.cells.push_back(std::move(cell));
+      Append(std::move(cells), &group->rows[i++].cells);
     }
   }
 }
 
-Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std::string& folder,
-                               const RowObserver& row_observer, RowProgress* passed,
-                               BatchSummary* summary) {
+Expected<BatchResults> WriteAllResults(const std::vector<std::string>& parts,
+                                       const std::string& folder, const RowObserver& row_observer,
+                                       RowProgress* passed) {
   // Its digest covers all of the input.
   TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const ResultsPlan plan, ResultsPlanOf(last.head(), parts.back()));
@@ -290,21 +286,20 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   NewFile schema((base / kSchema).string());
   for (NewFile* file : {&csv, &lines, &schema}) TRY(file->Begin());
   TRY(csv.Write(HeadCsv(plan.results)));
-  summary->columns = plan.results;
-  RowCounter counter(plan.results, summary);
+  RowCounter counter(plan.results);
   SampleCounter samples(plan.results);
   const auto write = [&](Group& group) -> Expected<void> {
     const auto deviations = DeviationsAmong(group.members, plan.like_light);
     std::array<double, kNeighbourQuantities> limits{};
     if (!deviations.empty()) limits = scatter.neighbours.Limits(deviations, plan.level);
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
-      ResultRow& row = group.rows[i];
       const NeighbourDeviation none;
-      Append(NeighbourCells(deviations.empty() ? none : deviations[i], limits), &row);
+      Append(NeighbourCells(deviations.empty() ? none : deviations[i], limits),
+             &group.rows[i].cells);
     }
     if (plan.scale) AddScale(plan, scatter.scale, &group);
     for (ResultRow& row : group.rows) {
-      if (campaign) Append(campaign->NextCells(), &row);
+      if (campaign) Append(campaign->NextCells(), &row.cells);
       TRY(csv.Write(RowCsv(row, plan.texts)));
       TRY(lines.Write(RowJson(plan.results, row) + "\n"));
       counter.Count(row);
@@ -315,40 +310,49 @@ Expected<void> WriteAllResults(const std::vector<std::string>& parts, const std:
   };
   TRY(ForGroups(parts, plan.rows, write));
   TRY(schema.Write(SchemaJson(last.head(), plan.results, samples.counts())));
+  BatchResults results;
+  static_cast<BatchCounts&>(results) = counter.counts();
+  results.columns = plan.results;
   if (campaign) {
-    summary->campaign = campaign->Summary();
+    results.campaign = campaign->Summary();
     NewFile file((base / kCampaign).string());
     TRY(file.Begin());
-    TRY(file.Write(CampaignText(summary->campaign)));
-    return NewFile::Commit({&csv, &lines, &file, &schema});
+    TRY(file.Write(CampaignText(results.campaign)));
+    TRY(NewFile::Commit({&csv, &lines, &file, &schema}));
+    return results;
   }
-  if (!samples.counts()) return NewFile::Commit({&csv, &lines, &schema});
-  summary->samples = samples.Summaries();
-  summary->working_pixel = last.head().at("options").value(kPixelCriterion, "");
+  if (!samples.counts()) {
+    TRY(NewFile::Commit({&csv, &lines, &schema}));
+    return results;
+  }
+  results.samples = samples.Summaries();
+  results.working_pixel = last.head().at("options").value(kPixelCriterion, "");
   NewFile samples_csv((base / kSamplesCsv).string());
   NewFile samples_lines((base / kSamplesLines).string());
-  TRY(WriteSamples(summary->samples, plan.texts, &samples_csv, &samples_lines));
-  return NewFile::Commit({&csv, &lines, &samples_csv, &samples_lines, &schema});
+  TRY(WriteSamples(results.samples, plan.texts, &samples_csv, &samples_lines));
+  TRY(NewFile::Commit({&csv, &lines, &samples_csv, &samples_lines, &schema}));
+  return results;
 }
 
 }  // namespace
 
-Expected<void> WriteResults(const std::vector<std::string>& parts, const std::string& folder,
-                            const Observer& observer, const RowObserver& row_observer,
-                            BatchSummary* summary) {
+Expected<std::optional<BatchResults>> WriteResults(const std::vector<std::string>& parts,
+                                                   const std::string& folder,
+                                                   const Observer& observer,
+                                                   const RowObserver& row_observer) {
   RowProgress passed{ProgressReporter(observer)};
-  auto written = WriteAllResults(parts, folder, row_observer, &passed, summary);
-  summary->interrupted = passed.progress.stop().requested();
-  return summary->interrupted ? Expected<void>() : written;
+  Expected<BatchResults> written = WriteAllResults(parts, folder, row_observer, &passed);
+  if (passed.progress.stop().requested()) return std::nullopt;
+  return written;
 }
 
-Expected<void> CountRows(const std::string& part, BatchSummary* summary) {
+Expected<BatchCounts> CountRows(const std::string& part) {
   TRY(CheckpointReader reader, CheckpointReader::Open(part));
   TRY(const ResultsPlan plan, ResultsPlanOf(reader.head(), part));
-  RowCounter counter(plan.rows, summary);
+  RowCounter counter(plan.rows);
   while (true) {
     TRY(const auto json, reader.Next());
-    if (!json) return {};
+    if (!json) return counter.counts();
     counter.Count(RowOf(plan.rows, *json));
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,15 @@ namespace lyrefit {
 // Converts complete checkpoint files into results. The files are read twice, since the usual
 // scatter of neighbours is known only after all rows. A result file gets its name when it is
 // complete. A killed process or a full disk leaves the checkpoint files and the earlier results. An
-// observer that stops the call does so too, and `summary` is then marked as interrupted. The
-// observer receives stage "results".
-Expected<void> WriteResults(const std::vector<std::string>& parts, const std::string& folder,
-                            const Observer& observer, const RowObserver& row_observer,
-                            BatchSummary* summary);
+// observer that stops the call does so too, and there is no result then. The observer receives
+// stage "results".
+Expected<std::optional<BatchResults>> WriteResults(const std::vector<std::string>& parts,
+                                                   const std::string& folder,
+                                                   const Observer& observer,
+                                                   const RowObserver& row_observer);
 
 // Counts the rows of one shard's checkpoint file, which has no results of its own.
-Expected<void> CountRows(const std::string& part, BatchSummary* summary);
+Expected<BatchCounts> CountRows(const std::string& part);
 
 // The head of the results in the folder; null if there are none. An empty object: files with the
 // names of results exist that are not from lyrefit.

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "lyrefit/devices/cell_fields.h"
@@ -64,11 +66,7 @@ const std::vector<CellField>& CellFields() {
 }
 
 std::string VoidReasons(const CellSweep& sweep) {
-  std::string reasons;
-  for (const std::string& reason : sweep.void_because) {
-    reasons += (reasons.empty() ? "" : "; ") + reason;
-  }
-  return reasons;
+  return fmt::format("{}", fmt::join(sweep.void_because, "; "));
 }
 
 std::string CellCsv(const CellReport& report) {

@@ -136,12 +136,10 @@ Section PairSection(const CellReport& report, const DirectionPair& pair) {
                           pair.sense == HysteresisSense::kNormal ? "reverse" : "forward",
                           pair.cross ? " The curves cross: the index by power hides the gap." : ""),
               &section);
-  std::string causes;
-  for (const std::string& cause : pair.causes) causes += (causes.empty() ? "" : ", ") + cause;
   AddSentence(
-      "Possible: " + causes +
-          ". A sweep at a second rate decides. Neither direction gives the steady power: track the "
-          "maximum power point.",
+      fmt::format("Possible: {}. A sweep at a second rate decides. Neither direction gives the "
+                  "steady power: track the maximum power point.",
+                  fmt::join(pair.causes, ", ")),
       &section);
   return section;
 }

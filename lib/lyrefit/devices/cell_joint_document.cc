@@ -71,10 +71,7 @@ Section JointSection(const CellReport& report) {
     AddSentence("No joint estimate: " + joint.missing + ".", &section);
     return section;
   }
-  std::string reasons;
-  for (const std::string& reason : joint.void_because) {
-    reasons += (reasons.empty() ? "" : "; ") + reason;
-  }
+  const std::string reasons = fmt::format("{}", fmt::join(joint.void_because, "; "));
   if (!reasons.empty()) {
     AddSentence("One diode model is not behind all of them: " + reasons +
                     ". The parameters below describe no device.",

@@ -17,11 +17,10 @@ Section SeriesResistanceSection(const CellReport& report) {
   for (const SeriesResistance& one : report.series_resistance) {
     const Ranged& ohm = one.ohm;
     const bool ranged = std::isfinite(ohm.low_95) && std::isfinite(ohm.high_95);
-    table.rows.push_back({one.method, Significant(ohm.value, 4),
+    table.rows.push_back({one.Name(), Significant(ohm.value, 4),
                           area ? Significant(report.PerArea(ohm.value), 4) : "-",
                           ranged ? Range(ohm.low_95, ohm.high_95) : one.missing});
-    const std::string method = one.method.substr(0, one.method.find(','));
-    const std::string note = method + ": " + one.note;
+    const std::string note = ToText(one.method) + ": " + one.note;
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
   AddTable(std::move(table), &section);
@@ -34,11 +33,11 @@ Section FillFactorSection(const CellReport& report) {
   if (report.main == -1) return section;
   if (std::isfinite(report.pseudo.value)) {
     // Collection lowers the curves of the lights, but not their Voc.
-    const bool by_fit = report.pseudo.source == "the fit with Rs = 0";
+    const bool by_fit = report.pseudo.source == PseudoSource::kFit;
     AddField("pseudo-FF",
              fmt::format(
                  "{} from {}; recombination and {} cost {}, series resistance{} {}",
-                 PercentText(report.pseudo.value, 4), report.pseudo.source,
+                 PercentText(report.pseudo.value, 4), ToText(report.pseudo.source),
                  by_fit ? "shunt or collection" : "shunt",
                  PercentText(report.pseudo.ideal - report.pseudo.value, 3),
                  by_fit ? "" : " and collection",
@@ -104,9 +103,8 @@ Section SuperpositionSection(const CellReport& report) {
     AddSentence("The curves superpose as far as these readings tell.", &section);
     return section;
   }
-  std::string causes;
-  for (const std::string& cause : found.causes) causes += (causes.empty() ? "" : "; ") + cause;
-  AddSentence("They do not superpose. Possible: " + causes + ".", &section);
+  AddSentence(fmt::format("They do not superpose. Possible: {}.", fmt::join(found.causes, "; ")),
+              &section);
   AddField("would decide", found.decides, &section);
   return section;
 }

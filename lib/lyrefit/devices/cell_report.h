@@ -156,19 +156,61 @@ struct DarkIdeality {
   Ranged fitted;  // n of the single-diode fit of the dark curve
 };
 
+// How a series resistance is found.
+enum class SeriesMethod {
+  kFit,          // of a lit sweep
+  kTwoLights,    // two lit sweeps
+  kDark,         // a lit and a dark sweep
+  kSunsVoc,      // a lit sweep and a Suns-Voc trace
+  kVocOfLights,  // a lit sweep and Voc of those under other lights
+  kSlope,        // at Voc
+};
+
+template <>
+struct EnumTable<SeriesMethod> {
+  static constexpr EnumText<SeriesMethod> kRows[] = {
+      {SeriesMethod::kFit, "single-diode fit"},
+      {SeriesMethod::kTwoLights, "two lights"},
+      {SeriesMethod::kDark, "lit against dark"},
+      {SeriesMethod::kSunsVoc, "Suns-Voc against lit"},
+      {SeriesMethod::kVocOfLights, "Voc of the light series against lit"},
+      {SeriesMethod::kSlope, "slope at Voc"}};
+};
+
 // One estimate of the series resistance.
 struct SeriesResistance {
-  std::string method;   // "two lights, 1000 and 500 W/m2"
+  SeriesMethod method = SeriesMethod::kFit;
+  std::string of;       // "1000 and 500 W/m2"; empty: the method says all
   Ranged ohm;           // without an interval where the method has none
   std::string note;     // definition, or what else is in it
   std::string missing;  // why there is no value; empty: there is one
+
+  // "two lights, 1000 and 500 W/m2".
+  std::string Name() const { return ToText(method) + (of.empty() ? "" : ", " + of); }
+};
+
+// Where a fill factor without series resistance is from.
+enum class PseudoSource {
+  kNone,     // no sweep is lit
+  kSunsVoc,  // a Suns-Voc trace
+  kLights,   // Voc of lit sweeps
+  kFit,
+};
+
+template <>
+struct EnumTable<PseudoSource> {
+  static constexpr EnumText<PseudoSource> kRows[] = {
+      {PseudoSource::kNone, ""},
+      {PseudoSource::kSunsVoc, "Suns-Voc"},
+      {PseudoSource::kLights, "Voc of the light series"},
+      {PseudoSource::kFit, "the fit with Rs = 0"}};
 };
 
 // Fill factor of the curve without series resistance.
 struct PseudoFillFactor {
   double value = kUnknown;  // without Rs
   double ideal = kUnknown;  // of a diode with n = 1 and the measured Isc and Voc
-  std::string source;       // "Suns-Voc", "Voc of the light series" or "the fit with Rs = 0"
+  PseudoSource source = PseudoSource::kNone;
 };
 
 // A step of the fill-factor losses.

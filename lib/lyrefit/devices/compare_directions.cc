@@ -17,14 +17,15 @@ double IndexAt(const Line& forward, const Line& reverse, double voltage) {
 // Causes of a gap that one pair leaves: see the table in doi:10.1039/C4EE03664F and
 // doi:10.1021/jz500113x. A capacitance takes current on the way up only, so that reverse gives more
 // everywhere; late readings shift the curve sideways, which does nothing where it is flat.
-void NameCauses(DirectionPair* pair) {
+std::vector<std::string> CausesOf(const DirectionPair& pair) {
   constexpr double kSeen = 0.01;
-  pair->causes = {"ions or traps"};
-  if (std::fabs(pair->isc_difference) < kSeen) pair->causes.emplace_back("timing of the meter");
-  if (pair->sense == HysteresisSense::kNormal && pair->isc_difference > -kSeen) {
-    pair->causes.emplace_back("a capacitance");
+  std::vector<std::string> causes = {"ions or traps"};
+  if (std::fabs(pair.isc_difference) < kSeen) causes.emplace_back("timing of the meter");
+  if (pair.sense == HysteresisSense::kNormal && pair.isc_difference > -kSeen) {
+    causes.emplace_back("a capacitance");
   }
-  pair->causes.emplace_back("drift of the lamp or the temperature");
+  causes.emplace_back("drift of the lamp or the temperature");
+  return causes;
 }
 
 // Last voltage of the comparison: the larger of the known Voc, or the end of a sweep below it.
@@ -77,8 +78,8 @@ DirectionPair CompareDirections(const CellSweep& forward, const CellSweep& rever
   const bool shows = pair.gap_percent >= least_percent && pair.gap_percent > 2 * pair.noise_percent;
   if (shows) {
     pair.sense = pair.index_power >= 0 ? HysteresisSense::kNormal : HysteresisSense::kInverted;
+    pair.causes = CausesOf(pair);
   }
-  if (shows) NameCauses(&pair);
   const double seen = std::max(3 * pair.noise_percent, least_percent) / 100;
   pair.cross = shows && highest > seen && -lowest > seen;
   return pair;

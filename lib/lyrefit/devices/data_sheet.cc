@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
@@ -25,16 +26,16 @@ constexpr std::size_t kRangeOfIdeality = 2;
 constexpr double kLowestUsualIdeality = 0.9;  // of a junction, with the rounding of beta_oc
 constexpr double kHighestUsualIdeality = 2.5;
 
-// Adds the printed values beside the values of the fitted device.
-void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
+// The printed values beside the values of the fitted device.
+std::vector<DataSheetCheck> ChecksOf(const DataSheet& sheet, const DataSheetFit& fit) {
   const auto points = [&](double temperature_K) {
     const TranslatedDevice at =
-        TranslateTo(fit->translation, fit->shared, kReferenceIrradiance_W_m2, temperature_K);
+        TranslateTo(fit.translation, fit.shared, kReferenceIrradiance_W_m2, temperature_K);
     return ModelKeyPoints(at.device, at.parameters.data());
   };
   const KeyPoints now = points(kReferenceTemperature_K);
   const KeyPoints warm = points(kReferenceTemperature_K + kVocStep_K);
-  const TemperatureCoefficients slopes = CoefficientsAtReference(fit->translation, fit->shared);
+  const TemperatureCoefficients slopes = CoefficientsAtReference(fit.translation, fit.shared);
   DataSheetValues given;
   given.short_circuit_current_A = now.short_circuit_current_A;
   given.open_circuit_voltage_V = now.open_circuit_voltage_V;
@@ -42,24 +43,27 @@ void AddChecks(const DataSheet& sheet, DataSheetFit* fit) {
   given.max_power_voltage_V = now.max_power_voltage_V;
   given.beta_oc_V_K = (warm.open_circuit_voltage_V - now.open_circuit_voltage_V) / kVocStep_K;
   given.alpha_sc_A_K = slopes.alpha_sc_A_K;
+  std::vector<DataSheetCheck> checks;
   for (const DataSheetRow& row : kDataSheetRows) {
-    fit->checks.push_back({row.name, row.unit, sheet.values.*row.value, given.*row.value});
-  }
-  for (int k = 0; k < kSolvedValues; ++k) {
-    const DataSheetCheck& check = fit->checks[k];
-    fit->largest_relative_error =
-        std::max(fit->largest_relative_error, std::fabs(check.given / check.asked - 1));
+    checks.push_back({row.name, row.unit, sheet.values.*row.value, given.*row.value});
   }
   if (sheet.gamma_pmp_percent_K) {
-    fit->checks.push_back(
-        {"gamma_pmp", "%/K", *sheet.gamma_pmp_percent_K, slopes.gamma_pmp_percent_K});
+    checks.push_back({"gamma_pmp", "%/K", *sheet.gamma_pmp_percent_K, slopes.gamma_pmp_percent_K});
   }
+  return checks;
 }
 
-// Solves again at every corner of the values' rounding intervals. Returns false if no device has
-// the values of some corner; the nearest device is then used.
-bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit) {
-  const Translation& at = fit->translation;
+// What the rounding of the printed values allows.
+struct RoundedFits {
+  std::vector<DataSheetRange> ranges;  // empty: no rounding is stated
+  bool all_solved = true;  // every corner of the rounding intervals has a device of its values
+};
+
+// Solves again at every corner of the values' rounding intervals. Where no device has the values of
+// a corner, the nearest device is used.
+RoundedFits FitRounded(const DataSheet& sheet, ConstantSet constants, const DataSheetFit& fit) {
+  const Translation& at = fit.translation;
+  RoundedFits found;
   std::vector<DataSheetValues> corners = {sheet.values};
   for (const DataSheetRow& row : kDataSheetRows) {
     const double half = sheet.half_unit.*row.value;
@@ -71,28 +75,27 @@ bool AddRanges(const DataSheet& sheet, ConstantSet constants, DataSheetFit* fit)
       corners.back().*row.value += half;
     }
   }
-  if (corners.size() == 1) return true;
-  std::vector<std::vector<double>> solutions = {fit->shared};
-  bool all = true;
+  if (corners.size() == 1) return found;
+  std::vector<std::vector<double>> solutions = {fit.shared};
   for (const DataSheetValues& corner : corners) {
     const bool possible = CheckDataSheetPoints(corner).has_value();
     const auto solution =
         possible ? SolveKeyPoints(corner, sheet.cells_in_series, GapOf(sheet), constants)
                  : std::nullopt;
-    all = all && solution && solution->border == Border::kNone;
+    found.all_solved = found.all_solved && solution && solution->border == Border::kNone;
     if (solution)
       solutions.push_back(SharedOf(at, solution->device, corner.alpha_sc_A_K, GapOf(sheet)));
   }
   for (const int k :
        {at.photocurrent, at.saturation_current, at.n, at.resistance_series, at.resistance_shunt}) {
-    DataSheetRange range{at.parameters[k].name, fit->shared[k], fit->shared[k]};
+    DataSheetRange range{at.parameters[k].name, fit.shared[k], fit.shared[k]};
     for (const std::vector<double>& shared : solutions) {
       range.low = std::min(range.low, shared[k]);
       range.high = std::max(range.high, shared[k]);
     }
-    fit->ranges.push_back(range);
+    found.ranges.push_back(range);
   }
-  return all;
+  return found;
 }
 
 // "the band gap 1.121 eV (assumed, that of silicon; another technology may have the values: state
@@ -108,58 +111,59 @@ std::string GapText(const DataSheet& sheet) {
 }
 
 // The gap of an alloy is not known by its name. n goes as the inverse of the gap at 0 K and 3 k T.
-void WarnOfTheGap(const DataSheet& sheet, DataSheetFit* fit) {
+std::vector<std::string> WarnOfTheGap(const DataSheet& sheet) {
   const Technology* const known = FindTechnology(sheet.technology);
-  if (sheet.EgRef_eV || known == nullptr || std::isnan(known->widest_gap_eV)) return;
+  if (sheet.EgRef_eV || known == nullptr || std::isnan(known->widest_gap_eV)) return {};
   constexpr double kStep_eV = 0.1;
   const BandGap gap = GapOf(sheet);
   const double at_0_K = gap.eV * (1 - kReferenceTemperature_K * gap.slope_1_K);
   const double thermal_V = ThermalVoltage(kReferenceTemperature_K);
-  fit->warnings.push_back(fmt::format(
+  return {fmt::format(
       "cells of {} have band gaps of {:g} to {:g} eV, of which {:g} eV is taken; each {:g} eV more "
       "lowers n by {:.0f} %: state it (--EgRef)",
       known->name, known->narrowest_gap_eV, known->widest_gap_eV, gap.eV, kStep_eV,
-      100 * kStep_eV / (at_0_K + 3 * thermal_V)));
+      100 * kStep_eV / (at_0_K + 3 * thermal_V))};
 }
 
+bool IsOfAJunction(double n) { return n >= kLowestUsualIdeality && n <= kHighestUsualIdeality; }
+
 // n of the device against that of a junction, which ties Voc, beta_oc, the gap and the number of
-// cells to each other: beta_oc = Ns (Voc/Ns - n (Eg(0 K) + 3 k T)) / T. False if it is none of a
-// junction.
-bool WarnOfTheDevice(const DataSheet& sheet, DataSheetFit* fit) {
+// cells to each other: beta_oc = Ns (Voc/Ns - n (Eg(0 K) + 3 k T)) / T.
+std::vector<std::string> WarnOfTheDevice(const DataSheet& sheet, const DataSheetFit& fit) {
   constexpr double kGammaMissed = 0.3;  // the law misses that of sound sheets by 15 % at most
-  const Translation& at = fit->translation;
+  const Translation& at = fit.translation;
+  std::vector<std::string> warnings;
   const BandGap gap = GapOf(sheet);
   const int cells = sheet.cells_in_series;
   const double voc = sheet.values.open_circuit_voltage_V,
                thermal_V = at.device.module_thermal_voltage_V;
   const double gap_V = cells * gap.eV * (1 - kReferenceTemperature_K * gap.slope_1_K);
   const int junctions = JunctionsOfSheet(sheet);
-  const double n = fit->shared[at.n] / junctions;
-  const bool usual = n >= kLowestUsualIdeality && n <= kHighestUsualIdeality;
-  if (!usual) {
+  const double n = fit.shared[at.n] / junctions;
+  if (!fit.usual) {
     const double of_one = (voc - junctions * (gap_V + 3 * thermal_V)) / kReferenceTemperature_K;
     const double percent = 100 / voc;
-    fit->warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "n = {:.3g} is {} that of any junction: at {:.3g} V a cell n = 1 and {} give a beta_oc of "
         "{:.3g} %/K, the sheet says {:.3g}; are beta_oc, the number of cells ({}) and the "
         "technology "
         "as stated?",
-        fit->shared[at.n], n < 1 ? "below" : "far above", voc / cells, GapText(sheet),
+        fit.shared[at.n], n < 1 ? "below" : "far above", voc / cells, GapText(sheet),
         percent * of_one, percent * sheet.values.beta_oc_V_K, cells));
   }
-  const DataSheetCheck& gamma = fit->checks.back();
+  const DataSheetCheck& gamma = fit.checks.back();
   if (sheet.gamma_pmp_percent_K && !(std::fabs(gamma.given / gamma.asked - 1) < kGammaMissed)) {
-    fit->warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the device has a gamma_pmp of {:.3g} %/K, the sheet says {:.3g}: not all of its "
         "coefficients are of one module, or the band gap is of another technology",
         gamma.given, gamma.asked));
   }
-  return usual;
+  return warnings;
 }
 
-void WarnOfTheSolution(const DataSheet& sheet, const KeyPointSolution& solution,
-                       DataSheetFit* fit) {
-  const DataSheetCheck& beta = fit->checks[kSolvedValues - 1];
+std::vector<std::string> WarnOfTheSolution(const DataSheet& sheet, const KeyPointSolution& solution,
+                                           const DataSheetCheck& beta) {
+  std::vector<std::string> warnings;
   const char* reason = "";
   if (solution.border == Border::kNoSeriesResistance)
     reason = "Rs would be negative and is set to 0";
@@ -167,38 +171,39 @@ void WarnOfTheSolution(const DataSheet& sheet, const KeyPointSolution& solution,
     reason = "Rsh would be negative and is set infinite";
   if (solution.border == Border::kIdeality) reason = "no ideality of the diode gives that beta_oc";
   if (solution.border != Border::kNone) {
-    fit->warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "no physical single diode of {} has all these values: {}; the curve at 25 C is kept, and "
         "beta_oc comes out as {:.4g} V/K instead of {:.4g}",
         GapText(sheet), reason, beta.given, beta.asked));
   }
   if (solution.solutions > 1) {
-    fit->warnings.push_back(
+    warnings.push_back(
         fmt::format("{} devices have all these values: the one with n closest to 1.2 was taken",
                     solution.solutions));
   }
+  return warnings;
 }
 
-void WarnOfTheRounding(bool all_ends, DataSheetFit* fit) {
-  fit->warnings.push_back(
+std::vector<std::string> WarnOfTheRounding(const RoundedFits& rounded) {
+  std::vector<std::string> warnings = {
       "a data sheet's five numbers determine the five parameters exactly: nothing is left to check "
-      "them, fit a measured curve for that");
-  if (!all_ends) {
-    fit->warnings.push_back(
+      "them, fit a measured curve for that"};
+  if (!rounded.all_solved) {
+    warnings.push_back(
         "within the rounding of the data sheet there are values that no single diode has");
   }
-  if (fit->ranges.empty()) {
-    fit->warnings.push_back(
+  if (rounded.ranges.empty()) {
+    warnings.push_back(
         "Rs and Rsh move widely with the rounding of the data sheet: state the rounding of its "
         "values to see how far");
-    return;
+    return warnings;
   }
-  const DataSheetRange& rs = fit->ranges[3];
-  const DataSheetRange& rsh = fit->ranges[4];
-  fit->warnings.push_back(fmt::format(
+  const DataSheetRange &rs = rounded.ranges[3], &rsh = rounded.ranges[4];
+  warnings.push_back(fmt::format(
       "the rounding of the data sheet alone moves Rs from {:.4g} to {:.4g} ohm and Rsh from {:.4g} "
       "to {:.4g} ohm",
       rs.low, rs.high, rsh.low, rsh.high));
+  return warnings;
 }
 
 }  // namespace
@@ -240,13 +245,20 @@ Expected<DataSheetFit> FitDataSheet(const DataSheet& sheet, ConstantSet constant
   DataSheetFit fit;
   fit.translation = std::move(translation);
   fit.shared = SharedOf(fit.translation, solution->device, sheet.values.alpha_sc_A_K, GapOf(sheet));
-  AddChecks(sheet, &fit);
-  WarnOfTheSolution(sheet, *solution, &fit);
-  WarnOfTheGap(sheet, &fit);
-  fit.usual = WarnOfTheDevice(sheet, &fit);
-  const bool all_corners = AddRanges(sheet, constants, &fit);
-  WarnOfTheRounding(all_corners, &fit);
+  fit.checks = ChecksOf(sheet, fit);
+  for (int k = 0; k < kSolvedValues; ++k) {
+    const double error = std::fabs(fit.checks[k].given / fit.checks[k].asked - 1);
+    fit.largest_relative_error = std::max(fit.largest_relative_error, error);
+  }
   const double n = solution->device.n;
+  fit.usual = IsOfAJunction(n / JunctionsOfSheet(sheet));
+  RoundedFits rounded = FitRounded(sheet, constants, fit);
+  for (auto warnings :
+       {WarnOfTheSolution(sheet, *solution, fit.checks[kSolvedValues - 1]), WarnOfTheGap(sheet),
+        WarnOfTheDevice(sheet, fit), WarnOfTheRounding(rounded)}) {
+    Append(std::move(warnings), &fit.warnings);
+  }
+  fit.ranges = std::move(rounded.ranges);
   const double low = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].low;
   const double high = fit.ranges.empty() ? n : fit.ranges[kRangeOfIdeality].high;
   TRY(fit.family, FamilyOfSheet(sheet, constants, solution->device, low, high));

@@ -115,9 +115,15 @@ MemberSpread SpreadOf(const SheetSolver& solver, const std::vector<DataSheetMemb
   return spread;
 }
 
-// Adds the coefficients and powers that De Soto's law predicts from the member's parameters.
-void AddPredictions(const SheetSolver& solver, DataSheetMember* member) {
-  const std::vector<double> shared = SharedOf(solver, *member);
+// A device with the coefficients and powers that De Soto's law predicts from its parameters.
+DataSheetMember MemberOf(const SheetSolver& solver, const ReferenceDevice& device) {
+  DataSheetMember member;
+  member.n = device.n;
+  member.photocurrent_A = device.photocurrent_A;
+  member.saturation_current_A = device.saturation_current_A;
+  member.resistance_series_ohm = device.resistance_series_ohm;
+  member.resistance_shunt_ohm = 1 / device.shunt_conductance_S;
+  const std::vector<double> shared = SharedOf(solver, member);
   const auto points = [&](double irradiance_W_m2, double temperature_K) {
     const TranslatedDevice at =
         TranslateTo(solver.translation, shared, irradiance_W_m2, temperature_K);
@@ -127,24 +133,14 @@ void AddPredictions(const SheetSolver& solver, DataSheetMember* member) {
     return points(kReferenceIrradiance_W_m2, kReferenceTemperature_K + step_K)
         .open_circuit_voltage_V;
   };
-  member->beta_oc_V_K = (voc(kVocStep_K) - voc(0)) / kVocStep_K;
-  member->gamma_pmp_percent_K =
+  member.beta_oc_V_K = (voc(kVocStep_K) - voc(0)) / kVocStep_K;
+  member.gamma_pmp_percent_K =
       CoefficientsAtReference(solver.translation, shared).gamma_pmp_percent_K;
   for (const MemberConditions& at : kConditions) {
     const double above_K = at.temperature_C - kReferenceTemperature_C;
-    member->max_power_W.push_back(
+    member.max_power_W.push_back(
         points(at.irradiance_W_m2, kReferenceTemperature_K + above_K).max_power_W);
   }
-}
-
-DataSheetMember MemberOf(const SheetSolver& solver, const ReferenceDevice& device) {
-  DataSheetMember member;
-  member.n = device.n;
-  member.photocurrent_A = device.photocurrent_A;
-  member.saturation_current_A = device.saturation_current_A;
-  member.resistance_series_ohm = device.resistance_series_ohm;
-  member.resistance_shunt_ohm = 1 / device.shunt_conductance_S;
-  AddPredictions(solver, &member);
   return member;
 }
 

@@ -47,14 +47,15 @@ IvCurve PartOf(const IvCurve& curve, std::size_t first, std::size_t last) {
   return part;
 }
 
-// Light of the sweep: the mean of its readings where they state it.
-void TakeLight(IvCurve* curve) {
-  const std::vector<double>& light = curve->irradiance_W_m2;
-  if (light.empty()) return;
-  curve->conditions.irradiance_W_m2 = std::max(
+// The sweep with one light, the mean of its readings where they state it.
+IvCurve UnderMeanLight(IvCurve curve) {
+  std::vector<double>& light = curve.irradiance_W_m2;
+  if (light.empty()) return curve;
+  curve.conditions.irradiance_W_m2 = std::max(
       0.0, std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(light.size()));
-  curve->irradiance_known = true;
-  curve->irradiance_W_m2.clear();
+  curve.irradiance_known = true;
+  light.clear();
+  return curve;
 }
 
 // Whether results are stated for the second sweep as well.
@@ -101,20 +102,18 @@ std::string NameOf(const CellSweep& sweep, const DeviceNotes& notes) {
                      sweep.irradiance_known ? "" : " (assumed)");
 }
 
-// Takes the first finding on the magnitude of voltage and current, the other column, sign or area,
+// The first finding on the magnitude of voltage and current, the other column, sign or area,
 // unless the readings are to be taken as they are. The number of cells is no matter of these.
-void TakeDoubt(IvCurve curve, double area_cm2, CellSweep* sweep) {
-  if (curve.as_is) return;
+std::optional<ReadingFinding> DoubtOf(IvCurve curve, double area_cm2) {
+  if (curve.as_is) return std::nullopt;
   if (std::isfinite(area_cm2)) curve.notes.area_cm2 = area_cm2;
   for (const ReadingFinding& finding : CheckReadings(curve)) {
     for (const char* const id :
          {"sign", "exchanged", "unit", "light", "technology", "current", "efficiency"}) {
-      if (finding.id != id) continue;
-      sweep->doubt = finding.sentence;
-      sweep->refused = finding.refuse;
-      return;
+      if (finding.id == id) return finding;
     }
   }
+  return std::nullopt;
 }
 
 // Why the light is not known well enough for an efficiency; empty: it is. A hundredth of the current
@@ -152,11 +151,13 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.name = NameOf(sweep, curve.notes);
   const KeyPoints unknown = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   sweep.key = sweep.kind == SweepKind::kLit ? FindKeyPoints(line.x, line.y) : unknown;
-  if (sweep.kind != SweepKind::kSunsVoc) TakeDoubt(curve, area_cm2, &sweep);
-  if (sweep.kind != SweepKind::kLit) {
-    if (!sweep.refused) sweep.doubt.clear();  // of figures that only a lit sweep has
-    return sweep;
+  const bool lit = sweep.kind == SweepKind::kLit;
+  const auto doubt = sweep.kind == SweepKind::kSunsVoc ? std::nullopt : DoubtOf(curve, area_cm2);
+  if (doubt && (lit || doubt->refuse)) {  // others are of figures that only a lit sweep has
+    sweep.doubt = doubt->sentence;
+    sweep.refused = doubt->refuse;
   }
+  if (!lit) return sweep;
   const KeyPoints& key = sweep.key;
   if (sweep.doubt.empty()) {
     sweep.jsc_mA_cm2 = 1000 * key.short_circuit_current_A / area_cm2;
@@ -184,29 +185,28 @@ double LargestRise(const CellSweep& sweep) {
   return rise;
 }
 
-void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const FitReport& fit,
-                      std::vector<std::string>* reasons) {
+// Why n and Rs of the fit describe no diode.
+std::vector<std::string> WhyNoDiode(const CellOptions& options, const CellSweep& sweep,
+                                    const FitReport& fit) {
   constexpr double kSShape = 0.9, kMisfit = 0.01, kNoises = 6;
-  if (!fit.usable) {
-    reasons->push_back(fit.not_usable_because);
-    return;
-  }
+  if (!fit.usable) return {fit.not_usable_because};
+  std::vector<std::string> reasons;
   const double isc = sweep.key.short_circuit_current_A;
   if (LargestRise(sweep) > std::max(kMisfit * isc, kNoises * sweep.noise_A)) {
-    reasons->emplace_back("the current rises with the voltage: the light or the meter changed");
+    reasons.emplace_back("the current rises with the voltage: the light or the meter changed");
   } else if (sweep.least_slope_ratio < kSShape) {
-    reasons->push_back(
+    reasons.push_back(
         fmt::format("S-shape: the curve flattens towards Voc, its slope falls to {:.0f} % of what "
                     "it was at a lower voltage",
                     100 * sweep.least_slope_ratio));
   }
   if (fit.rmse.refined.solved_current_A > kMisfit * isc) {
-    reasons->push_back(fmt::format("the single diode misses the curve by {:.1f} % of Isc (rms)",
-                                   100 * fit.rmse.refined.solved_current_A / isc));
+    reasons.push_back(fmt::format("the single diode misses the curve by {:.1f} % of Isc (rms)",
+                                  100 * fit.rmse.refined.solved_current_A / isc));
   }
   for (const Estimate& e : fit.estimates) {
     if (e.info.symbol[0] == 'n' && e.refined > options.ideal_n) {
-      reasons->push_back(fmt::format(
+      reasons.push_back(fmt::format(
           "n = {:.3g} of the fit is above {:.3g}: {}, a barrier or a second junction is in "
           "it",
           e.refined, options.ideal_n,
@@ -214,6 +214,7 @@ void VoidWhereNoDiode(const CellOptions& options, const CellSweep& sweep, const 
                                          : "collection that depends on voltage, ions"));
     }
   }
+  return reasons;
 }
 
 }  // namespace
@@ -224,8 +225,7 @@ std::vector<MeasuredSweep> FindSweeps(const IvCurve& curve, double area_cm2) {
   for (std::size_t first = 0, place = 0; first < curve.size(); ++place) {
     std::size_t last = first;
     while (last < curve.size() && numbers[last] == numbers[first]) ++last;
-    MeasuredSweep measured = {PartOf(curve, first, last), {}};
-    TakeLight(&measured.curve);
+    MeasuredSweep measured = {UnderMeanLight(PartOf(curve, first, last)), {}};
     if (last - first >= kFewestReadings) {
       const int limited = LeaveOutEqualEnd(&measured.curve);
       measured.sweep = Describe(measured.curve, area_cm2);
@@ -281,37 +281,39 @@ double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A) {
   return ratio;
 }
 
-void FitCellSweep(const CellOptions& options, const Observer& observer, MeasuredSweep* measured) {
-  CellSweep& sweep = measured->sweep;
-  if (sweep.kind == SweepKind::kSunsVoc) return;
+CellSweep FitCellSweep(MeasuredSweep measured, const CellOptions& options,
+                       const Observer& observer) {
+  CellSweep& sweep = measured.sweep;
+  if (sweep.kind == SweepKind::kSunsVoc) return std::move(sweep);
   FitOptions how;
   how.constants = options.constants;
   how.random_baseline = false;
   how.threads = options.threads;
   how.bounds.overrides["n"] = {1, options.largest_n};
   if (sweep.kind == SweepKind::kDark) how.fixed["Iph"] = 0;
-  auto fit = Fit(measured->curve, how, observer);
-  if (!fit) {
+  auto fit = Fit(measured.curve, how, observer);
+  if (fit) {
+    sweep.void_because = WhyNoDiode(options, sweep, *fit);
+    sweep.fit = std::move(*fit);
+  } else {
     sweep.no_fit_because = fit.error().message;
-    return;
   }
-  VoidWhereNoDiode(options, sweep, *fit, &sweep.void_because);
-  sweep.fit = std::move(*fit);
+  return std::move(sweep);
 }
 
-Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
-                               std::vector<std::string>* warnings) {
-  std::vector<MeasuredSweep> kept;
-  for (MeasuredSweep& one : *measured) {
+Expected<AcceptedSweeps> LeaveOutRefused(std::vector<MeasuredSweep> measured) {
+  AcceptedSweeps accepted;
+  for (MeasuredSweep& one : measured) {
     const CellSweep& sweep = one.sweep;
     const std::string why = sweep.doubt + " (--as-is takes the readings as they are)";
-    if (sweep.refused && measured->size() == 1) return Fail(why, sweep.file);
-    if (sweep.refused) warnings->push_back(sweep.name + " is left out: " + why);
-    if (!sweep.refused) kept.push_back(std::move(one));
+    if (sweep.refused && measured.size() == 1) return Fail(why, sweep.file);
+    if (sweep.refused) accepted.warnings.push_back(sweep.name + " is left out: " + why);
+    if (!sweep.refused) accepted.sweeps.push_back(std::move(one));
   }
-  if (kept.empty()) return Fail(warnings->front(), measured->front().sweep.file);
-  *measured = std::move(kept);
-  return {};
+  if (accepted.sweeps.empty()) {
+    return Fail(accepted.warnings.front(), measured.front().sweep.file);
+  }
+  return accepted;
 }
 
 }  // namespace lyrefit

@@ -36,11 +36,17 @@ double ResistanceAtVoc(const Line& line, const KeyPoints& key);
 // the flat part are of light and devices that settle.
 double LeastSlopeRatio(const Line& line, const KeyPoints& key, double noise_A);
 
-// Fits the single-diode model to a sweep. In the dark, the photocurrent is fixed at 0.
-void FitCellSweep(const CellOptions& options, const Observer& observer, MeasuredSweep* measured);
+// The sweep with a fit of the single-diode model. In the dark, the photocurrent is fixed at 0.
+CellSweep FitCellSweep(MeasuredSweep measured, const CellOptions& options,
+                       const Observer& observer);
 
-// Leaves out the sweeps whose readings allow no figures, with a warning of each. Error: all are.
-Expected<void> LeaveOutRefused(std::vector<MeasuredSweep>* measured,
-                               std::vector<std::string>* warnings);
+// Sweeps whose readings allow figures, and a warning of each other one.
+struct AcceptedSweeps {
+  std::vector<MeasuredSweep> sweeps;
+  std::vector<std::string> warnings;
+};
+
+// Leaves out the sweeps whose readings allow no figures. Error: all are left out.
+Expected<AcceptedSweeps> LeaveOutRefused(std::vector<MeasuredSweep> measured);
 
 }  // namespace lyrefit

@@ -65,7 +65,7 @@ Json SweepJson(const CellReport& report, const CellSweep& sweep) {
 }
 
 Json ResistanceJson(const CellReport& report, const SeriesResistance& one) {
-  Json j = {{"method", one.method}};
+  Json j = {{"method", one.Name()}};
   j.update(OhmJson(report, one.ohm.value));
   j.update({{"low_95_ohm", one.ohm.low_95},
             {"high_95_ohm", one.ohm.high_95},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/roots.h"
 #include "lyrefit/devices/describe_sweep.h"
@@ -49,16 +50,16 @@ double SlopeAt(const CellSweep& sweep, double voltage_V) {
   return 0;
 }
 
-// Sets the interval of a value with this standard error. A resistance whose whole interval lies
-// below 0 is void: `because` says what is in it instead.
-void SetNoise(double error, const char* because, SeriesResistance* found) {
+// The resistance with its interval, of this standard error. One whose whole interval lies below 0 is
+// void: `because` says what is in it instead.
+SeriesResistance WithNoise(SeriesResistance found, double error, const char* because) {
   constexpr double kNormal95 = 1.959964;
-  const double value = found->ohm.value, reach = kNormal95 * std::fabs(error);
-  found->ohm.low_95 = value - reach;
-  found->ohm.high_95 = value + reach;
-  if (!(found->ohm.high_95 < 0)) return;
-  found->ohm = {};
-  found->missing = fmt::format("void: {:.3g} ohm, below 0 as no resistance is; {}", value, because);
+  const double value = found.ohm.value, reach = kNormal95 * std::fabs(error);
+  found.ohm = {value, value - reach, value + reach};
+  if (!(found.ohm.high_95 < 0)) return found;
+  found.ohm = {};
+  found.missing = fmt::format("void: {:.3g} ohm, below 0 as no resistance is; {}", value, because);
+  return found;
 }
 
 }  // namespace
@@ -75,8 +76,9 @@ Ranged FittedValue(const CellSweep& sweep, const std::string& symbol) {
 
 SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& darker) {
   SeriesResistance found;
-  found.method = fmt::format("two lights, {:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2,
-                             darker.irradiance_W_m2);
+  found.method = SeriesMethod::kTwoLights;
+  found.of =
+      fmt::format("{:.4g} and {:.4g} W/m2", brighter.irradiance_W_m2, darker.irradiance_W_m2);
   found.note =
       "(V2 - V1) / (Isc1 - Isc2) at equal Isc - I, at the brighter curve's reading of most power";
   const double isc1 = brighter.key.short_circuit_current_A;
@@ -90,15 +92,15 @@ SeriesResistance RsFromTwoLights(const CellSweep& brighter, const CellSweep& dar
   }
   // Four currents, each with its noise, decide where V2 is read.
   const double noise = std::sqrt(2.0) * std::hypot(brighter.noise_A, darker.noise_A);
-  SetNoise(noise / SlopeAt(darker, v2) / (isc1 - isc2),
-           "a light that is not as stated, or a cell that changed between the curves", &found);
-  return found;
+  return WithNoise(std::move(found), noise / SlopeAt(darker, v2) / (isc1 - isc2),
+                   "a light that is not as stated, or a cell that changed between the curves");
 }
 
 SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double dark_rs_ohm) {
   SeriesResistance found;
   const bool own = std::isfinite(dark_rs_ohm);
-  found.method = own ? "lit against dark, Rs of the dark fit" : "lit against dark, equal Rs";
+  found.method = SeriesMethod::kDark;
+  found.of = own ? "Rs of the dark fit" : "equal Rs";
   found.note = own ? "(V_dark(Isc - Imp) - Vmp - (Isc - Imp) Rs_dark) / Imp"
                    : "(V_dark(Isc - Imp) - Vmp) / Isc";
   const PowerReading at = PowerReadingOf(lit);
@@ -110,17 +112,16 @@ SeriesResistance RsFromDark(const CellSweep& lit, const CellSweep& dark, double 
     return found;
   }
   const double noise = std::hypot(std::sqrt(2.0) * lit.noise_A, dark.noise_A);
-  SetNoise(noise / SlopeAt(dark, dark_V) / (own ? imp : isc),
-           "the dark current in the light is larger: the curves do not superpose", &found);
-  return found;
+  return WithNoise(std::move(found), noise / SlopeAt(dark, dark_V) / (own ? imp : isc),
+                   "the dark current in the light is larger: the curves do not superpose");
 }
 
 SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& points,
                            SweepKind source) {
   constexpr double kStep = 1e-3;
   SeriesResistance found;
-  found.method = source == SweepKind::kSunsVoc ? "Suns-Voc against lit"
-                                               : "Voc of the light series against lit";
+  found.method =
+      source == SweepKind::kSunsVoc ? SeriesMethod::kSunsVoc : SeriesMethod::kVocOfLights;
   found.note = "(Voc at the light Isc - Imp, minus Vmp) / Imp";
   const PowerReading at = PowerReadingOf(lit);
   const double isc = lit.key.short_circuit_current_A, light = isc - at.current_A;
@@ -132,16 +133,14 @@ SeriesResistance RsFromVoc(const CellSweep& lit, const std::vector<VocPoint>& po
     return found;
   }
   const double slope = (VocAt(points, light * (1 + kStep)) - voc) / (light * kStep);
-  if (slope > 0) {
-    SetNoise(slope * std::sqrt(2.0) * lit.noise_A / at.current_A,
-             "a shunt, collection or an n that changes with the light is in it", &found);
-  }
-  return found;
+  if (!(slope > 0)) return found;
+  return WithNoise(std::move(found), slope * std::sqrt(2.0) * lit.noise_A / at.current_A,
+                   "a shunt, collection or an n that changes with the light is in it");
 }
 
 SeriesResistance RsFromSlope(const CellSweep& lit) {
   SeriesResistance found;
-  found.method = "slope at Voc";
+  found.method = SeriesMethod::kSlope;
   found.note = "-dV/dI at Voc, an upper limit: it contains n k T / (q Isc) of the junction";
   found.ohm.value = lit.resistance_at_voc_ohm;
   if (!std::isfinite(found.ohm.value)) found.missing = "the curve does not pass Voc";
@@ -150,7 +149,8 @@ SeriesResistance RsFromSlope(const CellSweep& lit) {
 
 SeriesResistance RsOfFit(const CellSweep& lit) {
   SeriesResistance found;
-  found.method = "single-diode fit, " + lit.name;
+  found.method = SeriesMethod::kFit;
+  found.of = lit.name;
   found.ohm = FittedValue(lit, "Rs");
   found.note = "95 % interval of the fit";
   if (!lit.fit) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/devices/line.h"
@@ -56,25 +57,27 @@ double BestScale(const ComparedReadings& readings) {
   return own > 0 ? both / own : kUnknown;
 }
 
-// The causes that these two curves leave, the likelier first, and the measurement that decides.
-void NameCauses(Superposition* found) {
+// The comparison with the causes that these two curves leave, the likelier first, and with the
+// measurement that decides.
+Superposition WithCauses(Superposition found) {
   constexpr double kExplained = 0.1;  // of the rms, by another dark current
-  if (found->scaled_rms_percent < kExplained * found->rms_percent) {
-    found->causes = {found->dark_scale > 1 ? "the lit cell was warmer than the dark one"
-                                           : "the dark cell was warmer than the lit one",
-                     "light soaking: the light changed the recombination",
-                     "a barrier that the light changes", "collection that depends on voltage"};
-    found->decides =
+  if (found.scaled_rms_percent < kExplained * found.rms_percent) {
+    found.causes = {found.dark_scale > 1 ? "the lit cell was warmer than the dark one"
+                                         : "the dark cell was warmer than the lit one",
+                    "light soaking: the light changed the recombination",
+                    "a barrier that the light changes", "collection that depends on voltage"};
+    found.decides =
         "Voc at once after the light is switched on and after a minute tells warming (it falls) "
         "and soaking (it settles) apart; a second light tells collection apart";
-    return;
+    return found;
   }
-  found->causes = {"collection that depends on voltage (photoshunt)",
-                   "a barrier that the light changes", "light soaking",
-                   "the lit cell was warmer than the dark one"};
-  found->decides =
+  found.causes = {"collection that depends on voltage (photoshunt)",
+                  "a barrier that the light changes", "light soaking",
+                  "the lit cell was warmer than the dark one"};
+  found.decides =
       "a second light: the part that grows with the light is collection; a dark curve right after "
       "the lit one shows soaking";
+  return found;
 }
 
 }  // namespace
@@ -112,8 +115,7 @@ Superposition TestSuperposition(const CellSweep& lit, const CellSweep& dark,
   found.voc_shift_V = voc - over.At(std::log(isc));
   found.departs =
       found.rms_percent >= least_percent && found.rms_percent > kNoises * found.noise_percent;
-  if (found.departs) NameCauses(&found);
-  return found;
+  return found.departs ? WithCauses(std::move(found)) : found;
 }
 
 }  // namespace lyrefit

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/search_law.h"
@@ -33,27 +35,27 @@ std::vector<double> Reported(const WeightedData& weighted, const Law& law,
   return values;
 }
 
-void AddInterval(double error, double t, Estimate* estimate) {
-  if (!(error > 0 && std::isfinite(error))) return;
-  const bool positive = estimate->info.symbol != "alpha";
-  const ParameterRange range = SymmetricRange(ParameterKind::kPlain, estimate->refined, error, t,
+Estimate WithInterval(Estimate estimate, double error, double t) {
+  if (!(error > 0 && std::isfinite(error))) return estimate;
+  const bool positive = estimate.info.symbol != "alpha";
+  const ParameterRange range = SymmetricRange(ParameterKind::kPlain, estimate.refined, error, t,
                                               {positive ? 0 : -kInfinity, kInfinity});
-  estimate->standard_error = error;
-  estimate->low_95 = range.low;
-  estimate->high_95 = range.high;
-  estimate->interval = IntervalMethod::kSymmetric;
+  estimate.standard_error = error;
+  estimate.low_95 = range.low;
+  estimate.high_95 = range.high;
+  estimate.interval = IntervalMethod::kSymmetric;
+  return estimate;
 }
 
-// Fills intervals and bounds of effect `e` of the law. `first`: position of its first parameter
-// among the estimates.
-void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
-                        std::vector<Estimate>* estimates) {
+// Intervals and bounds of effect `e` of the law, without its values.
+std::vector<Estimate> EstimatesOfEffect(const Selection& selection, int e) {
   const LawFit& fit = selection.extended;
   const Effect& effect = *fit.law.effects[e];
+  std::vector<Estimate> estimates(effect.size());
   const auto described = DescribeParameters(selection.weighted, fit, e);
   for (int k = 0; k < effect.size(); ++k) {
     const EffectParameter& info = effect.parameters[k];
-    Estimate& estimate = (*estimates)[first + k];
+    Estimate& estimate = estimates[k];
     estimate.info = {std::string(effect.id) + "." + info.symbol,
                      std::string(effect.id) + "_" + info.name, info.unit, info.doc};
     for (const CauseParameter& parameter : described) {
@@ -68,36 +70,34 @@ void AddEffectEstimates(const Selection& selection, int e, std::size_t first,
     estimate.bounds.lower = std::min(info.lower * factor, info.upper * factor);
     estimate.bounds.upper = std::max(info.lower * factor, info.upper * factor);
   }
+  return estimates;
 }
 
-void AddEstimates(const Selection& selection, const std::vector<double>& searched,
-                  FitReport* report) {
+// Those of the base, then those of each effect. `refined`, `searched`: values in this order; the
+// latter may be empty.
+std::vector<Estimate> EstimatesOf(const Selection& selection, const std::vector<double>& refined,
+                                  const std::vector<double>& searched) {
   const Law& law = selection.extended.law;
-  const std::vector<double> refined = Reported(selection.weighted, law, selection.extended.p);
-  std::vector<Estimate>& estimates = report->estimates;
-  estimates.resize(refined.size());
-  for (std::size_t k = 0; k < refined.size(); ++k) {
-    estimates[k].refined = refined[k];
-    if (!searched.empty()) estimates[k].searched = searched[k];
-  }
   const std::vector<ParameterInfo> infos = law.BaseInfos();
   const std::vector<ParameterShift> shifts = DescribeShifts(selection);
   const double t = StudentT95(Degrees(selection.weighted, law));
+  std::vector<Estimate> estimates(infos.size());
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    Append(EstimatesOfEffect(selection, static_cast<int>(e)), &estimates);
+  }
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    estimates[k].refined = refined[k];
+    if (!searched.empty()) estimates[k].searched = searched[k];
+  }
   for (std::size_t k = 0; k < infos.size(); ++k) {
     estimates[k].info = {infos[k].symbol, infos[k].name, infos[k].unit, infos[k].doc};
     estimates[k].fixed = infos[k].symbol == "n2";
     for (const ParameterShift& shift : shifts) {
-      if (shift.symbol == infos[k].symbol) AddInterval(shift.standard_error, t, &estimates[k]);
+      if (shift.symbol != infos[k].symbol) continue;
+      estimates[k] = WithInterval(std::move(estimates[k]), shift.standard_error, t);
     }
   }
-  std::size_t first = infos.size();
-  for (std::size_t e = 0; e < law.effects.size(); ++e) {
-    AddEffectEstimates(selection, static_cast<int>(e), first, &estimates);
-    first += law.effects[e]->size();
-  }
-  report->refined = refined;
-  report->searched = searched.empty() ? refined : searched;
-  report->refined_best_candidate = report->refined;
+  return estimates;
 }
 
 IvCurve AllPoints(const CurveSet& set) {
@@ -117,8 +117,8 @@ IvCurve AllPoints(const CurveSet& set) {
   return all;
 }
 
-// Inserts alpha and the band gap into the report if the law keeps them fixed.
-void AddFixed(const Selection& selection, FitReport* report) {
+// The report with alpha and the band gap if the law keeps them fixed.
+FitReport WithFixed(FitReport report, const Selection& selection) {
   const Law& law = selection.extended.law;
   const Readings& readings = *selection.weighted.readings;
   const auto insert = [&](int at, ParameterInfo info, double value) {
@@ -126,9 +126,9 @@ void AddFixed(const Selection& selection, FitReport* report) {
     estimate.info = std::move(info);
     estimate.refined = estimate.searched = value;
     estimate.fixed = true;
-    report->estimates.insert(report->estimates.begin() + at, estimate);
-    report->refined.insert(report->refined.begin() + at, value);
-    report->searched.insert(report->searched.begin() + at, value);
+    report.estimates.insert(report.estimates.begin() + at, estimate);
+    report.refined.insert(report.refined.begin() + at, value);
+    report.searched.insert(report.searched.begin() + at, value);
   };
   Law free = law;
   free.free_tempco = free.free_bandgap = true;
@@ -141,6 +141,7 @@ void AddFixed(const Selection& selection, FitReport* report) {
   if (!law.free_bandgap) {
     insert(free.BandgapAt(), infos[free.BandgapAt()], readings.bandgap_eV);
   }
+  return report;
 }
 
 // The curves with the irradiances that the law uses.
@@ -164,23 +165,22 @@ bool IsPlain(const CurveSet& set, const Law& law) {
          curve.irradiance_W_m2.empty() && curve.temperature_C.empty();
 }
 
-// Attaches the law to the report as a device with effects, for simulation. Requirements: the number
-// of cells as stated and, for one curve, effects and no free alpha or band gap. A plain law gets
-// the device of its number of cells. From here on the report's parameters are in the device's
-// internal units.
-void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& readings,
-               FitReport* report) {
+// The report with the law as a device with effects, for simulation. Requirements: the number of cells
+// as stated and, for one curve, effects and no free alpha or band gap. A plain law gets the device
+// of its number of cells. The parameters are then in the device's internal units.
+FitReport WithLaw(FitReport report, const CurveSet& set, const Selection& selection,
+                  const Readings& readings) {
   const Law& law = selection.extended.law;
   const IvCurve& curve = set.curves.front();
   const bool one = set.curves.size() == 1;
   if (IsPlain(set, law)) {
     Conditions at = curve.conditions;
     at.cells_in_series = readings.scale.cells;
-    report->device = MakeDevice(law.model, at);
-    return;
+    report.device = MakeDevice(law.model, at);
+    return report;
   }
-  if (one && (law.effects.empty() || law.free_tempco || law.free_bandgap)) return;
-  if (readings.scale.cells != curve.conditions.cells_in_series) return;
+  if (one && (law.effects.empty() || law.free_tempco || law.free_bandgap)) return report;
+  if (readings.scale.cells != curve.conditions.cells_in_series) return report;
   std::vector<EffectUse> uses;
   for (const Effect* effect : law.effects) uses.push_back({effect, {}});
   Conditions reference = curve.conditions;
@@ -189,12 +189,13 @@ void AttachLaw(const CurveSet& set, const Selection& selection, const Readings& 
   auto device = one ? Extend(base, law.model, ConstantSet::kCodata, curve, uses, /*force=*/true)
                     : ExtendSet(base, law, AsRead(set, readings), readings.reference_temperature_K,
                                 uses, /*force=*/true);
-  if (!device) return;
-  if (!one) AddFixed(selection, report);
-  report->device = std::move(*device);
-  report->refined = Internal(report->device, report->refined);
-  report->searched = Internal(report->device, report->searched);
-  report->refined_best_candidate = report->refined;
+  if (!device) return report;
+  if (!one) report = WithFixed(std::move(report), selection);
+  report.device = std::move(*device);
+  report.refined = Internal(report.device, report.refined);
+  report.searched = Internal(report.device, report.searched);
+  report.refined_best_candidate = report.refined;
+  return report;
 }
 
 }  // namespace
@@ -222,11 +223,14 @@ FitReport ExtendedReport(const CurveSet& set, const Selection& selection, const 
     report.interrupted = found.summary.termination == SearchTermination::kInterrupted;
     searched = Reported(weighted, fit.law, found.best);
   }
-  AddEstimates(selection, searched, &report);
+  report.refined = Reported(weighted, fit.law, fit.p);
+  report.estimates = EstimatesOf(selection, report.refined, searched);
+  report.searched = searched.empty() ? report.refined : searched;
+  report.refined_best_candidate = report.refined;
   report.rmse.refined.solved_current_A = RmseOf(at.weighted, at.extended);
   report.nNsVth = Ideality(fit) * readings.traits.thermal_voltage * readings.scale.cells;
   if (!search) return report;
-  AttachLaw(set, selection, *at.weighted.readings, &report);
+  report = WithLaw(std::move(report), set, selection, *at.weighted.readings);
   report.curve = AllPoints(set);
   report.refine.termination = "converged";
   for (std::size_t k = 0; k < at.extended.size(); ++k) {

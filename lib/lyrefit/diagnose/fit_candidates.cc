@@ -26,12 +26,12 @@ const LawFit* FindMet(const SelectionState& now, const Effect& effect) {
   return at != met->end() && at->fit.usable ? &at->fit : nullptr;
 }
 
-// Fits once more from the parameters of an earlier fit; keeps the better result.
-void FitFromHint(const SelectionState& now, const Effect& effect, LawFit* fit) {
+// A fit from the parameters of an earlier one; unusable if that has not this effect.
+LawFit FitFromHint(const SelectionState& now, const Effect& effect) {
   const LawFit& found = now.options.hint;
   const Law& hint = found.law;
   const auto at = std::find(hint.effects.begin(), hint.effects.end(), &effect);
-  if (!found.usable || at == hint.effects.end()) return;
+  if (!found.usable || at == hint.effects.end()) return {};
   const std::vector<double>& p = found.p;
   const auto own = p.begin() + hint.Offset(static_cast<int>(at - hint.effects.begin()));
   Law law = now.fit.law;
@@ -40,8 +40,7 @@ void FitFromHint(const SelectionState& now, const Effect& effect, LawFit* fit) {
   std::vector<double> start = now.fit.p;
   std::copy(p.begin(), p.begin() + law.base_size(), start.begin());
   start.insert(start.end(), own, own + (*at)->size());
-  LawFit end = FitLaw(now.weighted, law, start, UpTo(20, 1e-6));
-  if (end.usable && (!fit->usable || end.sum < fit->sum)) *fit = std::move(end);
+  return FitLaw(now.weighted, law, start, UpTo(20, 1e-6));
 }
 
 LawFit FitCandidate(const SelectionState& now, const Score& score) {
@@ -51,8 +50,8 @@ LawFit FitCandidate(const SelectionState& now, const Score& score) {
     fit = FitEffect(now.weighted, now.fit, score,
                     now.options.repeats ? Effort::kInPassing : Effort::kFull);
   }
-  FitFromHint(now, *score.effect, &fit);
-  return fit;
+  LawFit hinted = FitFromHint(now, *score.effect);
+  return hinted.usable && (!fit.usable || hinted.sum < fit.sum) ? hinted : fit;
 }
 
 bool HasSweepEffect(const Law& law) {
@@ -244,8 +243,10 @@ void Replace(const Measurement& measurement, const FittedCandidate& better, int 
   if (better.score.effect != nullptr) {
     selection->causes.push_back({better.score.effect, better.score});
   }
-  selection->extended = better.fit;
-  selection->noise = SettleNoise(measurement, &selection->weighted, &selection->extended);
+  SettledFit settled = SettleNoise(measurement, std::move(selection->weighted), better.fit);
+  selection->weighted = std::move(settled.weighted);
+  selection->extended = std::move(settled.fit);
+  selection->noise = std::move(settled.noise);
 }
 
 // What is clearly more probable in the place of an effect than the effect; null if nothing is.

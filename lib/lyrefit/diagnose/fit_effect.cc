@@ -82,11 +82,11 @@ struct ShapeEnd : MultistartEnd {
   LawFit fit;
 };
 
-// Fits from starts suggested by the curve's shape; keeps the best result. All start from typical
+// The best of `best` and the fits from starts suggested by the curve's shape. All start from typical
 // base parameters: a base fit distorted by the fault leads to a wrong local optimum. The leading
 // ones, each of a different local optimum, are fitted to the end.
-void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect,
-               const Law& law, LawFit* best) {
+LawFit TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& effect,
+                 const Law& law, LawFit best) {
   const Readings& readings = *weighted.readings;
   const CurveShape shape = ShapeOf(readings);
   std::vector<ShapeEnd> starts;
@@ -116,51 +116,53 @@ void TryShapes(const WeightedData& weighted, const LawFit& fit, const Effect& ef
     const WeightedData& data = stage.problem == kEqualWeights ? alike : weighted;
     const bool last = stage.steps == rules.last.steps;
     LeastSquaresOptions how = UpTo(stage.steps, 1e-5);
-    if (last && best->usable) how.cutoff = Penalised(weighted, *best);
+    if (last && best.usable) how.cutoff = Penalised(weighted, best);
     LawFit end = FitLaw(data, at->fit.law, at->fit.p, how);
     at->value = HUGE_VAL;
     if (!end.usable) return;
     at->value = Penalised(data, end);
     at->fit = std::move(end);
     if (!last || !IsItself(weighted, at->fit)) return;
-    if (!best->usable || at->value < Penalised(weighted, *best)) *best = at->fit;
+    if (!best.usable || at->value < Penalised(weighted, best)) best = at->fit;
   };
   Multistart<ShapeEnd> run;
   RunMultistart(rules, std::move(starts), refine, NeverSame, &run);
+  return best;
 }
 
 // Coordinate descent over the probe values of one searched parameter, for effects such as jumps:
 // their scores are linear approximations, so neighbouring values may fit better.
-void DescendInProbes(const WeightedData& weighted, const Effect& effect,
-                     const std::vector<Probe>& probes, LawFit* best) {
+LawFit DescendInProbes(const WeightedData& weighted, const Effect& effect,
+                       const std::vector<Probe>& probes, LawFit best) {
   constexpr int kMostSteps = 8;
   std::vector<int> searched;
   for (int k = 0; k < effect.size(); ++k) {
     if (effect.parameters[k].searched) searched.push_back(k);
   }
   constexpr std::size_t kFew = 8;  // up to here every value was a start
-  if (searched.size() != 1) return;
+  if (searched.size() != 1) return best;
   std::set<double> settings;
   for (const Probe& probe : probes) settings.insert(probe[searched.front()]);
-  if (settings.size() <= kFew) return;
+  if (settings.size() <= kFew) return best;
   const std::vector<double> places(settings.begin(), settings.end());
-  const std::size_t at = best->p.size() - effect.parameters.size() + searched.front();
-  const auto here = std::lower_bound(places.begin(), places.end(), best->p[at]);
+  const std::size_t at = best.p.size() - effect.parameters.size() + searched.front();
+  const auto here = std::lower_bound(places.begin(), places.end(), best.p[at]);
   const int count = static_cast<int>(places.size());
   const int start = static_cast<int>(here - places.begin());
   for (const int way : {-1, 1}) {
     int moved = 0;
     for (int k = start + way; k >= 0 && k < count && moved < kMostSteps; k += way, ++moved) {
-      std::vector<double> p = best->p;
+      std::vector<double> p = best.p;
       p[at] = places[k];
       LeastSquaresOptions briefly = kBriefly;
-      briefly.cutoff = best->sum;
-      LawFit end = FitLaw(weighted, best->law, p, briefly);
-      if (!end.usable || !(end.sum < best->sum)) break;
-      *best = std::move(end);
+      briefly.cutoff = best.sum;
+      LawFit end = FitLaw(weighted, best.law, p, briefly);
+      if (!end.usable || !(end.sum < best.sum)) break;
+      best = std::move(end);
     }
-    if (moved > 0) return;
+    if (moved > 0) break;
   }
+  return best;
 }
 
 }  // namespace
@@ -201,7 +203,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (effect.starts != nullptr && weighted.readings->traits.single && effort == Effort::kFull) {
-    TryShapes(weighted, fit, effect, law, &best);
+    best = TryShapes(weighted, fit, effect, law, std::move(best));
   }
   if (!(best.usable && best.sum <= fit.sum) && !probes.empty() && effect.size() > 0) {
     // A start at the neutral value cannot give a larger sum than the fit without the effect.
@@ -212,7 +214,7 @@ LawFit FitEffect(const WeightedData& weighted, const LawFit& fit, const Score& s
     if (end.usable && (!best.usable || end.sum < best.sum)) best = std::move(end);
   }
   if (!best.usable) return best;
-  if (effort == Effort::kFull) DescendInProbes(weighted, effect, probes, &best);
+  if (effort == Effort::kFull) best = DescendInProbes(weighted, effect, probes, std::move(best));
   LawFit end = FitLaw(weighted, best.law, best.p, kForRanking);
   if (!end.usable || !IsItself(weighted, end)) return {};
   return end;

@@ -34,23 +34,21 @@ void FitBaseLaw(const Law& law, SelectionState* now) {
 }
 
 // Fits the base model and its noise. False if there is no usable fit.
-bool SettleBase(SelectionState* now, Selection* selection) {
+bool SettleBase(SelectionState* now) {
   ReporterOf(*now).Begin("base fit", 3);
   Law law = now->options.base;
   if (now->weighted.readings->points.size() <= kQuickToFit) now->weighted.progress = {};
   FitBaseLaw(law, now);
   now->weighted.progress = now->options.progress;
-  selection->base = selection->extended = now->fit;
-  selection->weighted = selection->base_weighted = now->weighted;
+  now->base = now->fit;
   if (!now->fit.usable) return false;
   ReporterOf(*now).Count();
   SettleNoise(now);
   ReporterOf(*now).Count();
   if (now->options.start.empty()) law = ChooseLaw(now->weighted, law);
   FitBaseLaw(law, now);
-  if (now->weighted.progress.Stopped()) now->fit = selection->base;
-  now->base = selection->base = now->fit;
-  selection->base_weighted = now->weighted;
+  if (now->weighted.progress.Stopped()) now->fit = now->base;
+  now->base = now->fit;
   return true;
 }
 
@@ -97,14 +95,16 @@ void Accept(const FittedCandidate& candidate, SelectionState* now) {
   if (effect.momentary && candidate.probability > now->options.probability) FreeShape(effect, now);
 }
 
-// Adds effects that were scored but not fitted.
-void AddUntried(const std::vector<Score>& scores, std::vector<FittedCandidate>* trials) {
+// The trials with the effects that were scored but not fitted.
+std::vector<FittedCandidate> WithUntried(std::vector<FittedCandidate> trials,
+                                         const std::vector<Score>& scores) {
   for (const Score& score : scores) {
-    const bool there = std::any_of(trials->begin(), trials->end(), [&](const FittedCandidate& r) {
+    const bool there = std::any_of(trials.begin(), trials.end(), [&](const FittedCandidate& r) {
       return r.score.effect == score.effect;
     });
-    if (!there) trials->push_back({score, {}, 0});
+    if (!there) trials.push_back({score, {}, 0});
   }
+  return trials;
 }
 
 // Size of the last effect of a candidate.
@@ -176,12 +176,31 @@ bool LeaveOutWrong(std::vector<Score> scores, const Hypotheses& step, SelectionS
   if (single == nullptr) return false;
   const Effect* effect = single->effect;
   bool any = false;
-  while (LeaveOutFurthest(scores, step, &now->weighted, &now->fit, &now->wrong)) {
+  while (auto left_out =
+             FindFurthest(now->weighted, now->fit, scores, step, now->wrong.readings.size())) {
     any = true;
+    now->weighted.used[left_out->reading] = 0;
+    (left_out->at_rest ? now->wrong.at_rest : now->wrong.readings).push_back(left_out->reading);
+    now->fit = std::move(left_out->fit);
     scores = ScoreEffects(now->weighted, now->fit, {effect}, &now->signatures);
   }
   if (any) SettleNoise(now);
   return any;
+}
+
+// Uses left-out readings again that the present fit explains, and repeats the fit.
+void Readmit(SelectionState* now) {
+  std::vector<int> still_wrong;
+  for (const int k : now->wrong.readings) {
+    const bool explained = Explains(now->weighted, now->fit, k);
+    if (explained) now->weighted.used[k] = 1;
+    if (!explained) still_wrong.push_back(k);
+  }
+  if (still_wrong.size() == now->wrong.readings.size()) return;
+  now->wrong.readings = std::move(still_wrong);
+  LawFit again = FitLaw(now->weighted, now->fit.law, now->fit.p);
+  if (again.usable) now->fit = std::move(again);
+  SettleNoise(now);
 }
 
 // The first or the last `count` used readings of the stretch of which reading k is an end; empty if k
@@ -239,7 +258,7 @@ bool LeaveOutEnd(const FittedCandidate& best, SelectionState* now) {
   return false;
 }
 
-void Extend(SelectionState* now, Selection* selection) {
+void Extend(SelectionState* now) {
   const int most = now->options.largest_causes + static_cast<int>(now->causes.size());
   const double least = std::log(now->options.probability / (1 - now->options.probability));
   std::set<std::set<const Effect*>> seen;
@@ -257,9 +276,9 @@ void Extend(SelectionState* now, Selection* selection) {
         candidate.material =
             ProbabilityAbove(SizeOfCandidate(*now, candidate), now->options.floors);
       }
-      selection->trials = step;
-      selection->none = NothingMaterial(step);
-      AddUntried(scores, &selection->trials.candidates);
+      now->trials = step;
+      now->none = NothingMaterial(step);
+      now->trials.candidates = WithUntried(std::move(now->trials.candidates), scores);
     }
     if (now->weighted.progress.Stopped()) return;
     if (LeaveOutWrong(scores, step, now)) continue;
@@ -268,14 +287,14 @@ void Extend(SelectionState* now, Selection* selection) {
     if (!(best.LogComplete() > step.none.LogComplete() + least)) return;
     const EffectSize size = SizeOfCandidate(*now, best);
     if (floors.Any() && !ExceedsFloors(size, floors)) {
-      if (IsWorthMention(size, floors)) selection->below = std::move(step);
+      if (IsWorthMention(size, floors)) now->below = std::move(step);
       return;
     }
     if (floors.Any() && size.current < LeastOfAnother(*now)) return;
     if (LeaveOutEnd(best, now)) continue;
     Accept(best, now);
     SwapCauses(now);
-    if (Readmit(&now->weighted, &now->fit, &now->wrong)) SettleNoise(now);
+    Readmit(now);
     const std::vector<const Effect*>& effects = now->fit.law.effects;
     const std::set<const Effect*> present(effects.begin(), effects.end());
     if (!seen.insert(present).second) return;  // a set of causes recurred: stop
@@ -293,9 +312,12 @@ Selection SelectCauses(const Measurement& measurement, const std::vector<char>& 
                        double correlation, const SelectOptions& options) {
   SelectionState now = BeginSelection(measurement, used, correlation, options);
   Selection selection;
-  if (!SettleBase(&now, &selection)) return selection;
+  const bool usable = SettleBase(&now);
+  selection.base = selection.extended = now.base;
+  selection.weighted = selection.base_weighted = now.weighted;
+  if (!usable) return selection;
   if (measurement.values.HasLimits()) AddClip(&now);
-  Extend(&now, &selection);
+  Extend(&now);
   DropTheUnlikely(&now);
   selection.incomplete =
       IncompleteProbability(EvidenceOf(now.weighted, now.base, options.judge, now.fit));
@@ -306,6 +328,9 @@ Selection SelectCauses(const Measurement& measurement, const std::vector<char>& 
   selection.weighted = std::move(now.weighted);
   selection.noise = std::move(now.noise);
   selection.signatures = std::move(now.signatures);
+  selection.trials = std::move(now.trials);
+  selection.below = std::move(now.below);
+  selection.none = now.none;
   return selection;
 }
 

@@ -62,8 +62,15 @@ Selection SelectCauses(const Measurement& measurement, const std::vector<char>& 
 // Estimates the noise from the residuals of `fit` and sets sigma and least_variance of `weighted`.
 Noise TakeNoise(const Measurement& measurement, const LawFit& fit, WeightedData* weighted);
 
+// A fit whose noise is that of its own residuals.
+struct SettledFit {
+  WeightedData weighted;  // with that noise
+  LawFit fit;
+  Noise noise;
+};
+
 // Estimates the noise from the residuals of `fit` and repeats the fit with it; two rounds.
-Noise SettleNoise(const Measurement& measurement, WeightedData* weighted, LawFit* fit);
+SettledFit SettleNoise(const Measurement& measurement, WeightedData weighted, LawFit fit);
 
 // The hypotheses that may stand in the place of a cause, beside the cause itself: those with a
 // twentieth of its probability or more, most probable first. Empty for a cause in the values.

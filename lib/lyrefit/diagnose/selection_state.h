@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/diagnose/select.h"
@@ -19,6 +20,8 @@ struct SelectionState {
   LawFit fit;   // with the causes found so far
   std::vector<ChosenCause> causes;
   WrongReadings wrong;
+  Hypotheses trials = {}, below = {};  // see Selection, as `none`
+  double none = 1;
 };
 
 // Receives the stages. Repetitions of the selection report to nobody.
@@ -28,7 +31,10 @@ inline ProgressReporter ReporterOf(const SelectionState& now) {
 
 // Estimates the noise from the residuals of the present fit and repeats the fit with it.
 inline void SettleNoise(SelectionState* now) {
-  now->noise = SettleNoise(now->measurement, &now->weighted, &now->fit);
+  SettledFit settled = SettleNoise(now->measurement, std::move(now->weighted), std::move(now->fit));
+  now->weighted = std::move(settled.weighted);
+  now->fit = std::move(settled.fit);
+  now->noise = std::move(settled.noise);
 }
 
 // Scores all effects that can be added to the present law.

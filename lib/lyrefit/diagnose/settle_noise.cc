@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/diagnose/select.h"
@@ -107,16 +108,16 @@ Noise TakeNoise(const Measurement& measurement, const LawFit& fit, WeightedData*
   return noise;
 }
 
-Noise SettleNoise(const Measurement& measurement, WeightedData* weighted, LawFit* fit) {
+SettledFit SettleNoise(const Measurement& measurement, WeightedData weighted, LawFit fit) {
   const bool stated = measurement.errors.kind == ErrorKind::kStated;
   Noise noise;
   for (int round = 0; round < 2; ++round) {
-    noise = TakeNoise(measurement, *fit, weighted);
-    if (measurement.has_path() && !stated) weighted->path = FindPath(*weighted, *fit);
-    LawFit again = FitLaw(*weighted, fit->law, fit->p);
-    if (again.usable) *fit = std::move(again);
+    noise = TakeNoise(measurement, fit, &weighted);
+    if (measurement.has_path() && !stated) weighted.path = FindPath(weighted, fit);
+    LawFit again = FitLaw(weighted, fit.law, fit.p);
+    if (again.usable) fit = std::move(again);
   }
-  return noise;
+  return {std::move(weighted), std::move(fit), std::move(noise)};
 }
 
 }  // namespace lyrefit

@@ -9,6 +9,8 @@
 namespace lyrefit {
 namespace {
 
+constexpr double kPlausible = 3.5;  // noise deviations
+
 // Distance of the fit from a reading, in noise deviations.
 double Off(const WeightedData& weighted, const LawFit& fit, int reading) {
   return (fit.current[reading] - weighted.readings->points[reading].current) /
@@ -47,7 +49,6 @@ bool Settles(const WeightedData& weighted, const LawFit& fit, int reading) {
 // turn or end of a sweep, the rate computed from neighbours is wrong. An effect that depends on the
 // rate then misses such a reading, although the reading is correct.
 bool StandsStill(const WeightedData& weighted, const LawFit& fit, int reading) {
-  constexpr double kPlausible = 3.5;
   const std::vector<Reading>& points = weighted.readings->points;
   const int last = static_cast<int>(points.size()) - 1;
   const auto apart = [&](int k) {
@@ -75,45 +76,34 @@ double LogOdds(const WeightedData& weighted, const LawFit& fit, const Score& fur
 
 }  // namespace
 
-bool LeaveOutFurthest(const std::vector<Score>& scores, const Hypotheses& step,
-                      WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
+std::optional<LeftOut> FindFurthest(const WeightedData& weighted, const LawFit& fit,
+                                    const std::vector<Score>& scores, const Hypotheses& step,
+                                    std::size_t wrong) {
   const Score* furthest = FindScore(scores, FoundBy::kSingleReading);
-  if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return false;
-  const double odds = LogOdds(*weighted, *fit, *furthest);
-  if (!(odds > 0) || Settles(*weighted, *fit, furthest->outlier)) return false;
-  const double most = std::max(1.0, kMostWrong * static_cast<double>(weighted->used.size()));
-  if (static_cast<double>(wrong->readings.size()) >= most) return false;
+  if (furthest == nullptr || !furthest->testable || furthest->outlier < 0) return std::nullopt;
+  const int reading = furthest->outlier;
+  const double odds = LogOdds(weighted, fit, *furthest);
+  if (!(odds > 0) || Settles(weighted, fit, reading)) return std::nullopt;
+  const double most = std::max(1.0, kMostWrong * static_cast<double>(weighted.used.size()));
+  if (static_cast<double>(wrong) >= most) return std::nullopt;
   if (!step.candidates.empty()) {
     const FittedCandidate& best = *MostProbable(step.candidates);
     const bool beaten = step.none.LogComplete() + odds < best.LogComplete();
-    const bool alone = best.score.effect->momentary && IsAlone(*weighted, *fit, furthest->outlier);
-    if (beaten && !alone) return false;
-  } else if (!fit->law.effects.empty() && !IsAlone(*weighted, *fit, furthest->outlier)) {
-    return false;  // the causes may miss it in part
+    const bool alone = best.score.effect->momentary && IsAlone(weighted, fit, reading);
+    if (beaten && !alone) return std::nullopt;
+  } else if (!fit.law.effects.empty() && !IsAlone(weighted, fit, reading)) {
+    return std::nullopt;  // the causes may miss it in part
   }
-  WeightedData without = *weighted;
-  without.used[furthest->outlier] = 0;
-  LawFit rest = FitLaw(without, fit->law, fit->p);
-  if (!rest.usable || weighted->progress.Stopped()) return false;
-  weighted->used[furthest->outlier] = 0;
-  (StandsStill(*weighted, rest, furthest->outlier) ? wrong->at_rest : wrong->readings)
-      .push_back(furthest->outlier);
-  *fit = std::move(rest);
-  return true;
+  WeightedData without = weighted;
+  without.used[reading] = 0;
+  LawFit rest = FitLaw(without, fit.law, fit.p);
+  if (!rest.usable || weighted.progress.Stopped()) return std::nullopt;
+  const bool at_rest = StandsStill(without, rest, reading);
+  return LeftOut{reading, at_rest, std::move(rest)};
 }
 
-bool Readmit(WeightedData* weighted, LawFit* fit, WrongReadings* wrong) {
-  constexpr double kPlausible = 3.5;
-  std::vector<int>& readings = wrong->readings;
-  const auto plausible = [&](int k) { return std::fabs(Off(*weighted, *fit, k)) < kPlausible; };
-  const auto first =
-      std::stable_partition(readings.begin(), readings.end(), [&](int k) { return !plausible(k); });
-  if (first == readings.end()) return false;
-  for (auto k = first; k != readings.end(); ++k) weighted->used[*k] = 1;
-  readings.erase(first, readings.end());
-  LawFit again = FitLaw(*weighted, fit->law, fit->p);
-  if (again.usable) *fit = std::move(again);
-  return true;
+bool Explains(const WeightedData& weighted, const LawFit& fit, int reading) {
+  return std::fabs(Off(weighted, fit, reading)) < kPlausible;
 }
 
 }  // namespace lyrefit

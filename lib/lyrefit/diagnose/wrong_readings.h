@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lyrefit/diagnose/fitted_candidate.h"
@@ -14,14 +15,21 @@ struct WrongReadings {
 
 inline constexpr double kMostWrong = 0.05;  // of all readings
 
-// Leaves out the reading that is furthest off and repeats the fit, if that is more probable than no
-// cause and than the best of the candidates, or if it is isolated where that one is momentary. At
-// most a twentieth of all readings is left out. Returns whether a reading was left out.
-bool LeaveOutFurthest(const std::vector<Score>& scores, const Hypotheses& step,
-                      WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
+// A reading that is left out, and the fit without it.
+struct LeftOut {
+  int reading = 0;
+  bool at_rest = false;  // see WrongReadings
+  LawFit fit;
+};
 
-// Uses left-out readings again that the present fit explains, and repeats the fit. Returns whether
-// there were any.
-bool Readmit(WeightedData* weighted, LawFit* fit, WrongReadings* wrong);
+// The reading that is furthest off, if leaving it out is more probable than no cause and than the
+// best of the candidates, or if it is isolated where that one is momentary. None where a twentieth
+// of all readings is wrong (`wrong` of them) already.
+std::optional<LeftOut> FindFurthest(const WeightedData& weighted, const LawFit& fit,
+                                    const std::vector<Score>& scores, const Hypotheses& step,
+                                    std::size_t wrong);
+
+// Whether a fit explains a reading, used or not.
+bool Explains(const WeightedData& weighted, const LawFit& fit, int reading);
 
 }  // namespace lyrefit

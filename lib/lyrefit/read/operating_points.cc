@@ -87,18 +87,18 @@ OperatingLayout LayoutOf(std::string_view header) {
   return best;
 }
 
-// Takes the input of an inverter that `wish` names: "Vpv2" and "Ipv2" of "2". Error: several inputs
-// and no wish, or a wish that names none.
-Expected<void> ChooseInput(const std::string& wish, OperatingLayout* layout) {
-  const std::vector<Channel> channels = FindChannels(layout->columns);
+// The layout with the input of an inverter that `wish` names: "Vpv2" and "Ipv2" of "2". Error: several
+// inputs and no wish, or a wish that names none.
+Expected<OperatingLayout> WithInput(OperatingLayout layout, const std::string& wish) {
+  const std::vector<Channel> channels = FindChannels(layout.columns);
   const bool numbered = std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
-    return !layout->columns[channel.current].tag.device.empty();
+    return !layout.columns[channel.current].tag.device.empty();
   });
-  if (wish.empty() && (channels.size() < 2 || !numbered)) return {};
-  TRY(const Channel chosen, ChooseChannel(layout->columns, channels, wish));
-  layout->at[kAtVoltage] = chosen.voltage;
-  layout->at[kAtCurrent] = chosen.current;
-  return {};
+  if (wish.empty() && (channels.size() < 2 || !numbered)) return layout;
+  TRY(const Channel chosen, ChooseChannel(layout.columns, channels, wish));
+  layout.at[kAtVoltage] = chosen.voltage;
+  layout.at[kAtCurrent] = chosen.current;
+  return layout;
 }
 
 // What a table without a column needs.
@@ -126,10 +126,9 @@ Expected<std::vector<OperatingReading>> ReadOperatingTable(const std::string& pa
   if (!lines.NextContent(&line)) {
     return Fail("the file holds no data, only blank lines and comments", path);
   }
-  OperatingLayout layout = LayoutOf(line);
-  if (auto chosen = ChooseInput(input, &layout); !chosen) {
-    return Fail(chosen.error().message, path, lines.number(), 1);
-  }
+  const auto chosen = WithInput(LayoutOf(line), input);
+  if (!chosen) return Fail(chosen.error().message, path, lines.number(), 1);
+  const OperatingLayout& layout = *chosen;
   for (int kind = 0; kind < kOperating; ++kind) {
     if (layout.at[kind] >= 0) continue;
     return Fail(fmt::format("expected a header with the columns time, irradiance, temperature, vmp "

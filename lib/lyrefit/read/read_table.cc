@@ -102,10 +102,10 @@ Expected<void> TakeRow(BrokenRows broken_rows, TableRow* row, std::vector<TableR
   bool taken = false;
   for (TableReading& reading : *readings) {
     if (reading.table.error) continue;
-    const Expected<bool> read = TakeRow(row, &reading);
+    const Expected<bool> read = reading.Take(row);
     taken = taken || (read && *read);
     if (read) continue;
-    if (broken_rows == BrokenRows::kSetAside && SetAside(read.error(), row, &reading)) continue;
+    if (broken_rows == BrokenRows::kSetAside && reading.SetAside(read.error(), row)) continue;
     refusing.emplace_back(&reading, read.error());
   }
   if (refusing.empty()) return {};

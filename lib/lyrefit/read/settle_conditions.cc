@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -98,8 +99,7 @@ void SettleConditions(const Sidecar& sidecar, IvCurve* curve) {
   if (!sidecar.name.empty()) curve->name = sidecar.name;
   curve->notes = sidecar.notes;
   curve->stated_in = sidecar.stated_in;
-  curve->assumptions.insert(curve->assumptions.end(), sidecar.assumptions.begin(),
-                            sidecar.assumptions.end());
+  Append(sidecar.assumptions, &curve->assumptions);
   Conditions& conditions = curve->conditions;
   conditions.strings_in_parallel = sidecar.strings_in_parallel.value_or(1);
   curve->strings_known = sidecar.strings_in_parallel.has_value();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
@@ -330,8 +331,7 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&notes.light_top, common.notes.light_top);
   fill(&notes.light_bottom, common.notes.light_bottom);
   if (notes.date.empty()) notes.date = common.notes.date;
-  own.assumptions.insert(own.assumptions.end(), common.assumptions.begin(),
-                         common.assumptions.end());
+  Append(common.assumptions, &own.assumptions);
   return own;
 }
 

@@ -42,30 +42,28 @@ Expected<void> TakeFields(std::initializer_list<std::pair<int, std::vector<doubl
   return {};
 }
 
-Expected<bool> TakeFurther(const ColumnPair& pair, TableRow* row, TableReading* reading,
-                           FurtherSweep* sweep) {
-  const TableLayout& layout = reading->layout;
+}  // namespace
+
+Expected<bool> TableReading::TakeFurther(std::size_t i, TableRow* row) {
+  const ColumnPair& pair = layout.more[i];
   if (IsPastEnd(*row, pair)) return false;
-  if (reading->options.skip_missing && IsMissing(*row, pair, layout.delimiter)) {
-    std::vector<int>& skipped = reading->table.skipped;
+  if (options.skip_missing && IsMissing(*row, pair, layout.delimiter)) {
+    std::vector<int>& skipped = table.skipped;
     if (skipped.empty() || skipped.back() != row->number()) skipped.push_back(row->number());
     return true;
   }
-  IvCurve* const curve = &sweep->curve;
+  IvCurve* const curve = &further[i].curve;
   TRY(TakeFields({{pair.voltage, &curve->voltage_V},
                   {pair.current, &curve->current_A},
                   {layout.sigma, &curve->sigma_A},
                   {layout.irradiance, &curve->irradiance_W_m2},
                   {layout.temperature, &curve->temperature_C}},
                  kNoColumn, nullptr, row));
-  sweep->lines.push_back(row->number());
+  further[i].lines.push_back(row->number());
   return true;
 }
 
-}  // namespace
-
-Expected<bool> TakeRow(TableRow* row, TableReading* reading) {
-  const TableLayout& layout = reading->layout;
+Expected<bool> TableReading::Take(TableRow* row) {
   const ColumnPair first = layout.channel();
   const bool side_by_side = layout.channels.size() > 1 || !layout.more.empty();
   const bool ended = side_by_side && IsPastEnd(*row, first);
@@ -74,12 +72,11 @@ Expected<bool> TakeRow(TableRow* row, TableReading* reading) {
   if (!layout.device.empty() && (*row)[layout.device_column] != layout.device) return true;
   bool taken = !ended;
   for (std::size_t i = 0; i < layout.more.size(); ++i) {
-    TRY(const bool further, TakeFurther(layout.more[i], row, reading, &reading->further[i]));
-    taken = taken || further;
+    TRY(const bool another, TakeFurther(i, row));
+    taken = taken || another;
   }
   if (ended) return taken;
-  Table& table = reading->table;
-  if (reading->options.skip_missing && IsMissing(*row, first, layout.delimiter)) {
+  if (options.skip_missing && IsMissing(*row, first, layout.delimiter)) {
     table.skipped.push_back(row->number());
     return true;
   }
@@ -95,11 +92,11 @@ Expected<bool> TakeRow(TableRow* row, TableReading* reading) {
   return true;
 }
 
-bool SetAside(const Error& error, TableRow* row, TableReading* reading) {
-  const int column = reading->layout.sweep;
+bool TableReading::SetAside(const Error& error, TableRow* row) {
+  const int column = layout.sweep;
   if (column == kNoColumn || !row->CheckLength()) return false;
   const Expected<int> sweep = row->WholeNumber(column);
-  if (sweep) reading->table.broken.try_emplace(*sweep, error);
+  if (sweep) table.broken.try_emplace(*sweep, error);
   return sweep.has_value();
 }
 

@@ -22,13 +22,15 @@ struct TableReading {
   std::size_t padding = 0;                 // rows of zeros that were left out
   std::vector<std::size_t> starts = {};    // first rows of the second and later tables
   std::vector<Sidecar> heads = {};         // of the second and later tables
+
+  // Appends a row. False if the measurement has nothing in this row. A row with a missing reading may
+  // be skipped.
+  Expected<bool> Take(TableRow* row);
+  // Records the error of a row that was refused. False if the row's sweep cannot be read.
+  bool SetAside(const Error& error, TableRow* row);
+
+ private:
+  Expected<bool> TakeFurther(std::size_t i, TableRow* row);
 };
-
-// Appends a row to a measurement. False if the measurement has nothing in this row. A row with a
-// missing reading may be skipped.
-Expected<bool> TakeRow(TableRow* row, TableReading* reading);
-
-// Records the error of a row that was refused. False if the row's sweep cannot be read.
-bool SetAside(const Error& error, TableRow* row, TableReading* reading);
 
 }  // namespace lyrefit

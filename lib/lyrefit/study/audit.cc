@@ -64,60 +64,65 @@ AuditVerdict VerdictAsStated(const AuditFinding& finding) {
   return coarse ? AuditVerdict::kTooCoarse : AuditVerdict::kReproduces;
 }
 
-// Compares the claim with the lowest RMSE of any fit, and with its proved lower bound.
-void LookBelow(const AuditSubject& subject, LowestFinder* finder, AuditFinding* finding) {
-  finding->lowest = finder->Find(subject, finding->stated.shown);
-  if (!finding->lowest) return;
-  const PrintedNumber& claim = finding->row.rmse;
-  if (IsBelow(claim, finding->lowest->lower_bound_A)) {
-    finding->verdict = AuditVerdict::kBelowProved;
-  } else if (IsBelow(claim, LowestFound(*finding->lowest))) {
-    finding->verdict = AuditVerdict::kBelowKnown;
+// The finding with the claim compared with the lowest RMSE of any fit, and with its proved lower bound.
+AuditFinding LookBelow(AuditFinding finding, const AuditSubject& subject, LowestFinder* finder) {
+  finding.lowest = finder->Find(subject, finding.stated.shown);
+  if (!finding.lowest) return finding;
+  const PrintedNumber& claim = finding.row.rmse;
+  if (IsBelow(claim, finding.lowest->lower_bound_A)) {
+    finding.verdict = AuditVerdict::kBelowProved;
+  } else if (IsBelow(claim, LowestFound(*finding.lowest))) {
+    finding.verdict = AuditVerdict::kBelowKnown;
   }
+  return finding;
 }
 
-void LookFurther(const AuditSubject& subject, LowestFinder* finder, AuditFinding* finding) {
+// The finding with what may explain a claim that is not reproduced as stated.
+AuditFinding LookFurther(AuditFinding finding, const AuditSubject& subject, LowestFinder* finder) {
   AuditSearch search = Explain(subject);
-  finding->explanations = std::move(search.explanations);
-  if (!finding->explanations.empty()) {
-    finding->verdict = AuditVerdict::kReproducesChanged;
-    return;
+  finding.explanations = std::move(search.explanations);
+  if (!finding.explanations.empty()) {
+    finding.verdict = AuditVerdict::kReproducesChanged;
+    return finding;
   }
-  finding->short_circuit_A = subject.shelf->curves[subject.stated.curve].short_circuit_A;
+  finding.short_circuit_A = subject.shelf->curves[subject.stated.curve].short_circuit_A;
   if (HasOtherPhotocurrent(subject)) {
-    finding->verdict = AuditVerdict::kOtherDevice;
-    finding->other_device = FindOtherDevice(subject);
-    return;
+    finding.verdict = AuditVerdict::kOtherDevice;
+    finding.other_device = FindOtherDevice(subject);
+    return finding;
   }
-  finding->nearest = std::move(search.nearest);
-  finding->optimum_A = finder->Optimum(subject, subject.stated, finding->stated.shown);
-  finding->temperatures = ScanTemperatures(subject);
-  if (finding->verdict == AuditVerdict::kFails) LookBelow(subject, finder, finding);
+  finding.nearest = std::move(search.nearest);
+  finding.optimum_A = finder->Optimum(subject, subject.stated, finding.stated.shown);
+  finding.temperatures = ScanTemperatures(subject);
+  if (finding.verdict != AuditVerdict::kFails) return finding;
+  return LookBelow(std::move(finding), subject, finder);
 }
 
-// Finds violated bounds of the row as stated, and of explanations on the same curve.
-Expected<void> CheckBounds(const BoundsSpec& spec, const AuditSubject& subject,
-                           AuditFinding* finding) {
+// The finding with violated bounds of the row as stated, and of explanations on the same curve.
+Expected<AuditFinding> CheckBounds(AuditFinding finding, const BoundsSpec& spec,
+                                   const AuditSubject& subject) {
   const Device device = MakeDevice(subject.row->model, subject.stated.conditions);
   TRY(const auto bounds,
       MakeBounds(spec, device, subject.shelf->curves[subject.stated.curve].curve));
-  finding->stated.left_bounds = FindLeftBounds(device, bounds, finding->stated);
-  for (AuditExplanation& explanation : finding->explanations) {
+  finding.stated.left_bounds = FindLeftBounds(device, bounds, finding.stated);
+  finding.bounds_name = spec.name;
+  for (AuditExplanation& explanation : finding.explanations) {
     AuditReading& reading = explanation.reading;
-    if (reading.curve == finding->stated.curve) {
+    if (reading.curve == finding.stated.curve) {
       reading.left_bounds = FindLeftBounds(device, bounds, reading);
     }
   }
-  return {};
+  return finding;
 }
 
-// Replaces a claimed sum of squares by the equivalent RMSE.
-void TakeRoot(std::size_t points, AuditRow* row) {
-  if (!row->sum_of_squares) return;
-  PrintedNumber& claim = row->rmse;
+// The claimed RMSE, or that which is equivalent to a claimed sum of squares.
+PrintedNumber ClaimedRmse(const AuditRow& row, std::size_t points) {
+  PrintedNumber claim = row.rmse;
+  if (!row.sum_of_squares) return claim;
   const double rmse = std::sqrt(claim.value / static_cast<double>(points));
   claim.half_unit *= 0.5 * rmse / claim.value;
   claim.value = rmse;
+  return claim;
 }
 
 Expected<AuditFinding> AuditOne(AuditRow row, AuditDesk* desk) {
@@ -129,21 +134,22 @@ Expected<AuditFinding> AuditOne(AuditRow row, AuditDesk* desk) {
   const auto bounds = PublishedBounds(row.bounds, desk->shelf.curves[*curve]);
   if (!bounds) return refuse(row.bounds_column, bounds.error());
 
-  TakeRoot(desk->shelf.curves[*curve].curve.voltage_V.size(), &row);
+  row.rmse = ClaimedRmse(row, desk->shelf.curves[*curve].curve.voltage_V.size());
   const AuditSubject subject = MakeSubject(row, *curve, desk->shelf, desk->options);
   AuditFinding finding;
   finding.row = row;
   finding.stated = ReadingEvaluator(subject).Read(subject.stated);
   finding.verdict = VerdictAsStated(finding);
   if (finding.verdict == AuditVerdict::kBetter || finding.verdict == AuditVerdict::kFails) {
-    LookFurther(subject, &desk->lowest, &finding);
+    finding = LookFurther(std::move(finding), subject, &desk->lowest);
   }
-  if (finding.verdict == AuditVerdict::kNoParameters) LookBelow(subject, &desk->lowest, &finding);
+  if (finding.verdict == AuditVerdict::kNoParameters) {
+    finding = LookBelow(std::move(finding), subject, &desk->lowest);
+  }
   if (*bounds && !finding.stated.parameters.empty()) {
-    finding.bounds_name = (*bounds)->name;
-    if (auto checked = CheckBounds(**bounds, subject, &finding); !checked) {
-      return refuse(row.bounds_column, checked.error());
-    }
+    auto checked = CheckBounds(std::move(finding), **bounds, subject);
+    if (!checked) return refuse(row.bounds_column, checked.error());
+    finding = std::move(*checked);
   }
   finding.sentence = AuditSentence(finding);
   return finding;

@@ -254,7 +254,7 @@ class Study {
     if (!any) return;
     result.reference = ReferenceOf(which, BestOf(outcomes));
     result.complete = result.complete && !result.reference.interrupted;
-    SumUpAlgorithms(algorithms_, options_, std::move(outcomes), &result);
+    result = WithAlgorithms(std::move(result), algorithms_, options_, std::move(outcomes));
   }
 
   // The certified optimum if a proof is possible, else the best known optimum.

@@ -114,28 +114,29 @@ RunOutcome OutcomeOf(const FamilyReport& report, const ProblemResult& problem, i
   return outcome;
 }
 
-// Sets the parameter names and the position of the first effect parameter.
-void NameParameters(const CompareCurve& subject, const CompareOptions& options,
-                    ProblemResult* problem) {
+// The problem with its parameter names and the position of the first effect parameter.
+ProblemResult WithNames(ProblemResult problem, const CompareCurve& subject,
+                        const CompareOptions& options) {
   std::vector<ParameterInfo> infos;
   if (subject.set) {
     const auto law = CheckFamily(*subject.set, subject.family);
-    if (!law) return;  // TryProblem() reports the error
+    if (!law) return problem;  // TryProblem() reports the error
     infos = law->parameters;
-    problem->first_effect = law->first_effect;
+    problem.first_effect = law->first_effect;
   } else {
-    infos = MakeDevice(problem->model, subject.curve.conditions, options.constants).parameters;
-    if (!problem->with.empty()) problem->first_effect = static_cast<int>(infos.size());
-    AddInfos(problem->with, &infos);
-    const FitOptions fit = FitOptionsOf(subject, *problem, options);
+    infos = MakeDevice(problem.model, subject.curve.conditions, options.constants).parameters;
+    if (!problem.with.empty()) problem.first_effect = static_cast<int>(infos.size());
+    AddInfos(problem.with, &infos);
+    const FitOptions fit = FitOptionsOf(subject, problem, options);
     const auto prepared = PrepareFit(subject.curve, fit);
-    if (!prepared) return;  // TryProblem() reports the error
+    if (!prepared) return problem;  // TryProblem() reports the error
     const SearchSpace space = SpaceOf(*prepared);
     for (const BoxSide& side : space.box().sides) {
-      if (side.log_base > 0) problem->log_searched.push_back(side.name);
+      if (side.log_base > 0) problem.log_searched.push_back(side.name);
     }
   }
-  for (const ParameterInfo& info : infos) problem->parameters.push_back(ParameterKey(info));
+  for (const ParameterInfo& info : infos) problem.parameters.push_back(ParameterKey(info));
+  return problem;
 }
 
 }  // namespace
@@ -158,8 +159,7 @@ ProblemResult DescribeProblem(const CompareCurve& subject, Model model,
     problem.problem = problem.curve_name;
     if (options.models.size() > 1) problem.problem += " " + ToText(problem.model);
   }
-  NameParameters(subject, options, &problem);
-  return problem;
+  return WithNames(std::move(problem), subject, options);
 }
 
 Expected<void> TryProblem(const CompareCurve& subject, const ProblemResult& problem,

@@ -130,24 +130,26 @@ AlgorithmSummary Summarise(const AlgorithmResult& compared, const std::vector<Su
 }
 
 // Order: by the first device that has the algorithm, then by its position there.
-void SummariseAlgorithms(ProblemSummary* problem) {
-  for (const ProblemResult* first : problem->devices) {
+std::vector<AlgorithmSummary> SummariseAlgorithms(
+    const std::vector<const ProblemResult*>& devices) {
+  std::vector<AlgorithmSummary> done;
+  for (const ProblemResult* first : devices) {
     for (const AlgorithmResult& compared : first->algorithms) {
-      const auto& done = problem->algorithms;
       if (std::any_of(done.begin(), done.end(),
                       [&](const auto& other) { return other.name == compared.name; })) {
         continue;
       }
       std::vector<SummaryRun> runs;
-      for (const ProblemResult* device : problem->devices) {
+      for (const ProblemResult* device : devices) {
         for (const AlgorithmResult& same : device->algorithms) {
           if (same.name != compared.name) continue;
           for (const RunRecord& run : same.runs) runs.push_back({device, &run});
         }
       }
-      problem->algorithms.push_back(Summarise(compared, runs));
+      done.push_back(Summarise(compared, runs));
     }
   }
+  return done;
 }
 
 }  // namespace
@@ -210,7 +212,9 @@ std::vector<ProblemSummary> SummariseProblems(const Comparison& comparison) {
     summary->devices.push_back(&device);
     summary->certified += device.reference.certified;
   }
-  for (ProblemSummary& summary : summaries) SummariseAlgorithms(&summary);
+  for (ProblemSummary& summary : summaries) {
+    summary.algorithms = SummariseAlgorithms(summary.devices);
+  }
   return summaries;
 }
 

@@ -30,16 +30,6 @@ std::vector<double> Column(const std::vector<RunRecord>& runs, T RunRecord::*fie
   return values;
 }
 
-void CountHits(AlgorithmResult* result) {
-  double evaluations = 0;
-  for (const RunRecord& run : result->runs) {
-    const bool hit = run.evaluations_to_target >= 0;
-    result->target_hits += hit;
-    evaluations += static_cast<double>(hit ? run.evaluations_to_target : run.evaluations);
-  }
-  if (result->target_hits > 0) result->expected_evaluations = evaluations / result->target_hits;
-}
-
 }  // namespace
 
 std::vector<TracePoint> KeepGains(const std::vector<TracePoint>& trace) {
@@ -183,7 +173,13 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
   result.plain_polished = SpreadOf(Column(result.runs, &RunRecord::plain_polished_A), reference);
   result.own_polished = SpreadOf(Column(result.runs, &RunRecord::own_polished_A), reference);
   result.polished = SpreadOf(Column(result.runs, &RunRecord::polished_A), reference);
-  CountHits(&result);
+  double evaluations = 0;
+  for (const RunRecord& run : result.runs) {
+    const bool hit = run.evaluations_to_target >= 0;
+    result.target_hits += hit;
+    evaluations += static_cast<double>(hit ? run.evaluations_to_target : run.evaluations);
+  }
+  if (result.target_hits > 0) result.expected_evaluations = evaluations / result.target_hits;
   result.evaluations = Mean(Column(result.runs, &RunRecord::evaluations));
   result.curve_evaluations = Mean(Column(result.runs, &RunRecord::curve_evaluations));
   result.search_seconds = Mean(Column(result.runs, &RunRecord::search_seconds));
@@ -192,29 +188,30 @@ AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutc
   return result;
 }
 
-void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms,
-                     const CompareOptions& options, std::vector<std::vector<RunOutcome>> outcomes,
-                     ProblemResult* result) {
+ProblemResult WithAlgorithms(ProblemResult result, const std::vector<ComparedAlgorithm>& algorithms,
+                             const CompareOptions& options,
+                             std::vector<std::vector<RunOutcome>> outcomes) {
   std::vector<int> done(options.runs, 0);  // number of algorithms that have done the run
   for (std::size_t c = 0; c < algorithms.size(); ++c) {
     if (outcomes[c].empty()) continue;
     for (const RunOutcome& outcome : outcomes[c]) ++done[outcome.record.run];
-    result->algorithms.push_back(Summarise(algorithms[c], &outcomes[c], result->reference.rmse_A,
-                                           options.target_gap, !result->problem.empty()));
+    result.algorithms.push_back(Summarise(algorithms[c], &outcomes[c], result.reference.rmse_A,
+                                          options.target_gap, !result.problem.empty()));
   }
-  if (!options.rankings) return;
+  if (!options.rankings) return result;
   std::vector<std::vector<double>> searched, polished;
-  for (const AlgorithmResult& compared : result->algorithms) {
+  for (const AlgorithmResult& compared : result.algorithms) {
     searched.emplace_back();
     polished.emplace_back();
     for (const RunRecord& run : compared.runs) {
-      if (done[run.run] < static_cast<int>(result->algorithms.size())) continue;
+      if (done[run.run] < static_cast<int>(result.algorithms.size())) continue;
       searched.back().push_back(run.searched_A);
       polished.back().push_back(run.polished_A);
     }
   }
-  result->searched = RankAll(std::move(searched));
-  if (options.polish) result->polished = RankJoined(polished);
+  result.searched = RankAll(std::move(searched));
+  if (options.polish) result.polished = RankJoined(polished);
+  return result;
 }
 
 }  // namespace lyrefit

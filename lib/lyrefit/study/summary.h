@@ -47,11 +47,11 @@ Ranking RankJoined(const std::vector<std::vector<double>>& values);
 AlgorithmResult Summarise(const ComparedAlgorithm& compared, std::vector<RunOutcome>* outcomes,
                           double reference, double target_gap, bool keep_parameters = false);
 
-// Fills the algorithms and rankings of a problem. `outcomes[c]` holds the runs of algorithm c by
+// The problem with its algorithms and rankings. `outcomes[c]` holds the runs of algorithm c by
 // increasing run number. Algorithms without a run are left out. Rankings cover only the runs that
 // all remaining algorithms have done.
-void SumUpAlgorithms(const std::vector<ComparedAlgorithm>& algorithms,
-                     const CompareOptions& options, std::vector<std::vector<RunOutcome>> outcomes,
-                     ProblemResult* result);
+ProblemResult WithAlgorithms(ProblemResult result, const std::vector<ComparedAlgorithm>& algorithms,
+                             const CompareOptions& options,
+                             std::vector<std::vector<RunOutcome>> outcomes);
 
 }  // namespace lyrefit

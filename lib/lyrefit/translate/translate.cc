@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
@@ -47,23 +50,6 @@ Reach ReachOf(const PreparedCurve& curve, const TranslationInputs& inputs, doubl
   return {isc_A * (gain - 1), -*std::min_element(current_A.begin(), current_A.end())};
 }
 
-// Why the result is unusable although the equations can be evaluated; empty: it is usable.
-std::string WhyNotBelieved(Procedure procedure, const Preparation& made, const KeyPoints& source,
-                           TranslatedResult* result) {
-  if (procedure == Procedure::kIec4 && !made.inputs.crystalline_silicon) {
-    return "it is for crystalline silicon";
-  }
-  if (!MovesBeyondVoc(procedure)) return "";
-  const Reach reach = ReachOf(made.curve, made.inputs.values, source.short_circuit_current_A);
-  const double missing = reach.needed_A - reach.there_A;
-  if (!(missing > 0)) return "";
-  result->extrapolated = missing / result->key_points.short_circuit_current_A;
-  if (missing < 0.9 * result->key_points.max_power_current_A) return "";
-  return fmt::format(
-      "it needs readings down to {:.3g} A, beyond open circuit; the last one is at {:.3g} A",
-      -reach.needed_A, -reach.there_A);
-}
-
 TranslatedResult Compute(const Named& named, const Preparation& made, const KeyPoints& source) {
   TranslatedResult result;
   result.procedure = named.procedure;
@@ -82,29 +68,43 @@ TranslatedResult Compute(const Named& named, const Preparation& made, const KeyP
   }
   result.key_points = *key;
   result.curve = *points;
-  result.why_not = WhyNotBelieved(named.procedure, made, source, &result);
+  // The equations can be evaluated, but their result may be none to believe.
+  if (named.procedure == Procedure::kIec4 && !made.inputs.crystalline_silicon) {
+    result.why_not = "it is for crystalline silicon";
+    return result;
+  }
+  if (!MovesBeyondVoc(named.procedure)) return result;
+  const Reach reach = ReachOf(curve, inputs, source.short_circuit_current_A);
+  const double missing = reach.needed_A - reach.there_A;
+  if (!(missing > 0)) return result;
+  result.extrapolated = missing / key->short_circuit_current_A;
+  if (missing < 0.9 * key->max_power_current_A) return result;
+  result.why_not = fmt::format(
+      "it needs readings down to {:.3g} A, beyond open circuit; the last one is at {:.3g} A",
+      -reach.needed_A, -reach.there_A);
   return result;
 }
 
-// Adds budgets: with draws for the recommended result, linear only for the others where requested.
-void AddBudgets(const Preparation& made, const TranslateOptions& options, const Observer& observer,
-                TranslationReport* report) {
+// With budgets: with draws for the recommended result, linear only for the others where requested.
+TranslationReport WithBudgets(TranslationReport report, const Preparation& made,
+                              const TranslateOptions& options, const Observer& observer) {
   TranslationDoubts doubts;
   doubts.noise = NoiseOfCurve(made.curve, options.uncertainty.seed);
-  for (std::size_t i = 0; i < report->results.size(); ++i) {
-    TranslatedResult& result = report->results[i];
-    const bool best = static_cast<int>(i) == report->recommended;
+  for (std::size_t i = 0; i < report.results.size(); ++i) {
+    TranslatedResult& result = report.results[i];
+    const bool best = static_cast<int>(i) == report.recommended;
     if (!result.computed() || !(best || options.all_budgets)) continue;
     UncertaintyOptions sizes = options.uncertainty;
     if (!best) sizes.draws = 0;
     auto budget =
         TranslationBudget(result.procedure, made.curve, made.inputs, doubts, sizes, observer);
     if (!budget) {
-      report->warnings.push_back(result.title + ": no uncertainty: " + budget.error().message);
+      report.warnings.push_back(result.title + ": no uncertainty: " + budget.error().message);
       continue;
     }
     result.budget = std::move(*budget);
   }
+  return report;
 }
 
 constexpr double kAssumedGamma_percent = 25;  // expanded, k = 2, among modules of a technology
@@ -115,97 +115,104 @@ bool IsStandard(const TranslationTarget& target) {
          target.temperature_C == standard.temperature_C;
 }
 
-Expected<void> AddFieldTest(const Preparation& made, const TranslateOptions& options,
-                            const Observer& observer, TranslationReport* report) {
-  if (!options.field_test.rated_W) return {};
-  if (!IsStandard(report->target)) {
-    report->warnings.push_back("a rating is held against Pmax at 1000 W/m2 and 25 C: say --to STC");
-    return {};
+Expected<TranslationReport> WithFieldTest(TranslationReport report, const Preparation& made,
+                                          const TranslateOptions& options,
+                                          const Observer& observer) {
+  if (!options.field_test.rated_W) return report;
+  if (!IsStandard(report.target)) {
+    report.warnings.push_back("a rating is held against Pmax at 1000 W/m2 and 25 C: say --to STC");
+    return report;
   }
-  const TranslatedResult* best = report->Recommended();
-  if (best == nullptr || best->budget.outputs.size() <= kMaxPowerOutput) return {};
+  const TranslatedResult* best = report.Recommended();
+  if (best == nullptr || best->budget.outputs.size() <= kMaxPowerOutput) return report;
   FieldMeasurement measurement;
   measurement.measured = KeyPointsBy(KeyPointMethod::kInterpolated, made.curve.points);
   measurement.inputs = made.inputs.values;
-  measurement.doubt = PlausibilityProblem(report->curve).value_or("");
+  measurement.doubt = PlausibilityProblem(report.curve).value_or("");
   FieldTestOptions test = options.field_test;
   if (!test.power_coefficient_percent_K) {
     test.power_coefficient_percent_K = made.inputs.usual_gamma_percent_K;
     test.power_coefficient_percent = kAssumedGamma_percent;
-    report->assumptions.push_back(fmt::format(
+    report.assumptions.push_back(fmt::format(
         "nobody stated gamma: {:.2f} %/K +- {:g} % of it (k = 2), as {} has it",
         *test.power_coefficient_percent_K, test.power_coefficient_percent, made.inputs.usual_of));
   }
-  TRY(report->field_test, JudgeFieldTest(best->budget.outputs[kMaxPowerOutput], measurement, test,
-                                         options.uncertainty, observer));
-  return {};
+  TRY(report.field_test, JudgeFieldTest(best->budget.outputs[kMaxPowerOutput], measurement, test,
+                                        options.uncertainty, observer));
+  return report;
 }
 
-void AddDiagnosis(const Preparation& made, TranslationReport* report) {
-  if (!made.diagnosis) return;
-  report->diagnosis = made.diagnosis;
-  report->verdict = made.diagnosis->verdict.sentence;
-  for (const Cause& cause : made.diagnosis->verdict.causes) report->causes.push_back(cause.id);
-  report->interrupted = made.diagnosis->interrupted;
-  if (made.curve.models.empty()) return;
-  report->kept = made.curve.models.front()->kept;
-  report->removed = made.curve.models.front()->removed;
+TranslationReport WithDiagnosis(TranslationReport report, const Preparation& made) {
+  if (!made.diagnosis) return report;
+  report.diagnosis = made.diagnosis;
+  report.verdict = made.diagnosis->verdict.sentence;
+  for (const Cause& cause : made.diagnosis->verdict.causes) report.causes.push_back(cause.id);
+  report.interrupted = made.diagnosis->interrupted;
+  if (made.curve.models.empty()) return report;
+  report.kept = made.curve.models.front()->kept;
+  report.removed = made.curve.models.front()->removed;
+  return report;
 }
 
 // Warns of the procedure whose Pmax is farthest outside the interval of the recommended one.
-void AddSpread(const TranslatedResult& best, TranslationReport* report) {
-  if (best.budget.outputs.size() <= kMaxPowerOutput) return;
+std::optional<std::string> WarnOfSpread(const TranslatedResult& best,
+                                        const std::vector<TranslatedResult>& results) {
+  if (best.budget.outputs.size() <= kMaxPowerOutput) return std::nullopt;
   const double power = best.key_points.max_power_W;
   double farthest = best.budget.outputs[kMaxPowerOutput].expanded_uncertainty;
   const TranslatedResult* other = nullptr;
-  for (const TranslatedResult& result : report->results) {
+  for (const TranslatedResult& result : results) {
     const double off = std::fabs(result.key_points.max_power_W - power);
     if (!result.computed() || !(off > farthest)) continue;
     farthest = off;
     other = &result;
   }
-  if (other == nullptr) return;
-  report->warnings.push_back(
-      fmt::format("{} gives {:.4g} W, {:+.0f} % off and outside the stated interval: the choice of "
-                  "the procedure "
-                  "decides, and its reason is all there is for it",
-                  other->title, other->key_points.max_power_W,
-                  100 * (other->key_points.max_power_W / power - 1)));
+  if (other == nullptr) return std::nullopt;
+  return fmt::format(
+      "{} gives {:.4g} W, {:+.0f} % off and outside the stated interval: the choice of "
+      "the procedure "
+      "decides, and its reason is all there is for it",
+      other->title, other->key_points.max_power_W,
+      100 * (other->key_points.max_power_W / power - 1));
 }
 
 // Warns outside the conditions at which the procedures' own errors were measured.
-void AddRange(TranslationReport* report) {
+std::optional<std::string> WarnOfRange(const TranslationReport& report) {
   constexpr double kDimmest_W_m2 = 150, kBrightest_W_m2 = 1250, kColdest_C = 5, kHottest_C = 70;
   const auto within = [&](double g, double t_C) {
     return g >= kDimmest_W_m2 && g <= kBrightest_W_m2 && t_C >= kColdest_C && t_C <= kHottest_C;
   };
-  const double source_C = report->inputs.values.temperature_C;
-  if (within(report->equivalent_irradiance_W_m2, source_C) &&
-      within(report->target.irradiance_W_m2, report->target.temperature_C)) {
-    return;
+  const double source_C = report.inputs.values.temperature_C;
+  if (within(report.equivalent_irradiance_W_m2, source_C) &&
+      within(report.target.irradiance_W_m2, report.target.temperature_C)) {
+    return std::nullopt;
   }
-  report->warnings.push_back(fmt::format(
+  return fmt::format(
       "from {:.0f} W/m2, {:.0f} C to {:.0f} W/m2, {:.0f} C: how wrong procedures are was measured "
       "from {:g} to {:g} W/m2 and {:g} to {:g} C, beyond it the stated uncertainty is too small",
-      report->equivalent_irradiance_W_m2, source_C, report->target.irradiance_W_m2,
-      report->target.temperature_C, kDimmest_W_m2, kBrightest_W_m2, kColdest_C, kHottest_C));
+      report.equivalent_irradiance_W_m2, source_C, report.target.irradiance_W_m2,
+      report.target.temperature_C, kDimmest_W_m2, kBrightest_W_m2, kColdest_C, kHottest_C);
 }
 
-void AddWarnings(const Preparation& made, TranslationReport* report) {
-  report->warnings.insert(report->warnings.begin(), made.doubts.begin(), made.doubts.end());
-  for (const std::string& warning : made.warnings) report->warnings.push_back(warning);
-  const TranslatedResult* best = report->Recommended();
-  if (best == nullptr) return;
-  AddRange(report);
-  AddSpread(*best, report);
+// Those of the readings first, then those that the report has.
+std::vector<std::string> FindWarnings(const TranslationReport& report, const Preparation& made) {
+  std::vector<std::string> warnings = made.doubts;
+  Append(report.warnings, &warnings);
+  Append(made.warnings, &warnings);
+  const TranslatedResult* best = report.Recommended();
+  if (best == nullptr) return warnings;
+  for (const auto& warning : {WarnOfRange(report), WarnOfSpread(*best, report.results)}) {
+    if (warning) warnings.push_back(*warning);
+  }
   constexpr double kMuch = 0.02;
   if (best->extrapolated > kMuch) {
-    report->warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the last {:.0f} % of the current at the target lie beyond the readings: the fitted diode "
         "stands in, and Voc is its own",
         100 * best->extrapolated));
   }
-  for (const std::string& warning : best->budget.warnings) report->warnings.push_back(warning);
+  Append(best->budget.warnings, &warnings);
+  return warnings;
 }
 
 // Completes the curve by the layout, and the modules in series of the field test by the curve.
@@ -239,8 +246,7 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& given, const Translate
   report.doubts = made.doubts;
   report.read_temperature_C = made.inputs.values.temperature_C - made.inputs.cell_correction_K;
   report.assumptions = SentencesOf(curve.assumptions);
-  report.assumptions.insert(report.assumptions.end(), made.inputs.assumptions.begin(),
-                            made.inputs.assumptions.end());
+  Append(made.inputs.assumptions, &report.assumptions);
   report.equivalent_irradiance_W_m2 = EquivalentIrradiance(made.inputs.values);
   report.source =
       KeyPointsBy(options.key_points, TruePoints(made.curve.points, made.inputs.values));
@@ -253,14 +259,14 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& given, const Translate
   const Recommendation best = Recommend(made, report.results);
   report.recommended = best.result;
   report.reason = best.reason;
-  AddDiagnosis(made, &report);
+  report = WithDiagnosis(std::move(report), made);
   bool stopped = false;
   const Observer heard = [&](const Progress& progress) {
     stopped = stopped || StopRequested(observer, progress);
     return stopped ? ObserverAction::kStop : ObserverAction::kContinue;
   };
-  AddBudgets(made, options, heard, &report);
-  TRY(AddFieldTest(made, options, heard, &report));
+  report = WithBudgets(std::move(report), made, options, heard);
+  TRY(report, WithFieldTest(std::move(report), made, options, heard));
   report.interrupted = report.interrupted || stopped;
   ConditionFacts facts;
   facts.diagnosis = made.diagnosis ? &*made.diagnosis : nullptr;
@@ -268,7 +274,7 @@ Expected<TranslationReport> TranslateCurve(const IvCurve& given, const Translate
   facts.target = options.target;
   if (best.result >= 0) facts.procedure = report.results[best.result].procedure;
   report.checklist = CheckConditions(curve, facts, options.checklist);
-  AddWarnings(made, &report);
+  report.warnings = FindWarnings(report, made);
   report.non_default_options = NonDefaults(asked, kTranslateOptionTable);
   report.seconds = SecondsSince(start);
   return report;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/parallel.h"
@@ -58,52 +60,52 @@ void MarkCovered(std::vector<TrendRow>* rows) {
   }
 }
 
-// The reference begins with the first day on which the device is not covered.
-void FindReference(const TrendOptions& options, TrendBlocks* blocks) {
-  const auto first = std::find_if(blocks->rows.begin(), blocks->rows.end(), [](const auto& row) {
+// The reference begins with the first day on which the device is not covered. None: there is no such
+// day.
+std::optional<double> EndOfReference(const std::vector<TrendRow>& rows, double reference_days) {
+  const auto first = std::find_if(rows.begin(), rows.end(), [](const TrendRow& row) {
     return row.state == TrendRowState::kUsed;
   });
-  if (first == blocks->rows.end()) return;
+  if (first == rows.end()) return std::nullopt;
   // At most a third of the series is its own reference.
-  const double length =
-      std::min(options.reference_days * kDay_s, (blocks->rows.back().time_s - first->time_s) / 3);
-  blocks->reference_end_s = first->time_s + length;
-  for (std::size_t b = 0; b < blocks->size(); ++b) {
-    blocks->reference_blocks += blocks->IsReference(b) ? 1 : 0;
-  }
+  return first->time_s +
+         std::min(reference_days * kDay_s, (rows.back().time_s - first->time_s) / 3);
 }
 
-// Numbers the blocks that have rows that count.
-void CutBlocks(TrendBlocks* blocks) {
-  const double span = SpanOf(blocks->rows);
-  blocks->length_s = span >= kDaysForDays * kDay_s ? kDay_s : std::max(span / kShortBlocks, 1e-3);
-  const double origin = blocks->length_s == kDay_s
-                            ? kDay_s * std::floor(blocks->rows.front().time_s / kDay_s)
-                            : blocks->rows.front().time_s;
-  std::vector<TrendRow> counting;
+// The rows that count, in numbered blocks. `rows`: by time.
+TrendBlocks CutBlocks(const TrendDevice& device, const std::vector<TrendRow>& rows) {
+  TrendBlocks blocks;
+  blocks.device = &device;
+  for (const TrendRow& row : rows) ++blocks.states[static_cast<std::size_t>(row.state)];
+  if (rows.empty()) return blocks;
+  const double span = SpanOf(rows);
+  blocks.length_s = span >= kDaysForDays * kDay_s ? kDay_s : std::max(span / kShortBlocks, 1e-3);
+  const double origin = blocks.length_s == kDay_s
+                            ? kDay_s * std::floor(rows.front().time_s / kDay_s)
+                            : rows.front().time_s;
   double last = -1;
-  for (const TrendRow& row : blocks->rows) {
+  for (const TrendRow& row : rows) {
     if (!CountsInBlocks(row)) continue;
-    const double number = std::floor((row.time_s - origin) / blocks->length_s);
+    const double number = std::floor((row.time_s - origin) / blocks.length_s);
     if (number != last) {
-      blocks->time_s.push_back(0);
-      blocks->used.push_back(0);
+      blocks.time_s.push_back(0);
+      blocks.used.push_back(0);
       last = number;
     }
-    blocks->time_s.back() += row.time_s;
-    ++blocks->used.back();
-    blocks->block.push_back(static_cast<int>(blocks->time_s.size()) - 1);
-    counting.push_back(row);
+    blocks.time_s.back() += row.time_s;
+    ++blocks.used.back();
+    blocks.block.push_back(static_cast<int>(blocks.time_s.size()) - 1);
+    blocks.rows.push_back(row);
   }
-  for (std::size_t b = 0; b < blocks->size(); ++b) blocks->time_s[b] /= blocks->used[b];
-  blocks->rows = std::move(counting);
-  blocks->mean.resize(blocks->size());
-  for (std::size_t i = 0; i < blocks->rows.size(); ++i) {
-    const TrendRow& row = blocks->rows[i];
-    const Features own = FeaturesAt(blocks->LightOn(row), row.temperature_C);
-    const int b = blocks->block[i];
-    for (int f = 0; f < kConditionFeatures; ++f) blocks->mean[b][f] += own[f] / blocks->used[b];
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks.time_s[b] /= blocks.used[b];
+  blocks.mean.resize(blocks.size());
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    const TrendRow& row = blocks.rows[i];
+    const Features own = FeaturesAt(blocks.LightOn(row), row.temperature_C);
+    const int b = blocks.block[i];
+    for (int f = 0; f < kConditionFeatures; ++f) blocks.mean[b][f] += own[f] / blocks.used[b];
   }
+  return blocks;
 }
 
 // Value of a row that is followed; NaN: none.
@@ -119,37 +121,38 @@ double Followed(const TrendBlocks& blocks, const TrendRow& row, int what) {
                   row.power_W());
 }
 
-void FindLevels(int what, TrendBlocks* blocks) {
+// What is followed of one kind; see the fields of TrendBlocks.
+struct Levels {
+  Features departures{};
+  std::vector<double> level;
+  double reference = kUnknown;
+};
+
+Levels FindLevels(const TrendBlocks& blocks, int what) {
+  Levels found;
   std::vector<ConditionedValue> values;
-  for (std::size_t i = 0; i < blocks->rows.size(); ++i) {
-    const TrendRow& row = blocks->rows[i];
-    const double value = Followed(*blocks, row, what);
+  for (std::size_t i = 0; i < blocks.rows.size(); ++i) {
+    const TrendRow& row = blocks.rows[i];
+    const double value = Followed(blocks, row, what);
     if (!std::isfinite(value)) continue;
-    values.push_back(
-        {blocks->block[i], FeaturesAt(blocks->LightOn(row), row.temperature_C), value});
+    values.push_back({blocks.block[i], FeaturesAt(blocks.LightOn(row), row.temperature_C), value});
   }
-  blocks->departures[what] = FitWithinBlocks(values);
-  blocks->level[what].assign(blocks->size(), kUnknown);
+  found.departures = FitWithinBlocks(values);
+  found.level.assign(blocks.size(), kUnknown);
   std::vector<ConditionedValue> own;
   for (std::size_t i = 0; i < values.size(); ++i) {
     own.push_back(values[i]);
     if (i + 1 < values.size() && values[i + 1].block == values[i].block) continue;
-    blocks->level[what][values[i].block] = BlockMean(own, blocks->departures[what]);
+    found.level[values[i].block] = BlockMean(own, found.departures);
     own.clear();
   }
-  std::vector<double> first;
-  for (std::size_t b = 0; b < blocks->size(); ++b) {
-    const double level = blocks->level[what][b];
-    if (blocks->IsReference(b) && std::isfinite(level)) first.push_back(level);
+  std::vector<ConditionedValue> first;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double level = found.level[b];
+    if (blocks.IsReference(b) && std::isfinite(level)) first.push_back({0, {}, level});
   }
-  if (first.empty()) {
-    blocks->reference[what] = kUnknown;
-    return;
-  }
-  std::vector<ConditionedValue> plain;
-  plain.reserve(first.size());
-  for (const double level : first) plain.push_back({0, {}, level});
-  blocks->reference[what] = BlockMean(plain, {});
+  if (!first.empty()) found.reference = BlockMean(first, {});
+  return found;
 }
 
 // Median level of the blocks around `b`, at most three away on either side.
@@ -166,37 +169,39 @@ double LevelAround(const TrendBlocks& blocks, int what, int b) {
   return near.empty() ? blocks.reference[what] : Median(near);
 }
 
-void SplitRow(const TrendBlocks& blocks, int block, TrendRow* row) {
+// The row with its expected power and the parts of its loss.
+TrendRow WithLoss(TrendRow row, const TrendBlocks& blocks, int block) {
   const TrendDevice& device = *blocks.device;
-  const double expected_A = device.Photocurrent(row->irradiance_W_m2, row->temperature_C);
-  const Features features = FeaturesAt(blocks.LightOn(*row), row->temperature_C);
-  std::array<double, kTrendParameters> before{}, after = row->parameters;
+  const double expected_A = device.Photocurrent(row.irradiance_W_m2, row.temperature_C);
+  const Features features = FeaturesAt(blocks.LightOn(row), row.temperature_C);
+  std::array<double, kTrendParameters> before{}, after = row.parameters;
   for (int i = 0; i < kTrendParameters; ++i) {
     const double departure = Departure(blocks.departures[i], features);
     before[i] = blocks.reference[i] + departure;
-    if (row->state == TrendRowState::kStepped && i != kTrendLight) {
+    if (row.state == TrendRowState::kStepped && i != kTrendLight) {
       after[i] = LevelAround(blocks, i, block) + departure;
     }
   }
-  if (row->state == TrendRowState::kStepped) {
-    after[kTrendLight] = std::log(row->isc_A / expected_A);
+  if (row.state == TrendRowState::kStepped) {
+    after[kTrendLight] = std::log(row.isc_A / expected_A);
   }
-  const DeviceState reference = StateOf(device, before, expected_A, row->temperature_C);
-  const DeviceState now = StateOf(device, after, expected_A, row->temperature_C);
+  const DeviceState reference = StateOf(device, before, expected_A, row.temperature_C);
+  const DeviceState now = StateOf(device, after, expected_A, row.temperature_C);
   const double scale = std::exp(
       -(blocks.reference[kModelExcess] + Departure(blocks.departures[kModelExcess], features)));
-  row->expected_W = scale * MaximumPowerPoint(device, reference, row->temperature_C).power_W();
-  row->parts_W = SplitLoss(device, reference, now, row->temperature_C);
+  row.expected_W = scale * MaximumPowerPoint(device, reference, row.temperature_C).power_W();
+  row.parts_W = SplitLoss(device, reference, now, row.temperature_C);
   double sum = 0;
-  for (double& part : row->parts_W) {
+  for (double& part : row.parts_W) {
     part *= scale;
     sum += part;
   }
-  row->parts_W[kPartMismatch] = row->expected_W - row->power_W() - sum;
+  row.parts_W[kPartMismatch] = row.expected_W - row.power_W() - sum;
   // A device of fewer equal substrings has the same currents at proportionally lower voltages.
-  if (row->lost_substrings > 0) {
-    row->substrings_W = (row->expected_W - sum) * row->lost_substrings / device.substrings;
+  if (row.lost_substrings > 0) {
+    row.substrings_W = (row.expected_W - sum) * row.lost_substrings / device.substrings;
   }
+  return row;
 }
 
 }  // namespace
@@ -209,28 +214,34 @@ double TrendBlocks::LightOn(const TrendRow& row) const {
 
 TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
                        const TrendOptions& options) {
-  TrendBlocks blocks;
-  blocks.device = &device;
   std::stable_sort(rows.begin(), rows.end(), [](const TrendRow& one, const TrendRow& other) {
     return one.time_s < other.time_s;
   });
   MarkDim(options.least_irradiance_W_m2, &rows);
   MarkStepped(&rows);
   MarkCovered(&rows);
-  for (const TrendRow& row : rows) ++blocks.states[static_cast<std::size_t>(row.state)];
-  blocks.rows = std::move(rows);
-  if (blocks.rows.empty()) return blocks;
-  CutBlocks(&blocks);
-  FindReference(options, &blocks);
-  ParallelFor(kFollowed, options.threads, [&](int what) { FindLevels(what, &blocks); });
+  TrendBlocks blocks = CutBlocks(device, rows);
+  if (const auto end_s = EndOfReference(blocks.rows, options.reference_days)) {
+    blocks.reference_end_s = *end_s;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      blocks.reference_blocks += blocks.IsReference(b) ? 1 : 0;
+    }
+  }
+  ParallelFor(kFollowed, options.threads, [&](int what) {
+    Levels found = FindLevels(blocks, what);
+    blocks.departures[what] = found.departures;
+    blocks.level[what] = std::move(found.level);
+    blocks.reference[what] = found.reference;
+  });
   return blocks;
 }
 
-void SplitLosses(int threads, TrendBlocks* blocks) {
-  ParallelFor(static_cast<int>(blocks->rows.size()), threads, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    SplitRow(*blocks, blocks->block[at], &blocks->rows[at]);
+TrendBlocks WithLosses(TrendBlocks blocks, int threads) {
+  ParallelFor(static_cast<int>(blocks.rows.size()), threads, [&](int i) {
+    TrendRow& row = blocks.rows[static_cast<std::size_t>(i)];
+    row = WithLoss(std::move(row), blocks, blocks.block[static_cast<std::size_t>(i)]);
   });
+  return blocks;
 }
 
 }  // namespace lyrefit

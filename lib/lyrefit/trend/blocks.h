@@ -51,7 +51,7 @@ struct TrendBlocks {
 TrendBlocks MakeBlocks(const TrendDevice& device, std::vector<TrendRow> rows,
                        const TrendOptions& options);
 
-// Fills the expected power and the parts of the loss of every row that counts.
-void SplitLosses(int threads, TrendBlocks* blocks);
+// The blocks with the expected power and the parts of the loss of every row that counts.
+TrendBlocks WithLosses(TrendBlocks blocks, int threads);
 
 }  // namespace lyrefit

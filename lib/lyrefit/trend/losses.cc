@@ -20,8 +20,9 @@ constexpr const char* kPartNames[] = {"light", "resistance_series", "recombinati
                                       "mismatch"};
 
 // Changes of the quantity that a part of the loss belongs to.
-std::vector<TrendChange> ChangesOf(const TrendReport& report, const std::string& part) {
-  for (const TrendQuantity& quantity : report.quantities) {
+std::vector<TrendChange> ChangesOf(const std::vector<TrendQuantity>& quantities,
+                                   const std::string& part) {
+  for (const TrendQuantity& quantity : quantities) {
     if (quantity.name == part || (part == "shunt" && quantity.name == "conductance_shunt")) {
       return quantity.changes;
     }
@@ -52,9 +53,9 @@ double SumOfParts(const std::vector<TrendLoss>& parts, Ranged TrendLoss::*what) 
 }
 
 // The same interval around another value.
-void ShiftTo(double value, Ranged* ranged) {
-  const double shift = value - ranged->value;
-  *ranged = {value, ranged->low_95 + shift, ranged->high_95 + shift};
+Ranged Around(double value, const Ranged& ranged) {
+  const double shift = value - ranged.value;
+  return {value, ranged.low_95 + shift, ranged.high_95 + shift};
 }
 
 // Mean of a part over the reference blocks of which most rows are used; 0: there are none. It is the
@@ -124,7 +125,9 @@ Ranged MeanLoss(const TrendBlocks& blocks, const BlockSeries& own,
 
 }  // namespace
 
-void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
+TrendLosses FindLosses(const std::vector<TrendQuantity>& quantities, const TrendBlocks& blocks,
+                       TrendSource source, const TrendOptions& options) {
+  TrendLosses found;
   const std::vector<BlockSums> sums = SumsOf(blocks);
   std::vector<double> all(blocks.size(), 0), recent(blocks.size(), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -142,13 +145,13 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     });
     double drift = loss.name == "resistance_series" ? 0 : DriftOf(loss.name, blocks, options);
     if (loss.name == "recombination") drift *= PercentPerVolt(blocks);
-    if (p == kPartShunt && report->source == TrendSource::kOperatingPoints) {
-      report->losses.push_back({loss.name, {}, {}});
-      report->loss_days.emplace_back();
+    if (p == kPartShunt && source == TrendSource::kOperatingPoints) {
+      found.losses.push_back({loss.name, {}, {}});
+      found.days.emplace_back();
       continue;
     }
     const bool daily = p == kPartLight || p == kPartMismatch || total;
-    const std::vector<TrendChange> changes = ChangesOf(*report, loss.name);
+    const std::vector<TrendChange> changes = ChangesOf(quantities, loss.name);
     const bool mixed = p == kPartSeries || p == kPartRecombination || p == kPartShunt;
     double own_error = kPartError;
     if (p == kPartLight) own_error = kLightError;
@@ -162,18 +165,20 @@ void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendRep
     loss.now_percent = MeanLoss(blocks, own, recent, changes, daily, drift, error(recent));
     if (total) {
       // Each part is against its own clean reference: the total is their sum.
-      ShiftTo(SumOfParts(report->losses, &TrendLoss::energy_percent), &loss.energy_percent);
-      ShiftTo(SumOfParts(report->losses, &TrendLoss::now_percent), &loss.now_percent);
+      for (const auto what : {&TrendLoss::energy_percent, &TrendLoss::now_percent}) {
+        loss.*what = Around(SumOfParts(found.losses, what), loss.*what);
+      }
     }
-    report->losses.push_back(std::move(loss));
+    found.losses.push_back(std::move(loss));
     if (total) continue;
     std::vector<TrendDay> days;
     for (std::size_t k = 0; k < own.of.size(); ++k) {
       days.push_back(
           {blocks.time_s[own.of[k]], own.series.values[k], kUnknown, blocks.used[own.of[k]]});
     }
-    report->loss_days.push_back(std::move(days));
+    found.days.push_back(std::move(days));
   }
+  return found;
 }
 
 }  // namespace lyrefit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/append.h"
 #include "lyrefit/base/median.h"
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/trend/quantities.h"
@@ -93,10 +94,11 @@ std::vector<int> LostByBlock(const TrendBlocks& blocks) {
   return median;
 }
 
-// Adds an onset where the number of lost substrings rises and stays so for ten days of data, or to
+// An onset where the number of lost substrings rises and stays so for ten days of data, or to
 // the end of the series but for at least three.
-void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
+std::vector<TrendOnset> OnsetsOfSubstrings(const TrendBlocks& blocks, const TrendReport& report) {
   constexpr int kStays = 10, kLeast = 3;
+  std::vector<TrendOnset> onsets;
   const std::vector<int> lost = LostByBlock(blocks);
   int before = 0;
   double last_s = blocks.time_s.front();
@@ -115,7 +117,7 @@ void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
       onset.quantity = "mismatch";
       onset.time_s = onset.latest_s = blocks.time_s[b];
       onset.earliest_s = last_s;
-      onset.lost_percent = LostNow(*report, "mismatch");
+      onset.lost_percent = LostNow(report, "mismatch");
       onset.id = "lost_substrings";
       onset.cause =
           fmt::format("{} of {} substrings without voltage", lost[b], blocks.device->substrings);
@@ -124,27 +126,28 @@ void FindLostSubstrings(const TrendBlocks& blocks, TrendReport* report) {
           "and bypassed";
       onset.action =
           "measure the voltage of each substring at the junction box and replace the diode";
-      report->onsets.push_back(std::move(onset));
+      onsets.push_back(std::move(onset));
       before = lost[b];
     } else if (lost[b] < before) {
       before = lost[b];
     }
     last_s = blocks.time_s[b];
   }
+  return onsets;
 }
 
-// Removes changes of series resistance and mismatch after the shunt began to grow: uneven shunts
-// bend the knee as these do.
-void DropChangesByShunt(TrendReport* report) {
+}  // namespace
+
+std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities) {
   constexpr double kBefore_s = 10 * kDay_s;
   double begin_s = kInfinity;
-  for (const TrendQuantity& quantity : report->quantities) {
+  for (const TrendQuantity& quantity : quantities) {
     if (quantity.name != "conductance_shunt") continue;
     for (const TrendChange& change : quantity.changes) {
       if (change.size.value > 0) begin_s = std::min(begin_s, change.time_s);
     }
   }
-  for (TrendQuantity& quantity : report->quantities) {
+  for (TrendQuantity& quantity : quantities) {
     if (quantity.name != "resistance_series" && quantity.name != "mismatch") continue;
     auto& changes = quantity.changes;
     changes.erase(std::remove_if(changes.begin(), changes.end(),
@@ -153,34 +156,26 @@ void DropChangesByShunt(TrendReport* report) {
                                  }),
                   changes.end());
   }
+  return quantities;
 }
 
-}  // namespace
-
-void FindOnsets(const TrendBlocks& blocks, TrendReport* report) {
-  DropChangesByShunt(report);
-  for (const TrendQuantity& quantity : report->quantities) {
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report) {
+  std::vector<TrendOnset> onsets;
+  for (const TrendQuantity& quantity : report.quantities) {
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
-      const CauseWords words = WordsOf(*report, quantity, change);
-      TrendOnset onset;
-      onset.quantity = quantity.name;
-      onset.time_s = change.time_s;
-      onset.earliest_s = change.earliest_s;
-      onset.latest_s = change.latest_s;
-      onset.lost_percent = LostNow(*report, quantity.name);
-      onset.id = words.id;
-      onset.cause = words.cause;
-      onset.what = words.what;
-      onset.action = words.action;
-      report->onsets.push_back(std::move(onset));
+      const CauseWords words = WordsOf(report, quantity, change);
+      onsets.push_back({quantity.name, change.time_s, change.earliest_s, change.latest_s,
+                        LostNow(report, quantity.name), words.id, words.cause, words.what,
+                        words.action});
     }
   }
-  FindLostSubstrings(blocks, report);
+  Append(OnsetsOfSubstrings(blocks, report), &onsets);
   std::stable_sort(
-      report->onsets.begin(), report->onsets.end(),
+      onsets.begin(), onsets.end(),
       [](const TrendOnset& one, const TrendOnset& other) { return one.time_s < other.time_s; });
+  return onsets;
 }
 
 }  // namespace lyrefit

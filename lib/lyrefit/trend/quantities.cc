@@ -83,13 +83,11 @@ TrendChange ChangeOf(const ChangePoint& point, const TimeFit& fit, double first_
   return change;
 }
 
-// The rate in percent of the reference a year.
-void SetPercent(TrendQuantity* quantity) {
-  if (quantity->unit == "%") {
-    quantity->rate_percent = quantity->rate_per_year;
-  } else if (quantity->name != "recombination" && quantity->reference > 0) {
-    quantity->rate_percent = Scaled(quantity->rate_per_year, 100 / quantity->reference);
-  }
+// The rate in percent of the reference a year; NaN without a meaning.
+Ranged RatePercent(const TrendQuantity& quantity) {
+  if (quantity.unit == "%") return quantity.rate_per_year;
+  if (quantity.name == "recombination" || !(quantity.reference > 0)) return {};
+  return Scaled(quantity.rate_per_year, 100 / quantity.reference);
 }
 
 Eigen::MatrixXd DesignOfLine(const TimeSeries& series) {
@@ -113,15 +111,29 @@ Eigen::VectorXd MeanRate(const TimeSeries& series, const ChangingSeries& found) 
   return weights;
 }
 
-// Fills a quantity. `conditions`: whether the regression has those of the days. Returns their
-// coefficients.
-std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const BlockSeries& own,
-                                              const TrendOptions& options, const QuantityKind& kind,
-                                              bool conditions, TrendQuantity* quantity) {
+// A quantity, and its coefficients of the conditions of the days.
+struct FoundQuantity {
+  TrendQuantity quantity;
   std::array<double, kBetweenDays> between{};
+};
+
+// `conditions`: whether the regression has those of the days.
+FoundQuantity FindQuantity(const TrendBlocks& blocks, TrendSource source,
+                           const TrendOptions& options, const QuantityKind& kind,
+                           const BlockSeries& own, bool conditions) {
+  FoundQuantity result;
+  TrendQuantity& quantity = result.quantity;
+  quantity.name = kind.name;
+  quantity.title = kind.title;
+  quantity.unit = kind.unit;
+  quantity.monitored = kind.monitored;
+  if (!kind.operating && source == TrendSource::kOperatingPoints) {
+    quantity.missing = "operating points hardly depend on it, sweeps tell it";
+    return result;
+  }
   if (own.of.size() < kLeastForSizes) {
-    quantity->missing = own.of.empty() ? "no measurement tells it" : "too few days tell it";
-    return between;
+    quantity.missing = own.of.empty() ? "no measurement tells it" : "too few days tell it";
+    return result;
   }
   const double years = std::max(SpanDays(own.series) / kYear_days, 1e-9);
   bool seasonal = false;
@@ -136,26 +148,26 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
   if (!kind.monitored) changes.level = std::min(changes.level, kUnmonitoredLevel);
   const ChangingSeries found = FitChanges(own.series, design, changes);
   const TimeFit& fit = found.fit;
-  quantity->reference = ReferenceMean(blocks, own);
-  if (quantity->name == "recombination") quantity->reference = 0;  // by its definition
-  const double drift = DriftOf(quantity->name, blocks, options);
+  quantity.reference = ReferenceMean(blocks, own);
+  if (quantity.name == "recombination") quantity.reference = 0;  // by its definition
+  const double drift = DriftOf(quantity.name, blocks, options);
   const Eigen::VectorXd mean = MeanRate(own.series, found);
   const double rate = mean.dot(fit.coefficients);
   const double error =
       std::hypot(std::sqrt(mean.dot(fit.covariance * mean)), drift, kScaleError * rate);
   if (SpanDays(own.series) >= kLeastForRate_days) {
-    quantity->rate_per_year = RangedOf(rate, error, fit.t_95());
+    quantity.rate_per_year = RangedOf(rate, error, fit.t_95());
   }
-  SetPercent(quantity);
-  if (seasonal) quantity->seasonal = std::hypot(fit.coefficients[2], fit.coefficients[3]);
-  quantity->day_scatter = fit.noise.sigma;
-  quantity->shared_scatter = fit.noise.shared_sigma;
-  quantity->half_life_days = fit.noise.half_life_days;
+  quantity.rate_percent = RatePercent(quantity);
+  if (seasonal) quantity.seasonal = std::hypot(fit.coefficients[2], fit.coefficients[3]);
+  quantity.day_scatter = fit.noise.sigma;
+  quantity.shared_scatter = fit.noise.shared_sigma;
+  quantity.half_life_days = fit.noise.half_life_days;
   for (const ChangePoint& point : found.changes) {
-    quantity->changes.push_back(ChangeOf(point, fit, blocks.time_s.front()));
+    quantity.changes.push_back(ChangeOf(point, fit, blocks.time_s.front()));
   }
   std::sort(
-      quantity->changes.begin(), quantity->changes.end(),
+      quantity.changes.begin(), quantity.changes.end(),
       [](const TrendChange& one, const TrendChange& other) { return one.time_s < other.time_s; });
   Eigen::VectorXd values =
       Eigen::Map<const Eigen::VectorXd>(own.series.values.data(), found.design.rows());
@@ -165,54 +177,51 @@ std::array<double, kBetweenDays> FillQuantity(const TrendBlocks& blocks, const B
                                  fit.coefficients.segment(first_condition, kBetweenDays);
     values -= part;
     fitted -= part;
-    for (int f = 0; f < kBetweenDays; ++f) between[f] = fit.coefficients[first_condition + f];
+    for (int f = 0; f < kBetweenDays; ++f)
+      result.between[f] = fit.coefficients[first_condition + f];
   }
   for (std::size_t k = 0; k < own.of.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    quantity->days.push_back(
+    quantity.days.push_back(
         {blocks.time_s[own.of[k]], values[i], fitted[i], blocks.used[own.of[k]]});
   }
-  return between;
+  return result;
 }
 
-// Adds coefficients between days to those within days.
-void AddBetweenDays(int what, const std::array<double, kBetweenDays>& between,
-                    TrendBlocks* blocks) {
+// The blocks with coefficients between days added to those within days.
+TrendBlocks WithBetweenDays(TrendBlocks blocks, int what,
+                            const std::array<double, kBetweenDays>& between) {
   Features reference{};
-  for (std::size_t b = 0; b < blocks->size(); ++b) {
-    if (!blocks->IsReference(b)) continue;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!blocks.IsReference(b)) continue;
     for (int f = 0; f < kBetweenDays; ++f) {
-      reference[f] += blocks->mean[b][f] / blocks->reference_blocks;
+      reference[f] += blocks.mean[b][f] / blocks.reference_blocks;
     }
   }
   for (int f = 0; f < kBetweenDays; ++f) {
-    blocks->departures[what][f] += between[f];
-    blocks->reference[what] -= between[f] * reference[f];
-    for (std::size_t b = 0; b < blocks->size(); ++b) {
-      blocks->level[what][b] -= between[f] * blocks->mean[b][f];
+    blocks.departures[what][f] += between[f];
+    blocks.reference[what] -= between[f] * reference[f];
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      blocks.level[what][b] -= between[f] * blocks.mean[b][f];
     }
   }
-}
-
-// Whether operating points do not tell a quantity; then says so.
-bool IsUntold(const QuantityKind& kind, const TrendReport& report, TrendQuantity* quantity) {
-  if (kind.operating || report.source != TrendSource::kOperatingPoints) return false;
-  quantity->missing = "operating points hardly depend on it, sweeps tell it";
-  return true;
+  return blocks;
 }
 
 // Uneven shunts bend the knee of a curve as series resistance and recombination do. Where the shunt
 // grows from a day on, the rates of these are those before it.
-void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
+std::vector<TrendQuantity> WithRatesBeforeShunt(std::vector<TrendQuantity> quantities,
+                                                const TrendBlocks& blocks,
+                                                const TrendOptions& options) {
   const auto named = [&](const char* name) {
-    return std::find_if(report->quantities.begin(), report->quantities.end(),
+    return std::find_if(quantities.begin(), quantities.end(),
                         [&](const TrendQuantity& one) { return one.name == name; });
   };
   double begin_s = kInfinity;
   for (const TrendChange& change : named("conductance_shunt")->changes) {
     if (change.size.value > 0) begin_s = std::min(begin_s, change.earliest_s);
   }
-  if (!std::isfinite(begin_s)) return;
+  if (!std::isfinite(begin_s)) return quantities;
   for (const char* name : {"resistance_series", "recombination"}) {
     TrendQuantity& quantity = *named(name);
     TimeSeries before;
@@ -230,61 +239,56 @@ void RateBeforeShunt(const TrendBlocks& blocks, const TrendOptions& options, Tre
     const double error = std::hypot(std::sqrt(fit.covariance(1, 1)), DriftOf(name, blocks, options),
                                     kScaleError * rate);
     quantity.rate_per_year = RangedOf(rate, error, fit.t_95());
-    SetPercent(&quantity);
+    quantity.rate_percent = RatePercent(quantity);
   }
-}
-
-TrendQuantity* NamedLike(const QuantityKind& kind, TrendQuantity* quantity) {
-  quantity->name = kind.name;
-  quantity->title = kind.title;
-  quantity->unit = kind.unit;
-  quantity->monitored = kind.monitored;
-  return quantity;
+  return quantities;
 }
 
 }  // namespace
 
-void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendReport* report) {
+TrendParametersFound FindParameters(TrendBlocks blocks, TrendSource source,
+                                    const TrendOptions& options) {
   constexpr int kCount = std::size(kQuantityKinds);
-  report->quantities.resize(kCount);
-  std::array<std::array<double, kBetweenDays>, kCount> between{};
+  std::array<FoundQuantity, kCount> found;
   ParallelFor(kCount, options.threads, [&](int i) {
     const QuantityKind& kind = kQuantityKinds[i];
     if (kind.followed < 0) return;
-    TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
-    if (IsUntold(kind, *report, quantity)) return;
-    const BlockSeries own = SeriesOf(*blocks, [&](std::size_t b) {
-      const double level = blocks->level[kind.followed][b];
-      return std::isfinite(level) ? kind.value(*blocks, level) : kUnknown;
+    const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
+      const double level = blocks.level[kind.followed][b];
+      return std::isfinite(level) ? kind.value(blocks, level) : kUnknown;
     });
-    between[i] = FillQuantity(*blocks, own, options, kind, true, quantity);
+    found[i] = FindQuantity(blocks, source, options, kind, own, true);
   });
+  std::vector<TrendQuantity> quantities;
   for (int i = 0; i < kCount; ++i) {
     const QuantityKind& kind = kQuantityKinds[i];
-    if (kind.followed < 0 || report->quantities[i].days.empty()) continue;
-    const double scale = kind.value(*blocks, blocks->reference[kind.followed] + 0.5) -
-                         kind.value(*blocks, blocks->reference[kind.followed] - 0.5);
-    for (double& one : between[i]) one /= scale;
-    AddBetweenDays(kind.followed, between[i], blocks);
+    quantities.push_back(std::move(found[i].quantity));
+    if (kind.followed < 0 || quantities.back().days.empty()) continue;
+    const double scale = kind.value(blocks, blocks.reference[kind.followed] + 0.5) -
+                         kind.value(blocks, blocks.reference[kind.followed] - 0.5);
+    for (double& one : found[i].between) one /= scale;
+    blocks = WithBetweenDays(std::move(blocks), kind.followed, found[i].between);
   }
-  RateBeforeShunt(*blocks, options, report);
-  report->reference_power_W = PowerAt(*blocks, 0) * std::exp(-blocks->reference[kModelExcess]);
+  quantities = WithRatesBeforeShunt(std::move(quantities), blocks, options);
+  return {std::move(blocks), std::move(quantities)};
 }
 
-void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report) {
+std::vector<TrendQuantity> WithPowers(std::vector<TrendQuantity> quantities,
+                                      const TrendBlocks& blocks, TrendSource source,
+                                      const TrendOptions& options) {
   const std::vector<BlockSums> sums = SumsOf(blocks);
   ParallelFor(std::size(kQuantityKinds), options.threads, [&](int i) {
     const QuantityKind& kind = kQuantityKinds[i];
     if (kind.followed >= 0) return;
-    TrendQuantity* const quantity = NamedLike(kind, &report->quantities[i]);
-    if (IsUntold(kind, *report, quantity)) return;
+    const bool power = std::string(kind.name) == "p_mp";
     const BlockSeries own = SeriesOf(blocks, [&](std::size_t b) {
-      return quantity->name == "p_mp" ? 100 - TotalPercent(sums[b])
-                                      : PercentOf(sums[b], kPartMismatch) -
-                                            100 * sums[b].substrings_W / sums[b].expected_W;
+      return power ? 100 - TotalPercent(sums[b])
+                   : PercentOf(sums[b], kPartMismatch) -
+                         100 * sums[b].substrings_W / sums[b].expected_W;
     });
-    FillQuantity(blocks, own, options, kind, false, quantity);
+    quantities[i] = FindQuantity(blocks, source, options, kind, own, false).quantity;
   });
+  return quantities;
 }
 
 }  // namespace lyrefit

@@ -1,24 +1,46 @@
 #pragma once
 
+#include <vector>
+
 #include "lyrefit/trend/blocks.h"
 #include "lyrefit/trend/trend_options.h"
 #include "lyrefit/trend/trend_report.h"
 
 namespace lyrefit {
 
-// Fills the quantities of a report that are parameters: their regressions on time, with their
-// changes. In a series of most of a year the regression also has what the law leaves of light and
-// temperature between days, which departures and levels then contain.
-void FindParameters(const TrendOptions& options, TrendBlocks* blocks, TrendReport* report);
+// Parameters over time.
+struct TrendParametersFound {
+  TrendBlocks blocks;  // with what the law leaves of light and temperature between days
+  std::vector<TrendQuantity> quantities;  // all, with those empty that are losses
+};
 
-// Fills the quantities that are losses: mismatch and power. Needs the losses of every row
-// (SplitLosses).
-void FindPowers(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report);
+// Finds the quantities that are parameters: their regressions on time, with their changes. In a
+// series of most of a year the regression also has what the law leaves of light and temperature
+// between days, which departures and levels then contain.
+TrendParametersFound FindParameters(TrendBlocks blocks, TrendSource source,
+                                    const TrendOptions& options);
 
-// Fills the losses and their days. Needs the quantities.
-void FindLosses(const TrendBlocks& blocks, const TrendOptions& options, TrendReport* report);
+// The quantities with those that are losses: mismatch and power. Needs the losses of every row
+// (WithLosses).
+std::vector<TrendQuantity> WithPowers(std::vector<TrendQuantity> quantities,
+                                      const TrendBlocks& blocks, TrendSource source,
+                                      const TrendOptions& options);
 
-// Fills the onsets: changes to the worse of a parameter or of mismatch, with what they may be.
-void FindOnsets(const TrendBlocks& blocks, TrendReport* report);
+// See the fields of TrendReport.
+struct TrendLosses {
+  std::vector<TrendLoss> losses;
+  std::vector<std::vector<TrendDay>> days;
+};
+
+TrendLosses FindLosses(const std::vector<TrendQuantity>& quantities, const TrendBlocks& blocks,
+                       TrendSource source, const TrendOptions& options);
+
+// The quantities without changes of series resistance and mismatch after the shunt began to grow:
+// uneven shunts bend the knee as these do.
+std::vector<TrendQuantity> WithoutChangesByShunt(std::vector<TrendQuantity> quantities);
+
+// Changes to the worse of a parameter or of mismatch, with what they may be. Needs quantities and
+// losses.
+std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport& report);
 
 }  // namespace lyrefit

@@ -13,6 +13,7 @@
 #include "lyrefit/curve/date_time.h"
 #include "lyrefit/report/side_by_side.h"
 #include "lyrefit/trend/blocks.h"
+#include "lyrefit/trend/day_series.h"
 #include "lyrefit/trend/operating_rows.h"
 #include "lyrefit/trend/quantities.h"
 #include "lyrefit/trend/trend_device.h"
@@ -21,30 +22,40 @@
 namespace lyrefit {
 namespace {
 
-void CountReasons(const std::vector<TrendRow>& rows, TrendReport* report) {
+std::vector<TrendReason> CountReasons(const std::vector<TrendRow>& rows) {
   std::map<std::string, TrendReason> reasons;
   for (const TrendRow& row : rows) {
     if (row.reason.empty()) continue;
     TrendReason& reason = reasons[WithoutNumbers(row.reason)];
     if (reason.rows++ == 0) reason.reason = row.reason;
   }
-  for (const auto& [text, reason] : reasons) report->reasons.push_back(reason);
+  std::vector<TrendReason> counted;
+  for (const auto& [text, reason] : reasons) counted.push_back(reason);
+  return counted;
 }
 
-void DescribeSeries(const TrendSeries& series, const TrendBlocks& blocks, TrendReport* report) {
-  report->name = series.name;
-  report->source = series.source;
-  report->law = series.law;
-  report->cells_in_series = series.device->cells_in_series;
-  report->substrings = series.device->substrings;
-  report->ideality = series.device->n;
-  report->rows = static_cast<std::int64_t>(series.rows.size());
-  report->states = blocks.states;
-  report->days = blocks.size();
-  report->first_s = blocks.rows.front().time_s;
-  report->last_s = blocks.rows.back().time_s;
-  report->reference_end_s = blocks.reference_end_s;
-  CountReasons(series.rows, report);
+// The part of the report that is known of series and blocks.
+TrendReport SeriesReport(const TrendSeries& series, const TrendBlocks& blocks,
+                         const TrendOptions& options) {
+  TrendReport report;
+  report.version = Version();
+  report.seed = options.seed;
+  report.options = NonDefaults(options, kTrendOptionTable);
+  report.interrupted = series.interrupted;
+  report.name = series.name;
+  report.source = series.source;
+  report.law = series.law;
+  report.cells_in_series = series.device->cells_in_series;
+  report.substrings = series.device->substrings;
+  report.ideality = series.device->n;
+  report.rows = static_cast<std::int64_t>(series.rows.size());
+  report.states = blocks.states;
+  report.days = blocks.size();
+  report.first_s = blocks.rows.front().time_s;
+  report.last_s = blocks.rows.back().time_s;
+  report.reference_end_s = blocks.reference_end_s;
+  report.reasons = CountReasons(series.rows);
+  return report;
 }
 
 }  // namespace
@@ -53,11 +64,6 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
                                 const Observer& observer) {
   TRY(ValidateOptions(options, kTrendOptionTable));
   const Instant start = Now();
-  TrendReport report;
-  report.version = Version();
-  report.seed = options.seed;
-  report.options = NonDefaults(options, kTrendOptionTable);
-  report.interrupted = series.interrupted;
   const Observer nobody;  // a series whose reading was stopped is judged as far as it goes
   const ProgressReporter progress(series.interrupted ? nobody : observer, "trend", 2);
   std::vector<TrendRow> rows = series.rows;
@@ -71,14 +77,20 @@ Expected<TrendReport> FindTrend(const TrendSeries& series, const TrendOptions& o
         "{}",
         kLeastBlocks, blocks.size(), blocks.rows.size(), series.rows.size(), kSideBySide));
   }
-  DescribeSeries(series, blocks, &report);
-  FindParameters(options, &blocks, &report);
+  TrendReport report = SeriesReport(series, blocks, options);
+  TrendParametersFound found = FindParameters(std::move(blocks), series.source, options);
   if (progress.Step()) return Fail("interrupted");
-  SplitLosses(options.threads, &blocks);
-  FindPowers(blocks, options, &report);
-  FindLosses(blocks, options, &report);
-  FindOnsets(blocks, &report);
-  AddWords(&report);
+  blocks = WithLosses(std::move(found.blocks), options.threads);
+  report.reference_power_W = PowerAt(blocks, 0) * std::exp(-blocks.reference[kModelExcess]);
+  report.quantities = WithPowers(std::move(found.quantities), blocks, series.source, options);
+  TrendLosses losses = FindLosses(report.quantities, blocks, series.source, options);
+  report.losses = std::move(losses.losses);
+  report.loss_days = std::move(losses.days);
+  report.quantities = WithoutChangesByShunt(std::move(report.quantities));
+  report.onsets = FindOnsets(blocks, report);
+  report.verdict = VerdictOf(report);
+  report.not_decided = NotDecided(report);
+  report.warnings = FindWarnings(report);
   if (progress.Step()) return Fail("interrupted");
   report.seconds = SecondsSince(start);
   return report;

@@ -59,51 +59,60 @@ std::string PartTitle(const std::string& part) {
   return part;
 }
 
-void AddWords(TrendReport* report) {
-  report->verdict = PowerVerdict(*report) + OnsetVerdict(*report);
-  const double days = (report->last_s - report->first_s) / kDay_s;
-  for (const TrendLoss& loss : report->losses) {
+std::string VerdictOf(const TrendReport& report) {
+  return PowerVerdict(report) + OnsetVerdict(report);
+}
+
+std::vector<std::string> NotDecided(const TrendReport& report) {
+  std::vector<std::string> not_decided;
+  const double days = (report.last_s - report.first_s) / kDay_s;
+  for (const TrendLoss& loss : report.losses) {
     if (loss.name == "light" && Decided(loss.energy_percent)) {
-      report->not_decided.emplace_back(
+      not_decided.emplace_back(
           "Dirt on the module, an ageing glass and a light sensor that drifts or is cleaned look "
           "alike: wash the module and take a sweep before and after, or compare the sensor with "
           "another one.");
     }
     if (loss.name == "recombination" && Decided(loss.energy_percent)) {
-      report->not_decided.emplace_back(
+      not_decided.emplace_back(
           "A temperature sensor that comes off or drifts looks like recombination: compare it with "
           "Voc at sunrise, when all are at the temperature of the air.");
     }
   }
-  if (report->source == TrendSource::kOperatingPoints) {
-    report->not_decided.emplace_back(
+  if (report.source == TrendSource::kOperatingPoints) {
+    not_decided.emplace_back(
         "Operating points do not show a shunt: what it takes is counted under light and series "
         "resistance. A sweep in dim light shows it.");
   }
   if (days < 10) {
-    report->not_decided.emplace_back(
+    not_decided.emplace_back(
         "A series of less than ten days shows no steps and no onsets: its light and temperature "
         "change as its parameters would.");
   }
   if (days < 710) {
-    report->not_decided.emplace_back(
+    not_decided.emplace_back(
         "A season and a trend can be told apart from two years on. Rates of a shorter series may "
         "contain a season that the law of light and temperature does not explain.");
   }
-  for (const TrendQuantity& quantity : report->quantities) {
+  for (const TrendQuantity& quantity : report.quantities) {
     if (!quantity.missing.empty()) {
-      report->not_decided.push_back(fmt::format("{}: {}.", quantity.title, quantity.missing));
+      not_decided.push_back(fmt::format("{}: {}.", quantity.title, quantity.missing));
     }
   }
-  if (report->interrupted) {
-    report->warnings.push_back(
-        fmt::format("Interrupted: what follows is of the first {} measurements.", report->rows));
+  return not_decided;
+}
+
+std::vector<std::string> FindWarnings(const TrendReport& report) {
+  std::vector<std::string> warnings;
+  if (report.interrupted) {
+    warnings.push_back(
+        fmt::format("Interrupted: what follows is of the first {} measurements.", report.rows));
   }
-  const std::int64_t unusable = report->states[static_cast<int>(TrendRowState::kUnusable)];
-  if (unusable * 5 > report->rows) {
-    report->warnings.push_back(
-        fmt::format("{} of {} measurements are unusable.", unusable, report->rows));
+  const std::int64_t unusable = report.states[static_cast<int>(TrendRowState::kUnusable)];
+  if (unusable * 5 > report.rows) {
+    warnings.push_back(fmt::format("{} of {} measurements are unusable.", unusable, report.rows));
   }
+  return warnings;
 }
 
 }  // namespace lyrefit

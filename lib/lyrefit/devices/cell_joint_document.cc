@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lyrefit/base/numbers.h"
@@ -61,6 +62,24 @@ block::Table JointMisfits(const CellReport& report, const JointEstimate& joint) 
   return table;
 }
 
+// What is known of a part of the area behind a series resistance of its own.
+std::string ContactsText(const JointEstimate& joint) {
+  const std::string p = fmt::format("p = {}", Significant(joint.contacts_p, 2));
+  if (!joint.contacts) return fmt::format("one series resistance is enough ({})", p);
+  const auto value = [&](const char* symbol) {
+    const auto at = std::find_if(joint.estimates.begin(), joint.estimates.end(),
+                                 [&](const Estimate& e) { return e.info.symbol == symbol; });
+    return at->refined;
+  };
+  std::string text = fmt::format(
+      "{:.0f} % of the area is behind {} ohm, the rest behind {} ohm, each as if the whole device "
+      "were ({} of one resistance): corroded fingers or ribbons are like this",
+      100 * value("s"), Significant(value("Rc"), 3), Significant(value("Rs"), 3), p);
+  if (!std::isfinite(joint.contact_loss_W.value)) return text;
+  return text + fmt::format("; that costs {} W of the brightest curve",
+                            RangedText(joint.contact_loss_W, 3));
+}
+
 }  // namespace
 
 Section JointSection(const CellReport& report) {
@@ -81,6 +100,7 @@ Section JointSection(const CellReport& report) {
            fmt::format("{} (one against two, the second of n = 2: p = {})",
                        joint.second_diode ? "two" : "one", Significant(joint.second_diode_p, 2)),
            &section);
+  AddField("contacts", ContactsText(joint), &section);
   AddTable(JointParameters(report, joint), &section);
   AddUnidentifiable(joint.estimates, &section);
   AddField("shunt", joint.shunt, &section);

@@ -75,6 +75,29 @@ CellModel::CellModel(const CellProblem& problem) : FitModel(ShapeOf(problem)), p
   }
 }
 
+// The currents with those of the part of the area that is behind a resistance of its own, likewise
+// their derivatives by the device; `slopes`, if not null, receives those by share and resistance.
+void CellModel::AddContacts(int block, const double* p, std::vector<double> device, double* current,
+                            RowMatrix* by_device, double* slopes) const {
+  const double share = p[problem_.contact_share()];
+  device[kRs] = p[problem_.contact_resistance()];
+  std::vector<double> far(problem_.blocks[block].voltage_V.size());
+  RowMatrix by_far(by_device->rows(), by_device->cols());
+  ModelCurrents(problem_.device, Objective::kSolvedCurrent, device.data(), points_[block],
+                FastestKernel(), far.data(), slopes != nullptr ? by_far.data() : nullptr);
+  for (std::size_t k = 0; k < far.size(); ++k) {
+    const double more = far[k] - current[k];
+    current[k] += share * more;
+    if (slopes == nullptr) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    double* const own = slopes + row * shape().size();
+    own[problem_.contact_share()] = more;
+    own[problem_.contact_resistance()] = share * by_far(row, kRs);
+    by_far(row, kRs) = 0;
+    by_device->row(row) = (1 - share) * by_device->row(row) + share * by_far.row(row);
+  }
+}
+
 bool CellModel::EvaluateCurve(int block, const double* p, double* residuals, double* slopes) const {
   const CellBlock& curve = problem_.blocks[block];
   const int size = shape().size(), points = static_cast<int>(curve.voltage_V.size());
@@ -84,14 +107,16 @@ bool CellModel::EvaluateCurve(int block, const double* p, double* residuals, dou
   RowMatrix by_device(slopes != nullptr ? points : 0, parameters);
   ModelCurrents(problem_.device, Objective::kSolvedCurrent, device.data(), points_[block],
                 FastestKernel(), residuals, slopes != nullptr ? by_device.data() : nullptr);
+  if (problem_.contacts) AddContacts(block, p, device, residuals, &by_device, slopes);
   const double scale = problem_.error_A / curve.error;
   for (int k = 0; k < points; ++k) {
     residuals[k] = scale * (residuals[k] - curve.current_A[k]);
     if (!std::isfinite(residuals[k])) return false;
     if (slopes == nullptr) continue;
+    double* const row = slopes + static_cast<std::ptrdiff_t>(k) * size;
     by_device.row(k) *= scale;
-    ChainToProblem(problem_, p, device, by_device.row(k).data(), curve, 1,
-                   slopes + static_cast<std::ptrdiff_t>(k) * size);
+    for (int i = problem_.contact_share(); i < problem_.first_light(); ++i) row[i] *= scale;
+    ChainToProblem(problem_, p, device, by_device.row(k).data(), curve, 1, row);
   }
   return true;
 }

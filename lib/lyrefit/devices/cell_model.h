@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/estimate/refine/model.h"
 #include "lyrefit/model/device.h"
 #include "lyrefit/model/kernel.h"
@@ -21,11 +22,14 @@ struct CellBlock {
 };
 
 // Measurements of one cell at one temperature. Parameters: those of the device without its
-// photocurrent, which every block shares, then `collection`, then the lights. A photocurrent falls
+// photocurrent, which every block shares, then `collection`, then with `contacts` the share of the
+// area that is behind a series resistance of its own, and this, then the lights. A photocurrent falls
 // with the junction voltage by collection that is linear in it, Iph (1 - c Vj) with c = `collection`
-// in 1/V. This acts as a shunt of conductance c Iph that is not there in the dark.
+// in 1/V. This acts as a shunt of conductance c Iph that is not there in the dark. Both series
+// resistances are as if the whole device were behind them: parts of one junction law in parallel.
 struct CellProblem {
   Device device;  // one or more diodes, no effects
+  bool contacts = false;
   std::vector<ParameterInfo> parameters;
   std::vector<double> lower;
   std::vector<double> upper;
@@ -37,7 +41,9 @@ struct CellProblem {
   double voltage_scale_V = 1;
 
   int collection() const { return device.size() - 1; }
-  int first_light() const { return device.size(); }
+  int contact_share() const { return device.size(); }
+  int contact_resistance() const { return device.size() + 1; }
+  int first_light() const { return device.size() + (contacts ? 2 : 0); }
 };
 
 // Parameters of the device under a light that gives this photocurrent.
@@ -56,6 +62,8 @@ class CellModel : public FitModel {
 
  private:
   bool EvaluateCurve(int block, const double* p, double* residuals, double* slopes) const;
+  void AddContacts(int block, const double* p, std::vector<double> device, double* current,
+                   RowMatrix* by_device, double* slopes) const;
   bool EvaluateOpenCircuit(const CellBlock& block, const double* p, double* residuals,
                            double* slopes) const;
 

@@ -273,8 +273,13 @@ struct JointMeasurement {
 struct JointEstimate : EstimateReport {
   int shared = 0;  // estimates, the first, that belong to every measurement
   std::vector<JointMeasurement> measurements;
-  bool second_diode = false;              // of n = 2; the measurements need it
-  double second_diode_p = kUnknown;       // p-value of one diode against it
+  bool second_diode = false;         // of n = 2; the measurements need it
+  double second_diode_p = kUnknown;  // p-value of one diode against it
+  // A part of the area is behind a series resistance of its own, as corroded fingers and ribbons make
+  // it: the measurements need it.
+  bool contacts = false;
+  double contacts_p = kUnknown;  // p-value of one series resistance against it
+  Ranged contact_loss_W;         // of the power of the brightest curve, beside the other part
   std::vector<std::string> void_because;  // why one diode model is not behind all; empty: it may be
   std::string shunt;                      // what is known of shunt and collection
   // Part of the conductance at short circuit under the brightest light that goes with the light, as

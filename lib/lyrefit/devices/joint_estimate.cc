@@ -7,9 +7,13 @@
 #include <utility>
 
 #include "lyrefit/base/numbers.h"
+#include "lyrefit/base/roots.h"
 #include "lyrefit/devices/joint_problem.h"
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/statistics.h"
+#include "lyrefit/family/family_judge.h"
+#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {
@@ -19,6 +23,7 @@ constexpr IntervalRules kJointRules = {
     "no shunt is visible: only a lower limit is known",
     "these measurements do not fix it: another parameter takes its place"};
 constexpr double kSecondDiodeP = 0.001;  // least p-value of one diode alone
+constexpr double kContactsP = 0.001;     // least p-value of one series resistance alone
 constexpr double kMisfit = 0.01;         // of Isc or Voc, as for one curve
 constexpr double kNotShared = 0.003;     // of Isc or Voc, if the curve's own fit is this much
 constexpr double kTimesOwn = 3;          // closer
@@ -31,15 +36,13 @@ std::vector<bool> FixedOf(const CellProblem& problem) {
   return fixed;
 }
 
-// Which model is behind all measurements.
-enum class JointKind { kOneDiode, kTwoDiodes };
-
 // A model of all measurements of a cell, and its polished end.
 class JointCandidate {
  public:
   JointCandidate(const CellReport& report, const std::vector<int>& lights, int dark,
-                 const CellOptions& options, JointKind kind)
-      : cell(MakeJointCell(report, lights, dark, options, kind == JointKind::kTwoDiodes)),
+                 const CellOptions& options, const JointKind& of_kind)
+      : kind(of_kind),
+        cell(MakeJointCell(report, lights, dark, options, kind)),
         model(cell.problem),
         problem{model,
                 MakeEstimates(cell.problem.parameters, cell.problem.lower, cell.problem.upper)} {
@@ -55,12 +58,36 @@ class JointCandidate {
 
   const std::vector<double>& p() const { return polished.best.p; }
 
+  // Polishes from these starts.
+  void Polish(const std::vector<std::vector<double>>& points, const EstimateOptions& options,
+              const ProgressReporter& progress) {
+    std::vector<EstimateStart> starts;
+    for (const std::vector<double>& p : points) starts.push_back({"fit of a measurement", p});
+    polished = PolishParameters(problem, std::move(starts), options, progress);
+    if (kind.contacts && !p().empty()) OrderParts();
+  }
+
+  const JointKind kind;
   JointCell cell;
   const CellModel model;
   EstimateProblem problem;
   PolishedParameters polished;
 
  private:
+  // The part with the share has the larger resistance.
+  void OrderParts() {
+    RefineEnd& end = polished.best;
+    const int share = cell.problem.contact_share(), far = cell.problem.contact_resistance();
+    constexpr int kNear = kRs - 1;
+    if (end.p[far] >= end.p[kNear]) return;
+    std::swap(end.p[far], end.p[kNear]);
+    end.p[share] = 1 - end.p[share];
+    if (end.active.empty()) return;
+    const bool active = end.active[far];
+    end.active[far] = end.active[kNear];
+    end.active[kNear] = active;
+  }
+
   // Each measurement counts by the size of its residuals, which the fit changes in turn. False: the
   // sizes stay.
   bool SettleErrors(const std::vector<double>& p) {
@@ -106,20 +133,49 @@ double WhitenedSquares(const CellProblem& problem, const std::vector<double>& p,
   return squares;
 }
 
-// The p-value of one diode against a second one of n = 2, under the errors of the fit with two. NaN:
-// that fit failed.
-double SecondDiodeP(const JointCandidate& one, const JointCandidate& two) {
-  if (two.p().empty()) return kUnknown;
-  const std::vector<ErrorModel> errors = FindBlockErrors(two.cell, two.p());
-  CellProblem single = one.cell.problem;
-  single.error_A = two.cell.problem.error_A;
-  for (std::size_t b = 0; b < single.blocks.size(); ++b) {
-    single.blocks[b].error = two.cell.problem.blocks[b].error;
+// The p-value of a model against one with `extra` more parameters, under the errors of the fit with
+// these. NaN: that fit failed.
+double NestedP(const JointCandidate& plain, const JointCandidate& richer, int extra) {
+  if (richer.p().empty()) return kUnknown;
+  const std::vector<ErrorModel> errors = FindBlockErrors(richer.cell, richer.p());
+  CellProblem weighed = plain.cell.problem;
+  weighed.error_A = richer.cell.problem.error_A;
+  for (std::size_t b = 0; b < weighed.blocks.size(); ++b) {
+    weighed.blocks[b].error = richer.cell.problem.blocks[b].error;
   }
-  const int readings = one.problem.readings;
-  return FTestPValue(WhitenedSquares(single, one.p(), errors) / readings,
-                     WhitenedSquares(two.cell.problem, two.p(), errors) / readings, 1,
-                     DegreesOfFreedom(two.problem));
+  const int readings = plain.problem.readings;
+  return FTestPValue(WhitenedSquares(weighed, plain.p(), errors) / readings,
+                     WhitenedSquares(richer.cell.problem, richer.p(), errors) / readings, extra,
+                     DegreesOfFreedom(richer.problem));
+}
+
+// Maximum power of the brightest curve. `contacts`: as it is; otherwise as if the whole area were
+// behind the smaller resistance.
+double PowerOf(const CellProblem& problem, const std::vector<double>& p, bool contacts) {
+  std::vector<double> near = DeviceUnderLight(problem, p.data(), p[problem.blocks.front().light]);
+  std::vector<double> far = near;
+  if (contacts) far[kRs] = p[problem.contact_resistance()];
+  const double share = p[problem.contact_share()];
+  const auto power = [&](double voltage_V) {
+    const auto current = [&](const std::vector<double>& device) {
+      return SolveOperatingPoint(problem.device, device.data(), voltage_V).current_A;
+    };
+    return voltage_V * ((1 - share) * current(near) + share * current(far));
+  };
+  return power(MaximumBetween(power, 0, ModelOpenCircuit(problem.device, near.data())));
+}
+
+// Power that the brightest curve loses by contacts.
+Ranged ContactLoss(const JointCandidate& fit, const RefineEnd& end) {
+  const CellProblem& problem = fit.cell.problem;
+  if (!fit.kind.contacts || problem.blocks.front().light < 0) return {};
+  const EstimateErrors errors = fit.problem.errors(end);
+  const Interval loss = DerivedInterval(
+      errors.spread, end.active, static_cast<int>(end.p.size()), StudentT95(errors.degrees), end.p,
+      [&](const std::vector<double>& p) {
+        return PowerOf(problem, p, /*contacts=*/false) - PowerOf(problem, p, /*contacts=*/true);
+      });
+  return {loss.value, std::max(0.0, loss.low_95), loss.high_95};
 }
 
 // Standard errors without block `b`, over those with all, of independent errors.
@@ -212,12 +268,6 @@ ShuntFound FindShunt(const CellProblem& problem, const RefineEnd& end, const Joi
                         "collection is needed"};
 }
 
-std::vector<EstimateStart> StartsAt(const std::vector<std::vector<double>>& points) {
-  std::vector<EstimateStart> starts;
-  for (const std::vector<double>& p : points) starts.push_back({"fit of a measurement", p});
-  return starts;
-}
-
 }  // namespace
 
 std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
@@ -225,7 +275,7 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
                                                const CellOptions& options,
                                                const Observer& observer) {
   if (lights.empty() && dark < 0) return std::nullopt;
-  JointCandidate one(report, lights, dark, options, JointKind::kOneDiode);
+  JointCandidate one(report, lights, dark, options, {});
   // A dark curve that does not conduct has no scale.
   const bool scaled = one.cell.isc_A > 0 && one.cell.voc_V > 0;
   if (one.cell.problem.blocks.size() < 2 || !scaled) return std::nullopt;
@@ -233,19 +283,30 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   const ProgressReporter progress(observer, "joint estimate", 0);
   EstimateOptions estimate;
   estimate.threads = options.threads;
-  const auto polish = [&](JointCandidate* candidate, std::vector<std::vector<double>> from) {
-    candidate->polished = PolishParameters(candidate->problem, StartsAt(from), estimate, progress);
-  };
-  polish(&one, JointStarts(one.cell, report));
+  one.Polish(JointStarts(one.cell, report), estimate, progress);
   if (one.p().empty() || !std::isfinite(one.polished.best.mean_square)) {
     joint.missing = "no sweep has a fit to start from";
     return joint;
   }
-  JointCandidate two(report, lights, dark, options, JointKind::kTwoDiodes);
-  polish(&two, SecondDiodeStarts(two.cell, one.p()));
-  joint.second_diode_p = SecondDiodeP(one, two);
+  JointCandidate two(report, lights, dark, options, {/*second_diode=*/true});
+  two.Polish(SecondDiodeStarts(two.cell, one.p()), estimate, progress);
+  joint.second_diode_p = NestedP(one, two, 1);
   joint.second_diode = joint.second_diode_p < kSecondDiodeP;
-  const JointCandidate& fit = joint.second_diode ? two : one;
+  const JointCandidate& plain = joint.second_diode ? two : one;
+  JointCandidate aged(report, lights, dark, options, {joint.second_diode, /*contacts=*/true});
+  aged.Polish(ContactStarts(aged.cell, plain.p()), estimate, progress);
+  joint.contacts_p = NestedP(plain, aged, 2);
+  joint.contacts = joint.contacts_p < kContactsP;
+  // A second diode may have been in the place of the contacts.
+  JointCandidate alone(report, lights, dark, options, {/*second_diode=*/false, /*contacts=*/true});
+  if (joint.contacts && joint.second_diode) {
+    alone.Polish(ContactStarts(alone.cell, one.p()), estimate, progress);
+    const double p = NestedP(alone, aged, 1);
+    joint.second_diode = p < kSecondDiodeP;
+    joint.second_diode_p = p;
+  }
+  const JointCandidate& with = plain.kind.second_diode && !joint.second_diode ? alone : aged;
+  const JointCandidate& fit = joint.contacts ? with : plain;
   EstimatedParameters found = JudgeParameters(fit.problem, fit.polished, {}, estimate, progress);
   static_cast<EstimateReport&>(joint) = std::move(found.report);
   joint.shared = fit.cell.problem.first_light();
@@ -254,6 +315,7 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   ShuntFound shunt = FindShunt(fit.cell.problem, found.end, joint);
   joint.collection_part = shunt.collection_part;
   joint.shunt = std::move(shunt.sentence);
+  joint.contact_loss_W = ContactLoss(fit, found.end);
   return joint;
 }
 

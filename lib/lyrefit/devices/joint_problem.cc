@@ -23,6 +23,9 @@ constexpr double kMostCellSaturation = 0.1;     // of the largest current
 constexpr double kMostCellPhotocurrent = 3;     // of Isc
 constexpr double kMostCellSeries = 0.5;         // of Voc / Isc
 constexpr double kLeastCellShunt = 0.01;        // of Voc / Isc
+constexpr double kMostContact = 5;              // of Voc / Isc
+constexpr double kLeastContact = 0.01;          // of Voc / Isc, to start from
+constexpr double kLeastAgedShare = 0.005;       // of the area
 constexpr double kSecondIdeality = 2;           // recombination in the depletion region
 constexpr double kLeastFactor = 0.2;            // of the lights of a Suns-Voc trace
 constexpr double kMostFactor = 5;
@@ -62,6 +65,14 @@ void AddShared(const CellOptions& options, JointCell* cell) {
   Add({"c", "collection_slope", "1/V", "part of the photocurrent lost per volt of the junction",
        ParameterKind::kPlain, 0.01},
       0, 1 / cell->voc_V, &problem);
+  if (!problem.contacts) return;
+  Add({"s", "contact_share", "", "part of the area behind a series resistance of its own",
+       ParameterKind::kPlain, 0.1},
+      kLeastAgedShare, 1 - kLeastAgedShare, &problem);
+  Add({"Rc", "contact_resistance", "ohm",
+       "series resistance of that part, as if the whole device were behind it",
+       ParameterKind::kSeries},
+      0, kMostContact * ohm, &problem);
 }
 
 // Least error of a reading. A few readings may be met exactly by parameters of their own.
@@ -161,13 +172,14 @@ ErrorModel IndependentErrors(std::size_t count, double error_A) {
 }  // namespace
 
 JointCell MakeJointCell(const CellReport& report, const std::vector<int>& lights, int dark,
-                        const CellOptions& options, bool second_diode) {
+                        const CellOptions& options, const JointKind& kind) {
   JointCell cell;
+  cell.problem.contacts = kind.contacts;
   FindScales(report, lights, dark, &cell);
   Conditions conditions;
   conditions.cell_temperature_K = report.temperature_C + kZeroCelsius_K;
   conditions.cells_in_series = report.cells_in_series;
-  cell.problem.device = MakeDevice(second_diode ? Model::kDoubleDiode : Model::kSingleDiode,
+  cell.problem.device = MakeDevice(kind.second_diode ? Model::kDoubleDiode : Model::kSingleDiode,
                                    conditions, options.constants);
   AddShared(options, &cell);
   for (const int i : lights) {
@@ -242,6 +254,24 @@ std::vector<std::vector<double>> SecondDiodeStarts(const JointCell& cell,
       p[second] = part * lost * std::exp(-cell.voc_V / (kSecondIdeality * thermal_V));
       p[IdealityIndex(1) - 1] = kSecondIdeality;
       std::copy(single.begin() + kRsh, single.end(), p.begin() + problem.collection());
+      starts.push_back(std::move(p));
+    }
+  }
+  return starts;
+}
+
+std::vector<std::vector<double>> ContactStarts(const JointCell& cell,
+                                               const std::vector<double>& plain) {
+  std::vector<std::vector<double>> starts;
+  const CellProblem& problem = cell.problem;
+  for (const double share : {0.1, 0.25, 0.5}) {
+    for (const double times : {4.0, 15.0}) {
+      std::vector<double> p = plain;
+      // Both parts together keep the resistance at large currents.
+      const double whole = std::max(plain[kRs - 1], kLeastContact * cell.voc_V / cell.isc_A);
+      const double rest = whole * (1 - share + share / times);
+      p[kRs - 1] = rest;
+      p.insert(p.begin() + problem.contact_share(), {share, times * rest});
       starts.push_back(std::move(p));
     }
   }

@@ -20,10 +20,16 @@ struct JointCell {
   double voc_V = 0;  // of the brightest curve; where it is not reached the largest voltage
 };
 
+// What the device has beside one diode.
+struct JointKind {
+  bool second_diode = false;  // of n = 2
+  bool contacts = false;      // see CellProblem
+};
+
 // Blocks of the lit sweeps `lights` (indices, the brightest first), of `dark` (-1: none) and of all
-// Suns-Voc traces. With `second_diode` the device has a second diode of n = 2.
+// Suns-Voc traces.
 JointCell MakeJointCell(const CellReport& report, const std::vector<int>& lights, int dark,
-                        const CellOptions& options, bool second_diode);
+                        const CellOptions& options, const JointKind& kind);
 
 // Places to start the fit from: parameters of single fits, with the conductance at short circuit as
 // a shunt or as collection.
@@ -32,6 +38,10 @@ std::vector<std::vector<double>> JointStarts(const JointCell& cell, const CellRe
 // Starts with a second diode that takes a part of the current of the only one of `single`.
 std::vector<std::vector<double>> SecondDiodeStarts(const JointCell& cell,
                                                    const std::vector<double>& single);
+
+// Starts with a part of the area behind a resistance of its own, from a fit without.
+std::vector<std::vector<double>> ContactStarts(const JointCell& cell,
+                                               const std::vector<double>& plain);
 
 // Root mean square of the residuals of each block, in A or V.
 std::vector<double> RmsOfBlocks(const CellProblem& problem, const std::vector<double>& p);

@@ -161,7 +161,9 @@ const std::vector<Injection>& DeviceInjections() {
        1e-4,
        1.5,
        AgedContacts,
-       AgedContactsTwins},
+       AgedContactsTwins,
+       nullptr,
+       Wish::kModule},
       {"shading", {kFwd, kUpDown}, 1e-4, 0.97, Shading, nullptr, nullptr, Wish::kModule},
       {"mismatch", {kFwd, kUpDown}, 1e-4, 0.5, Mismatch, MismatchTwins, nullptr, Wish::kModule},
   };

@@ -40,7 +40,11 @@ Effect AgedContacts() {
     cell->far_resistance = p[0];
   };
   e.parts = true;
-  e.why_not = NeedsLight;
+  e.why_not = [](const DataTraits& traits) -> WhyNot {
+    if (auto why = NeedsLight(traits)) return why;
+    if (!traits.module) return "needs cells in series";
+    return {};
+  };
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.1, 0.2}, {0.2, 0.4}, {0.5, 0.2}, {0.5, 0.5}, {1.0, 0.1}};
   };

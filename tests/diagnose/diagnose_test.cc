@@ -159,6 +159,54 @@ TEST(DiagnoseTest, OfSeveralSweepsWholeOnesAreHeldOut) {
   EXPECT_EQ(d.gain.sentence, "the gain holds on whole sweeps that were not fitted");
 }
 
+// A module of which a part is behind a resistance of its own, and the Suns-Voc trace of its flash:
+// open-circuit voltages at Isc (1 - suns), 3 mV per cell below those of the sweep.
+CurveSet FlashWithTrace(double far_ohm, double far_share) {
+  Recipe recipe;
+  recipe.cells = 60;
+  IvCurve load = SyntheticCurve(recipe), trace = load;
+  std::vector<double> p = SyntheticParameters(recipe);
+  const double rs = p[kRs];
+  p[kRs] = 0;
+  const Device junction = MakeDevice(Model::kSingleDiode, load.conditions);
+  const double open = 0.632 * recipe.cells;
+  RandomStream random(5);
+  for (int k = 0; k < recipe.points; ++k) {
+    trace.voltage_V[k] = open * k / (recipe.points - 1);
+    load.voltage_V[k] = far_ohm * p[kIph] + (open - far_ohm * p[kIph]) * k / (recipe.points - 1);
+  }
+  trace.current_A = SolveCurrents(junction, p.data(), trace.voltage_V);
+  for (double& voltage : trace.voltage_V) voltage -= 0.003 * recipe.cells;
+  const std::vector<double> far = SolveCurrents(junction, p.data(), load.voltage_V);
+  for (int k = 0; k < recipe.points; ++k) load.voltage_V[k] -= far_ohm * far[k];
+  load.current_A = SolveCurrents(junction, p.data(), load.voltage_V);
+  for (int k = 0; k < recipe.points; ++k) {
+    double& current = load.current_A[k];
+    current = (1 - far_share) * current + far_share * far[k];
+    load.voltage_V[k] -= rs * current;
+    current += 0.004 * random.Normal();
+  }
+  trace.name = "trace";
+  trace.suns_voc_A = p[kIph];
+  return SetOf({trace, load});
+}
+
+TEST(DiagnoseTest, ASunsVocTraceIsTheDeviceWithoutItsResistances) {
+  const Diagnosis aged = DiagnoseOrFail(FlashWithTrace(2, 0.35), Quick());
+  ExpectComplete(aged);
+  ASSERT_FALSE(aged.verdict.causes.empty());
+  const Cause& cause = aged.verdict.causes.front();
+  EXPECT_EQ(cause.id, "aged_contacts");
+  ASSERT_EQ(cause.strength.size(), 2U);
+  EXPECT_NEAR(cause.strength[0].value, 2, 0.2);
+  EXPECT_NEAR(cause.strength[1].value, 0.35, 0.03);
+  EXPECT_EQ(aged.evidence.kind, "one sweep, and Suns-Voc, beyond open circuit");
+  EXPECT_THAT(Ids(DiagnoseOrFail(FlashWithTrace(0, 0.35), Quick())), IsEmpty());
+  CurveSet alone = FlashWithTrace(0, 0.35);
+  alone.curves.pop_back();
+  EXPECT_THAT(MessageOf(Diagnose(alone)), HasSubstr("a Suns-Voc trace"));
+}
+
 TEST(DiagnoseTest, RefusesBadInput) {
   EXPECT_FALSE(Diagnose(CurveSet()));
   Recipe few;

@@ -178,6 +178,7 @@ TEST(ReportedFactorTest, MatchesTheEquationsOfAModule) {
   // At the current scale, Rs1 I |I| is the voltage drop of 60 cells.
   EXPECT_NEAR(reported("rs_current", 0, {0.01}) * 64, 60 * 0.01, 1e-12);
   EXPECT_NEAR(reported("distributed_rs", 0, {0.02}) * 8, 60 * 0.02, 1e-12);
+  EXPECT_NEAR(reported("aged_contacts", 0, {0.02, 0.3}) * 8, 60 * 0.02, 1e-12);
   EXPECT_NEAR(reported("photoshunt", 0, {0.3, 0}) * 60, 0.3 * 8, 1e-12);
   EXPECT_NEAR(reported("voltage_offset", 0, {0.001}), 0.06, 1e-15);
   EXPECT_NEAR(reported("back_contact", 0, {3}), 3.0 / 8, 1e-15);

@@ -48,7 +48,7 @@ TEST_P(EveryFamily, IsRecoveredWithinItsIntervals) {
   ASSERT_TRUE(report) << report.error().ToString();
   EXPECT_TRUE(report->usable);
   EXPECT_EQ(report->refine.termination, "converged");
-  EXPECT_LT(report->projected_gradient, 1e-6);
+  EXPECT_LT(report->refine.projected_gradient, 1e-6);
   EXPECT_NEAR(report->noise_A, 2e-4, 3e-5);
   for (int i = 0; i < law.size(); ++i) {
     const Estimate& e = report->estimates[i];

@@ -30,7 +30,7 @@ class Numbers {
     for (const Correlation& c : report.correlations) AddAll({c.value});
     const RmseTable& table = report.rmse;
     for (const RmsePair& pair :
-         {table.random_baseline, table.searched, table.searched_all, table.refined}) {
+         {table.random_baseline, table.searched, report.searched_all, table.refined}) {
       Add(pair);
     }
     AddAll({report.noise_A, report.refine.projected_gradient, report.reference.max_power_W});

@@ -46,7 +46,8 @@ Cell CellUnder(const Device& device, const Effects& effects, double suns, double
   cell.collection = effects.collection;
   cell.lumped_drop = effects.lumped_drop;
   cell.inverse_contact = effects.inverse_contact;
-  cell.lateral_ohm = effects.lateral_ohm;
+  cell.far_ohm = effects.far_ohm;
+  cell.far_share = effects.far_share;
   cell.capacitance = effects.capacitance;
   cell.diffusion_s = effects.diffusion_s;
   return cell;
@@ -75,9 +76,9 @@ double JunctionCurrent(const Cell& cell, double v) {
 
 Terminal AtJunction(const Cell& cell, double v) {
   double current = JunctionCurrent(cell, v);
-  if (cell.lateral_ohm > 0) {
-    v -= current / 2 * cell.lateral_ohm;
-    current = current / 2 + JunctionCurrent(cell, v) / 2;
+  if (cell.far_ohm > 0) {
+    v -= current * cell.far_ohm;
+    current = cell.far_share * current + (1 - cell.far_share) * JunctionCurrent(cell, v);
   }
   double voltage = v - current * (cell.resistance + cell.lumped_drop * std::fabs(current));
   if (cell.inverse_contact != 0) {

@@ -22,7 +22,8 @@ struct Cell {
   double collection = 0;
   double lumped_drop = 0;
   double inverse_contact = 0;
-  double lateral_ohm = 0;
+  double far_ohm = 0;
+  double far_share = 0.5;
   // Charge: the junction's own current over the last `interval_s`, which began with `charge`.
   double capacitance = 0;
   double diffusion_s = 0;
@@ -36,7 +37,7 @@ Cell CellUnder(const Device& device, const Effects& effects, double suns, double
 double JunctionCurrent(const Cell& cell, double junction_voltage);
 double JunctionCharge(const Cell& cell, double junction_voltage);
 
-// Both follow from the junction's voltage (with a lateral resistance: of the far half) without any
+// Both follow from the junction's voltage (with a far part: of that part) without any
 // equation to solve; current falls with it, voltage rises.
 struct Terminal {
   double voltage;

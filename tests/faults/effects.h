@@ -15,7 +15,8 @@ struct Effects {
   bool photoshunt_exponential = false;
   double inverse_contact = 0;  // 1/A, inverse saturation current of the blocking contact
   double lumped_drop = 0;      // V/A^2
-  double lateral_ohm = 0;      // between the two halves of a cell
+  double far_ohm = 0;          // of the far part of a cell, as if all of it were behind it
+  double far_share = 0.5;      // of the area
   double shade_depth = 0;
   int shaded_substrings = 1;
   double bypass_drop = 0.5;  // V of one diode

@@ -52,7 +52,7 @@ TEST(HiddenCell, HasNoCurrentAtItsOpenCircuit) {
 
 TEST(HiddenCell, HalvesWithoutLateralResistanceAreOneCell) {
   Effects effects;
-  effects.lateral_ohm = 1e-12;
+  effects.far_ohm = 1e-12;
   EXPECT_NEAR(CellCurrent(At25(Plain(), effects), 0.5), CellCurrent(At25(Plain()), 0.5), 1e-8);
 }
 

@@ -49,11 +49,17 @@ bool BackContact(const Shape&, double strength, Scene* scene) {
 bool RsCurrent(const Shape& shape, double strength, Scene* scene) {
   const double current = scene->device.photocurrent;
   if (shape.parts[0] < 0.4) {  // two half cells
-    scene->effects.lateral_ohm = 10 * strength / current;
+    scene->effects.far_ohm = 5 * strength / current;
     return 10 * strength < 0.4;
   }
   scene->effects.lumped_drop = shape.sign * strength / (current * current);
   return shape.sign > 0 || strength < 0.3 * scene->device.resistance * current;
+}
+
+bool AgedContacts(const Shape& shape, double strength, Scene* scene) {
+  scene->effects.far_ohm = strength / scene->device.photocurrent;
+  scene->effects.far_share = 0.15 + 0.4 * shape.parts[0];
+  return true;
 }
 
 bool Shading(const Shape& shape, double strength, Scene* scene) {
@@ -96,8 +102,9 @@ Names PhotoshuntTwins(const Shape& shape, const Scene&) {
   return shape.misfit < 12 ? Names{"collection"} : Names{};
 }
 
-// Lumped and distributed resistance are two model variants of one cause.
-Names RsCurrentTwins(const Shape&, const Scene&) { return {"distributed_rs"}; }
+// Lumped and distributed resistance, in parts of any size, are model variants of one cause.
+Names RsCurrentTwins(const Shape&, const Scene&) { return {"distributed_rs", "aged_contacts"}; }
+Names AgedContactsTwins(const Shape&, const Scene&) { return {"distributed_rs", "rs_current"}; }
 
 Names MismatchTwins(const Shape&, const Scene&) { return {"shading"}; }
 
@@ -149,6 +156,14 @@ const std::vector<Injection>& DeviceInjections() {
        0.2,
        RsCurrent,
        RsCurrentTwins},
+      {"aged_contacts",
+       {kFwd, kRev, kUpDown, kFamG, kFamGT},
+       1e-4,
+       1.5,
+       AgedContacts,
+       AgedContactsTwins,
+       nullptr,
+       Wish::kModule},
       {"shading", {kFwd, kUpDown}, 1e-4, 0.97, Shading, nullptr, nullptr, Wish::kModule},
       {"mismatch", {kFwd, kUpDown}, 1e-4, 0.5, Mismatch, MismatchTwins, nullptr, Wish::kModule},
   };

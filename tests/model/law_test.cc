@@ -172,6 +172,39 @@ TEST(LawTest, SpreadResistanceIsTwoHalfCells) {
   }
 }
 
+// A part of every cell behind a resistance of its own, and the readings of a Suns-Voc trace without it.
+TEST(LawTest, AgedContactsAreTwoPartsOfACell) {
+  Readings readings = SyntheticReadings(DataKind::kForward, 1);
+  const PlainCell cell{readings, 0};
+  for (const double share : {0.05, 0.4, 0.85}) {
+    for (const double own : {0.02, 0.3, 2.0}) {
+      const Settled at = WithEffect(*FindEffect("aged_contacts"), {own, share}, readings);
+      const std::vector<double> found = Currents(at.law, readings, at.p);
+      ASSERT_FALSE(found.empty());
+      const auto far = [&](double near) {
+        return Bisect([&](double v) { return v - near - own * cell.Junction(v, 1); }, near - 5,
+                      near + 5);
+      };
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        const double voltage = readings.points[k].voltage;
+        const auto current = [&](double near) {
+          return (1 - share) * cell.Junction(near, 1) + share * cell.Junction(far(near), 1);
+        };
+        const double near =
+            Bisect([&](double v) { return v - voltage - cell.cell.resistance * current(v); },
+                   voltage - 1, voltage + 1);
+        EXPECT_NEAR(found[k], current(near), 1e-9);
+      }
+      Readings trace = readings;
+      for (Reading& reading : trace.points) reading.suns_voc = true;
+      const std::vector<double> open = Currents(at.law, trace, at.p);
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        EXPECT_NEAR(open[k], cell.Junction(trace.points[k].voltage, 1), 1e-9);
+      }
+    }
+  }
+}
+
 TEST(LawTest, RefusesImpossibleTemperatures) {
   const Readings readings = SyntheticReadings(DataKind::kFamily, 1);
   const Settled at = WithEffect(*FindEffect("temp_offset"), {-250}, readings);

@@ -70,8 +70,9 @@ class Strings {
     }
     cell_.conductance = Draw([&] { return LogUniform(&random_, 1e-8, 0.5); });
     cell_.resistance = Draw([&] { return OneIn(10) ? 0 : LogUniform(&random_, 1e-4, 0.4); });
-    cell_.parallel_halves = OneIn(8);
-    cell_.lateral = Draw([&] { return LogUniform(&random_, 1e-3, 2); });
+    cell_.two_parts = OneIn(8);
+    cell_.far_share = Draw([&] { return Between(0.01, 0.97); });
+    cell_.far_resistance = Draw([&] { return LogUniform(&random_, 1e-3, 2); });
   }
 
   void DrawShape() {
@@ -126,7 +127,7 @@ class Lane {
   std::vector<T> Residuals(const std::vector<T>& x) const {
     const T* u = x.data();
     const T* far = u + cell_.groups;
-    const T* carried = far + (cell_.parallel_halves ? cell_.groups : 0);
+    const T* carried = far + (cell_.two_parts ? cell_.groups : 0);
     const T* substring = carried + cell_.substrings;
     const T* string = substring + cell_.substrings;
     std::vector<T> left;
@@ -135,10 +136,10 @@ class Lane {
       const int p = cell_.groups == 1 ? 0 : cell_.group[g].substring;
       const T share = cell_.groups == 1 ? T(1) : T(cell_.group[g].share[lane_]);
       T current = Junction(g, u[g]);
-      if (cell_.parallel_halves) {
-        const T there = Junction(g, far[g]);
-        left.push_back(u[g] + T(cell_.lateral[lane_]) * there / 2 - far[g]);
-        current = (current + there) / 2;
+      if (cell_.two_parts) {
+        const T there = Junction(g, far[g]), part = T(cell_.far_share[lane_]);
+        left.push_back(u[g] + T(cell_.far_resistance[lane_]) * there - far[g]);
+        current = (1 - part) * current + part * there;
       }
       left.push_back(current - carried[p]);
       weight[p] += share;
@@ -203,7 +204,7 @@ std::vector<double> StateOf(const Cell<Pack>& cell, const StringState& state,
                             const StringRoot& root, int lane) {
   std::vector<double> x;
   for (int g = 0; g < cell.groups; ++g) x.push_back(state.u[g][lane]);
-  for (int g = 0; g < cell.groups && cell.parallel_halves; ++g) x.push_back(state.far[g][lane]);
+  for (int g = 0; g < cell.groups && cell.two_parts; ++g) x.push_back(state.far[g][lane]);
   for (int p = 0; p < cell.substrings; ++p) {
     for (int g = 0; g < cell.groups; ++g) {
       if (cell.groups > 1 && cell.group[g].substring != p) continue;
@@ -281,8 +282,8 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
       if (!(error < 1e-10) && wrong < 10) {
         ADD_FAILURE() << k << " lane " << lane << " error " << error << " kinds "
                       << strings.cell().groups << " parts " << strings.cell().substrings
-                      << " strings " << strings.cell().strings << " parallel_halves "
-                      << strings.cell().parallel_halves << " reverse "
+                      << " strings " << strings.cell().strings << " two_parts "
+                      << strings.cell().two_parts << " reverse "
                       << static_cast<int>(strings.cell().reverse) << " V "
                       << strings.voltage()[lane] << " I " << root.current[lane];
       }

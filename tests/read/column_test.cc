@@ -230,6 +230,8 @@ TEST(RecogniseColumnTest, DirectionAndLightStandApart) {
        SweepLight::kSunsVoc, 1},
       {"Suns-Voc Current (mA)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
        SweepLight::kSunsVoc, 1e-3},
+      {"Pseudo current (A)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
+       SweepLight::kSunsVoc, 1},
       {"SunsVoc_Suns_(suns)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,
        SweepLight::kSunsVoc, 1},
       {"SunsVoc Intensity (W/m2)", ColumnKind::kCurrent, "", SweepDirection::kUnknown,

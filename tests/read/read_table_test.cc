@@ -201,6 +201,14 @@ TEST(ReadTableTest, ASunsVocTraceHasTheShortCircuitCurrentOfTheCurveBesideIt) {
   EXPECT_NEAR(trace->curve.current_A[1], 2.5, 1e-12);
 }
 
+TEST(ReadTableTest, APseudoCurrentIsThatOfASunsVocTrace) {
+  const auto trace = ReadTable("Voltage (V),Pseudo current (A)\n0.1,5.2\n30,5\n40,0\n", "f");
+  ASSERT_TRUE(trace) << trace.error().ToString();
+  ASSERT_TRUE(trace->curve.suns_voc_A);
+  EXPECT_EQ(*trace->curve.suns_voc_A, 5.2);
+  EXPECT_THAT(trace->curve.current_A, ElementsAre(5.2, 5, 0));
+}
+
 TEST(ReadTables, AMeasurementOfZerosOnlyIsNoCurve) {
   const char* text =
       "Vload_(V),ILoad_(A),SunsVoc_Voltage_(V),SunsVoc_Current_(A),Dark_IV_Voltage_(V),"

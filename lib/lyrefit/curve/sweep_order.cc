@@ -51,19 +51,6 @@ CurveSet InOrder(const CurveSet& set, std::vector<std::string>* warnings) {
   return ordered;
 }
 
-CurveSet WithoutTraces(const CurveSet& set, std::vector<std::string>* warnings) {
-  CurveSet sweeps = set;
-  std::vector<IvCurve>& curves = sweeps.curves;
-  curves.erase(std::remove_if(curves.begin(), curves.end(),
-                              [](const IvCurve& curve) { return curve.suns_voc_A.has_value(); }),
-               curves.end());
-  const std::size_t traces = set.curves.size() - curves.size();
-  if (traces == 0 || curves.empty()) return set;
-  warnings->push_back(std::to_string(traces) + " Suns-Voc trace" + (traces == 1 ? "" : "s") +
-                      " beside the sweeps not used: lyrefit cell compares them");
-  return sweeps;
-}
-
 bool Rises(const std::vector<double>& voltage_V) {
   return !voltage_V.empty() && voltage_V.back() > voltage_V.front();
 }

@@ -12,10 +12,6 @@ namespace lyrefit {
 // average. `warnings` names each sorted curve.
 CurveSet InOrder(const CurveSet& set, std::vector<std::string>* warnings);
 
-// A copy of the set without Suns-Voc traces beside sweeps: no series resistance is in them, and each
-// of their readings has a light of its own. `warnings` counts them. A set of traces alone is kept.
-CurveSet WithoutTraces(const CurveSet& set, std::vector<std::string>* warnings);
-
 // Whether the last voltage is above the first one.
 bool Rises(const std::vector<double>& voltage_V);
 

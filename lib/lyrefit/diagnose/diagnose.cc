@@ -197,9 +197,16 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& given, const DiagnoseOptions
   prepared.options = options;
   TRY(prepared.known, KnownEffects(options));
   std::vector<std::string> disorder;
-  const CurveSet taken = WithoutTraces(given, &disorder);
-  TRY(prepared.doubts, JudgeReadings(taken.curves));
-  prepared.set = InOrder(taken, &disorder);
+  const auto under_load = [](const IvCurve& curve) { return !curve.suns_voc_A; };
+  if (std::none_of(given.curves.begin(), given.curves.end(), under_load)) {
+    return Fail(
+        "a Suns-Voc trace, open-circuit voltages over light: series resistance and unlike cells "
+        "are "
+        "not in it; give the curve under load beside it (--together)");
+  }
+  TRY(prepared.doubts, JudgeReadings(given.curves));
+  prepared.set = InOrder(given, &disorder);
+  std::stable_partition(prepared.set.curves.begin(), prepared.set.curves.end(), under_load);
   for (IvCurve& curve : prepared.set.curves) curve = WithoutBeyondVoc(std::move(curve));
   TRY(prepared.measurement, MakeMeasurement(prepared.set));
   std::vector<std::string>& warnings = prepared.measurement.warnings;

@@ -222,6 +222,7 @@ std::string KindOfData(const Readings& readings) {
                        t.irradiance_levels, t.temperature_levels);
     if (t.dark) text += ", with a dark one";
   }
+  if (t.suns_voc) text += ", and Suns-Voc";
   if (t.reverse) text += fmt::format(", reverse bias to {:.3g} V", t.lowest_voltage * t.cells);
   if (t.beyond_voc) text += ", beyond open circuit";
   if (t.up_down && !readings.scale.times) text += ", without times";

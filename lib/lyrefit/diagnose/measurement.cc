@@ -1,5 +1,7 @@
 #include "lyrefit/diagnose/measurement.h"
 
+#include <algorithm>
+
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/make_readings.h"
 
@@ -29,7 +31,11 @@ Expected<Measurement> MakeMeasurement(const CurveSet& set) {
   const double scale_A = measurement.readings.scale.current_A;
   std::optional<double> limit = measurement.notes.compliance_A;
   if (limit) *limit /= scale_A;
-  measurement.values = LookAtValues(measurement.readings, limit);
+  Readings sweeps = measurement.readings;  // Suns-Voc traces stand last
+  const auto trace = [](const Reading& reading) { return reading.suns_voc; };
+  sweeps.points.erase(std::find_if(sweeps.points.begin(), sweeps.points.end(), trace),
+                      sweeps.points.end());
+  measurement.values = LookAtValues(sweeps, limit);
   measurement.stated_sigma = StatedSigma(set, scale_A);
   return measurement;
 }

@@ -105,6 +105,8 @@ Noise TakeNoise(const Measurement& measurement, const LawFit& fit, WeightedData*
     }
   }
   if (!stated) Widen(rounding, weighted);
+  for (std::size_t k = 0; k < weighted->sigma.size(); ++k)
+    weighted->sigma[k] = std::hypot(weighted->sigma[k], TraceError(readings.points, k));
   return noise;
 }
 

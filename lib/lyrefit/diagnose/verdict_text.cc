@@ -223,11 +223,13 @@ std::vector<Alternative> SaidBeside(const Cause& cause, double probability) {
 }
 
 Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
-  double noise = 0;
+  double noise = 0, count = 0;
   for (std::size_t k = 0; k < fit.current.size(); ++k) {
-    if (weighted.used[k] != 0) noise += weighted.sigma[k] * weighted.sigma[k];
+    if (weighted.used[k] == 0 || weighted.readings->points[k].suns_voc) continue;
+    noise += weighted.sigma[k] * weighted.sigma[k];
+    ++count;
   }
-  noise /= std::max(weighted.count(), 1);
+  noise /= std::max(count, 1.0);
   const double lack_of_fit = MissedBy(weighted, fit);
   const double left = std::sqrt(std::max(lack_of_fit * lack_of_fit - noise, 0.0));
   // A rough path has about six independent pieces in a sweep, so its size is known to about a

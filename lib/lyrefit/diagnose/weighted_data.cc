@@ -30,6 +30,16 @@ void OrderByVoltage(const std::vector<Reading>& points, double unit, ErrorModel*
 
 }  // namespace
 
+double TraceError(const std::vector<Reading>& points, std::size_t k) {
+  constexpr double kApart_V = 2e-3;
+  if (!points[k].suns_voc) return 0;
+  const auto beside = [&](std::size_t i) { return points[i].curve == points[k].curve ? i : k; };
+  const Reading& a = points[beside(k > 0 ? k - 1 : k)];
+  const Reading& b = points[beside(k + 1 < points.size() ? k + 1 : k)];
+  const double span = b.voltage - a.voltage;
+  return span != 0 ? kApart_V * std::fabs((b.current - a.current) / span) : 0;
+}
+
 ErrorModel ErrorsOf(const WeightedData& weighted) {
   const std::vector<Reading>& points = weighted.readings->points;
   ErrorModel errors;
@@ -45,8 +55,9 @@ ErrorModel ErrorsOf(const WeightedData& weighted) {
     const double step = k > 0 ? std::fabs(r.voltage - points[k - 1].voltage) / voltage : 0;
     at += neighbours ? apart : step / weighted.path_length;
     const double light = brightest > 0 ? r.irradiance / brightest : 0;
+    const double departure = std::hypot(weighted.path * light, TraceError(points, k));
     errors.position.push_back(at);
-    errors.path.push_back(neighbours ? weighted.sigma[k] : r.dark ? 0 : weighted.path * light);
+    errors.path.push_back(neighbours ? weighted.sigma[k] : r.dark ? 0 : departure);
     errors.chain.push_back(neighbours ? r.segment : r.curve);
   }
   if (neighbours) errors.white.assign(points.size(), 0);
@@ -281,12 +292,15 @@ bool CanAdd(const Law& law, const Effect& effect) {
 
 namespace {
 
-// The data with unit sigma and no correlation.
+// The data with unit sigma and no correlation; of a Suns-Voc trace beside its error in units of a
+// usual floor.
 WeightedData Plain(const WeightedData& weighted) {
+  constexpr double kFloor = 1e-3;
   WeightedData plain = weighted;
   plain.path = plain.correlation = 0;
   plain.progress = {};
-  plain.sigma.assign(weighted.sigma.size(), 1.0);
+  for (std::size_t k = 0; k < plain.sigma.size(); ++k)
+    plain.sigma[k] = std::hypot(1.0, TraceError(weighted.readings->points, k) / kFloor);
   return plain;
 }
 
@@ -308,14 +322,20 @@ double LackOfFit(const WeightedData& weighted, const LawFit& fit,
   for (int k = 0; k < off.size(); ++k) off[k] = currents[k] - fit.current[k];
   off = Whiten(plain, off);
   TakeOut(plain_basis, &off);
-  return off.norm() / std::sqrt(std::max(weighted.count(), 1));
+  int count = weighted.count();
+  for (int k = 0; k < off.size(); ++k) {
+    if (weighted.used[k] == 0 || !weighted.readings->points[k].suns_voc) continue;
+    off[k] = 0;
+    --count;
+  }
+  return off.norm() / std::sqrt(std::max(count, 1));
 }
 
 double RmseOf(const WeightedData& weighted, const std::vector<double>& current) {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
-    if (weighted.used[k] == 0) continue;
     const Reading& reading = weighted.readings->points[k];
+    if (weighted.used[k] == 0 || reading.suns_voc) continue;
     const double r = current[k] - reading.current;
     sum += reading.weight * (r * r + reading.scatter);
     count += reading.weight;

@@ -34,6 +34,10 @@ struct WeightedData {
 // Error model of the readings.
 ErrorModel ErrorsOf(const WeightedData& weighted);
 
+// Error of a reading of a Suns-Voc trace beside the sweep, in current scales; 0 for others. The two
+// are measured one after the other: their voltages are some 2 mV per cell apart, as of 1 K.
+double TraceError(const std::vector<Reading>& points, std::size_t k);
+
 // Transforms values so that noise becomes white with unit variance: divides by sigma and removes
 // the correlation of neighbours. Left-out readings become 0. One row per reading.
 Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values);
@@ -89,7 +93,8 @@ std::vector<double> StandardErrors(const Linearized& linear);
 double StandardError(const Linearized& linear, const std::vector<double>& derivative);
 
 // Lack of fit of a fit to `currents`: root mean square over the used readings, in scales, of their
-// distance from the fit, projected off the law's parameters. All readings have equal weight.
+// distance from the fit, projected off the law's parameters. All readings have equal weight but those
+// of a Suns-Voc trace, which has its error besides and does not count.
 double LackOfFit(const WeightedData& weighted, const LawFit& fit,
                  const std::vector<double>& currents);
 // Version with the basis of PlainBasis given, which does not depend on the currents.
@@ -97,7 +102,7 @@ Eigen::MatrixXd PlainBasis(const WeightedData& weighted, const LawFit& fit);
 double LackOfFit(const WeightedData& weighted, const LawFit& fit,
                  const Eigen::MatrixXd& plain_basis, const std::vector<double>& currents);
 
-// RMSE in ampere over the used readings, including those within averages.
+// RMSE in ampere over the used readings under load, including those within averages.
 double RmseOf(const WeightedData& weighted, const std::vector<double>& current);
 
 // Lack of fit of a fit to its readings.

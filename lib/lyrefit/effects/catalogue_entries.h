@@ -14,6 +14,7 @@ namespace lyrefit {
   ENTRY(BackContact)               \
   ENTRY(RsCurrent)                 \
   ENTRY(DistributedRs)             \
+  ENTRY(AgedContacts)              \
   ENTRY(Shading)                   \
   ENTRY(Mismatch)                  \
   ENTRY(Substrings)                \

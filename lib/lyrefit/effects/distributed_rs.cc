@@ -15,7 +15,7 @@ Effect DistributedRs() {
       "broken finger";
   e.needs = "little noise near the knee, or several irradiances";
   e.acts = "from the knee to open circuit";
-  e.confused_with = {"rs_current", "back_contact", "transient"};
+  e.confused_with = {"aged_contacts", "rs_current", "back_contact", "transient"};
   e.separate_by = "curves at several irradiances";
   e.action =
       "re-torque the connectors, or contact the cell anew, and measure again; then look for "
@@ -28,9 +28,12 @@ Effect DistributedRs() {
                       .CurrentPower(-1)
                       .CellsPower(1)};
   e.cell = [](const auto* p, auto* cell) {
-    cell->parallel_halves = true;
-    cell->lateral = p[0];
+    using S = std::decay_t<decltype(p[0])>;
+    cell->two_parts = true;
+    cell->far_share = S(0.5);
+    cell->far_resistance = 0.5 * p[0];
   };
+  e.parts = true;
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) { return Strengths({0.02, 0.1}); };
   return e;

@@ -49,7 +49,7 @@ OperatingConditions<S> ConditionsAt(const EvaluationContext<S>& context,
       S(readings.voltage), S(readings.irradiance), S(readings.temperature_K),
       law.free_bandgap ? context.p[law.BandgapAt()] : S(context.readings.bandgap_eV),
       S(law.free_tempco ? 0.0 : context.readings.isc_tempco_per_K)};
-  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+  for (std::size_t e = 0; e < law.effects.size() && !readings.suns_voc; ++e) {
     const auto stage = law.effects[e]->conditions.template For<S>();
     if (stage != nullptr) stage(context.p + context.offsets[e], readings, &conditions);
   }
@@ -147,6 +147,26 @@ void ApplyCellStages(const EvaluationContext<S>& context, Cell<S>* cell) {
   }
 }
 
+// Changes a cell to one at open circuit, where every cell is under the full light. Returns the
+// voltage that it has then above the measured one: a cell under the part w gives n Vt ln w less.
+template <class S>
+S OpenCircuit(Cell<S>* cell) {
+  constexpr double kLeastLight = 1e-8;  // gives no voltage
+  cell->suns_voc = true;
+  cell->resistance = S(0.0);
+  cell->two_parts = false;
+  cell->reverse = ReverseLaw::kShunt;
+  S above = S(0.0);
+  for (int p = 0; p < cell->substrings; ++p) cell->substring[p].bypassed = false;
+  for (int g = 0; g < cell->groups && cell->groups > 1; ++g) {
+    CellGroup<S>& group = cell->group[g];
+    const S less = log(Larger(group.light, S(kLeastLight))) / cell->diode[0].inverse_n_vt;
+    if (!group.beside) above = above - group.share * less;
+    group.light = S(1.0);
+  }
+  return above;
+}
+
 template <class T>
 T Cut(const T& exponent) {
   return Smaller(exponent, T(kLargestExponent));
@@ -215,7 +235,8 @@ inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, con
 
 // Whether the series drop D(I) has terms beside I Rs.
 template <class S>
-bool HasMoreDrop(const EvaluationContext<S>& context) {
+bool HasMoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell) {
+  if (cell.suns_voc) return false;
   for (const Effect* effect : context.law.effects) {
     if (effect->ChangesSeries()) return true;
   }
@@ -239,7 +260,7 @@ Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell,
 inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
                                 const Dual<1, Pack>& current) {
   const Dual<1, Pack> drop = current * cell.resistance;
-  return HasMoreDrop(context) ? drop + MoreDrop(context, cell, current) : drop;
+  return HasMoreDrop(context, cell) ? drop + MoreDrop(context, cell, current) : drop;
 }
 
 // Current through the bypass diode beside a substring of `cells` cells, in current scales.

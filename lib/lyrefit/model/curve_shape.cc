@@ -73,7 +73,7 @@ CurveShape ShapeOf(const Readings& readings) {
   CurveShape shape;
   Points points;
   for (const Reading& r : readings.points) {
-    if (!r.dark) points.push_back({r.voltage, r.current});
+    if (!r.dark && !r.suns_voc) points.push_back({r.voltage, r.current});
   }
   if (points.size() < 2) return shape;
   std::sort(points.begin(), points.end());

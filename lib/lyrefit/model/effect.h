@@ -28,6 +28,9 @@ namespace LYREFIT_PUBLIC lyrefit {
 //   series      Vj = V + I Rs + drops that effects add at I
 //   instrument  recorded current
 //
+// A reading of a Suns-Voc trace has the stages `cell` and `junction` alone, without Rs. Every cell
+// then has the voltage of its own light: no cell drives another one.
+//
 // An effect is a named cause that changes one or several of these stages. It has its own range of
 // the parameter vector, and `p` points to the first of them. Each hook is a lambda over its number
 // type: packs of eight readings for the solver, duals of packs for derivatives. Hooks must not
@@ -47,6 +50,7 @@ struct ReadingBlock {
   int first = 0;  // position of the block's first reading
   int count = 0;  // number of readings from `first` on; unused lanes repeat the last one
   bool same_conditions = true;  // irradiance and temperature are the same in all lanes
+  bool suns_voc = false;        // as in Reading, the same in all lanes
 };
 
 // Operating conditions of a reading. A conditions stage corrects the sensor values.
@@ -119,12 +123,15 @@ struct Cell {
   S bypass;                          // voltage of a bypass diode at one current scale, V
   S bypass_ideality;                 // of the bypass diode
   ReverseLaw reverse = ReverseLaw::kShunt;
-  S reverse_strength;  // Bishop's a
-  S reverse_voltage;   // -Vbr of Bishop's law or A of the soft law, V, above 0
-  S reverse_exponent;  // m of either law
-  // Every cell has two halves; the second is connected through a lateral resistance.
-  bool parallel_halves = false;
-  S lateral;  // lateral resistance, in the unit of `resistance`
+  S reverse_strength;     // Bishop's a
+  S reverse_voltage;      // -Vbr of Bishop's law or A of the soft law, V, above 0
+  S reverse_exponent;     // m of either law
+  bool suns_voc = false;  // at open circuit: without any drop of voltage in series
+  // Every cell has two parts in parallel, both behind `resistance`: the far one has a resistance of
+  // its own besides.
+  bool two_parts = false;
+  S far_share;       // part of the area, between 0 and 1
+  S far_resistance;  // as if the whole cell were behind it, in the unit of `resistance`
 };
 
 // Solved readings, the input and output of instrument stages.
@@ -379,6 +386,7 @@ struct Effect {
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.
   bool groups = false;
+  bool parts = false;      // divides each cell into parts: only one effect of a law may
   bool elaborate = false;  // fitted only where no simpler effect describes the readings
   bool is_wiring = false;  // of the device: of its junction box, connectors or leads
   bool momentary = false;  // short compared with the sweep: it can imitate any outlier
@@ -405,7 +413,10 @@ struct Effect {
 // "unknown".
 std::string GroupOf(const Effect& effect);
 
-// Whether two different effects are incompatible in one law: both divide the cells into groups.
-inline bool Exclude(const Effect& a, const Effect& b) { return a.groups && b.groups; }
+// Whether two different effects are incompatible in one law: both divide the cells into groups, or
+// each cell into parts.
+inline bool Exclude(const Effect& a, const Effect& b) {
+  return (a.groups && b.groups) || (a.parts && b.parts);
+}
 
 }  // namespace lyrefit

@@ -42,9 +42,13 @@ class CellKeeper {
   bool Settle(const ReadingBlock& block) {
     conditions_ = ConditionsAt(context_, block);
     const bool same = known_ && block.same_conditions && last_.same_conditions &&
+                      block.suns_voc == last_.suns_voc &&
                       IsSame(block.temperature_K, last_.temperature_K) &&
                       IsSame(block.irradiance, last_.irradiance);
-    if (!varies_ && same) return false;
+    if (!varies_ && same) {
+      conditions_.voltage = conditions_.voltage + above_;
+      return false;
+    }
     if (!known_ || !IsSame(conditions_.temperature_K, warm_conditions_.temperature_K) ||
         !IsSame(conditions_.bandgap_eV, warm_conditions_.bandgap_eV)) {
       CellUnder(context_, conditions_, &warm_);
@@ -55,6 +59,8 @@ class CellKeeper {
                          Choose(block.rate < Pack(0.0), Pack(-1.0), Pack(0.0)));
     Light(context_, conditions_, &cell_);
     ApplyCellStages(context_, &cell_);
+    above_ = block.suns_voc ? OpenCircuit(&cell_) : S(0.0);
+    conditions_.voltage = conditions_.voltage + above_;
     last_ = block;
     known_ = true;
     return true;
@@ -68,6 +74,7 @@ class CellKeeper {
   bool known_ = false;
   ReadingBlock last_;
   OperatingConditions<S> conditions_;
+  S above_;  // voltage above the measured one, see OpenCircuit
   OperatingConditions<S> warm_conditions_;
   Cell<S> warm_;  // fields for the temperature of warm_conditions_ only
   Cell<S> cell_;
@@ -127,7 +134,7 @@ bool StartBeside(const ReadingBlock& before, const StringState& there, const Rea
   constexpr int kLast = Block::kLanes - 1;
   if (cell.groups == 1 || !there.Fits(cell) ||
       std::fabs(block.voltage[0] - before.voltage[kLast]) > kBeside_V ||
-      block.irradiance[0] != before.irradiance[kLast]) {
+      block.irradiance[0] != before.irradiance[kLast] || block.suns_voc != before.suns_voc) {
     return false;
   }
   state->groups = there.groups;
@@ -185,17 +192,18 @@ void AddJunction(const Place<S>& at, int group, const Pack& voltage, const Pack&
   if (HasMore(at.context, cell)) Add(factor, MoreCurrent(at.context, cell, light, S(voltage)), sum);
 }
 
-// Adds `factor` times the derivatives of a cell group's current, of both halves where cells are
-// half-cut.
+// Adds `factor` times the derivatives of a cell group's current, of both parts where cells have
+// two.
 template <class S>
 void AddGroup(const Place<S>& at, const StringState& state, const GroupPoint& point, int group,
               const Pack& factor, S* sum) {
-  const Pack near = at.plain.parallel_halves ? 0.5 * factor : factor;
+  if (!at.plain.two_parts) return AddJunction(at, group, state.u[group], factor, sum);
+  const Pack near = (1.0 - at.plain.far_share) * factor;
   AddJunction(at, group, state.u[group], near, sum);
-  if (!at.plain.parallel_halves) return;
-  const Pack far = near * point.follows;
+  const Pack far = at.plain.far_share * factor * point.follows;
   AddJunction(at, group, state.far[group], far, sum);
-  Add(0.5 * far * point.far.v[0] * point.far.a, at.cell.lateral, sum);
+  Add(far * point.far.v[0] * point.far.a, at.cell.far_resistance, sum);
+  Add(factor * factor / near * (point.far.a - point.current.a), at.cell.far_share, sum);
 }
 
 // The delivered current with its derivatives, from the slopes at the root.
@@ -211,14 +219,14 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
     if (plain.groups == 1 || !plain.substring[plain.group[g].substring].parallel) continue;
     const Pack& carried = root.group[g].current.a;
     Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
-    if (HasMoreDrop(at.context)) {
+    if (HasMoreDrop(at.context, at.cell)) {
       Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(carried)), &current);
     }
   }
   for (int s = 0; s < plain.strings; ++s) {
     Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);
     Add(slopes.by_terminal[s], voltage, &current);
-    if (!HasMoreDrop(at.context)) continue;
+    if (!HasMoreDrop(at.context, at.cell)) continue;
     Add(slopes.by_drop[s], MoreDrop(at.context, at.cell, S(state.current[s])), &current);
   }
   for (int p = 0; p < plain.substrings; ++p) {
@@ -322,16 +330,17 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
     if (!follows) Start(cell, limits, block, voltage, fresh, &at);
     const StringRoot root = SolveString(plain, cell, limits, voltage, &at, state.give_up);
+    const bool recorded_otherwise = instrument && !block.suns_voc;
     if constexpr (!kDerivatives) {
       const Pack recorded =
-          instrument ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;
+          recorded_otherwise ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;
       if (!AllFinite(recorded)) return false;
       StoreRows(recorded, block, 1, current);
     } else {
       cells.Settle(block);
       const Place<S> place{context, cells.cell(), cell};
       S recorded = DifferentiateCurrent(place, cells.conditions().voltage, at, root);
-      if (instrument) {
+      if (recorded_otherwise) {
         const S junction = DifferentiateJunction(place, at, root, recorded);
         recorded = Recorded(context, block, cells.cell(), recorded, junction);
       }

@@ -133,6 +133,8 @@ void AppendCurve(const IvCurve& curve, int index, bool dark, int cells, const Cu
     reading.curve = index;
     reading.index = static_cast<int>(k);
     reading.dark = dark;
+    reading.suns_voc = curve.suns_voc_A.has_value();
+    if (reading.suns_voc) reading.x = reading.rate = 0;
     reading.segment = segment;
     readings->points.push_back(reading);
   }
@@ -180,7 +182,7 @@ void SetTurns(Readings* readings) {
   for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
     while (last < points.size() && points[last].segment == points[first].segment) ++last;
     const bool same = first > 0 && points[first].curve == points[first - 1].curve;
-    if (same && before >= kLong && last - first >= kLong) {
+    if (same && !points[first].suns_voc && before >= kLong && last - first >= kLong) {
       turns.push_back(0.5 * (points[first - 1].x + points[first].x));
     }
     before = last - first;
@@ -217,13 +219,17 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     traits.highest_voltage = std::max(traits.highest_voltage, r.voltage);
     temperature.push_back(r.temperature_K);
     if (!r.dark) lit_irradiance.push_back(r.irradiance);
-    if (!r.dark && r.current < -0.01) traits.beyond_voc = true;
+    if (!r.dark && !r.suns_voc && r.current < -0.01) traits.beyond_voc = true;
     if (!r.dark) traits.largest_current = std::max(traits.largest_current, r.current);
   }
   traits.curves = static_cast<int>(set.curves.size());
   traits.only_dark = lit_irradiance.empty();
   traits.dark = any_dark && !traits.only_dark;
-  const bool one_curve = set.curves.size() == 1;
+  const auto traces = std::count_if(set.curves.begin(), set.curves.end(), [](const IvCurve& curve) {
+    return curve.suns_voc_A.has_value();
+  });
+  traits.suns_voc = traces > 0 && traces < static_cast<std::ptrdiff_t>(set.curves.size());
+  const bool one_curve = set.curves.size() - (traits.suns_voc ? traces : 0) == 1;
   traits.irradiance_levels = one_curve ? 1 : std::max(1, Levels(lit_irradiance, 0.02));
   traits.temperature_levels = Levels(temperature, 2);
   traits.single = one_curve;
@@ -238,7 +244,7 @@ void FindTraits(const CurveSet& set, Readings* readings) {
     traits.open_circuit = std::max(traits.open_circuit, OpenCircuit(readings->points, c));
     std::set<int> segments;
     for (const Reading& r : readings->points) {
-      if (r.curve == c) segments.insert(r.segment);
+      if (r.curve == c && !r.suns_voc) segments.insert(r.segment);
     }
     traits.up_down = traits.up_down || segments.size() > 1;
   }
@@ -319,6 +325,7 @@ void SetStepTimes(Readings* readings) {
   const std::vector<Reading>& points = readings->points;
   const std::vector<double>& turns = readings->traits.turns;
   for (std::size_t k = 1; k + 2 < points.size(); ++k) {
+    if (points[k].suns_voc || points[k + 1].suns_voc) continue;
     const double x = 0.5 * (points[k].x + points[k + 1].x);
     // A step at the turn is the difference of the directions.
     const bool at_turn =
@@ -335,6 +342,7 @@ void SetRangeCurrents(Readings* readings) {
   const std::vector<Reading>& points = readings->points;
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k].segment != points[k - 1].segment || points[k].dark) continue;
+    if (points[k].suns_voc) continue;
     for (const double part : {0.25, 0.5, 0.75}) {  // a jump moves one of the two
       places.push_back(points[k].current + part * (points[k - 1].current - points[k].current));
     }

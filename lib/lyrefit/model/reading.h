@@ -20,6 +20,7 @@ struct Reading {
   int curve = 0;             // position in the set
   int index = 0;             // position in its curve
   bool dark = false;         // its curve is dark
+  bool suns_voc = false;     // of a Suns-Voc trace: at open circuit, without series resistance
   int segment = 0;           // number of the monotone voltage sweep, over the whole set
   // For a mean of neighbouring readings: their number, and the mean square of their deviations from
   // it (in squared current scales, without the curve's own slope).
@@ -45,12 +46,13 @@ struct ReadingScale {
 // Properties of a measurement: they decide which effects it can show.
 struct DataTraits {
   int curves = 1;              // each with its own conditions
-  bool single = true;          // one curve only (any number of sweeps)
+  bool single = true;          // one curve only (any number of sweeps), or one beside Suns-Voc
   bool reverse = false;        // points well below 0 V
   bool beyond_voc = false;     // points of negative current in the light
   bool up_down = false;        // both directions under the same conditions
   bool dark = false;           // a dark curve beside a lit one
   bool only_dark = false;      // dark curves only
+  bool suns_voc = false;       // a Suns-Voc trace beside another curve
   int irradiance_levels = 1;   // of lit curves
   int temperature_levels = 1;  // of all curves
   bool module = false;         // more than one cell in series

@@ -6,7 +6,8 @@ namespace lyrefit {
 namespace {
 
 bool SameConditions(const Reading& a, const Reading& b) {
-  return a.irradiance == b.irradiance && a.temperature_K == b.temperature_K;
+  return a.irradiance == b.irradiance && a.temperature_K == b.temperature_K &&
+         a.suns_voc == b.suns_voc;
 }
 
 template <class F>
@@ -38,10 +39,11 @@ std::vector<ReadingBlock> BlocksOf(const Readings& readings) {
     ReadingBlock block;
     block.first = first;
     block.count = RunFrom(readings, first);
-    block.same_conditions = block.count >= kOwn;
+    block.suns_voc = readings.points[first].suns_voc;
+    block.same_conditions = block.count >= kOwn || block.suns_voc;
     while (!block.same_conditions && block.count < Block::kLanes && first + block.count < count) {
       const int next = RunFrom(readings, first + block.count);
-      if (next >= kOwn) break;
+      if (next >= kOwn || readings.points[first + block.count].suns_voc) break;
       block.count += next;
     }
     block.count = std::min(block.count, Block::kLanes);

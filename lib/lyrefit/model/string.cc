@@ -236,7 +236,7 @@ Mask Move(const Cell<Pack>& cell, const StringLimits& limits, const Terms& terms
     if (cell.substring[p].bypassed)
       sum = sum + abs(terms.bypass[p].v[0] * state->substring_voltage[p]);
     done = done & ((abs(missing) < kRounding * sum) | IsShort(step, u));
-    if (!cell.parallel_halves) continue;
+    if (!cell.two_parts) continue;
     const Pack far = state->far[g], way = (factor * step + point.behind) * point.follows;
     const Pack far_step = NextVoltage(cell, limits, far, way, point.far, size) - far;
     state->far[g] = far + far_step;

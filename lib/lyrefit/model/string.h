@@ -22,8 +22,8 @@
 namespace lyrefit {
 
 // State of the iteration for eight readings: junction voltages of the cell groups, voltages of the
-// substrings, currents of the strings. In half-cut cells `u` is the near half's and `far` the far
-// half's voltage. Voltages and currents of a string are scaled as if all cells were in that string.
+// substrings, currents of the strings. In cells of two parts `u` is the near part's and `far` the
+// far part's voltage. Voltages and currents of a string are scaled as if all cells were in that string.
 struct StringState {
   Pack u[kMostGroups];
   Pack far[kMostGroups];
@@ -47,13 +47,13 @@ struct StringLimits {
 };
 StringLimits LimitsOf(const Cell<Pack>& cell);
 
-// Current of a cell group at its junction voltage. With two halves, I = (F(u) + F(f)) / 2 and f = u
-// + R F(f) / 2. The far half is linearised, so that the current depends on u alone.
+// Current of a cell group at its junction voltage. With two parts, I = (1 - a) F(u) + a F(f) and
+// f = u + R F(f). The far part is linearised, so that the current depends on u alone.
 struct GroupPoint {
   Dual<1, Pack> current;  // with its slope by u
-  Dual<1, Pack> far;      // half-cut: F(f), with its slope
-  Pack follows;           // half-cut: df/du
-  Pack behind;            // half-cut: residual of the equation for f
+  Dual<1, Pack> far;      // two parts: F(f), with its slope
+  Pack follows;           // two parts: df/du
+  Pack behind;            // two parts: residual of the equation for f
 };
 
 // Derivatives of the delivered current by each term of the equations, at the root.

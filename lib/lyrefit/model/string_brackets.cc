@@ -149,7 +149,7 @@ class Bracketed {
       state->u[group] = Choose(outside, 0.5 * (low + high), next);
       const Pack step = state->u[group] - u;
       Mask done = (abs(missing) < kRounding * size) | IsShort(step, u);
-      if (cell_.parallel_halves) {
+      if (cell_.two_parts) {
         const Pack far = state->far[group], way = (step + point.behind) * point.follows;
         state->far[group] = NextVoltage(cell_, limits_, far, way, point.far, size);
         done = done & IsShort(state->far[group] - far, far);

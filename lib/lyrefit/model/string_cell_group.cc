@@ -44,14 +44,14 @@ GroupPoint PointOf(const EvaluationContext<Pack>& context, const Cell<Pack>& cel
                    const StringState& state) {
   GroupPoint point;
   point.current = JunctionCurrent(context, cell, group, Dual<1, Pack>(state.u[group], 0));
-  if (!cell.parallel_halves) return point;
+  if (!cell.two_parts) return point;
   point.far = JunctionCurrent(context, cell, group, Dual<1, Pack>(state.far[group], 0));
-  const Pack half = 0.5 * cell.lateral;
-  point.follows = 1.0 / (1.0 - half * point.far.v[0]);
-  point.behind = state.u[group] - state.far[group] + half * point.far.a;
+  const Pack far = cell.far_share, near = 1.0 - far;
+  point.follows = 1.0 / (1.0 - cell.far_resistance * point.far.v[0]);
+  point.behind = state.u[group] - state.far[group] + cell.far_resistance * point.far.a;
   point.current.a =
-      0.5 * (point.current.a + point.far.a + point.far.v[0] * point.behind * point.follows);
-  point.current.v[0] = 0.5 * (point.current.v[0] + point.far.v[0] * point.follows);
+      near * point.current.a + far * (point.far.a + point.far.v[0] * point.behind * point.follows);
+  point.current.v[0] = near * point.current.v[0] + far * (point.far.v[0] * point.follows);
   return point;
 }
 

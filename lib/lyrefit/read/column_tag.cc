@@ -20,7 +20,8 @@ constexpr std::pair<std::string_view, SweepDirection> kDirections[] = {
 constexpr std::pair<std::string_view, SweepLight> kLights[] = {
     {"dark", SweepLight::kDark},          {"light", SweepLight::kLight},
     {"lit", SweepLight::kLight},          {"illuminated", SweepLight::kLight},
-    {"illumination", SweepLight::kLight}, {"sunsvoc", SweepLight::kSunsVoc}};
+    {"illumination", SweepLight::kLight}, {"sunsvoc", SweepLight::kSunsVoc},
+    {"pseudo", SweepLight::kSunsVoc}};
 constexpr std::string_view kLamps[] = {"light", "lamp", "illumination", "led", "sun", "laser"};
 constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
 

@@ -105,7 +105,8 @@ struct IvCurve {
   // Set for a Suns-Voc trace: the light, as a photocurrent, at which its current is 0. A reading is
   // an open-circuit voltage at the photocurrent suns_voc_A - current_A.
   std::optional<double> suns_voc_A;
-  bool as_is = false;  // turns refusals of CheckReadings into doubts
+  bool pseudo_current = false;  // of a Suns-Voc trace: its readings were stated as currents
+  bool as_is = false;           // turns refusals of CheckReadings into doubts
 
   // Number of points.
   std::size_t size() const { return voltage_V.size(); }

@@ -57,13 +57,16 @@ block::Table JointMisfits(const CellReport& report, const JointEstimate& joint) 
     const CellSweep& sweep = report.sweeps[one.sweep];
     table.rows.push_back({sweep.name, Scientific(one.rms, 3),
                           std::isfinite(one.own_rms) ? Scientific(one.own_rms, 3) : "-",
-                          Scientific(one.noise, 2), sweep.kind == SweepKind::kSunsVoc ? "V" : "A"});
+                          Scientific(one.noise, 2),
+                          sweep.kind == SweepKind::kSunsVoc && !sweep.pseudo_current ? "V" : "A"});
   }
   return table;
 }
 
-// What is known of a part of the area behind a series resistance of its own.
+// What is known of a part of the area behind a series resistance of its own. Sheet and fingers of
+// sound cells are uneven too: only a large loss speaks of age.
 std::string ContactsText(const JointEstimate& joint) {
+  constexpr double kMostOfSound = 0.1;  // of the power, that series resistance costs new modules
   const std::string p = fmt::format("p = {}", Significant(joint.contacts_p, 2));
   if (!joint.contacts) return fmt::format("one series resistance is enough ({})", p);
   const auto value = [&](const char* symbol) {
@@ -73,11 +76,16 @@ std::string ContactsText(const JointEstimate& joint) {
   };
   std::string text = fmt::format(
       "{:.0f} % of the area is behind {} ohm, the rest behind {} ohm, each as if the whole device "
-      "were ({} of one resistance): corroded fingers or ribbons are like this",
+      "were ({} of one resistance)",
       100 * value("s"), Significant(value("Rc"), 3), Significant(value("Rs"), 3), p);
-  if (!std::isfinite(joint.contact_loss_W.value)) return text;
-  return text + fmt::format("; that costs {} W of the brightest curve",
-                            RangedText(joint.contact_loss_W, 3));
+  if (!joint.void_because.empty() || !std::isfinite(joint.series_loss)) return text;
+  text += fmt::format(
+      "; that part alone costs {} W, all series resistance {:.0f} % of the power without it",
+      RangedText(joint.contact_loss_W, 3), 100 * joint.series_loss);
+  if (joint.series_loss < kMostOfSound) return text + ", as in a new module";
+  return text +
+         ": corroded fingers or ribbons are like this; look for dark ones in an "
+         "electroluminescence image";
 }
 
 }  // namespace

@@ -35,6 +35,11 @@ ModelShape ShapeOf(const CellProblem& problem) {
 void ChainToProblem(const CellProblem& problem, const double* p, const std::vector<double>& device,
                     const double* by_device, const CellBlock& block, double by_light, double* row) {
   for (int i = 1; i < problem.device.size(); ++i) row[i - 1] = by_device[i];
+  if (block.pseudo) {
+    row[kRs - 1] = 0;
+    row[block.light] = by_device[kIph];
+    return;
+  }
   const double by_conductance = -by_device[kRsh] * device[kRsh] * device[kRsh];
   const double shunt = p[kRsh - 1];
   row[kRsh - 1] = -by_conductance / (shunt * shunt);
@@ -101,13 +106,17 @@ void CellModel::AddContacts(int block, const double* p, std::vector<double> devi
 bool CellModel::EvaluateCurve(int block, const double* p, double* residuals, double* slopes) const {
   const CellBlock& curve = problem_.blocks[block];
   const int size = shape().size(), points = static_cast<int>(curve.voltage_V.size());
-  const std::vector<double> device =
-      DeviceUnderLight(problem_, p, curve.light < 0 ? 0 : p[curve.light]);
+  std::vector<double> device = DeviceUnderLight(problem_, p, curve.light < 0 ? 0 : p[curve.light]);
+  if (curve.pseudo) {
+    device[kRs] = 0;
+    device[kRsh] = p[kRsh - 1];
+  }
   const int parameters = problem_.device.size();
   RowMatrix by_device(slopes != nullptr ? points : 0, parameters);
   ModelCurrents(problem_.device, Objective::kSolvedCurrent, device.data(), points_[block],
                 FastestKernel(), residuals, slopes != nullptr ? by_device.data() : nullptr);
-  if (problem_.contacts) AddContacts(block, p, device, residuals, &by_device, slopes);
+  if (problem_.contacts && !curve.pseudo)
+    AddContacts(block, p, device, residuals, &by_device, slopes);
   const double scale = problem_.error_A / curve.error;
   for (int k = 0; k < points; ++k) {
     residuals[k] = scale * (residuals[k] - curve.current_A[k]);

@@ -12,7 +12,10 @@ namespace lyrefit {
 // One measurement of a cell: a curve under one light or in the dark, or open-circuit voltages over
 // light.
 struct CellBlock {
-  bool open_circuit = false;      // open-circuit voltages over light
+  bool open_circuit = false;  // open-circuit voltages over light
+  // Pseudo currents of a Suns-Voc trace: the curve of `light` without series resistance, whose
+  // photocurrent is that of short circuit at every voltage.
+  bool pseudo = false;
   std::vector<double> voltage_V;  // of the readings
   std::vector<double> current_A;  // of the readings; of an open-circuit voltage its stated light
   // Position of the parameter of its light: the photocurrent of a curve, or the factor of the stated

@@ -63,6 +63,7 @@ struct CellSweep {
   std::vector<double> voltage_V;  // rising; equal voltages are averaged
   std::vector<double> current_A;  // of each voltage
   double suns_voc_A = kUnknown;   // see IvCurve::suns_voc_A
+  bool pseudo_current = false;    // see IvCurve::pseudo_current
   double noise_A = 0;             // of a current, from second differences
   int limited = 0;                // readings left out at a limit of the current
   KeyPoints key = {};             // of a lit sweep, read off the readings
@@ -258,7 +259,7 @@ struct Superposition {
 struct JointMeasurement {
   int sweep = 0;              // index into CellReport::sweeps
   int readings = 0;           // that are fitted
-  double rms = kUnknown;      // of the residuals: A, V of a Suns-Voc trace
+  double rms = kUnknown;      // of the residuals: A, V of a Suns-Voc trace that states its light
   double noise = kUnknown;    // of a reading, from second differences, in the same unit
   double own_rms = kUnknown;  // of the sweep's own fit
   // Standard error of each estimate without this measurement over that with all of them, at least 1;
@@ -279,7 +280,10 @@ struct JointEstimate : EstimateReport {
   // it: the measurements need it.
   bool contacts = false;
   double contacts_p = kUnknown;  // p-value of one series resistance against it
-  Ranged contact_loss_W;         // of the power of the brightest curve, beside the other part
+  // Power that this part loses under the brightest light, beside one with the resistance of the rest.
+  Ranged contact_loss_W;
+  double series_loss =
+      kUnknown;  // part of the power that all series resistance costs, with contacts
   std::vector<std::string> void_because;  // why one diode model is not behind all; empty: it may be
   std::string shunt;                      // what is known of shunt and collection
   // Part of the conductance at short circuit under the brightest light that goes with the light, as

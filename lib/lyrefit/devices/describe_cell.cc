@@ -16,6 +16,7 @@
 #include "lyrefit/devices/fill_factor_losses.h"
 #include "lyrefit/devices/ideality_over_light.h"
 #include "lyrefit/devices/joint_estimate.h"
+#include "lyrefit/devices/joint_problem.h"
 #include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/devices/superposition.h"
 #include "lyrefit/read/cells.h"
@@ -73,7 +74,7 @@ std::vector<int> LightsOf(const CellReport& report) {
     const bool known = std::any_of(lights.begin(), lights.end(), [&](int other) {
       return IsSameLight(report.sweeps[other], sweep);
     });
-    if (!known && sweep.key.short_circuit_current_A > 0) lights.push_back(static_cast<int>(i));
+    if (!known && IscOfSweep(sweep) > 0) lights.push_back(static_cast<int>(i));
   }
   std::stable_sort(lights.begin(), lights.end(), [&](int a, int b) {
     return report.sweeps[a].irradiance_W_m2 > report.sweeps[b].irradiance_W_m2;

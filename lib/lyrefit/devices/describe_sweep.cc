@@ -144,6 +144,7 @@ CellSweep Describe(const IvCurve& curve, double area_cm2) {
   sweep.irradiance_W_m2 = sweep.kind == SweepKind::kDark ? 0 : curve.conditions.irradiance_W_m2;
   sweep.irradiance_known = curve.irradiance_known || sweep.kind == SweepKind::kDark;
   sweep.suns_voc_A = curve.suns_voc_A.value_or(kUnknown);
+  sweep.pseudo_current = curve.pseudo_current;
   const Line line = MakeLine(curve.voltage_V, curve.current_A);
   sweep.voltage_V = line.x;
   sweep.current_A = line.y;

@@ -149,13 +149,14 @@ double NestedP(const JointCandidate& plain, const JointCandidate& richer, int ex
                      DegreesOfFreedom(richer.problem));
 }
 
-// Maximum power of the brightest curve. `contacts`: as it is; otherwise as if the whole area were
-// behind the smaller resistance.
-double PowerOf(const CellProblem& problem, const std::vector<double>& p, bool contacts) {
+// Maximum power of the brightest curve with these series resistances of its parts.
+double PowerOf(const CellProblem& problem, const std::vector<double>& p, double near_ohm,
+               double far_ohm) {
   std::vector<double> near = DeviceUnderLight(problem, p.data(), p[problem.blocks.front().light]);
   std::vector<double> far = near;
-  if (contacts) far[kRs] = p[problem.contact_resistance()];
-  const double share = p[problem.contact_share()];
+  near[kRs] = near_ohm;
+  far[kRs] = far_ohm;
+  const double share = problem.contacts ? p[problem.contact_share()] : 0;
   const auto power = [&](double voltage_V) {
     const auto current = [&](const std::vector<double>& device) {
       return SolveOperatingPoint(problem.device, device.data(), voltage_V).current_A;
@@ -165,17 +166,26 @@ double PowerOf(const CellProblem& problem, const std::vector<double>& p, bool co
   return power(MaximumBetween(power, 0, ModelOpenCircuit(problem.device, near.data())));
 }
 
-// Power that the brightest curve loses by contacts.
-Ranged ContactLoss(const JointCandidate& fit, const RefineEnd& end) {
+// What the series resistances cost under the brightest light.
+struct ResistanceLosses {
+  Ranged contacts_W;
+  double of_power = kUnknown;
+};
+
+ResistanceLosses FindResistanceLosses(const JointCandidate& fit, const RefineEnd& end) {
   const CellProblem& problem = fit.cell.problem;
   if (!fit.kind.contacts || problem.blocks.front().light < 0) return {};
+  const auto power = [&](const std::vector<double>& p) {
+    return PowerOf(problem, p, p[kRs - 1], p[problem.contact_resistance()]);
+  };
   const EstimateErrors errors = fit.problem.errors(end);
-  const Interval loss = DerivedInterval(
-      errors.spread, end.active, static_cast<int>(end.p.size()), StudentT95(errors.degrees), end.p,
-      [&](const std::vector<double>& p) {
-        return PowerOf(problem, p, /*contacts=*/false) - PowerOf(problem, p, /*contacts=*/true);
-      });
-  return {loss.value, std::max(0.0, loss.low_95), loss.high_95};
+  const Interval loss =
+      DerivedInterval(errors.spread, end.active, static_cast<int>(end.p.size()),
+                      StudentT95(errors.degrees), end.p, [&](const std::vector<double>& p) {
+                        return PowerOf(problem, p, p[kRs - 1], p[kRs - 1]) - power(p);
+                      });
+  return {{loss.value, std::max(0.0, loss.low_95), loss.high_95},
+          1 - power(end.p) / PowerOf(problem, end.p, 0, 0)};
 }
 
 // Standard errors without block `b`, over those with all, of independent errors.
@@ -216,7 +226,7 @@ std::vector<std::string> WhyVoid(const CellReport& report, const JointCell& cell
   std::vector<std::string> reasons;
   for (const JointMeasurement& one : joint.measurements) {
     const CellSweep& sweep = report.sweeps[one.sweep];
-    const bool trace = sweep.kind == SweepKind::kSunsVoc;
+    const bool trace = sweep.kind == SweepKind::kSunsVoc && !sweep.pseudo_current;
     const double part = one.rms / (trace ? cell.voc_V : cell.isc_A);
     const double times = one.rms / one.own_rms;
     if (part <= kMisfit && !(part > kNotShared && times > kTimesOwn)) continue;
@@ -315,7 +325,9 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   ShuntFound shunt = FindShunt(fit.cell.problem, found.end, joint);
   joint.collection_part = shunt.collection_part;
   joint.shunt = std::move(shunt.sentence);
-  joint.contact_loss_W = ContactLoss(fit, found.end);
+  const ResistanceLosses losses = FindResistanceLosses(fit, found.end);
+  joint.contact_loss_W = losses.contacts_W;
+  joint.series_loss = losses.of_power;
   return joint;
 }
 

@@ -85,11 +85,12 @@ void AddCurve(const CellSweep& sweep, JointCell* cell) {
   CellBlock block;
   block.voltage_V = sweep.voltage_V;
   block.current_A = sweep.current_A;
-  if (sweep.kind == SweepKind::kLit) {
+  block.pseudo = sweep.kind == SweepKind::kSunsVoc;
+  if (sweep.kind != SweepKind::kDark) {
     block.light = static_cast<int>(problem.parameters.size());
     Add({"Iph[" + sweep.name + "]", "photocurrent[" + sweep.name + "]", "A",
          "photocurrent of this curve", ParameterKind::kPhotocurrent},
-        0, kMostCellPhotocurrent * sweep.key.short_circuit_current_A, &problem);
+        0, kMostCellPhotocurrent * IscOfSweep(sweep), &problem);
   }
   cell->noise.push_back(sweep.noise_A);
   cell->least_error.push_back(LeastError(block.voltage_V.size(), sweep.noise_A, cell->isc_A));
@@ -120,7 +121,7 @@ void AddTrace(const CellSweep& sweep, bool lit, JointCell* cell) {
 void FindScales(const CellReport& report, const std::vector<int>& lights, int dark,
                 JointCell* cell) {
   const CellSweep& first = report.sweeps[lights.empty() ? dark : lights.front()];
-  cell->isc_A = lights.empty() ? -first.current_A.back() : first.key.short_circuit_current_A;
+  cell->isc_A = lights.empty() ? -first.current_A.back() : IscOfSweep(first);
   const double voc = first.key.open_circuit_voltage_V;  // NaN: not reached
   cell->voc_V = voc > 0 ? voc : first.voltage_V.back();
   cell->problem.current_scale_A = cell->isc_A;
@@ -171,6 +172,15 @@ ErrorModel IndependentErrors(std::size_t count, double error_A) {
 
 }  // namespace
 
+double IscOfSweep(const CellSweep& sweep) {
+  if (sweep.kind == SweepKind::kSunsVoc) return sweep.suns_voc_A;
+  const double isc = sweep.key.short_circuit_current_A;
+  if (!std::isnan(isc)) return isc;
+  const auto [low, high] = std::minmax_element(sweep.voltage_V.begin(), sweep.voltage_V.end());
+  if (!(*low < 0.5 * *high)) return isc;
+  return *std::max_element(sweep.current_A.begin(), sweep.current_A.end());
+}
+
 JointCell MakeJointCell(const CellReport& report, const std::vector<int>& lights, int dark,
                         const CellOptions& options, const JointKind& kind) {
   JointCell cell;
@@ -193,7 +203,11 @@ JointCell MakeJointCell(const CellReport& report, const std::vector<int>& lights
   for (std::size_t i = 0; i < report.sweeps.size(); ++i) {
     if (report.sweeps[i].kind != SweepKind::kSunsVoc) continue;
     if (PointsOfTrace(report.sweeps[i]).size() < 2) continue;
-    AddTrace(report.sweeps[i], !lights.empty(), &cell);
+    if (report.sweeps[i].pseudo_current) {
+      AddCurve(report.sweeps[i], &cell);
+    } else {
+      AddTrace(report.sweeps[i], !lights.empty(), &cell);
+    }
     cell.sweep.push_back(static_cast<int>(i));
   }
   for (std::size_t b = 0; b < cell.noise.size(); ++b) {
@@ -214,9 +228,8 @@ std::vector<std::vector<double>> JointStarts(const JointCell& cell, const CellRe
       const int light = problem.blocks[b].light;
       if (light < 0) continue;
       const CellSweep& sweep = report.sweeps[cell.sweep[b]];
-      p[light] = problem.blocks[b].open_circuit
-                     ? 1
-                     : sweep.key.short_circuit_current_A * (1 + p[kRs - 1] / shunt_ohm);
+      p[light] =
+          problem.blocks[b].open_circuit ? 1 : IscOfSweep(sweep) * (1 + p[kRs - 1] / shunt_ohm);
     }
     starts.push_back(std::move(p));
   };
@@ -231,7 +244,7 @@ std::vector<std::vector<double>> JointStarts(const JointCell& cell, const CellRe
     const double shunt = std::min(FittedValue(sweep, "Rsh").value, kNoShunt * ohm);
     add(p, shunt, 0);
     if (sweep.kind == SweepKind::kLit) {
-      add(p, kNoShunt * ohm, 1 / (shunt * sweep.key.short_circuit_current_A));
+      add(p, kNoShunt * ohm, 1 / (shunt * IscOfSweep(sweep)));
     }
   }
   return starts;

@@ -20,6 +20,10 @@ struct JointCell {
   double voc_V = 0;  // of the brightest curve; where it is not reached the largest voltage
 };
 
+// Isc of a lit sweep, photocurrent of a Suns-Voc trace. Of a lit one that begins above 0 V, but below half of its largest voltage, its largest
+// current; NaN of others.
+double IscOfSweep(const CellSweep& sweep);
+
 // What the device has beside one diode.
 struct JointKind {
   bool second_diode = false;  // of n = 2

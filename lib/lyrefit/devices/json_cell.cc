@@ -99,6 +99,7 @@ Json JointJson(const JointEstimate& joint) {
           {"contacts", joint.contacts},
           {"contacts_p", joint.contacts_p},
           {"contact_loss_W", joint.contact_loss_W},
+          {"series_loss", joint.series_loss},
           {"shunt", joint.shunt},
           {"converged", joint.refine.termination == "converged"},
           {"void_because", joint.void_because},

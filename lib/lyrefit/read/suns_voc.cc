@@ -89,6 +89,7 @@ Expected<void> LightToCurrent(const SunsVocColumns& columns, std::optional<doubl
 void SayIsTrace(IvCurve* curve) {
   if (curve->current_A.empty()) return;
   curve->suns_voc_A = *std::max_element(curve->current_A.begin(), curve->current_A.end());
+  curve->pseudo_current = true;
   curve->assumptions.emplace_back(
       "a Suns-Voc trace whose light the file gives as currents: series resistance is not in it");
 }

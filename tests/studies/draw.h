@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
+#include "lyrefit/model/model_points.h"  // SaturationCurrent
 
 namespace lyrefit {
 
@@ -19,11 +20,6 @@ inline double LogBetween(double low, double high, RandomStream* random) {
 // Uniform in {low, ..., high}.
 inline int WholeBetween(int low, int high, RandomStream* random) {
   return low + static_cast<int>(random->Index(static_cast<std::uint32_t>(high - low + 1)));
-}
-
-// Saturation current in ampere of a diode that carries `current_A` at `voltage_V`.
-inline double SaturationCurrent(double current_A, double voltage_V, double nNsVth) {
-  return current_A / std::expm1(voltage_V / nNsVth);
 }
 
 }  // namespace lyrefit

@@ -128,6 +128,7 @@ inline SampleFamily MakeSampleFamily(int curves) {
   report.correlations = {{"Is1", "n1", 0.998}};
   report.search.iterations = 60;
   report.search.evaluations = 1830;
+  report.curve_evaluations = 1830;
   report.search.termination = SearchTermination::kIterations;
   report.search.trace = {{0, 30, 0.2}, {60, 1830, 7.7e-3}};
   report.refine.termination = "converged";

@@ -104,7 +104,12 @@ Names PhotoshuntTwins(const Shape& shape, const Scene&) {
 
 // Lumped and distributed resistance, in parts of any size, are model variants of one cause.
 Names RsCurrentTwins(const Shape&, const Scene&) { return {"distributed_rs", "aged_contacts"}; }
-Names AgedContactsTwins(const Shape&, const Scene&) { return {"distributed_rs", "rs_current"}; }
+// Under one light the part that gives less also looks like cells of less current.
+Names AgedContactsTwins(const Shape&, const Scene& scene) {
+  Names twins = {"distributed_rs", "rs_current"};
+  if (OneLightSweep(scene) || scene.plan.kind == kRev) twins.emplace_back("mismatch");
+  return twins;
+}
 
 Names MismatchTwins(const Shape&, const Scene&) { return {"shading"}; }
 

@@ -25,7 +25,13 @@ TEST(FullReport, SaysWhatTheGoldenFileHas) {
       "fitted to the measured current",
       [](FitReport* report) { report->objective = Objective::kMeasuredCurrent; }, &golden);
   AddCase(
-      "no polish", [](FitReport* report) { report->polished = false; }, &golden);
+      "no polish",
+      [](FitReport* report) {
+        report->polished = false;
+        report->refine = {};
+        report->interval_seconds = 0;
+      },
+      &golden);
   AddCase(
       "interrupted", [](FitReport* report) { report->interrupted = true; }, &golden);
   AddCase(

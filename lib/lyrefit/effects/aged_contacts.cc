@@ -9,15 +9,14 @@ Effect AgedContacts() {
   e.title = "aged contacts behind a part of the cells";
   e.where = Where::kDevice;
   e.equation = "two parts of every cell, I = (1 - s) F(Va) + s F(Vb), Vb = Va + Rc F(Vb)";
-  e.reference =
-      "araujo1986 (distributed series resistance), with unequal parts; Suns-Voc: sintoncuevas2000";
+  e.reference = "araujo1986 (distributed series resistance, here in parts of unlike area)";
   e.sentence =
       "fingers or ribbons have corroded: a part of every cell passes its current through a "
       "resistance that the rest does not have";
   e.needs = "little noise before the knee";
   e.acts = "from half of the open-circuit voltage on: the part gives less and less";
   e.confused_with = {"distributed_rs", "weak_cell",  "leaky_cell", "graded_shunt",
-                     "substrings",     "rs_current", "scatter"};
+                     "substrings",     "rs_current", "scatter",    "mismatch"};
   e.separate_by =
       "the Suns-Voc curve of the same module, without its resistances, or a dark curve, or a "
       "second irradiance: the loss falls with the light";

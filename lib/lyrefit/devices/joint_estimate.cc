@@ -62,6 +62,7 @@ class JointCandidate {
   void Polish(const std::vector<std::vector<double>>& points, const EstimateOptions& options,
               const ProgressReporter& progress) {
     std::vector<EstimateStart> starts;
+    starts.reserve(points.size());
     for (const std::vector<double>& p : points) starts.push_back({"fit of a measurement", p});
     polished = PolishParameters(problem, std::move(starts), options, progress);
     if (kind.contacts && !p().empty()) OrderParts();

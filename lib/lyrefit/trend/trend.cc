@@ -30,6 +30,7 @@ std::vector<TrendReason> CountReasons(const std::vector<TrendRow>& rows) {
     if (reason.rows++ == 0) reason.reason = row.reason;
   }
   std::vector<TrendReason> counted;
+  counted.reserve(reasons.size());
   for (const auto& [text, reason] : reasons) counted.push_back(reason);
   return counted;
 }

@@ -11,6 +11,7 @@ TEST(RootBetween, IsExactToTheLastBit) {
   EXPECT_DOUBLE_EQ(RootBetween([&](double x) { return -square(x); }, 0, 2), std::sqrt(2.0));
   EXPECT_EQ(RootBetween(square, 3, 5), 3) << "no root: the nearer end";
   EXPECT_EQ(RootBetween(square, -9, -3), -3);
+  EXPECT_DOUBLE_EQ(RootBetween(square, 2, 0), std::sqrt(2.0)) << "ends in the other order";
 }
 
 TEST(LastWhere, EndsBesideTheFirstNumberThatDoesNotHold) {

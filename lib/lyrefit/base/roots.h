@@ -9,10 +9,11 @@
 
 namespace lyrefit {
 
-// Root of a continuous, finite function between `a` and a larger `b`, to the last bit, by
+// Root of a continuous, finite function between `a` and `b`, to the last bit, by
 // doi:10.1145/210089.210111. Without a change of sign: the end whose value is nearer to 0.
 template <class F>
 double RootBetween(const F& f, double a, double b) {
+  if (b < a) std::swap(a, b);
   const double at_a = f(a), at_b = f(b);
   if (!((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0))) {
     return std::fabs(at_b) < std::fabs(at_a) ? b : a;

@@ -108,7 +108,7 @@ Section JointSection(const CellReport& report) {
            fmt::format("{} (one against two, the second of n = 2: p = {})",
                        joint.second_diode ? "two" : "one", Significant(joint.second_diode_p, 2)),
            &section);
-  AddField("contacts", ContactsText(joint), &section);
+  if (std::isfinite(joint.contacts_p)) AddField("contacts", ContactsText(joint), &section);
   AddTable(JointParameters(report, joint), &section);
   AddUnidentifiable(joint.estimates, &section);
   AddField("shunt", joint.shunt, &section);

@@ -279,7 +279,8 @@ struct JointEstimate : EstimateReport {
   // A part of the area is behind a series resistance of its own, as corroded fingers and ribbons make
   // it: the measurements need it.
   bool contacts = false;
-  double contacts_p = kUnknown;  // p-value of one series resistance against it
+  double contacts_p =
+      kUnknown;  // p-value of one series resistance against it; NaN of a single cell
   // Power that this part loses under the brightest light, beside one with the resistance of the rest.
   Ranged contact_loss_W;
   double series_loss =

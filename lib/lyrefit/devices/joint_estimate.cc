@@ -305,8 +305,11 @@ std::optional<JointEstimate> FindJointEstimate(const CellReport& report,
   joint.second_diode = joint.second_diode_p < kSecondDiodeP;
   const JointCandidate& plain = joint.second_diode ? two : one;
   JointCandidate aged(report, lights, dark, options, {joint.second_diode, /*contacts=*/true});
-  aged.Polish(ContactStarts(aged.cell, plain.p()), estimate, progress);
-  joint.contacts_p = NestedP(plain, aged, 2);
+  // Laboratory cells depart from their model in more ways, which a small part of the area imitates.
+  if (report.cells_in_series > 1) {
+    aged.Polish(ContactStarts(aged.cell, plain.p()), estimate, progress);
+    joint.contacts_p = NestedP(plain, aged, 2);
+  }
   joint.contacts = joint.contacts_p < kContactsP;
   // A second diode may have been in the place of the contacts.
   JointCandidate alone(report, lights, dark, options, {/*second_diode=*/false, /*contacts=*/true});

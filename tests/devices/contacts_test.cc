@@ -166,5 +166,34 @@ TEST(Contacts, OneResistanceIsEnoughForEvenCells) {
   EXPECT_LE(named, 1);
 }
 
+IvCurve From(double least_V, const IvCurve& whole, double light) {
+  IvCurve part = whole;
+  part.voltage_V.clear();
+  part.current_A.clear();
+  part.conditions.irradiance_W_m2 = 1000 * light;
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    if (whole.voltage_V[k] < least_V) continue;
+    part.voltage_V.push_back(whole.voltage_V[k]);
+    part.current_A.push_back(whole.current_A[k] - (1 - light) * whole.current_A[0]);
+  }
+  return part;
+}
+
+TEST(Contacts, ACurveThatBeginsAboveZeroTakesPartWithoutAnIsc) {
+  std::mt19937 random(1);
+  CurveSet set = FlashOf(MakeModule(&random), true, &random);
+  const IvCurve whole = set.curves[0];
+  set.curves[0] = From(5, whole, 1);
+  set.curves.push_back(From(5, whole, 0.5));
+  set.curves.back().name = "half";
+  const auto report = DescribeCell(set, {});
+  ASSERT_TRUE(report && report->joint);
+  EXPECT_EQ(report->joint->measurements.size(), 3U);
+  EXPECT_TRUE(report->joint->contacts);
+  for (const SeriesResistance& one : report->series_resistance) {
+    EXPECT_NE(one.method, SeriesMethod::kTwoLights) << "it needs both Isc: " << one.missing;
+  }
+}
+
 }  // namespace
 }  // namespace lyrefit

@@ -11,6 +11,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/devices/cell_fields.h"
+#include "lyrefit/devices/choose_sweeps.h"
 #include "lyrefit/devices/compare_directions.h"
 #include "lyrefit/devices/describe_sweep.h"
 #include "lyrefit/devices/fill_factor_losses.h"
@@ -24,13 +25,6 @@
 namespace lyrefit {
 namespace {
 
-constexpr double kSameLight = 0.02;
-
-bool IsSameLight(const CellSweep& a, const CellSweep& b) {
-  return std::fabs(a.irradiance_W_m2 - b.irradiance_W_m2) <=
-         kSameLight * std::max(a.irradiance_W_m2, b.irradiance_W_m2);
-}
-
 // Numbers sweeps of one name: "forward, dark (2)".
 void NumberRepeats(std::vector<CellSweep>* sweeps) {
   std::map<std::string, int> seen;
@@ -38,60 +32,6 @@ void NumberRepeats(std::vector<CellSweep>* sweeps) {
     const int count = ++seen[sweep.name];
     if (count > 1) sweep.name += fmt::format(" ({})", count);
   }
-}
-
-// Brightest lit sweep, of equals the first; -1: none is lit.
-int BrightestOf(const std::vector<CellSweep>& sweeps) {
-  int main = -1;
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    if (sweeps[i].kind != SweepKind::kLit || !(sweeps[i].key.max_power_W > 0)) continue;
-    const bool brighter = main == -1 || (sweeps[i].irradiance_W_m2 > sweeps[main].irradiance_W_m2 &&
-                                         !IsSameLight(sweeps[i], sweeps[main]));
-    if (brighter) main = static_cast<int>(i);
-  }
-  return main;
-}
-
-// First sweep of this kind, one of the direction of `like` before others; -1: none.
-int FindSweep(const CellReport& report, SweepKind kind, const CellSweep& like) {
-  int found = -1;
-  for (std::size_t i = 0; i < report.sweeps.size(); ++i) {
-    if (report.sweeps[i].kind != kind) continue;
-    if (report.sweeps[i].direction == like.direction) return static_cast<int>(i);
-    if (found == -1) found = static_cast<int>(i);
-  }
-  return found;
-}
-
-// Lit sweeps of the direction of `main`, one a light, the brightest first.
-std::vector<int> LightsOf(const CellReport& report) {
-  std::vector<int> lights;
-  for (std::size_t i = 0; report.main != -1 && i < report.sweeps.size(); ++i) {
-    const CellSweep& sweep = report.sweeps[i];
-    if (sweep.kind != SweepKind::kLit || sweep.direction != report.sweeps[report.main].direction) {
-      continue;
-    }
-    const bool known = std::any_of(lights.begin(), lights.end(), [&](int other) {
-      return IsSameLight(report.sweeps[other], sweep);
-    });
-    if (!known && IscOfSweep(sweep) > 0) lights.push_back(static_cast<int>(i));
-  }
-  std::stable_sort(lights.begin(), lights.end(), [&](int a, int b) {
-    return report.sweeps[a].irradiance_W_m2 > report.sweeps[b].irradiance_W_m2;
-  });
-  return lights;
-}
-
-// Lit sweeps of the light of `main`, of both directions.
-std::vector<int> BrightestSweeps(const CellReport& report) {
-  std::vector<int> brightest;
-  for (std::size_t i = 0; report.main != -1 && i < report.sweeps.size(); ++i) {
-    const CellSweep& sweep = report.sweeps[i];
-    if (sweep.kind == SweepKind::kLit && IsSameLight(sweep, report.sweeps[report.main])) {
-      brightest.push_back(static_cast<int>(i));
-    }
-  }
-  return brightest;
 }
 
 std::vector<IdealityOverLight> FindIdealities(const std::vector<CellSweep>& sweeps,
@@ -170,7 +110,7 @@ double DarkRs(const CellReport& report) {
 
 std::vector<SeriesResistance> RsOfLights(const CellReport& report) {
   std::vector<SeriesResistance> list;
-  const std::vector<int> lights = LightsOf(report);
+  const std::vector<int> lights = LightsOf(report, ReachedIsc);
   for (std::size_t k = 1; k < lights.size(); ++k) {
     list.push_back(RsFromTwoLights(report.sweeps[lights[k - 1]], report.sweeps[lights[k]]));
   }
@@ -404,7 +344,7 @@ Expected<CellReport> DescribeCell(const CurveSet& cell, const CellOptions& optio
     report.pseudo = FindPseudo(report, options.constants);
   }
   if (options.fit) {
-    report.joint = FindJointEstimate(report, LightsOf(report),
+    report.joint = FindJointEstimate(report, LightsOf(report, IscOfSweep),
                                      report.dark ? report.dark->sweep : -1, options, observer);
   }
   if (report.joint) NameShuntLosses(*report.joint, &report.losses);

@@ -120,6 +120,7 @@ TEST(FillFactors, ThroughEndsKeepThem) {
   EXPECT_LT(FillFactorOf({0.035, 0.7, thermal, 1, 1e-3}), shunted);
   // A shunt that takes more than Isc leaves no diode.
   EXPECT_TRUE(std::isnan(FillFactorOf({0.035, 0.7, thermal, 0, 1})));
+  EXPECT_TRUE(std::isnan(FillFactorOf({5, 29.5, thermal}))) << "a module taken for one cell";
 }
 
 TEST(FillFactors, LossesAtShortCircuitAreNamedByTheSplitOfAllLights) {

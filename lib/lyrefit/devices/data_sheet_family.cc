@@ -18,7 +18,7 @@ namespace lyrefit {
 namespace {
 
 // Of Voc / (n Ns Vt): the diode law clips larger exponents. n = 1 has about 25.
-constexpr double kLargestExponent = 200;
+constexpr double kLargestSheetExponent = 200;
 // Of Voc / (n Ns Vt): no sheet has a member with a smaller one.
 constexpr double kSmallestExponent = 0.01;
 constexpr double kExponentStep = 1.05;
@@ -167,12 +167,12 @@ Expected<SheetSolver> MakeSolver(const DataSheet& sheet, ConstantSet constants) 
 }
 
 double LowestIdeality(const KeyPointSheet& sheet) {
-  return sheet.values.open_circuit_voltage_V / (sheet.thermal_V * kLargestExponent);
+  return sheet.values.open_circuit_voltage_V / (sheet.thermal_V * kLargestSheetExponent);
 }
 
 Expected<KeyPointCurve> FindLast(const SheetSolver& solver, FamilyBound* bound) {
   const double lowest = LowestIdeality(solver.points);
-  const double highest = lowest * kLargestExponent / kSmallestExponent;
+  const double highest = lowest * kLargestSheetExponent / kSmallestExponent;
   double inside = lowest;
   if (!PhysicalCurve(solver.points, inside)) {
     return Fail(fmt::format(

@@ -8,6 +8,7 @@
 
 #include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/term.h"
 
 namespace lyrefit {
 namespace {
@@ -134,7 +135,8 @@ double FillFactorOf(const DiodeThroughEnds& diode) {
   const auto per_ampere = [&](double v) { return DiodeCurrent(1.0, 1 / a, v); };
   const double saturation =
       (isc * (1 + rs * g) - voc * g) / (per_ampere(isc * rs) - per_ampere(voc));
-  if (!(saturation > 0)) return kUnknown;
+  // Beyond the largest exponent the model's diode is cut off: no device has that many volts a cell.
+  if (!(saturation > 0) || voc / a > kLargestExponent) return kUnknown;
   return PointsOf({voc * g - saturation * per_ampere(voc), saturation, 1, rs, g}, a).fill_factor;
 }
 

@@ -21,7 +21,8 @@ WORDS = {
     "VERBS": "fit|simulate|certify|compare|budget|sensitivity|inspect|datasheet|audit|diagnose|cell|trend|translate|pack|batch|merge|cite",
     "ALL_PAGMO": "|".join(f"pagmo:{name}" for name in (
         "de sade de1220 cmaes xnes pso pso_gen gwo bee_colony gaco sga ihs sea simulated_annealing").split()),
-    "EFFECTS": "second_diode|nonohmic_shunt|breakdown|collection|photoshunt|back_contact|rs_current|distributed_rs|aged_contacts|shading|"
+    "EFFECTS": "second_diode|nonohmic_shunt|breakdown|collection|photoshunt|back_contact|rs_current|distributed_rs|aged_contacts|"
+               "series_resistance|shading|"
                "mismatch|substrings|covered_edge|weak_cell|dim_cells|scatter|leaky_cell|graded_shunt|bypass_open|bypass_short|"
                "open_substring|drift|irr_step|transient|temp_drift|hysteresis|capacitance|timing_skew|clip|range_switch|outliers|"
                "quantisation|voltage_bins|current_offset|voltage_offset|sensor_offset|sensor_nonlin|temp_offset|temp_gradient|"

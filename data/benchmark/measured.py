@@ -40,6 +40,7 @@ CAUSE_OF = {
     "nonohmic_shunt": "shunt", "breakdown": "shunt", "bypass_open": "bypass_open", "bypass_short": "bypass_short",
     "open_substring": "bypass_short", "second_diode": "cell", "collection": "cell", "photoshunt": "cell",
     "back_contact": "cell", "rs_current": "cell", "distributed_rs": "cell", "aged_contacts": "cell", "superposition": "cell",
+    "series_resistance": "series_resistance",
     "drift": "light", "irr_step": "light", "transient": "light", "temp_drift": "light",
     "hysteresis": "hysteresis", "ionic_hysteresis": "hysteresis", "ions": "hysteresis", "capacitance": "hysteresis",
     "timing_skew": "hysteresis", "clip": "clip", "compliance": "clip", "range_switch": "range",

@@ -196,7 +196,8 @@ TEST(DiagnoseTest, ASunsVocTraceIsTheDeviceWithoutItsResistances) {
   ExpectComplete(aged);
   ASSERT_FALSE(aged.verdict.causes.empty());
   const Cause& cause = aged.verdict.causes.front();
-  EXPECT_EQ(cause.id, "aged_contacts");
+  EXPECT_EQ(cause.id, "distributed_rs");
+  EXPECT_EQ(cause.effect, "aged_contacts");
   ASSERT_EQ(cause.strength.size(), 2U);
   EXPECT_NEAR(cause.strength[0].value, 2, 0.2);
   EXPECT_NEAR(cause.strength[1].value, 0.35, 0.03);

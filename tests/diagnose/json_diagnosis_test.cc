@@ -49,8 +49,8 @@ TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
            "curves",          "points",   "device_findings"}));
   EXPECT_EQ(Keys(j["verdict"]),
             (Set{"found", "unexplained", "sentence", "causes", "below_floor", "lack_of_fit",
-                 "remaining", "comparison", "not_shown", "probability_none", "recoverable_power_W",
-                 "cannot_be_excluded"}));
+                 "remaining", "comparison", "not_shown", "probability_none", "resistance_loss",
+                 "fill_factor", "recoverable_power_W", "cannot_be_excluded"}));
   EXPECT_EQ(
       Keys(j["verdict"]["causes"][0]),
       (Set{"id",          "effect",      "title",          "sentence",     "equivalents",

@@ -15,6 +15,7 @@ struct FindingWords {
 };
 
 constexpr FindingWords kFindingWords[] = {
+    {"fill_factor", true, "fill_factor", "fill factor below that of healthy devices", "device"},
     {"leak", false, "leak", "leak above that of healthy devices", "device"},
     {"ideality", false, "ideality", "ideality above that of healthy devices", "device"},
     {"ideality", true, "low_ideality", "ideality below that of any junction", "conditions"},

@@ -147,4 +147,9 @@ KeyPoints FindKeyPoints(const std::vector<double>& voltage_V,
   return key;
 }
 
+double GreenFillFactor(double voc_V, double nNsVth) {
+  const double v = voc_V / nNsVth;
+  return (v - std::log(v + 0.72)) / (v + 1);
+}
+
 }  // namespace lyrefit

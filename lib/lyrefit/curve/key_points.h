@@ -26,6 +26,10 @@ struct KeyPoints {
 // curve, and if uneven spacing makes the parabola unreliable.
 KeyPoints FindKeyPoints(const std::vector<double>& voltage_V, const std::vector<double>& current_A);
 
+// Fill factor that Green's approximation gives an ideal diode: (v - ln(v + 0.72)) / (v + 1) with
+// v = Voc / (n Ns k T / q) (doi:10.1016/0038-1101(81)90062-9). Voltages in V.
+double GreenFillFactor(double voc_V, double nNsVth);
+
 // Index of the hysteresis of a sweep forward and one in reverse, by their powers,
 // (Pmp_rev - Pmp_fwd) / Pmp_rev: doi:10.1021/acsenergylett.8b01627.
 inline double HysteresisIndex(const KeyPoints& forward, const KeyPoints& reverse) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/term.h"
@@ -138,11 +139,6 @@ double FillFactorOf(const DiodeThroughEnds& diode) {
   // Beyond the largest exponent the model's diode is cut off: no device has that many volts a cell.
   if (!(saturation > 0) || voc / a > kLargestExponent) return kUnknown;
   return PointsOf({voc * g - saturation * per_ampere(voc), saturation, 1, rs, g}, a).fill_factor;
-}
-
-double GreenFillFactor(double voc_V, double nNsVth) {
-  const double v = voc_V / nNsVth;
-  return (v - std::log(v + 0.72)) / (v + 1);
 }
 
 FillFactorLosses FindFillFactorLosses(const CellSweep& lit) {

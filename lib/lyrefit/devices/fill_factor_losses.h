@@ -19,10 +19,6 @@ struct DiodeThroughEnds {
 // through the ends.
 double FillFactorOf(const DiodeThroughEnds& diode);
 
-// Fill factor that Green's approximation gives an ideal diode: (v - ln(v + 0.72)) / (v + 1) with
-// v = Voc / nNsVth (doi:10.1016/0038-1101(81)90062-9).
-double GreenFillFactor(double voc_V, double nNsVth);
-
 // Splits the fill factor of a lit sweep with a single-diode fit. In this order: n from 1 to the
 // fitted one, then the shunt, then the series resistance; each curve keeps Isc and Voc of the fit.
 // The rest is the fitted minus the measured fill factor. Intervals are by the delta method from the

@@ -36,8 +36,8 @@ constexpr HealthyLimit kHealthyLimits[] = {
      "twice that of modules, whose cells are sorted"},
     {JudgedQuantity::kLeak, DeviceClass::kThinFilm, 0.25,
      "doi:10.1038/ncomms7951: no shunt, poor collection"},
-    {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconModule, 0.14,
-     "72 modules without a fault"},
+    {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconModule, 0.11,
+     "eight new modules, 0.04 to 0.075, and 0.03 more"},
     {JudgedQuantity::kSeriesResistance, DeviceClass::kSiliconCell, 0.14, "as of modules"},
     {JudgedQuantity::kSeriesResistance, DeviceClass::kThinFilm, 0.25,
      "twice that of modules: contact layers"},
@@ -294,6 +294,27 @@ std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const 
       [](const DeviceFinding& a, const DeviceFinding& b) { return a.power_loss > b.power_loss; });
   if (causes.empty()) AddLowIdeality(device, &findings);  // a cause may change n
   return findings;
+}
+
+void AddFillFactor(const std::optional<FillFactor>& fill_factor, const std::vector<Cause>& causes,
+                   std::vector<DeviceFinding>* findings) {
+  constexpr double kMostOfIt = 0.5;
+  if (!fill_factor || !IsLow(*fill_factor) || !causes.empty()) return;
+  const FillFactor& fill = *fill_factor;
+  for (const DeviceFinding& finding : *findings) {
+    if (finding.power_loss > kMostOfIt * fill.lost.value) return;
+  }
+  findings->insert(
+      findings->begin(),
+      {"fill_factor", "FF", fill.value, fill.least, fill.lost.value,
+       fmt::format(
+           "has a fill factor of {:.3f}; modules of silicon without a fault have {:.3f} at "
+           "this voltage, {:.3f} at least: {:.0f} % of Pmax ({:.0f} to {:.0f}) is missing. "
+           "Aged contacts, shunts, recombination and weak cells draw such curves; a Suns-Voc "
+           "trace or a dark curve tells them apart",
+           fill.value.value, fill.usual, fill.least, 100 * fill.lost.value, 100 * fill.lost.low_95,
+           100 * fill.lost.high_95),
+       fill.if_silicon});
 }
 
 }  // namespace lyrefit

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lyrefit/diagnose/diagnosis.h"
+#include "lyrefit/diagnose/fill_factor.h"
 #include "lyrefit/diagnose/select.h"
 
 namespace lyrefit {
@@ -25,5 +27,10 @@ struct DeviceKind {
 std::vector<DeviceFinding> FindDeviceFindings(const Selection& selection, const DeviceKind& kind,
                                               const std::vector<Cause>& causes,
                                               const Floors& floors);
+
+// Adds a fill factor below that of modules without a fault, first, unless a cause is named or another
+// finding explains most of it.
+void AddFillFactor(const std::optional<FillFactor>& fill_factor, const std::vector<Cause>& causes,
+                   std::vector<DeviceFinding>* findings);
 
 }  // namespace lyrefit

@@ -21,6 +21,7 @@
 #include "lyrefit/diagnose/evidence.h"
 #include "lyrefit/diagnose/experiment_design.h"
 #include "lyrefit/diagnose/extended_report.h"
+#include "lyrefit/diagnose/fill_factor.h"
 #include "lyrefit/diagnose/held_out.h"
 #include "lyrefit/diagnose/known_effects.h"
 #include "lyrefit/diagnose/measurement.h"
@@ -334,11 +335,15 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   diagnosis.verdict = Decide(measurement, found, selected.at, prepared.options,
                              diagnosis.evidence.whiteness_after_p_value);
   DescribeRecoverable(found, &diagnosis.verdict);
+  Verdict& verdict = diagnosis.verdict;
+  const IvCurve& curve = prepared.set.curves.front();
+  JudgeFillFactor(found, curve.notes.technology, prepared.options, &verdict);
   const Floors floors = {prepared.options.floor_current, prepared.options.floor_power};
   diagnosis.device_findings = FindDeviceFindings(
-      found,
-      {prepared.set.curves.front().notes.technology, prepared.set.curves.front().irradiance_known},
-      diagnosis.verdict.causes, floors);
+      found, {curve.notes.technology, curve.irradiance_known}, verdict.causes, floors);
+  NameFillFactor(found, diagnosis.device_findings, selected.candidates,
+                 JudgeOptionsOf(measurement, prepared.options.priors), prepared.options, &verdict);
+  AddFillFactor(verdict.fill_factor, verdict.causes, &diagnosis.device_findings);
   DescribeVerdict(found, floors, diagnosis.device_findings, prepared.options.probability,
                   &diagnosis.verdict);
   diagnosis.trials = DescribeTrials(measurement.readings, found, prepared.known,

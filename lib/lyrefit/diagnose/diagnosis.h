@@ -162,6 +162,29 @@ struct DeviceFinding {
   bool if_silicon = false;          // within range of other technologies; nobody stated which it is
 };
 
+// What a module loses of its fill factor to series resistance.
+struct ResistanceLoss {
+  Sized part;               // of the fill factor: pseudo fill factor less fill factor
+  double usual = kUnknown;  // of new modules under the same light
+  double most = kUnknown;   // the most that new ones lose
+  Sized beyond_W;           // of Pmax, beyond what new ones lose; below 0: they lose more
+  // Largest height by which a chord over the sweep exceeds a reading, in Isc. Diodes and resistances
+  // give none: where there is one, a bypass diode or a cell in breakdown conducts.
+  double rise = 0;
+};
+
+// The fill factor of a module beside that of modules without a fault of the same Voc, number of cells,
+// temperature and light.
+struct FillFactor {
+  Sized value;              // without the causes that are named, resistances excepted
+  double usual = kUnknown;  // of modules without a fault
+  double least = kUnknown;  // the least that they have
+  Sized lost_W;             // of Pmax, against the usual one; below 0: it has more
+  Sized lost;               // the same as a part of the Pmax that the usual one would give
+  // No technology is stated, and a thin film may have it without a fault.
+  bool if_silicon = false;
+};
+
 // Conclusion of a diagnosis.
 struct Verdict {
   bool found = false;  // at least one cause is in `causes`
@@ -173,9 +196,12 @@ struct Verdict {
   std::vector<Cause> below_floor;
   Sized lack_of_fit;                   // of the base model beyond noise, rms in fractions of Isc
   double probability_none = kUnknown;  // that no cause above the floors acts
-  Sized recoverable_power_W;           // additional Pmax of the device without all causes
-  Sized remaining;                     // the same of the extended model
-  std::string comparison;  // of both with modules without a fault; empty if nothing was found
+  // Of modules of silicon in one sweep; the first by a Suns-Voc trace beside it only.
+  std::optional<ResistanceLoss> resistance_loss;
+  std::optional<FillFactor> fill_factor;
+  Sized recoverable_power_W;  // additional Pmax of the device without all causes
+  Sized remaining;            // the same of the extended model
+  std::string comparison;     // of both with modules without a fault; empty if nothing was found
   std::vector<CannotBeExcluded> cannot_be_excluded;  // effects that the data cannot show
   std::string not_shown;                             // the commonest of these in a few words
   std::string sentence;

@@ -11,7 +11,8 @@
 namespace lyrefit {
 namespace {
 
-// The device terms of a fit: base and device effects. `of`: position of each parameter in the fit.
+// The device terms of a fit: base and device effects. `of`: position of each parameter in the fit, -1
+// of one that is not the fit's.
 struct DeviceTerms {
   Law law;
   std::vector<double> p;
@@ -43,38 +44,62 @@ DeviceTerms DeviceTermsOf(const LawFit& fit) {
   return DeviceTermsOf(fit, [](int) { return true; });
 }
 
+// Without Rs and the effects that are resistances.
+DeviceTerms WithoutResistance(const LawFit& fit) {
+  DeviceTerms terms = DeviceTermsOf(fit, [&fit](int e) { return !fit.law.effects[e]->resistance; });
+  terms.p[kRs] = 0;
+  terms.of[kRs] = -1;
+  return terms;
+}
+
 // In current scales and V per cell.
 struct PowerPoint {
   double voltage = kUnknown;
   double power = kUnknown;
 };
 
+// Voltages per cell and currents in scales of a curve; empty if the law cannot be evaluated.
+struct CurveOfLaw {
+  std::vector<double> voltage, current;
+};
+
 // Up to voltages that end beyond open circuit, which without a cause may lie far beyond the
 // readings.
-PowerPoint FindPowerPoint(const Readings& bare, const DeviceTerms& terms) {
+CurveOfLaw CurveOf(const Readings& bare, const DeviceTerms& terms) {
   constexpr int kPoints = 400, kMostTimes = 6;
-  Readings grid;
-  std::vector<double> current(kPoints + 1, 1);
+  CurveOfLaw curve;
+  curve.current.assign(kPoints + 1, 1);
   double top = 1.1 * bare.pivot_voltage;
-  for (int times = 0; times < kMostTimes && current.back() > 0; ++times, top *= 1.5) {
-    grid = bare;
+  for (int times = 0; times < kMostTimes && curve.current.back() > 0; ++times, top *= 1.5) {
+    Readings grid = bare;
     grid.points.resize(kPoints + 1, bare.points.front());
     for (int k = 0; k <= kPoints; ++k) grid.points[k].voltage = top * k / kPoints;
     LawWorkspace workspace;
-    if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, current.data(), nullptr)) {
+    if (!EvaluateLaw(terms.law, grid, terms.p.data(), &workspace, curve.current.data(), nullptr)) {
       return {};
     }
+    curve.voltage.clear();
+    for (const Reading& reading : grid.points) curve.voltage.push_back(reading.voltage);
   }
+  return curve;
+}
+
+PowerPoint FindPowerPoint(const Readings& bare, const DeviceTerms& terms) {
+  const auto [voltage, current] = CurveOf(bare, terms);
+  if (voltage.empty()) return {};
+  const int last = static_cast<int>(voltage.size()) - 1;
   int best = 0;
-  const auto power = [&](int k) { return grid.points[k].voltage * current[k]; };
-  for (int k = 1; k <= kPoints; ++k) best = power(k) > power(best) ? k : best;
-  PowerPoint peak = {grid.points[best].voltage, power(best)};
-  if (best > 0 && best < kPoints) {  // vertex of the parabola
+  const auto power = [&voltage = voltage, &current = current](int k) {
+    return voltage[k] * current[k];
+  };
+  for (int k = 1; k <= last; ++k) best = power(k) > power(best) ? k : best;
+  PowerPoint peak = {voltage[best], power(best)};
+  if (best > 0 && best < last) {  // vertex of the parabola
     const double a = power(best - 1), b = power(best), c = power(best + 1);
     const double bend = a - 2 * b + c;
     if (bend < 0) {
       peak.power = b - (a - c) * (a - c) / (8 * bend);
-      peak.voltage += grid.points[1].voltage * (a - c) / (2 * bend);
+      peak.voltage += voltage[1] * (a - c) / (2 * bend);
     }
   }
   return peak;
@@ -100,7 +125,7 @@ std::vector<double> SlopesOfPower(const LawFit& fit, Readings bare, const Device
   if (!coordinates.Evaluate(theta.data(), &workspace, &current, derivative.data())) return {};
   std::vector<double> by(fit.p.size(), 0.0);
   for (std::size_t k = 0; k < terms.of.size(); ++k) {
-    by[terms.of[k]] = derivative[k] * peak.power / current;
+    if (terms.of[k] >= 0) by[terms.of[k]] = derivative[k] * peak.power / current;
   }
   return by;
 }
@@ -169,6 +194,19 @@ PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index
 
 PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit) {
   return GainTo(weighted, fit, DeviceTermsOf(fit, [](int) { return false; }));
+}
+
+PowerGain GainWithoutResistance(const WeightedData& weighted, const LawFit& fit) {
+  return GainTo(weighted, fit, WithoutResistance(fit));
+}
+
+KeyPoints DeviceKeyPoints(const WeightedData& weighted, const LawFit& fit) {
+  CurveOfLaw curve = CurveOf(InBrightestLight(*weighted.readings), DeviceTermsOf(fit));
+  if (curve.voltage.empty()) return {};
+  const ReadingScale& scale = weighted.readings->scale;
+  for (double& voltage : curve.voltage) voltage *= scale.cells;
+  for (double& current : curve.current) current *= scale.current_A;
+  return FindKeyPoints(curve.voltage, curve.current);
 }
 
 LawFit TakenOut(const LawFit& fit, int index) {

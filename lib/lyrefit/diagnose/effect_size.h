@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lyrefit/curve/key_points.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
@@ -39,6 +40,11 @@ struct PowerGain {
 // Of the device without effect number `index`, or without all of its device effects.
 PowerGain GainWithout(const WeightedData& weighted, const LawFit& fit, int index);
 PowerGain GainWithoutEffects(const WeightedData& weighted, const LawFit& fit);
+// Of the device without any series resistance.
+PowerGain GainWithoutResistance(const WeightedData& weighted, const LawFit& fit);
+
+// Key points of the device alone under the brightest light, in V, A and W.
+KeyPoints DeviceKeyPoints(const WeightedData& weighted, const LawFit& fit);
 
 // The fit with effect number `index` removed from its law, or with all effects removed. Remaining
 // parameters, sum and currents are copied unchanged, without a new fit.

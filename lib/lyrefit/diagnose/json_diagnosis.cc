@@ -94,9 +94,11 @@ void to_json(Json& j, const Cause& cause) {
        {"points", cause.points}};
 }
 
+LYREFIT_JSON_FIELDS(ResistanceLoss, part, usual, most, beyond_W, rise)
+LYREFIT_JSON_FIELDS(FillFactor, value, usual, least, lost_W, lost, if_silicon)
 LYREFIT_JSON_FIELDS(Verdict, found, unexplained, sentence, causes, below_floor, lack_of_fit,
-                    remaining, comparison, probability_none, recoverable_power_W,
-                    cannot_be_excluded, not_shown)
+                    remaining, comparison, probability_none, resistance_loss, fill_factor,
+                    recoverable_power_W, cannot_be_excluded, not_shown)
 
 void to_json(Json& j, const DeviceFinding& finding) {
   j = {{"id", finding.id},

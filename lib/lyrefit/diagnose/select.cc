@@ -122,8 +122,8 @@ double NothingMaterial(const Hypotheses& step) {
   return std::min(probability, 1.0);  // a sum of shares may exceed one by rounding
 }
 
-// Least current by which one more cause must change a sweep. In one direction unlike cells and light
-// that moves are described in part, in both a device that depends on its past, which settles in time
+// Least current by which one more cause must change a sweep. In one direction unlike cells or parts
+// of cells and light that moves are described in part, in both a device that depends on its past, which settles in time
 // as well: what is small beside them may be how they are in detail.
 double LeastOfAnother(const SelectionState& now) {
   const DataTraits& traits = now.weighted.readings->traits;
@@ -131,7 +131,8 @@ double LeastOfAnother(const SelectionState& now) {
   const bool in_part =
       std::any_of(now.causes.begin(), now.causes.end(), [both](const ChosenCause& cause) {
         const Effect& effect = *cause.effect;
-        return both ? effect.by_sweep : effect.groups || effect.where == Where::kSweep;
+        return both ? effect.by_sweep
+                    : effect.groups || effect.parts || effect.where == Where::kSweep;
       });
   if (!in_part || !traits.single) return 0;
   return kLeastPartOfAnother * LackOfFit(now.weighted, now.base, now.fit.current);

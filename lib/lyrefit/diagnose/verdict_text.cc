@@ -66,9 +66,10 @@ std::string Measured(int curves) { return curves > 1 ? "These curves" : "One swe
 std::string FindingText(const DeviceFinding& finding) {
   const double value = finding.value.value;
   std::string what =
-      finding.id == "leak"       ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
-      : finding.id == "ideality" ? fmt::format("n = {:.2f}", value)
-                                 : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
+      finding.id == "leak"          ? fmt::format("a leak of {:.1f} % of Isc at Voc", 100 * value)
+      : finding.id == "fill_factor" ? fmt::format("a fill factor of {:.2f}", value)
+      : finding.id == "ideality"    ? fmt::format("n = {:.2f}", value)
+                                    : fmt::format("{:.1f} % of Voc lost across Rs", 100 * value);
   if (!std::isfinite(finding.power_loss)) return what;
   return fmt::format("{} ({:+.1f} % of Pmax)", what, -100 * finding.power_loss);
 }

@@ -7,6 +7,7 @@ Effect AgedContacts() {
   Effect e;
   e.id = "aged_contacts";
   e.title = "aged contacts behind a part of the cells";
+  e.finding = "distributed_rs";
   e.where = Where::kDevice;
   e.equation = "two parts of every cell, I = (1 - s) F(Va) + s F(Vb), Vb = Va + Rc F(Vb)";
   e.reference = "araujo1986 (distributed series resistance, here in parts of unlike area)";
@@ -39,6 +40,7 @@ Effect AgedContacts() {
     cell->far_resistance = p[0];
   };
   e.parts = true;
+  e.resistance = true;
   e.why_not = [](const DataTraits& traits) -> WhyNot {
     if (auto why = NeedsLight(traits)) return why;
     if (!traits.module) return "needs cells in series";
@@ -46,6 +48,10 @@ Effect AgedContacts() {
   };
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.1, 0.2}, {0.2, 0.4}, {0.5, 0.2}, {0.5, 0.5}, {1.0, 0.1}};
+  };
+  e.starts = [](const CurveShape&, const DataTraits&,
+                const std::vector<ParameterBounds>&) -> std::vector<ShapeStart> {
+    return {{{0.15, 0.4}, {}}, {{0.4, 0.4}, {}}, {{0.4, 0.7}, {}}, {{1.0, 0.3}, {}}};
   };
   return e;
 }

@@ -15,6 +15,7 @@ namespace lyrefit {
   ENTRY(RsCurrent)                 \
   ENTRY(DistributedRs)             \
   ENTRY(AgedContacts)              \
+  ENTRY(SeriesResistance)          \
   ENTRY(Shading)                   \
   ENTRY(Mismatch)                  \
   ENTRY(Substrings)                \

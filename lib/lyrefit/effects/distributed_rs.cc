@@ -34,6 +34,7 @@ Effect DistributedRs() {
     cell->far_resistance = 0.5 * p[0];
   };
   e.parts = true;
+  e.resistance = true;
   e.why_not = NeedsLight;
   e.probes = [](const DataTraits&) { return Strengths({0.02, 0.1}); };
   return e;

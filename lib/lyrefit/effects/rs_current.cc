@@ -31,6 +31,7 @@ Effect RsCurrent() {
     return Choose(beyond, Choose(current < 0.0, -drop, drop), current * size * p[0]);
   };
   e.why_not = NeedsLight;
+  e.resistance = true;
   e.probes = [](const DataTraits&) { return Strengths({0.01, -0.005}); };
   return e;
 }

@@ -386,12 +386,13 @@ struct Effect {
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.
   bool groups = false;
-  bool parts = false;      // divides each cell into parts: only one effect of a law may
-  bool elaborate = false;  // fitted only where no simpler effect describes the readings
-  bool is_wiring = false;  // of the device: of its junction box, connectors or leads
-  bool momentary = false;  // short compared with the sweep: it can imitate any outlier
-  bool by_sweep = false;   // its cell stage depends on Cell::sweep
-  int diode = 0;           // number of the diode it adds; a base with that many diodes includes it
+  bool parts = false;       // divides each cell into parts: only one effect of a law may
+  bool resistance = false;  // a series resistance beside Rs
+  bool elaborate = false;   // fitted only where no simpler effect describes the readings
+  bool is_wiring = false;   // of the device: of its junction box, connectors or leads
+  bool momentary = false;   // short compared with the sweep: it can imitate any outlier
+  bool by_sweep = false;    // its cell stage depends on Cell::sweep
+  int diode = 0;            // number of the diode it adds; a base with that many diodes includes it
 
   // Id of what a diagnosis reports.
   std::string Finding() const { return *finding != '\0' ? finding : id; }

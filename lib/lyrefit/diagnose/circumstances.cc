@@ -19,7 +19,8 @@ std::map<const Effect*, Effect> MakeUnlikeCells() {
         "that the lamp lights the module evenly";
     own.separate_by =
         "flash the module turned end for end: what the lamp does stays, what the cells do turns "
-        "with them; an electroluminescence image";
+        "with them; an electroluminescence image; of a bifacial module the other face, since "
+        "polarisation (PID-p) is of one";
     return own;
   };
   for (const char* id : {"weak_cell", "mismatch", "scatter"}) add(id);

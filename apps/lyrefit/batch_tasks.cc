@@ -12,8 +12,9 @@ namespace {
 
 // Options of the diagnosis that a row can report: without the gain on held-out readings and without
 // a plan.
-const std::vector<std::string> kDiagnoseRows = {
-    "base", "effects", "probability", "priors", "floor-current", "floor-power", "largest-causes"};
+const std::vector<std::string> kDiagnoseRows = {"base",          "effects",     "probability",
+                                                "priors",        "setup",       "age",
+                                                "floor-current", "floor-power", "largest-causes"};
 
 // Flags declared by AddSharedTaskFlags and by the batch itself; its --plan is that of a plant.
 bool IsShared(const std::string& flag) {

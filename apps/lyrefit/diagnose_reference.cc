@@ -98,7 +98,10 @@ Expected<int> RunModule(const VerbLine& verb, const DiagnoseRequest& request) {
 }
 
 Expected<int> RunReferences(const VerbLine& verb, const DiagnoseRequest& request) {
-  TRY(const auto sweep, ReadSweeps(request, request.files, request.conditions));
+  TRY(auto sweep, ReadSweeps(request, request.files, request.conditions));
+  if (request.options.setup != Setup::kUnknown) {
+    for (IvCurve& curve : sweep) curve.notes.setup = request.options.setup;
+  }
   if (sweep.size() != 1) {
     return Fail(
         fmt::format("--reference compares one sweep, this measurement has {} curves", sweep.size()),

@@ -83,5 +83,15 @@ TEST(ValidateTest, NamesWhatEveryFitWouldStumbleOver) {
   }
 }
 
+TEST(FindSetupTest, KnowsTheWordsOfSetups) {
+  EXPECT_EQ(FindSetup("Flasher: class A+A+A+"), Setup::kFlash);
+  EXPECT_EQ(FindSetup("# Sun simulator"), Setup::kFlash);
+  EXPECT_EQ(FindSetup("LIV of the night shift"), Setup::kLaboratory);
+  EXPECT_EQ(FindSetup("Outdoor measurement"), Setup::kOutdoor);
+  EXPECT_EQ(FindSetup("Smart I-V curve diagnosis"), Setup::kInverter);
+  EXPECT_EQ(FindSetup("Flashlight 3, delivery of aaab"), Setup::kUnknown);
+  EXPECT_EQ(FindSetup("inverter: SMA"), Setup::kUnknown);  // of the plant, not of the sweep
+}
+
 }  // namespace
 }  // namespace lyrefit

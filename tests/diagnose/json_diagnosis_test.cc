@@ -40,13 +40,30 @@ TEST(DiagnosisJson, HoldsThePlanWhereOneWasAskedFor) {
 
 TEST(DiagnosisJson, HoldsExactlyTheKeysOfTheContract) {
   const json j = json::parse(DiagnosisJson(SampleDiagnosis()));
-  EXPECT_EQ(
-      Keys(j),
-      (Set{"lyrefit_version", "name",     "source",         "base",        "base_sentence",
-           "objective",       "seed",     "floor_current",  "floor_power", "probability",
-           "verdict",         "gain",     "evidence",       "trials",      "non_default_options",
-           "assumptions",     "warnings", "interrupted",    "usable",      "seconds",
-           "curves",          "points",   "device_findings"}));
+  EXPECT_EQ(Keys(j), (Set{"lyrefit_version",
+                          "name",
+                          "source",
+                          "setup",
+                          "base",
+                          "base_sentence",
+                          "objective",
+                          "seed",
+                          "floor_current",
+                          "floor_power",
+                          "probability",
+                          "verdict",
+                          "gain",
+                          "evidence",
+                          "trials",
+                          "non_default_options",
+                          "assumptions",
+                          "warnings",
+                          "interrupted",
+                          "usable",
+                          "seconds",
+                          "curves",
+                          "points",
+                          "device_findings"}));
   EXPECT_EQ(Keys(j["verdict"]),
             (Set{"found", "unexplained", "sentence", "causes", "below_floor", "lack_of_fit",
                  "remaining", "comparison", "not_shown", "probability_none", "resistance_loss",

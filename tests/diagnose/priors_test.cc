@@ -57,5 +57,42 @@ TEST(PriorsNamedTest, AlikeGivesAllTheSame) {
   EXPECT_EQ(alike->Of("shading", true), alike->Of("clip", false));
 }
 
+TEST(PriorFactorTableTest, NamesEffectsAndItsSources) {
+  for (const PriorFactor& factor : PriorFactorTable()) {
+    EXPECT_NE(FindEffect(factor.id), nullptr) << factor.id;
+    EXPECT_STRNE(factor.source, "") << factor.id;
+    EXPECT_FALSE(factor.holds({})) << factor.id << ": the table's number is that of no setup";
+    EXPECT_FALSE(factor.holds({Setup::kOutdoor, true, false, "c-Si", 5})) << factor.id;
+  }
+}
+
+TEST(PriorFactorTableTest, SetupAgeAndTechnologyCount) {
+  CausePriors priors;
+  const auto in = [&](const Circumstances& where, const char* id) {
+    priors.where = where;
+    return priors.Of(id, true) / CausePriors().Of(id, true);
+  };
+  EXPECT_LT(in({Setup::kFlash, true}, "shading"), 1);
+  EXPECT_LT(in({Setup::kLaboratory, true}, "shading"), 1);
+  EXPECT_EQ(in({Setup::kOutdoor, true}, "shading"), 1);
+  EXPECT_LT(in({Setup::kUnknown, true, false, "", 0.5}, "aged_contacts"), 1);
+  EXPECT_EQ(in({Setup::kUnknown, true, false, "", 5}, "aged_contacts"), 1);
+  EXPECT_GT(in({Setup::kUnknown, true, false, "", 15}, "aged_contacts"), 1);
+  EXPECT_GT(in({Setup::kUnknown, true, false, "CdTe", {}}, "nonohmic_shunt"), 1);
+  priors.given["shading"] = 0.25;  // replaces number and factor
+  priors.where = {Setup::kFlash, true};
+  EXPECT_EQ(priors.Of("shading", true), 0.25);
+}
+
+TEST(WhyNotThereTest, NoSkyInAFlasherAndNoChargeInSlowSweeps) {
+  for (const char* id : {"irr_step", "transient", "drift", "temp_drift"}) {
+    EXPECT_NE(WhyNotThere(id, {Setup::kFlash, true}), nullptr) << id;
+    EXPECT_EQ(WhyNotThere(id, {Setup::kOutdoor, true}), nullptr) << id;
+  }
+  EXPECT_NE(WhyNotThere("capacitance", {Setup::kOutdoor, true, true}), nullptr);
+  EXPECT_EQ(WhyNotThere("capacitance", {Setup::kOutdoor, true, false}), nullptr);
+  EXPECT_NE(WhyNotThere("quantisation", {Setup::kInverter, true}), nullptr);
+}
+
 }  // namespace
 }  // namespace lyrefit

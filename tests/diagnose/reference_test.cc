@@ -216,5 +216,54 @@ TEST(FindOutlierSweeps, RefusesTooFewAndOtherModules) {
   EXPECT_THAT(FindOutlierSweeps(sweeps).error().message, HasSubstr("not sweeps of one module"));
 }
 
+// A module in one light, with part of its current and of its voltage left.
+IvCurve WithLess(double current, double volts) {
+  IvCurve curve = SyntheticCurve({"face", 60, 60});
+  for (double& i : curve.current_A) i *= current;
+  for (double& v : curve.voltage_V) v -= volts;
+  curve.notes.setup = Setup::kFlash;
+  return curve;
+}
+
+std::vector<std::string> CauseIds(const ReferenceComparison& c) {
+  std::vector<std::string> ids;
+  for (const ReferenceCause& cause : c.causes) ids.push_back(cause.id);
+  return ids;
+}
+
+TEST(CompareWithReferences, OneReferenceTellsPolarisationFromLessLight) {
+  const std::vector<IvCurve> before = {WithLess(1, 0)};
+  const ReferenceComparison same = Compare(WithLess(1.001, 0), before);
+  EXPECT_FALSE(same.differs) << same.sentence;
+  // 20 % less current takes some 0.4 V of 38 V by itself.
+  const ReferenceComparison polarised = Compare(WithLess(0.8, 2), before);
+  EXPECT_THAT(CauseIds(polarised),
+              ::testing::ElementsAre("polarisation", "degradation", "less_light"));
+  for (const char* words : {"PID-p", "LeTID", "the other face", "days of sun"}) {
+    EXPECT_THAT(polarised.sentence, HasSubstr(words));
+  }
+  const ReferenceComparison dirty = Compare(WithLess(0.8, 0.4), before);
+  EXPECT_THAT(CauseIds(dirty), ::testing::ElementsAre("less_light"));
+  EXPECT_THAT(dirty.sentence, HasSubstr("soiling"));
+}
+
+TEST(CompareWithReferences, OneReferenceShowsShuntsOfManyCells) {
+  const std::vector<IvCurve> before = {WithLess(1, 0)};
+  const ReferenceComparison c = Compare(WithLeak(before.front(), 0.03), before);
+  EXPECT_THAT(CauseIds(c), Contains("shunt"));
+  for (const char* words : {"PID-s", "a fifth of the light", "dark at 60 C"}) {
+    EXPECT_THAT(c.sentence, HasSubstr(words));
+  }
+}
+
+TEST(CompareWithReferences, FewReferencesNeedStatedAndLikeLight) {
+  IvCurve unknown = WithLess(1, 0);
+  unknown.irradiance_known = false;
+  EXPECT_FALSE(CompareWithReferences(WithLess(1, 0), {unknown}));
+  IvCurve dim = WithLess(0.5, 0);
+  dim.conditions.irradiance_W_m2 = 500;
+  EXPECT_FALSE(CompareWithReferences(WithLess(1, 0), {dim}));
+}
+
 }  // namespace
 }  // namespace lyrefit

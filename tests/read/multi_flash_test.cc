@@ -79,6 +79,7 @@ TEST(MultiFlashTest, FlashesGiveTheCurvesAtEqualLight) {
             << suns << " suns, reading " << k;
       }
       EXPECT_EQ(*raw.stated.cells_in_series, 60);
+      EXPECT_EQ(raw.stated.notes.setup, Setup::kFlash);
       EXPECT_NEAR(*raw.stated.temperature_C, 24, 1e-12);
     }
   }

@@ -25,6 +25,7 @@ TEST(RewriteTableTest, AScanGetsItsVoltagesAndKeepsItsLines) {
             "Start_V;100\nInterval_V;10\n\nvoltage_V;No;I1 (A);I2 (A)\n100;1;8,5;8,4\n\n"
             "110;2;8,4;8,3\n");
   EXPECT_THAT(text.remark, HasSubstr("decoded; currents without voltages"));
+  EXPECT_EQ(text.setup, Setup::kInverter);
 }
 
 TEST(RewriteTableTest, PixelsOfALineBecomeColumns) {

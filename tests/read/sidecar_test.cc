@@ -25,7 +25,7 @@ TEST(ReadSidecarTest, ReadsPvlibsNamesOfTheBandGap) {
 TEST(ReadSidecarTest, ReadsEveryKey) {
   const TempFolder folder;
   const auto sidecar = ReadSidecar(folder.Write("a.json", R"({
-    "name": "m1", "technology": "mono-Si", "cells_in_series": 60, "strings_in_parallel": 2,
+    "name": "m1", "technology": "mono-Si", "setup": "flash", "cells_in_series": 60, "strings_in_parallel": 2,
     "nominal_temperature_C": 30, "nominal_irradiance_Wm2": 800, "bypass_diodes": 3,
     "bandgap_eV": 1.121, "bandgap_slope_per_K": -0.00027, "isc_tempco_per_K": -0.0005, "isc_tempco_A_per_K": 0.004,
     "current_noise": {"constant_A": 0.001, "relative": 0.0002}, "current_resolution_A": 0.01,
@@ -34,6 +34,8 @@ TEST(ReadSidecarTest, ReadsEveryKey) {
   ASSERT_TRUE(sidecar) << sidecar.error().ToString();
   EXPECT_EQ(sidecar->name, "m1");
   EXPECT_EQ(sidecar->notes.technology, "mono-Si");
+  EXPECT_EQ(sidecar->notes.setup, Setup::kFlash);
+  EXPECT_EQ(sidecar->stated_in.setup, "\"setup\" of a.json");
   EXPECT_EQ(sidecar->cells_in_series, 60);
   EXPECT_EQ(sidecar->strings_in_parallel, 2);
   EXPECT_EQ(sidecar->temperature_C, 30);

@@ -48,6 +48,12 @@ TEST(ReadHeadLineTest, TakesWhatIsClearlyStated) {
   }
 }
 
+TEST(ReadHeadLineTest, TakesTheSetupOfTheMeasurement) {
+  EXPECT_EQ(Head("Tester: flasher of class AAA").said.notes.setup, Setup::kFlash);
+  EXPECT_EQ(Head("Light source,Sun simulator").said.stated_in.setup, "line 3");
+  EXPECT_EQ(Head("Light source,Lamp").said.notes.setup, Setup::kUnknown);
+}
+
 TableHead HeadOf(const std::vector<const char*>& lines) {
   TableHead head;
   int number = 0;

@@ -117,8 +117,12 @@ std::string SentenceOf(ScaleCause cause, const ScaleSize& size, bool shared) {
     case ScaleCause::kSomethingElse:
       return fmt::format(
           "{} {} {:+.1f} % Isc and {:+.1f} % Voc, beyond the errors, and no cause of the scale "
-          "explains the curve",
-          who, verb, size.isc_percent, size.voc_percent);
+          "explains the curve{}",
+          who, verb, size.isc_percent, size.voc_percent,
+          size.isc_percent < 0 && size.voc_percent < 0
+              ? ": polarisation (PID-p) or degradation of all cells takes both, dirt the current "
+                "alone"
+              : "");
   }
   return "";
 }

@@ -125,6 +125,12 @@ const std::vector<Publication>& Publications() {
        "Singh, J. P. and Chai, J. and Wang, Y. and Aberle, A. G. and Ramakrishna, S.",
        "Potential-induced degradation in photovoltaic modules: a critical review",
        "Energy and Environmental Science", "2017", "10", "1", "43--68", "10.1039/C6EE02271E", ""},
+      {"molto2023", "article",
+       "Molto, C. and Oh, J. and Mahmood, F. I. and Li, M. and Hacke, P. and Li, F. and Smith, R. "
+       "and Colvin, D. and Matam, M. and DiRubio, C. and Tamizhmani, G. and Seigneur, H.",
+       "Review of potential-induced degradation in bifacial photovoltaic modules",
+       "Energy Technology", "2023", "11", "", "2200943", "10.1002/ente.202200943",
+       "id=polarisation"},
       {"unger2014", "article", "Unger and others", "", "", "2014", "", "", "", "10.1039/C4EE02465F",
        ""},
       {"calado2016", "article", "Calado, P. and Telford, A. M. and Bryant, D. and others",

@@ -35,14 +35,6 @@ double ShareOfTurns(const std::vector<double>& voltage_V) {
   return steps == 0 ? 0 : static_cast<double>(turns) / steps;
 }
 
-// Whether the light was recorded beside each reading of a sweep that took less than the longest
-// pulse of a solar simulator, half a second.
-bool IsFlash(const IvCurve& curve) {
-  constexpr double kLongestPulse_s = 0.5;
-  return !curve.time_s.empty() && !curve.irradiance_W_m2.empty() && Span(curve.time_s) > 0 &&
-         Span(curve.time_s) < kLongestPulse_s;
-}
-
 // Records what the extent of a lit sweep lacks, or has too much of.
 void TakeExtent(const IvCurve& curve, KindOfMeasurement* found) {
   const auto add = [found](CurveKind kind, const std::string& words) {
@@ -74,6 +66,12 @@ void TakeExtent(const IvCurve& curve, KindOfMeasurement* found) {
 }
 
 }  // namespace
+
+bool IsFlash(const IvCurve& curve) {
+  constexpr double kLongestPulse_s = 0.5;
+  return !curve.time_s.empty() && !curve.irradiance_W_m2.empty() && Span(curve.time_s) > 0 &&
+         Span(curve.time_s) < kLongestPulse_s;
+}
 
 bool OperatingPointsOfADay(const std::vector<double>& time_s,
                            const std::vector<double>& voltage_V) {

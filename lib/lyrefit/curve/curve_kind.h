@@ -50,6 +50,10 @@ struct KindOfMeasurement {
 // `words` has all that concern the extent of a sweep.
 KindOfMeasurement KindOf(const IvCurve& curve);
 
+// Whether the light was recorded beside each reading of a sweep that took less than the longest
+// pulse of a solar simulator, half a second.
+bool IsFlash(const IvCurve& curve);
+
 // Whether readings are operating points of a day, one voltage at a time, and no sweep: at least 10
 // of them over two hours or more, and a voltage that wanders. The voltage of a sweep, also of a slow
 // one, keeps its direction from reading to reading; that of a maximum power point goes up and down

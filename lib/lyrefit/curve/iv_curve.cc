@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 
 namespace lyrefit {
@@ -44,7 +46,49 @@ Expected<void> CheckConditions(const Conditions& conditions) {
   return {};
 }
 
+// Words for setups; the first row counts of which one stands in the text as a word of its own. A lamp of
+// a class is that of a simulator, and simulators of modules flash.
+struct SetupWords {
+  Setup setup;
+  std::vector<std::string> words;
+};
+
+const std::vector<SetupWords>& AllSetupWords() {
+  static const std::vector<SetupWords> all = {
+      {Setup::kInverter, {"inverter scan", "inverter iv scan", "inverter i-v scan", "smart i-v"}},
+      {Setup::kLaboratory, {"laboratory", "liv", "glovebox", "steady-state simulator"}},
+      {Setup::kFlash,
+       {"flash", "flasher", "flash test", "flashtest", "flash tester", "flash lamp", "pulsed light",
+        "sun simulator", "sunsimulator", "solar simulator", "class aaa", "aaa", "a+a+a+"}},
+      {Setup::kOutdoor,
+       {"outdoor", "outdoors", "iv tracer", "i-v tracer", "pvpm", "solmetric", "iv swinger"}}};
+  return all;
+}
+
+bool IsLetterOrDigit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+bool HasWord(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !IsLetterOrDigit(text[at - 1])) &&
+        (end == text.size() || !IsLetterOrDigit(text[end]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+Setup FindSetup(const std::string& text) {
+  const std::string lower = LowerCase(text);
+  for (const SetupWords& row : AllSetupWords()) {
+    for (const std::string& word : row.words) {
+      if (HasWord(lower, word)) return row.setup;
+    }
+  }
+  return Setup::kUnknown;
+}
 
 void TakeKeyPoints(const KeyPoints& points, IvCurve* curve) {
   const auto add = [curve](double voltage_V, double current_A) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/constants.h"
+#include "lyrefit/base/enum_text.h"
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/assumption.h"
@@ -26,8 +27,25 @@ struct Conditions {
   }
 };
 
+// Where a curve is measured, which decides what can disturb it.
+enum class Setup { kUnknown, kOutdoor, kFlash, kInverter, kLaboratory };
+
+template <>
+struct EnumTable<Setup> {
+  static constexpr EnumText<Setup> kRows[] = {{Setup::kUnknown, "unknown"},
+                                              {Setup::kOutdoor, "outdoor"},
+                                              {Setup::kFlash, "flash"},
+                                              {Setup::kInverter, "inverter"},
+                                              {Setup::kLaboratory, "laboratory"}};
+};
+
+// The setup that a text names, "Sun simulator, class AAA": kFlash. Case does not count. kUnknown if
+// it names none.
+Setup FindSetup(const std::string& text);
+
 // Facts about the device and the instrument beyond the readings; unset if not stated.
 struct DeviceNotes {
+  Setup setup = Setup::kUnknown;  // of the measurement
   std::string technology;
   std::optional<int> bypass_diodes;      // of the whole device: of all its modules
   std::optional<int> modules_in_series;  // of a string
@@ -65,6 +83,7 @@ struct ConditionSources {
   std::string irradiance;     // of the irradiance
   std::string bypass_diodes;  // of the bypass diodes
   std::string technology;     // of the technology
+  std::string setup;          // of the setup of the measurement
 };
 
 // A result that the file states for a sweep, such as Voc.

@@ -26,6 +26,10 @@ struct Described {
   const std::vector<CauseParameter>& strength;
 
   const Readings& readings() const { return *weighted.readings; }
+  // What differs between cells: in a flasher what they make of the light.
+  const char* light() const {
+    return readings().traits.setup == Setup::kFlash ? "current" : "light";
+  }
   // The upper bound of parameter number `k`.
   double Most(int k) const { return fit.law.effects[index]->parameters[k].upper; }
   // The reported parameter; unknown values if it is not among them.
@@ -69,8 +73,8 @@ std::string Covered(double part) {
 }
 
 std::vector<std::string> OfShading(const Described& of) {
-  return {fmt::format("{} under {} of the others' light{}", Part(of.readings(), of.p[1]),
-                      LightLeft(of.p[0], of.Of("d")), Covered(of.p[3]))};
+  return {fmt::format("{} under {} of the others' {}{}", Part(of.readings(), of.p[1]),
+                      LightLeft(of.p[0], of.Of("d")), of.light(), Covered(of.p[3]))};
 }
 
 std::vector<std::string> OfSubstrings(const Described& of) {
@@ -78,9 +82,9 @@ std::vector<std::string> OfSubstrings(const Described& of) {
   const double* p = of.p;
   for (int k = 0; k < 4; ++k) {
     if (!(p[2 * k + 1] > 0)) continue;
-    words.push_back(
-        fmt::format("{} under {} of the brightest's light{}", Part(of.readings(), p[2 * k + 1]),
-                    LightLeft(p[2 * k], of.Of(fmt::format("d{}", k + 1))), Covered(p[9])));
+    words.push_back(fmt::format(
+        "{} under {} of the brightest's {}{}", Part(of.readings(), p[2 * k + 1]),
+        LightLeft(p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light(), Covered(p[9])));
   }
   return words;
 }
@@ -94,7 +98,7 @@ std::vector<std::string> OfWeakCell(const Described& of) {
   const std::string cells =
       p[1] > 1.5 ? fmt::format("{:.0f} cells have", p[1]) : std::string("one cell has");
   std::vector<std::string> words = {
-      fmt::format("{} {} of the others' light", cells, LightLeft(p[0], of.Of("d"), p[8]))};
+      fmt::format("{} {} of the others' {}", cells, LightLeft(p[0], of.Of("d"), p[8]), of.light())};
   if (p[8] > 1) words.push_back("the module's halves stand side by side: the other half goes on");
   const HotCell hot = FindHotCell(of.weighted, of.fit, of.index);
   if (hot.heat_W > 0) {
@@ -124,9 +128,9 @@ std::vector<std::string> OfCoveredEdge(const Described& of) {
   const int substrings = std::clamp(SubstringsOf(of.readings().traits), 2, 4);
   words.reserve(substrings);
   for (int k = 0; k < substrings; ++k) {
-    words.push_back(fmt::format("{:.0f} % of a substring's cells have {} of the others' light",
-                                Percent(of.p[2 * k + 1]),
-                                LightLeft(of.p[2 * k], of.Of(fmt::format("d{}", k + 1)))));
+    words.push_back(fmt::format(
+        "{:.0f} % of a substring's cells have {} of the others' {}", Percent(of.p[2 * k + 1]),
+        LightLeft(of.p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light()));
   }
   return words;
 }
@@ -138,8 +142,8 @@ std::vector<std::string> OfDimCells(const Described& of) {
     const Sized deficit = of.Of(fmt::format("d{}", k + 1));
     if (std::isfinite(deficit.value)) lights.push_back(LightLeft(deficit.value, deficit, chains));
   }
-  return {
-      fmt::format("{} cells have {} of the others' light", lights.size(), fmt::join(lights, ", "))};
+  return {fmt::format("{} cells have {} of the others' {}", lights.size(), fmt::join(lights, ", "),
+                      of.light())};
 }
 
 std::vector<std::string> OfOpenSubstring(const Described& of) {

@@ -103,6 +103,12 @@ void AddEquivalent(const std::string& id, Cause* cause) {
   ids.push_back(id);
 }
 
+// Whether a law stands for another finding in this setup than its id says elsewhere.
+bool StandsForAnother(const Effect& effect) {
+  const Effect* const usual = FindEffect(effect.id);  // null: an effect of the user's
+  return usual != nullptr && usual->Finding() != effect.Finding();
+}
+
 std::string CauseSentence(const Cause& cause, const Effect& effect) {
   std::string text = effect.sentence;
   for (const std::string& words : cause.in_words) text += "; " + words;
@@ -210,6 +216,8 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
       trial.why_not = "excluded: not among the effects asked for";
     } else if (reason) {
       trial.why_not = *reason;
+    } else if (const char* const excluded = WhyExcluded(*effect, options)) {
+      trial.why_not = excluded;
     } else if (effect->found_by == FoundBy::kRequest && !allowed) {
       trial.why_not = "only tried where it is asked for";
     } else if (effect->probes == nullptr && !allowed) {
@@ -301,10 +309,11 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     Cause cause = MakeCause(effect, by_values ? "values" : "fit", chosen.probability);
     DescribeSize(weighted, selection.extended, static_cast<int>(c), chosen.others.none.fit, &cause);
     AddProbabilities(chosen, &cause);
-    if (!by_values) AddEquivalent(effect.id, &cause);
+    if (!by_values && !StandsForAnother(effect)) AddEquivalent(effect.id, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
-      const bool same = fitted->score.effect->Finding() == cause.id;
-      AddEquivalent(same ? fitted->score.effect->id : fitted->score.effect->Finding(), &cause);
+      const Effect& other = *fitted->score.effect;
+      const bool by_id = other.Finding() == cause.id && !StandsForAnother(other);
+      AddEquivalent(by_id ? other.id : other.Finding(), &cause);
       AddSeparation(effect, &cause.separate_by);
       AddSeparation(*fitted->score.effect, &cause.separate_by);
     }

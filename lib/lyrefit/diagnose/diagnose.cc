@@ -15,6 +15,7 @@
 #include "lyrefit/curve/sweep_order.h"
 #include "lyrefit/diagnose/average.h"
 #include "lyrefit/diagnose/choose_base.h"
+#include "lyrefit/diagnose/circumstances.h"
 #include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
@@ -187,6 +188,7 @@ void ForgetLimits(ValueFindings* values) {
 struct PreparedDiagnosis {
   CurveSet set;  // its curves in order
   DiagnoseOptions options;
+  JudgedSetup setup;
   std::vector<const Effect*> known;  // effects
   std::vector<std::string> doubts;   // about the readings
   Measurement measurement;
@@ -196,7 +198,8 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& given, const DiagnoseOptions
   TRY(CheckOptions(options));
   PreparedDiagnosis prepared;
   prepared.options = options;
-  TRY(prepared.known, KnownEffects(options));
+  prepared.setup = SetupOf(given, options);
+  TRY(prepared.known, KnownEffects(options, prepared.setup.setup));
   std::vector<std::string> disorder;
   const auto under_load = [](const IvCurve& curve) { return !curve.suns_voc_A; };
   if (std::none_of(given.curves.begin(), given.curves.end(), under_load)) {
@@ -209,7 +212,11 @@ Expected<PreparedDiagnosis> Prepare(const CurveSet& given, const DiagnoseOptions
   prepared.set = InOrder(given, &disorder);
   std::stable_partition(prepared.set.curves.begin(), prepared.set.curves.end(), under_load);
   for (IvCurve& curve : prepared.set.curves) curve = WithoutBeyondVoc(std::move(curve));
+  IvCurve& first = prepared.set.curves.front();
+  first.notes.setup = prepared.setup.setup;
   TRY(prepared.measurement, MakeMeasurement(prepared.set));
+  prepared.options.priors.where =
+      CircumstancesOf(prepared.measurement.readings, first.notes.technology, options);
   std::vector<std::string>& warnings = prepared.measurement.warnings;
   warnings.insert(warnings.begin(), disorder.begin(), disorder.end());
   prepared.measurement.errors = options.noise;
@@ -316,6 +323,7 @@ Diagnosis BeginDiagnosis(const PreparedDiagnosis& prepared) {
   diagnosis.probability = options.probability;
   diagnosis.floor_current = options.floor_current;
   diagnosis.floor_power = options.floor_power;
+  diagnosis.setup = prepared.setup;
   diagnosis.cells_in_series = prepared.measurement.readings.scale.cells;
   diagnosis.non_default_options = NonDefaults(options, kDiagnoseOptionTable);
   diagnosis.assumptions = AssumptionsOf(set);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Effect;  // model/effect.h
 struct DiagnoseOptions {
   double probability = 0.8;          // smallest probability at which a cause is named
   CausePriors priors;                // how common causes are
+  Setup setup = Setup::kUnknown;     // of the measurement; unknown: as the file says
+  std::optional<double> age_years;   // of the device in the field; unset: unknown
   Model base = Model::kSingleDiode;  // sd, or dd with n2 = 2
   std::vector<std::string> effects;  // ids to try; empty: all that the data can show
   // Tried in addition to the catalogue. Ids must differ from the catalogue's. The pointers must
@@ -87,6 +90,10 @@ inline constexpr OptionRow<DiagnoseOptions> kDiagnoseOptionTable[] = {
      "how common causes are: table, for the field; alike, all equally; or a JSON file like "
      "{\"shading\": 0.1}",
      PriorsOption<&DiagnoseOptions::priors>()},
+    {"setup", "NAME", "where it was measured, which decides what can disturb it",
+     EnumOption<&DiagnoseOptions::setup>(), OptionTrait::kNone, ": as the file says"},
+    {"age", "YEARS", "of the device in the field: some causes are of old devices",
+     &DiagnoseOptions::age_years, 0, 100},
     {"seed", "", "seed of the search and of the plan", &DiagnoseOptions::seed, 0,
      1.8446744073709552e19},
     {"floor-current", "", "smallest effect that is named, in parts of Isc (rms over the curve)",

@@ -232,6 +232,13 @@ struct Gain {
   std::vector<ParameterShift> shifts;
 };
 
+// The setup in which a measurement was judged, which decides what could disturb it.
+struct JudgedSetup {
+  Setup setup = Setup::kUnknown;  // unknown: judged as outdoors
+  std::string from = "assumed";   // "assumed", "stated" by an option, or in the "file"
+  std::string source;             // the option, or where the file says it; empty: assumed
+};
+
 // Result of a diagnosis, with the evidence for it.
 struct Diagnosis {
   std::string version;        // of lyrefit
@@ -244,6 +251,7 @@ struct Diagnosis {
   double floor_current = 0;  // smallest effect that is named, rms in fractions of Isc
   double floor_power = 0;    // or in fractions of Pmax
   int cells_in_series = 1;
+  JudgedSetup setup;
   std::vector<DiagnosedCurve> curves;  // in the set's order
   std::vector<DiagnosedPoint> points;
   Evidence evidence;                           // before any cause is tried

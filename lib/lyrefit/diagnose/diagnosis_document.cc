@@ -53,6 +53,21 @@ void AddIfAny(const char* name, const std::string& text, Section* section) {
   if (!text.empty()) AddField(name, text, section);
 }
 
+// "flash, as the file says (line 3): ..."; empty where nobody says where it was measured.
+std::string SetupText(const JudgedSetup& judged) {
+  const char* what = "sky, shade and wind may disturb it";
+  if (judged.setup == Setup::kUnknown) return "";
+  if (judged.setup == Setup::kFlash) {
+    what = "no shade and no sky; unlike currents are of the cells, or of a lamp that is uneven";
+  } else if (judged.setup == Setup::kInverter) {
+    what = "few readings in whole steps, often without short circuit";
+  } else if (judged.setup == Setup::kLaboratory) {
+    what = "no sky and no wind; lamps falter less";
+  }
+  return fmt::format("{}, {} ({}): {}", ToText(judged.setup),
+                     judged.from == "stated" ? "stated" : "as the file says", judged.source, what);
+}
+
 Section DiagnosisHead(const Diagnosis& diagnosis) {
   Section head = {fmt::format("lyrefit {}: diagnosis of {}", diagnosis.version, diagnosis.name)};
   const std::size_t curves = diagnosis.curves.size();
@@ -62,6 +77,7 @@ Section DiagnosisHead(const Diagnosis& diagnosis) {
                        curves > 1 && !counted ? Plural(curves, "curve") + ", " : "",
                        Plural(diagnosis.points.size(), "point"), ConditionsText(diagnosis)),
            &head);
+  AddIfAny("setup", SetupText(diagnosis.setup), &head);
   AddIfAny("assumed", fmt::format("{}", fmt::join(diagnosis.assumptions, "; ")), &head);
   return head;
 }
@@ -406,6 +422,9 @@ Section RunSection(const Diagnosis& diagnosis) {
   AddField("base model", fmt::format("{}: {}", diagnosis.base, diagnosis.base_sentence), &section);
   AddField("objective", fmt::format("solved-current; seed {}", diagnosis.seed), &section);
   AddField("named", NamedText(diagnosis), &section);
+  if (diagnosis.setup.setup == Setup::kUnknown) {
+    AddField("setup", "unknown: causes as common as outdoors (--setup)", &section);
+  }
   AddField("time", Duration(diagnosis.seconds), &section);
   AddField("options", OptionsText(diagnosis.non_default_options), &section);
   return section;

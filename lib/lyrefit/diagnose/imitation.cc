@@ -23,6 +23,19 @@ bool StaysOffBounds(const Effect& effect, const double* p) {
   return true;
 }
 
+// Whether the cells of the law, lit and without its effects, give more voltage than their junctions
+// can: what takes the rest is then no cause, but a reading of Voc that is off, or cells miscounted.
+bool GivesTooMuch(const WeightedData& weighted, const LawFit& fit) {
+  const double most = weighted.readings->traits.most_open_circuit;
+  if (!(most > 0)) return false;
+  Readings at = InBrightestLight(*weighted.readings);
+  at.points.front().voltage = most;
+  const LawFit rest = WithoutEffects(fit);
+  LawWorkspace workspace;
+  double current = 0;
+  return EvaluateLaw(rest.law, at, rest.p.data(), &workspace, &current, nullptr) && current > 0;
+}
+
 // What the last effect adds to the current of each reading. Empty if the law without it cannot be
 // evaluated.
 std::vector<double> AddedBy(const WeightedData& weighted, const LawFit& fit) {
@@ -131,7 +144,7 @@ bool IsItself(const WeightedData& weighted, const LawFit& fit) {
   const Effect& effect = *fit.law.effects.back();
   const Readings& readings = *weighted.readings;
   const double* const p = fit.p.data() + fit.p.size() - effect.parameters.size();
-  if (!StaysOffBounds(effect, p)) return false;
+  if (!StaysOffBounds(effect, p) || GivesTooMuch(weighted, fit)) return false;
   if (effect.imitates != nullptr && effect.imitates(p, readings.traits)) return false;
   if (effect.where == Where::kDevice || effect.size() == 0) return true;
   const std::vector<double> added = AddedBy(weighted, fit);

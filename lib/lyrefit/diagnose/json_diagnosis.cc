@@ -146,6 +146,10 @@ void to_json(Json& j, const PlannedMeasurement& measurement) {
 
 LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
 
+void to_json(Json& j, const JudgedSetup& setup) {
+  j = {{"name", ToText(setup.setup)}, {"from", setup.from}, {"source", setup.source}};
+}
+
 void to_json(Json& j, const DiagnosedCurve& curve) {
   j = {{"name", curve.name},
        {"irradiance_Wm2", curve.irradiance_W_m2},
@@ -187,6 +191,7 @@ void to_json(Json& j, const Diagnosis& diagnosis) {
        {"probability", diagnosis.probability},
        {"floor_current", diagnosis.floor_current},
        {"floor_power", diagnosis.floor_power},
+       {"setup", diagnosis.setup},
        {"verdict", diagnosis.verdict},
        {"device_findings", diagnosis.device_findings},
        {"gain", diagnosis.gain}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "lyrefit/diagnose/circumstances.h"
 #include "lyrefit/diagnose/weighted_data.h"
 #include "lyrefit/effects/catalogue.h"
 
@@ -41,8 +42,9 @@ std::string WhyUnfit(const Effect& effect, const std::vector<const Effect*>& kno
 
 }  // namespace
 
-Expected<std::vector<const Effect*>> KnownEffects(const DiagnoseOptions& options) {
+Expected<std::vector<const Effect*>> KnownEffects(const DiagnoseOptions& options, Setup setup) {
   std::vector<const Effect*> known = Catalogue();
+  for (const Effect*& effect : known) effect = InWordsOf(setup, effect);
   for (const Effect* effect : options.own_effects) {
     if (effect == nullptr) return Fail("an effect of one's own is missing");
     if (const std::string why = WhyUnfit(*effect, known); !why.empty()) {
@@ -61,6 +63,11 @@ bool IsWanted(const Effect& effect, const DiagnoseOptions& options) {
   return ids.empty() || std::find(ids.begin(), ids.end(), effect.id) != ids.end();
 }
 
+const char* WhyExcluded(const Effect& effect, const DiagnoseOptions& options) {
+  const bool asked = !options.effects.empty() || options.priors.given.count(effect.id) != 0;
+  return asked ? nullptr : WhyNotThere(effect.id, options.priors.where);
+}
+
 std::vector<const Effect*> Candidates(const std::vector<const Effect*>& known,
                                       const DataTraits& traits, const DiagnoseOptions& options) {
   std::vector<const Effect*> candidates;
@@ -68,6 +75,7 @@ std::vector<const Effect*> Candidates(const std::vector<const Effect*>& known,
     const bool unasked = effect->found_by == FoundBy::kRequest && options.effects.empty();
     const bool in_base = effect->diode > 0 && effect->diode <= static_cast<int>(options.base);
     if (unasked || in_base || effect->found_by == FoundBy::kValues) continue;
+    if (WhyExcluded(*effect, options) != nullptr) continue;
     if (IsWanted(*effect, options) && !effect->WhyNot(traits)) candidates.push_back(effect);
   }
   return candidates;

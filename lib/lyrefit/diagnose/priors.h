@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -24,13 +26,39 @@ struct CausePrior {
 // is usually larger by far, so that a factor of three changes few verdicts.
 const std::vector<CausePrior>& PriorTable();
 
+// What is known of a measurement beside its readings that makes causes more or less common.
+struct Circumstances {
+  Setup setup = Setup::kUnknown;
+  bool module = false;                   // more than one cell in series
+  bool slow = false;                     // its times show that a sweep took half a second or more
+  std::string technology = {};           // as stated; empty: unknown
+  std::optional<double> age_years = {};  // of the device in the field
+};
+
+// A change of a number of the table where more is known than that a sweep was taken in the field.
+struct PriorFactor {
+  const char* id;                             // of the effect
+  bool (*holds)(const Circumstances& where);  // where it counts
+  double factor;                              // of the table's number; 0: the cause cannot be there
+  const char* source;                         // on what it rests; of 0 why not, said in reports
+};
+
+// The changes; those that hold at once multiply. As the table's numbers they are orders of magnitude:
+// their sources order causes, and do not count sweeps.
+const std::vector<PriorFactor>& PriorFactorTable();
+
+// Why a cause cannot be there in these circumstances; null: it can.
+const char* WhyNotThere(const std::string& id, const Circumstances& where);
+
 // Prior probabilities of causes.
 struct CausePriors {
   std::map<std::string, double> given;  // replace those of the table
   bool alike = false;                   // no table: all other causes are equally probable
   std::string name = "table";           // "table", "alike" or the name of the file
+  Circumstances where = {};             // of the measurement; Diagnose fills it
 
-  // Of an effect in sweeps of modules or of cells.
+  // Of an effect in sweeps of modules or of cells. What cannot be there counts as elsewhere, for one
+  // who asks for it by name.
   double Of(const std::string& id, bool module) const;
 };
 

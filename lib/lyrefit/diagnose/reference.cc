@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/base/number_text.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/diagnose/expectation.h"
@@ -56,27 +59,41 @@ void TakeCommonOff(const IvCurve& curve, const SweepState& state,
       references.size(), 100 * result->common));
 }
 
-std::string LightSentence(const ReferenceRow& row) {
+// `voltage`: Voc beyond what that current takes, if it is known and lower; else null.
+std::string LightSentence(const ReferenceRow& row, const ReferenceRow* voltage) {
   const double percent = 100 * row.power;
+  if (percent < 0 && voltage != nullptr) {
+    return fmt::format(
+        "current per light {:+.2g} % and Voc {:+.2g} % beyond what that takes: polarisation of "
+        "this "
+        "face (PID-p), degradation of all cells by light and heat, or dirt on warmer cells",
+        percent, 100 * voltage->power);
+  }
   return fmt::format("current per light {:+.2g} %: {}", percent,
                      percent < 0 ? "soiling, a shade on all cells alike, or the light's sensor"
                                  : "the light's sensor, or reference sweeps that were soiled");
 }
 
-// `whom`: name of the reference set in the sentence.
-std::string SentenceOf(const ReferenceComparison& c, bool light, const std::string& whom) {
+// `light`: a row of the current per light that differs, or null; `voltage`: see LightSentence; `whom`:
+// name of the reference set in the sentence.
+std::string SentenceOf(const ReferenceComparison& c, const ReferenceRow* light,
+                       const ReferenceRow* voltage, const std::string& whom) {
   if (!c.differs) {
+    const auto& fill = *std::find_if(c.rows.begin(), c.rows.end(),
+                                     [](const ReferenceRow& row) { return row.symbol == "FF"; });
     return fmt::format(
         "The sweep agrees with {} (p = {:.2g}): the fill factor is {:.2f} %, {:.2f} % is "
         "expected.",
-        whom, c.p_value, c.rows.front().now, c.rows.front().expected);
+        whom, c.p_value, fill.now, fill.expected);
   }
   std::string text = fmt::format("The sweep differs from {} (p = {:.1g}): ", whom, c.p_value);
   for (std::size_t i = 0; i < c.causes.size(); ++i) {
     text += (i > 0 ? "; or " : "") + c.causes[i].sentence;
   }
-  if (light) text += (c.causes.empty() ? "" : "; and ") + LightSentence(c.rows.back());
-  if (c.causes.empty() && !light) text += "no known cause explains the difference";
+  if (light != nullptr) {
+    text += (c.causes.empty() ? "" : "; and ") + LightSentence(*light, voltage);
+  }
+  if (c.causes.empty() && light == nullptr) text += "no known cause explains the difference";
   return text + ".";
 }
 
@@ -119,10 +136,48 @@ ReferenceComparison Compare(const FittedSweep& sweep,
   result.p_value = std::min(1.0, looks * std::min(d.p_value, light_p));
   result.differs = result.p_value < level;
   if (looks * d.p_value < level) result.causes = ExplainDifference(sweep, e, d);
-  result.sentence = SentenceOf(result, by_light,
-                               fmt::format(fmt::runtime(looks > 1 ? "the {} sweeps nearest to it"
-                                                                  : "its {} reference sweeps"),
-                                           result.references.size()));
+  const std::vector<ReferenceRow> key_points =
+      by_light ? DescribeKeyPoints(sweep.state, *used) : std::vector<ReferenceRow>();
+  const bool lower =
+      !key_points.empty() && key_points[1].z < 0 && key_points[1].corrected_p < level;
+  result.sentence = SentenceOf(
+      result, by_light ? &result.rows.back() : nullptr, lower ? &key_points[1] : nullptr,
+      fmt::format(
+          fmt::runtime(looks > 1 ? "the {} sweeps nearest to it" : "its {} reference sweeps"),
+          result.references.size()));
+  return result;
+}
+
+// Compares the key points with those of few references, at stated lights and temperatures; nothing if
+// one is unknown.
+std::optional<ReferenceComparison> CompareKeyPoints(
+    const SweepState& now, const std::vector<const SweepState*>& references, double level) {
+  ReferenceComparison result;
+  result.name = now.name;
+  result.rows = DescribeKeyPoints(now, references);
+  if (result.rows.empty()) return std::nullopt;
+  for (ReferenceRow& row : result.rows) {
+    row.differs = row.corrected_p < level;
+    result.p_value = std::min(result.p_value, row.corrected_p);
+  }
+  for (const SweepState* r : references) result.references.push_back(r->name);
+  result.differs = result.p_value < level;
+  result.causes = ExplainKeyPoints(result.rows);
+  const std::string whom = "its " + Plural(references.size(), "reference sweep");
+  const ReferenceRow& fill = result.rows[2];
+  if (!result.differs || !result.causes.empty()) {
+    result.sentence = SentenceOf(result, nullptr, nullptr, whom);
+  } else {
+    result.sentence = fmt::format("The sweep differs from {} (p = {:.1g}): fill factor {:+.1f} %.",
+                                  whom, result.p_value, 100 * fill.power);
+  }
+  const std::string to_tell = DecidingMeasurement(result.causes);
+  if (!to_tell.empty()) result.sentence += " To tell: " + to_tell + ".";
+  result.warnings.push_back(fmt::format(
+      "{}: judged by what sweeps of one module usually differ by {}",
+      Plural(references.size(), "reference sweep"),
+      now.setup == Setup::kFlash || now.setup == Setup::kLaboratory ? "indoors"
+                                                                    : "outdoors (--setup)"));
   return result;
 }
 
@@ -179,6 +234,11 @@ Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
     }
   }
   if (references.size() < kFewestReferences) {
+    if (auto few = CompareKeyPoints(sweep.state, references, options.level)) {
+      few->left_out = std::move(left_out);
+      few->without_common = curve;
+      return std::move(*few);
+    }
     return Fail(fmt::format("{} reference sweeps can be used, a comparison needs {} or more{}; {}",
                             references.size(), kFewestReferences,
                             left_out.empty() ? "" : " (" + left_out.front() + ")", kSideBySide));

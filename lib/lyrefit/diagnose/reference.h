@@ -16,9 +16,13 @@ namespace LYREFIT_PUBLIC lyrefit {
 // regressed on ln Isc and Voc, so that no curve is translated. The 40 sweeps nearest in Isc and Voc
 // are used; outliers among them are left out.
 //
-// Errors: fewer than four usable reference sweeps, or other cell counts; a sweep more than 20 %
-// beyond the reference sweeps' Isc or Voc; readings that cannot be fitted; options outside their
-// ranges.
+// Fewer than four references show no scatter of their own. Under stated lights and temperatures that are
+// alike, the sweep's Isc, Voc, fill factor and leak are compared with theirs, by the scatter that is usual
+// of the setup; sentences name what lowers Isc and Voc together, polarisation (PID-p) among it.
+//
+// Errors: no usable reference sweep, or fewer than four under unknown or unlike light; other cell counts;
+// a sweep more than 20 % beyond the Isc or Voc of four and more; readings that cannot be fitted; options
+// outside their ranges.
 Expected<ReferenceComparison> CompareWithReferences(const IvCurve& curve,
                                                     const std::vector<IvCurve>& reference,
                                                     const ReferenceOptions& options = {});

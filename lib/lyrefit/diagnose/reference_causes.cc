@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
@@ -275,6 +276,82 @@ std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Ex
     if (as_good && a.cause.explained >= kHalf) causes.push_back(std::move(a.cause));
   }
   return causes;
+}
+
+std::vector<ReferenceCause> ExplainKeyPoints(const std::vector<ReferenceRow>& rows) {
+  constexpr double kPerKelvin = 0.003;  // of Voc
+  const ReferenceRow &light = rows[0], &voltage = rows[1], &leak = rows[3];
+  const auto less = [](const ReferenceRow& row) { return row.differs && row.z < 0; };
+  std::vector<ReferenceCause> causes;
+  const auto add = [&](const char* id, const std::string& sentence, const ReferenceRow& row) {
+    const double whole = row.expected / 100;
+    causes.push_back({id, sentence, (row.now - row.expected) / whole,
+                      (row.now - row.high_95) / whole, (row.now - row.low_95) / whole, "%",
+                      row.power, 1});
+  };
+  const double warmer_K = -voltage.power / kPerKelvin;
+  const bool leaks = leak.differs && leak.z > 0;
+  if (less(voltage) && (less(light) || !leaks)) {
+    // The rear of PERC lost 36 % of Isc and 7 % of Voc, the front 5 % of both: Luo et al. 2018,
+    // doi:10.1002/pip.3028. Other forms: luo2017, molto2023.
+    add("polarisation",
+        fmt::format("polarisation of this face (PID-p): Isc {:+.1f} %, and Voc {:+.1f} % beyond "
+                    "what that current takes",
+                    100 * light.power, 100 * voltage.power),
+        less(light) ? light : voltage);
+    add("degradation", "degradation of all cells by light and heat (LID, LeTID) or by age",
+        less(light) ? light : voltage);
+    if (less(light)) {
+      add("less_light",
+          fmt::format("dirt or less light, on cells {:.0f} K warmer than stated", warmer_K), light);
+    } else {
+      add("temperature", fmt::format("cells {:.0f} K warmer than stated", warmer_K), voltage);
+    }
+  } else if (less(light)) {
+    add("less_light",
+        fmt::format("current per light {:+.2g} %: soiling, a shade on all cells alike, or the "
+                    "light's sensor{}",
+                    100 * light.power,
+                    leaks ? ""
+                          : "; the voltage is what that current gives, so that polarisation "
+                            "(PID-p) does not show"),
+        light);
+  }
+  if (leaks) {
+    // Shunts take voltage before current, polarisation of unlike cells current before voltage.
+    const bool first = light.power > voltage.power;
+    causes.insert(
+        first ? causes.begin() : causes.end(),
+        {"shunt",
+         fmt::format(
+             "a slope as of a leak that takes {:.2g} % of Isc at Voc, {:.2g} % is expected: "
+             "of many cells potential-induced shunting (PID-s), or cells that give unlike "
+             "currents",
+             leak.now, std::max(leak.expected, 0.0)),
+         leak.now - leak.expected, leak.now - leak.high_95, leak.now - leak.low_95, "% of Isc",
+         rows[2].power, 1});
+  }
+  return causes;
+}
+
+std::string DecidingMeasurement(const std::vector<ReferenceCause>& causes) {
+  const auto has = [&](std::string_view id) {
+    return std::any_of(causes.begin(), causes.end(),
+                       [&](const ReferenceCause& cause) { return cause.id == id; });
+  };
+  std::string text;
+  if (has("polarisation")) {
+    text =
+        "the other face, which polarisation spares or takes otherwise, and this face after some "
+        "days of sun, in which polarisation goes and degradation stays; clean it first";
+  }
+  if (has("shunt")) {
+    text += text.empty() ? "" : "; ";
+    text +=
+        "a sweep at a fifth of the light, where shunts (PID-s) lose more than in full light; they "
+        "heal in the dark at 60 C and above, or by night under the opposite voltage";
+  }
+  return text;
 }
 
 }  // namespace lyrefit

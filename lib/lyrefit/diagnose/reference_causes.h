@@ -14,4 +14,11 @@ namespace lyrefit {
 std::vector<ReferenceCause> ExplainDifference(const FittedSweep& sweep, const Expectation& expected,
                                               const Difference& difference);
 
+// The sets of causes that may lower the key points of a sweep together, from the rows of
+// DescribeKeyPoints that differ. Of one face in one light nothing tells the members of a set apart.
+std::vector<ReferenceCause> ExplainKeyPoints(const std::vector<ReferenceRow>& rows);
+
+// The measurement that decides between the members of the sets; empty without such causes.
+std::string DecidingMeasurement(const std::vector<ReferenceCause>& causes);
+
 }  // namespace lyrefit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/numbers.h"
@@ -86,6 +87,78 @@ std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Exp
   std::vector<ReferenceRow> rows;
   rows.reserve(kQuantities);
   for (int j = 0; j < kQuantities; ++j) rows.push_back(RowOf(sweep, expected, difference, j));
+  return rows;
+}
+
+namespace {
+
+// Usual standard deviations between sweeps of one module, relative; of the leak in parts of Isc at Voc.
+struct Scatter {
+  double light, voltage, fill, leak;
+};
+
+// Of flashers, of repeated tests of one module (IEC 60904-9, class A: the light holds to 0.5 to 2 %); of
+// the field, of sensors of light (3 %) and temperature (3 K).
+Scatter ScatterOf(Setup setup) {
+  const bool indoors = setup == Setup::kFlash || setup == Setup::kLaboratory;
+  return indoors ? Scatter{0.005, 0.002, 0.005, 0.01} : Scatter{0.03, 0.01, 0.01, 0.02};
+}
+
+// A row of `now` against the mean of `expected`, of a quantity with a standard deviation.
+ReferenceRow RowAgainst(ReferenceRow row, double now, const std::vector<double>& expected,
+                        double deviation) {
+  const auto count = static_cast<double>(expected.size());
+  row.now = now;
+  for (const double value : expected) row.expected += value / count;
+  deviation *= std::sqrt(1 + 1 / count);
+  row.low_95 = row.expected - kNormal95 * deviation;
+  row.high_95 = row.expected + kNormal95 * deviation;
+  row.z = (row.now - row.expected) / deviation;
+  row.corrected_p = std::min(1.0, 4 * std::erfc(std::fabs(row.z) / std::sqrt(2.0)));
+  return row;
+}
+
+// Voc of a reference with the current and the temperature of this sweep: n Vt ln(Isc) and what is usual
+// of a cell's temperature, 0.3 %/K.
+double VoltageAt(const SweepState& reference, const SweepState& now) {
+  constexpr double kPerKelvin = -0.003;
+  const double thermal_V =
+      reference.cells * ThermalVoltage(reference.temperature_C + kZeroCelsius_K);
+  const double n = std::clamp(reference.ideality, 1.0, 2.0);
+  return reference.voc_V * (1 + kPerKelvin * (now.temperature_C - reference.temperature_C)) +
+         n * thermal_V * std::log(now.isc_A / reference.isc_A);
+}
+
+}  // namespace
+
+std::vector<ReferenceRow> DescribeKeyPoints(const SweepState& now,
+                                            const std::vector<const SweepState*>& references) {
+  constexpr double kAlike = 1.2;
+  const auto known = [](const SweepState& s) {
+    return std::isfinite(s.irradiance_W_m2) && std::isfinite(s.temperature_C);
+  };
+  std::vector<double> light, voltage, fill, leak;
+  if (!known(now) || references.empty()) return {};
+  for (const SweepState* r : references) {
+    const double ratio = now.irradiance_W_m2 / r->irradiance_W_m2;
+    if (!known(*r) || ratio > kAlike || ratio * kAlike < 1) return {};
+    light.push_back(1e3 * r->isc_A / r->irradiance_W_m2);
+    voltage.push_back(VoltageAt(*r, now));
+    fill.push_back(100 * r->fill_factor);
+    leak.push_back(100 * r->shunt_S * r->voc_V / r->isc_A);
+  }
+  const Scatter scatter = ScatterOf(now.setup);
+  std::vector<ReferenceRow> rows = {
+      RowAgainst({"Isc/G", "current per light", "mA m2/W"}, 1e3 * now.isc_A / now.irradiance_W_m2,
+                 light, scatter.light * light.front()),
+      RowAgainst({"Voc", "open-circuit voltage at this current", "V"}, now.voc_V, voltage,
+                 scatter.voltage * voltage.front()),
+      RowAgainst({"FF", "fill factor", "%"}, 100 * now.fill_factor, fill,
+                 scatter.fill * fill.front()),
+      RowAgainst({"leak", "leak at Voc", "% of Isc"}, 100 * now.shunt_S * now.voc_V / now.isc_A,
+                 leak, 100 * scatter.leak)};
+  for (ReferenceRow& row : rows) row.power = row.now / row.expected - 1;
+  rows.back().power = kUnknown;
   return rows;
 }
 

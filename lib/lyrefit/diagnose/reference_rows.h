@@ -17,4 +17,10 @@ std::vector<ReferenceRow> DescribeDifference(const FittedSweep& sweep, const Exp
 std::vector<ReferenceRow> DescribeLight(const SweepState& now,
                                         const std::vector<const SweepState*>& references);
 
+// Rows for Isc per irradiance, Voc beyond what that current gives, the fill factor and the leak, in this
+// order, against few references, whose own scatter is not known: that between sweeps of one module is
+// taken as usual of the setup. Empty if a light or temperature is unknown, or lights differ by a fifth.
+std::vector<ReferenceRow> DescribeKeyPoints(const SweepState& now,
+                                            const std::vector<const SweepState*>& references);
+
 }  // namespace lyrefit

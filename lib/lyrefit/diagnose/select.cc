@@ -219,10 +219,21 @@ std::vector<int> EndAt(const WeightedData& weighted, int k, int count, int inwar
   return end;
 }
 
+// Whether these readings are the one at open circuit, the highest voltage of all.
+bool IsVocAlone(const WeightedData& weighted, const std::vector<int>& end) {
+  const std::vector<Reading>& points = weighted.readings->points;
+  const auto higher = [&](const Reading& reading) {
+    return reading.voltage > points[end.front()].voltage && !reading.suns_voc;
+  };
+  return end.size() == 1 && std::none_of(points.begin(), points.end(), higher);
+}
+
 // Leaves out the first or the last readings of a stretch if the most probable cause shows in them
 // alone: the base law describes the others, and no cause is as probable for them. By hand, Isc and
-// Voc are often taken apart from the others, and at the end of a sweep instruments slip. Of a sweep
-// up and down, the other direction tells what the device does there.
+// Voc are often taken apart from the others, in flashers Voc in a flash of its own, and at the end of
+// a sweep instruments slip. The reading of Voc alone makes no cause where a possible junction describes
+// the others, whatever part of the misfit it is. Of a sweep up and down, the other direction tells
+// what the device does there.
 bool LeaveOutEnd(const FittedCandidate& best, SelectionState* now) {
   const DataTraits& traits = now->weighted.readings->traits;
   if (!now->fit.law.effects.empty() || !traits.single || !traits.turns.empty()) return false;
@@ -240,9 +251,10 @@ bool LeaveOutEnd(const FittedCandidate& best, SelectionState* now) {
       for (const int k : end) others.used[k] = 0;
       LawFit none = FitBase(others, now->fit.law);
       if (others.progress.Stopped()) return false;
-      const bool described = none.usable &&
-                             LeftBy(others, none).value < now->options.floors.current &&
-                             MissedBy(others, none) < kPartLeft * MissedBy(now->weighted, now->fit);
+      const bool described =
+          none.usable && LeftBy(others, none).value < now->options.floors.current &&
+          ((IsVocAlone(now->weighted, end) && !LeadsAstray(others, none)) ||
+           MissedBy(others, none) < kPartLeft * MissedBy(now->weighted, now->fit));
       if (!described) continue;
       const LawFit with = FitLaw(others, best.fit.law, best.fit.p);
       const double alone = LogTotal(EvidenceOf(others, none, judge, none));

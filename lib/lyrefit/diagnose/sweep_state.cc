@@ -87,6 +87,7 @@ Expected<FittedSweep> FitSweep(const IvCurve& curve) {
   SweepState& state = sweep.state;
   state.name = curve.name;
   state.cells = readings.scale.cells;
+  state.setup = curve.notes.setup;
   state.irradiance_W_m2 = curve.irradiance_known ? curve.conditions.irradiance_W_m2 : kUnknown;
   state.temperature_C =
       curve.temperature_known ? curve.conditions.cell_temperature_K - kZeroCelsius_K : kUnknown;

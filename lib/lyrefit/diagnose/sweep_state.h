@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/diagnose/weighted_data.h"
 
 namespace lyrefit {
@@ -17,6 +18,7 @@ constexpr int kShapeBins = 16;
 struct SweepState {
   std::string name;
   int cells = 1;
+  Setup setup = Setup::kUnknown;
   double irradiance_W_m2 = 0;  // NaN if not stated
   double temperature_C = 0;    // NaN if not stated
   double isc_A = 0;            // isc, voc, fill factor and maximum power are of the model

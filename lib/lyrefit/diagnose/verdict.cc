@@ -74,11 +74,14 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   Verdict verdict;
   verdict.causes = DescribeCauses(selection, at, measurement.values);
   const Effect& quantisation = *FindEffect("quantisation");
-  if (IsWanted(quantisation, options) && IsCoarse(measurement, at.noise)) {
+  const auto wanted = [&](const Effect& effect) {
+    return IsWanted(effect, options) && WhyExcluded(effect, options) == nullptr;
+  };
+  if (wanted(quantisation) && IsCoarse(measurement, at.noise)) {
     verdict.causes.push_back(QuantisationCause(quantisation, measurement));
   }
   const Effect& bins = *FindEffect("voltage_bins");
-  if (IsWanted(bins, options) && HasMaterialBins(measurement, at.noise, options.floor_current)) {
+  if (wanted(bins) && HasMaterialBins(measurement, at.noise, options.floor_current)) {
     verdict.causes.push_back(BinsCause(bins, measurement));
   }
   verdict.below_floor = DescribeBelow(selection);

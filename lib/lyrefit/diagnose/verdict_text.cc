@@ -254,7 +254,8 @@ std::string NotShownBy(const DataTraits& traits) {
   if (!traits.only_dark) never.emplace_back("dirt or slight ageing of all cells alike");
   never.emplace_back("resistance of the leads");
   if (traits.temperature_levels < 2) never.emplace_back("a wrong temperature");
-  if (traits.single && !traits.up_down && !traits.only_dark) {
+  const bool flash = traits.setup == Setup::kFlash;
+  if (traits.single && !traits.up_down && !traits.only_dark && !flash) {
     never.emplace_back("light that fades steadily");
   }
   return Alternatives(never);

@@ -11,6 +11,7 @@
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/curve/sweep_order.h"
+#include "lyrefit/curve/technology.h"
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/law.h"
 
@@ -303,6 +304,22 @@ void TakeNotes(const CurveSet& set, Readings* readings) {
   }
 }
 
+// The highest open-circuit voltage of a cell of the stated technology; of silicon in modules of which
+// none is stated. What the readings exceed is no limit.
+double MostOpenCircuit(const Readings& readings, const std::string& stated) {
+  const DataTraits& traits = readings.traits;
+  const Technology* const named = FindTechnology(stated);
+  const bool unknown = named == nullptr && !(stated.empty() && traits.module);
+  if (traits.only_dark || unknown) return 0;
+  const Reading& brightest = *std::max_element(
+      readings.points.begin(), readings.points.end(),
+      [](const Reading& a, const Reading& b) { return a.irradiance < b.irradiance; });
+  const double most = HighestVoc_V(named != nullptr ? *named : Silicon(), brightest.temperature_K,
+                                   brightest.irradiance);
+  const double measured = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
+  return measured < most ? most : 0;
+}
+
 // Larger values than any device or meter gives are error codes, and their squares may overflow.
 Expected<void> CheckSizes(const IvCurve& curve) {
   constexpr double kLargest = 1e6;
@@ -381,6 +398,8 @@ Expected<Readings> MakeReadings(const CurveSet& set, std::vector<std::string>* w
   readings.scale.strings = set.curves.front().conditions.strings_in_parallel;
   TakeNotes(set, &readings);
   DataTraits& traits = readings.traits;
+  traits.setup = set.curves.front().notes.setup;
+  traits.most_open_circuit = MostOpenCircuit(readings, set.curves.front().notes.technology);
   readings.reference_temperature_K =
       traits.temperature_levels > 1 ? 298.15 : set.curves.front().conditions.cell_temperature_K;
   traits.thermal_voltage = ThermalVoltage(readings.reference_temperature_K);

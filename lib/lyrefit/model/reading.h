@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lyrefit/base/public.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
 
@@ -45,22 +46,26 @@ struct ReadingScale {
 
 // Properties of a measurement: they decide which effects it can show.
 struct DataTraits {
-  int curves = 1;              // each with its own conditions
-  bool single = true;          // one curve only (any number of sweeps), or one beside Suns-Voc
-  bool reverse = false;        // points well below 0 V
-  bool beyond_voc = false;     // points of negative current in the light
-  bool up_down = false;        // both directions under the same conditions
-  bool dark = false;           // a dark curve beside a lit one
-  bool only_dark = false;      // dark curves only
-  bool suns_voc = false;       // a Suns-Voc trace beside another curve
-  int irradiance_levels = 1;   // of lit curves
-  int temperature_levels = 1;  // of all curves
-  bool module = false;         // more than one cell in series
-  int substrings = 0;          // number of bypass groups; 0: none, or unknown
-  bool bypass_known = false;   // that number is stated; else a string has the usual one
-  int cells = 1;               // used in the computation
-  int stated_cells = 1;        // as stated, or a reader's default
-  bool cells_known = true;     // the number of cells is stated
+  int curves = 1;                 // each with its own conditions
+  bool single = true;             // one curve only (any number of sweeps), or one beside Suns-Voc
+  bool reverse = false;           // points well below 0 V
+  bool beyond_voc = false;        // points of negative current in the light
+  bool up_down = false;           // both directions under the same conditions
+  bool dark = false;              // a dark curve beside a lit one
+  bool only_dark = false;         // dark curves only
+  bool suns_voc = false;          // a Suns-Voc trace beside another curve
+  int irradiance_levels = 1;      // of lit curves
+  int temperature_levels = 1;     // of all curves
+  bool module = false;            // more than one cell in series
+  int substrings = 0;             // number of bypass groups; 0: none, or unknown
+  bool bypass_known = false;      // that number is stated; else a string has the usual one
+  int cells = 1;                  // used in the computation
+  int stated_cells = 1;           // as stated, or a reader's default
+  bool cells_known = true;        // the number of cells is stated
+  Setup setup = Setup::kUnknown;  // of the measurement
+  // The highest open-circuit voltage of a cell, as its technology has it under the brightest light; 0:
+  // no limit is known.
+  double most_open_circuit = 0;
   bool bandgap_known = true;   // the band gap is stated
   bool tempco_known = true;    // the temperature coefficient of Isc is stated
   double lowest_voltage = 0;   // per cell

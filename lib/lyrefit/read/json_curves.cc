@@ -173,6 +173,7 @@ Records FromRegisters(const json& list) {
   const auto scan = AsRegisterScan(registers);
   if (!scan) return {};
   Records records;
+  records.setup = Setup::kInverter;
   records.lists.resize(1 + scan->currents.size());
   records.lists[0].name = "voltage";
   records.lists[0].values = scan->voltages;
@@ -354,6 +355,7 @@ Expected<bool> TakeRecords(FoundCurves* found, const Records& records, const Sur
       continue;
     }
     raw->stated = Merge(std::move(raw->stated), around.stated);
+    TakeSetup(records.setup, "the layout of the file", &raw->stated);
     // Documents without units are taken in V and A, with a sentence but without the doubts about
     // unit and size that tables get, unless they hold whole numbers, as registers do.
     IvCurve& curve = raw->curve;
@@ -368,6 +370,7 @@ Expected<void> FindCurvesIn(FoundCurves* found, const json& node, Surroundings a
   if (node.is_object()) {
     around.nomad = around.nomad || node.contains("jv_curve");
     around.stated = Merge(StatedIn(node, around), around.stated);
+    if (around.nomad) TakeSetup(Setup::kLaboratory, "the format of the file", &around.stated);
     TakeScales(node, &around);
     if (auto results = ResultsIn(node, around.id); !results.empty()) around.results = results;
     SweepDirection direction = ReadTag(TextOf(node, "direction")).direction;

@@ -227,6 +227,7 @@ std::optional<FlashReading> ReadingAt(const Flash& flash, double suns) {
 // The conditions of all curves but their light.
 Sidecar StatedIn(const Settings& settings) {
   Sidecar stated;
+  TakeSetup(Setup::kFlash, "the format of the file", &stated);
   stated.cells_in_series = settings.Count("Number of Cells per String");
   stated.strings_in_parallel = settings.Count("Number of Strings");
   if (const Setting* date = settings.Last("Measurement Timestamp (ISO 8601 String)")) {

@@ -89,10 +89,11 @@ inline constexpr OptionRow<ReadOptions> kReadOptionTable[] = {
 //     (github.com/cwhanse/ivcurves: numbers may be strings, kelvin),
 //   - a folder that holds curve.csv, or a table of the folder's own name, as IV_Swinger writes it.
 // A sidecar NAME.json beside NAME.csv supplies cells_in_series, nominal_temperature_C,
-// nominal_irradiance_Wm2, area_cm2, bypass_diodes, modules_in_series, technology, bandgap_eV (or EgRef),
-// bandgap_slope_per_K (or dEgdT), isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A,
-// relative}, current_resolution_A, light_top, light_bottom (of a tandem's junctions, shares of their
-// reference light).
+// nominal_irradiance_Wm2, area_cm2, bypass_diodes, modules_in_series, technology, setup (of the
+// measurement: outdoor, flash, inverter or laboratory), bandgap_eV (or EgRef), bandgap_slope_per_K (or
+// dEgdT), isc_tempco_per_K, isc_tempco_A_per_K, current_noise {constant_A, relative},
+// current_resolution_A, light_top, light_bottom (of a tandem's junctions, shares of their reference
+// light).
 // A report of `lyrefit fit` under this name supplies its conditions. `assumptions` has a sentence
 // for each condition that is not stated. The points of every quadrant are kept, in file order.
 // Errors carry file, line and column.

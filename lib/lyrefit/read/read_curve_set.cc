@@ -121,6 +121,8 @@ Expected<CurveSet> SetFromTable(const DecodedText& decoded, const std::string& p
   const std::string name = in_folder ? FolderNameOf(file) : file.stem().string();
   CurveSetBuilder builder(name, source, options);
   if (!text.remark.empty()) builder.Assume({text.remark});
+  Sidecar by_layout;
+  TakeSetup(text.setup, "the layout of the file", &by_layout);
   const fs::path common =
       in_folder ? file.parent_path() / kDatasetName : fs::path(file).replace_extension(".json");
   const fs::path index = file.parent_path() / (in_folder ? kIndexName : name + "-index.csv");
@@ -130,6 +132,7 @@ Expected<CurveSet> SetFromTable(const DecodedText& decoded, const std::string& p
   }
   TRY(std::vector<Table> tables, std::move(read));
   TRY(builder.ReadCommon(common.string(), in_folder ? SidecarOf::kSet : SidecarOf::kCurve));
+  builder.TakeHead(by_layout);
   const bool several_devices = tables.size() > 1 && tables.front().of_device;
   if (tables.size() > 1) {
     AddChannels(std::move(tables), path, &builder);

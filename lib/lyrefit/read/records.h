@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 
@@ -37,6 +38,7 @@ struct Records {
   std::vector<RecordScalar> scalars;
   std::vector<Record> lists;
   std::vector<std::string> assumptions;  // assumptions made when the row was packed
+  Setup setup = Setup::kUnknown;         // of the measurement, where the layout tells it
   bool nested = false;                   // has values that are neither scalars nor lists of scalars
 };
 

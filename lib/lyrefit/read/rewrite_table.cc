@@ -189,25 +189,31 @@ std::string RowsOfPixels(std::string_view text) {
 }  // namespace
 
 DecodedText RewriteTable(DecodedText text) {
-  const std::pair<std::string (*)(std::string_view), const char*> kLayouts[] = {
-      {RowsOfTrace,
+  struct Layout {
+    std::string (*rows)(std::string_view);
+    Setup setup;
+    const char* remark;
+  };
+  const Layout kLayouts[] = {
+      {RowsOfTrace, Setup::kUnknown,
        "one line of five numbers a reading (voltage, current, resistance, time, status), as source "
        "meters send their buffer: taken apart"},
-      {RowsOfScan,
+      {RowsOfScan, Setup::kInverter,
        "currents without voltages: the voltages follow from the first one and the interval that "
        "the "
        "lines above state"},
-      {RowsOfRegisters,
+      {RowsOfRegisters, Setup::kInverter,
        "a list of registers: taken apart into voltages, which rise or fall all the way, and "
        "currents"},
-      {RowsOfPixels,
+      {RowsOfPixels, Setup::kLaboratory,
        "one line a measurement with its pixels side by side: taken apart; current densities in "
        "mA/cm2 were multiplied by the areas in the line"}};
-  for (const auto& [rewrite, sentence] : kLayouts) {
-    std::string rows = rewrite(text.text);
+  for (const Layout& layout : kLayouts) {
+    std::string rows = layout.rows(text.text);
     if (rows.empty()) continue;
     text.text = std::move(rows);
-    text.remark += (text.remark.empty() ? "" : "; ") + std::string(sentence);
+    text.setup = layout.setup;
+    text.remark += (text.remark.empty() ? "" : "; ") + std::string(layout.remark);
     break;
   }
   return text;

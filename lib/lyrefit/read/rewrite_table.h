@@ -12,7 +12,8 @@ namespace lyrefit {
 //     voltage and the interval ("Start_V", "Interval_V"),
 //   - a measurement a line with all pixels in it: ten settings, a field that begins with
 //     "hysteresis$", results, then the current densities and the voltages of each pixel.
-// Lines of the second layout keep their numbers.
+// The scan tells the setup of the measurement, so does the line of pixels. Lines of the second layout
+// keep their numbers.
 DecodedText RewriteTable(DecodedText text);
 
 }  // namespace lyrefit

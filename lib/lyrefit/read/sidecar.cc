@@ -19,6 +19,7 @@ using nlohmann::json;
 
 constexpr const char* kKnownKeys[] = {"name",
                                       "technology",
+                                      "setup",
                                       "cell_temperature_C",
                                       "temperature_C",
                                       "nominal_temperature_C",
@@ -183,6 +184,9 @@ Expected<Sidecar> ReadKeys(SidecarReading* reading) {
            &reading->sidecar.stated_in.technology);
   ReadConditionKeys(reading);
   DeviceNotes& notes = reading->sidecar.notes;
+  std::string setup;
+  ReadText(reading, "setup", &setup, &reading->sidecar.stated_in.setup);
+  notes.setup = FromText<Setup>(setup).value_or(FindSetup(setup));
   ReadWhole(reading, "bypass_diodes", 0, "a number from 0 up", &notes.bypass_diodes,
             &reading->sidecar.stated_in.bypass_diodes);
   ReadNumber(reading, {"bandgap_eV", "EgRef"}, Sign::kPositive, &notes.bandgap_eV);
@@ -294,6 +298,12 @@ std::optional<Sidecar> ReportedConditions(const json& report, const std::string&
   return sidecar;
 }
 
+void TakeSetup(Setup setup, const std::string& stated_in, Sidecar* sidecar) {
+  if (setup == Setup::kUnknown || sidecar->notes.setup != Setup::kUnknown) return;
+  sidecar->notes.setup = setup;
+  sidecar->stated_in.setup = stated_in;
+}
+
 Sidecar Merge(Sidecar own, const Sidecar& common) {
   const auto fill = [](auto* value, const auto& otherwise) {
     if (!*value) *value = otherwise;
@@ -316,6 +326,7 @@ Sidecar Merge(Sidecar own, const Sidecar& common) {
   fill(&own.strings_in_parallel, common.strings_in_parallel);
   DeviceNotes& notes = own.notes;
   take(&notes.technology, common.notes.technology, &in.technology, other.technology);
+  take(&notes.setup, common.notes.setup, &in.setup, other.setup);
   take(&notes.bypass_diodes, common.notes.bypass_diodes, &in.bypass_diodes, other.bypass_diodes);
   fill(&notes.modules_in_series, common.notes.modules_in_series);
   fill(&notes.bandgap_eV, common.notes.bandgap_eV);

@@ -50,6 +50,9 @@ bool IsReport(const nlohmann::json& document);
 // the report is not about a single curve.
 std::optional<Sidecar> ReportedConditions(const nlohmann::json& report, const std::string& path);
 
+// Records the setup of the measurement, and where it is stated, unless one is recorded.
+void TakeSetup(Setup setup, const std::string& stated_in, Sidecar* sidecar);
+
 // Fills the unset fields of `own` from `common`.
 Sidecar Merge(Sidecar own, const Sidecar& common);
 

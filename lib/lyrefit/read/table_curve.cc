@@ -96,6 +96,7 @@ Expected<RawCurve> TableCurveFromText(const DecodedText& text, const std::string
   raw.curve = std::move(table.curve);
   raw.stated = std::move(table.head);
   raw.per_area = table.per_area;
+  TakeSetup(rewritten.setup, "the layout of the file", &raw.stated);
   if (!rewritten.remark.empty()) {
     raw.curve.assumptions.insert(raw.curve.assumptions.begin(), rewritten.remark);
   }

@@ -257,6 +257,7 @@ void ReadHeadLine(std::string_view text, int number, HeadLine kind, TableHead* h
   const std::string source = fmt::format("line {} {}", number, Quoted(TrimMarks(line)));
   HeadLineState state{source, head, false, false, {}};
   ReadLine(&state, TrimMarks(line));
+  TakeSetup(FindSetup(std::string(line)), PlaceOf(source), &head->said);
   if (state.bare_temperature && TakeTemperatureBesideLight(*state.bare_temperature, source, head)) {
     state.understood = true;
   }

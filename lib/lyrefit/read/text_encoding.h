@@ -4,13 +4,15 @@
 #include <string>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
 
 namespace lyrefit {
 
 // A UTF-8 text and a remark on its decoding.
 struct DecodedText {
   std::string text;
-  std::string remark;  // sentence on the decoding; empty if the bytes were UTF-8
+  std::string remark;             // sentence on the decoding; empty if the bytes were UTF-8
+  Setup setup = Setup::kUnknown;  // of the measurement, where the layout tells it
 };
 
 // Converts to UTF-8 from UTF-8 or UTF-16 of either byte order, with or without a byte order mark.

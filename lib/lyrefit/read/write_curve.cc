@@ -27,6 +27,7 @@ void AddNotes(const DeviceNotes& notes, nlohmann::ordered_json* sidecar) {
     if (value) (*sidecar)[key] = *value;
   };
   if (!notes.technology.empty()) (*sidecar)["technology"] = notes.technology;
+  if (notes.setup != Setup::kUnknown) (*sidecar)["setup"] = ToText(notes.setup);
   add("bypass_diodes", notes.bypass_diodes);
   add("modules_in_series", notes.modules_in_series);
   add("bandgap_eV", notes.bandgap_eV);

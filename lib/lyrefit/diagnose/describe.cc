@@ -270,13 +270,32 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
   }
 }
 
+// Widens the interval of a power to gain, that of one cause, to what the removal of an equivalent one
+// would give.
+void WidenPower(const WeightedData& weighted, const FittedCandidate& equivalent, Sized* power) {
+  if (!std::isfinite(power->value) || equivalent.score.effect->where != Where::kDevice) return;
+  const int last = static_cast<int>(equivalent.fit.law.effects.size()) - 1;
+  const double other = GainWithout(weighted, equivalent.fit, last).power_W;
+  if (!std::isfinite(other)) return;
+  power->low_95 = std::min(power->low_95, std::max(other, 0.0));
+  power->high_95 = std::max(power->high_95, other);
+}
+
 std::vector<Cause> DescribeBelow(const Selection& selection) {
   std::vector<Cause> causes;
   for (const FittedCandidate& fitted : selection.below.candidates) {
     const Effect& effect = *fitted.score.effect;
     if (!causes.empty()) {
+      Cause& first = causes.front();
       const double best = selection.below.candidates.front().probability;
-      if (fitted.probability >= kNotable * best) AddEquivalent(effect.Finding(), &causes.front());
+      if (effect.Finding() == first.id) {
+        first.probability += fitted.probability;
+      } else if (fitted.probability >= kNotable * best) {
+        AddEquivalent(effect.Finding(), &first);
+        const Effect* finding = FindEffect(effect.Finding());
+        AddProbability(effect.Finding(), (finding != nullptr ? *finding : effect).title,
+                       fitted.probability, &first.alternatives);
+      }
       continue;
     }
     Cause cause = MakeCause(effect, "fit", fitted.probability);
@@ -287,6 +306,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     cause.recoverable_power_W = {};
     causes.push_back(std::move(cause));
   }
+  if (!causes.empty()) SortAndCut(&causes.front().alternatives);
   return causes;
 }
 
@@ -303,6 +323,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     AddProbabilities(chosen, &cause);
     if (!by_values) AddEquivalent(effect.id, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
+      WidenPower(weighted, *fitted, &cause.recoverable_power_W);
       const bool same = fitted->score.effect->Finding() == cause.id;
       AddEquivalent(same ? fitted->score.effect->id : fitted->score.effect->Finding(), &cause);
       AddSeparation(effect, &cause.separate_by);
@@ -378,7 +399,9 @@ void DescribeRecoverable(const Selection& selection, Verdict* verdict) {
       })) {
     return;
   }
-  verdict->recoverable_power_W = Recoverable(GainWithoutEffects(selection.weighted, fit));
+  verdict->recoverable_power_W = causes.size() == 1
+                                     ? causes.front().recoverable_power_W
+                                     : Recoverable(GainWithoutEffects(selection.weighted, fit));
   const auto limit = [](Sized* power) { *power = {kUnknown, power->low_95, kUnknown}; };
   bool any = false;
   for (Cause& cause : verdict->causes) {

@@ -290,8 +290,9 @@ Cause WrongCells(const Selection& selection) {
 // Whether n is plausible if one bypass group without voltage is not counted.
 bool LacksAGroup(const DataTraits& traits, double n) {
   constexpr double kLeast = 0.97, kMost = 1.5;
-  if (!traits.cells_known || traits.substrings < 2) return false;
-  const double without = n * traits.substrings / (traits.substrings - 1);
+  const int groups = SubstringsOf(traits);
+  if (!traits.cells_known || groups < 2) return false;
+  const double without = n * groups / (groups - 1);
   return without >= kLeast && without <= kMost;
 }
 
@@ -301,7 +302,7 @@ bool LacksAGroup(const DataTraits& traits, double n) {
 Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   constexpr double kPartIfStated = 0.85, kPartIfAssumed = 0.4;
   const Effect& effect = *FindEffect("bypass_short");
-  const int groups = traits.substrings;
+  const int groups = SubstringsOf(traits);
   const double all = metadata.probability;
   const double group = all * (traits.bypass_known ? kPartIfStated : kPartIfAssumed);
   const std::string words = fmt::format("1 of {}{} bypass groups gives no voltage", groups,

@@ -59,9 +59,11 @@ struct Tempering {
 // Tempers the differences in evidence between causes; the sum of their probabilities stays. A law
 // that is wrong in its details misses smoothly, by a few independent pieces of a sweep, however many
 // readings it has and however often it is swept: a part of a difference counts as far as these
-// pieces show it, and a smaller one beyond.
-void Temper(const WeightedData& weighted, const Tempering& by,
+// pieces show it, and a smaller one beyond. Both causes must explain most of what there is: one that
+// is hardly better than none misses alike only where the misfits show nothing.
+void Temper(const WeightedData& weighted, const Tempering& by, double none,
             std::vector<FittedCandidate>* candidates) {
+  constexpr double kMost = 0.5;  // of what the best gains against none
   const FittedCandidate* top = nullptr;
   double sum = -HUGE_VAL, tempered = -HUGE_VAL;
   const auto evidence_of = [](const FittedCandidate& candidate) {
@@ -81,7 +83,7 @@ void Temper(const WeightedData& weighted, const Tempering& by,
   for (FittedCandidate& candidate : *candidates) {
     const double below = evidence_of(candidate) - best;
     double counted = by.part * below;
-    if (pieces && std::isfinite(below)) {
+    if (pieces && evidence_of(candidate) - none > kMost * (best - none)) {
       const double shown = kPiecesOfSweep * std::max(misfit_of(candidate) - least, 0.0);
       counted = std::max(counted, by.least_part * below - shown);
     }
@@ -137,7 +139,7 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
       options.departure > 0
           ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails, options.departure}
           : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws, 0};
-  Temper(weighted, tempering, &candidates);
+  Temper(weighted, tempering, none.log_posterior, &candidates);
   double total = none.log_posterior;
   for (const FittedCandidate& candidate : candidates) {
     total = LogSum(total, candidate.log_posterior);

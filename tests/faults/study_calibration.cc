@@ -124,6 +124,7 @@ std::string EffectOf(const std::string& kind) {
       {"both_halves", "dim_cells"},
       {"open_group", "open_substring"},
       {"light_step", "irr_step"},
+      {"light_edge", "cloud_edge"},
       {"light_dip", "transient"},
       {"light_drift", "drift"},
       {"hysteresis", "capacitance"},

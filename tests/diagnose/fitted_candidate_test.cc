@@ -99,13 +99,13 @@ TEST(JudgeTest, PriorsWeighInOdds) {
 
 // ln of the odds of the first cause over the second, as Judge tempers their evidence. `part`: at
 // most; `least`: of what the misfits do not show, over `pieces` of a sweep.
-double OddsOfFirst(const WeightedData& weighted, const Hypotheses& judged, double departure,
-                   double part, double least) {
+double OddsOfFirst(const WeightedData& weighted, const Hypotheses& judged, double part,
+                   double least) {
   const FittedCandidate *above = &judged.candidates[0], *below = &judged.candidates[1];
   const bool turned = LogTotal(above->evidence) < LogTotal(below->evidence);
   if (turned) std::swap(above, below);
   const auto misfit = [&](const FittedCandidate& one) {
-    return std::log(std::hypot(MissedBy(weighted, one.fit), departure));
+    return std::log(MissedBy(weighted, one.fit));
   };
   const double evidence = LogTotal(above->evidence) - LogTotal(below->evidence);
   const double none = LogTotal(judged.none.evidence);
@@ -123,18 +123,15 @@ TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
   JudgeOptions field;
   field.departure = kField;
   field.departure_width = 0.35;
-  JudgeOptions alike = field;
-  alike.departure = 0.05;  // so large that every misfit is like another
   const IvCurve curve = WithStep(0.05);
   const SyntheticData made = OnTheData(curve);
   for (const auto& [options, part, least] :
-       {std::tuple(JudgeOptions(), 0.6, 0.6), std::tuple(field, 0.3, 0.1),
-        std::tuple(alike, 0.3, 0.1)}) {
+       {std::tuple(JudgeOptions(), 0.6, 0.6), std::tuple(field, 0.3, 0.1)}) {
     const Hypotheses judged = Judged(curve, options);
     const FittedCandidate& first = judged.candidates[0];
     const FittedCandidate& second = judged.candidates[1];
     EXPECT_NEAR(std::log(first.probability / second.probability),
-                OddsOfFirst(made.weighted, judged, options.departure, part, least), 1e-9);
+                OddsOfFirst(made.weighted, judged, part, least), 1e-9);
     const double causes = LogSum(LogTotal(first.evidence) + first.log_prior,
                                  LogTotal(second.evidence) + second.log_prior);
     EXPECT_NEAR(std::log((1 - judged.none.probability) / judged.none.probability),

@@ -53,7 +53,6 @@ namespace {
 struct Tempering {
   double part = 1;        // at most
   double least_part = 1;  // of what the plain misfit does not show
-  double departure = 0;   // misfits below it are alike, in scales
 };
 
 // Tempers the differences in evidence between causes; the sum of their probabilities stays. A law
@@ -76,7 +75,7 @@ void Temper(const WeightedData& weighted, const Tempering& by, double none,
   if (top == nullptr || !std::isfinite(evidence_of(*top))) return;
   const double best = evidence_of(*top);
   const auto misfit_of = [&](const FittedCandidate& candidate) {
-    return std::log(std::hypot(MissedBy(weighted, candidate.fit), by.departure));
+    return std::log(std::max(MissedBy(weighted, candidate.fit), 1e-300));
   };
   const bool pieces = by.least_part < by.part;
   const double least = pieces ? misfit_of(*top) : 0;
@@ -137,8 +136,8 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
   }
   const Tempering tempering =
       options.departure > 0
-          ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails, options.departure}
-          : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws, 0};
+          ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails}
+          : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws};
   Temper(weighted, tempering, none.log_posterior, &candidates);
   double total = none.log_posterior;
   for (const FittedCandidate& candidate : candidates) {

@@ -32,7 +32,7 @@ const std::vector<CausePrior>& PriorTable() {
       {"mismatch", 0.02, 0.02, kFault},        {"leaky_cell", 0.01, 0.01, kFault},
       {"scatter", 0.005, 0.003, kFault},       {"bypass_short", 0.01, 0.01, kFault},
       {"bypass_open", 0.003, 0.006, kFault},
-      {"cloud_edge", 0.001, 0.005, kSky},   {"open_substring", 0.005, 0.005, kFault},
+      {"cloud_edge", 0.001, 0.005, kSky},   {"open_substring", 0.005, 0.01, kFault},
       {"graded_shunt", 0.02, 0.02, kFault},    {"irr_step", 0.003, 0.02, kLamp},
       {"transient", 0.002, 0.005, kLamp},      {"drift", 0.01, 0.01, kSky},
       {"temp_drift", 0.003, 0.003, kSky},      {"hysteresis", 0.1, 0.02, kPair},

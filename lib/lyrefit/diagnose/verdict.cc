@@ -53,6 +53,16 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
   return cause;
 }
 
+// Probability of a cause and of those that draw the same curve by another wrong number.
+double ProbabilityOfSet(const Cause& cause) {
+  double sum = cause.probability;
+  for (const Alternative& other : cause.alternatives) {
+    const std::vector<std::string>& same = cause.equivalents;
+    if (std::find(same.begin(), same.end(), other.id) != same.end()) sum += other.probability;
+  }
+  return sum;
+}
+
 // Whether the residuals of the extended model are certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
   return selection.incomplete > 0.5 || whiteness_after < kRemains ||
@@ -92,7 +102,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {
     const bool shorted = IsWanted(*FindEffect("bypass_short"), options);
     for (Cause& cause : CheckTemperatureAndCells(selection, shorted)) {
-      none = std::min(none, 1 - cause.probability);
+      none = std::max(none - ProbabilityOfSet(cause), 0.0);
       verdict.causes.push_back(cause);
     }
   }

@@ -66,6 +66,13 @@ void SortAndCut(std::vector<Alternative>* list) {
   });
 }
 
+// Adds the probability of an effect to that of its finding.
+void AddFinding(const Effect& effect, double probability, std::vector<Alternative>* list) {
+  const Effect* finding = FindEffect(effect.Finding());  // null: of an effect of the user's
+  AddProbability(effect.Finding(), (finding != nullptr ? *finding : effect).title, probability,
+                 list);
+}
+
 // Probabilities of a cause: of the mechanisms of its finding, and of what else may stand in its
 // place.
 void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
@@ -82,10 +89,7 @@ void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
       cause->probability += other.probability;
       AddProbability(effect.id, effect.title, other.probability, &cause->mechanisms);
     } else {
-      AddProbability(effect.Finding(),
-                     FindEffect(effect.Finding()) != nullptr ? FindEffect(effect.Finding())->title
-                                                             : effect.title,
-                     other.probability, &cause->alternatives);
+      AddFinding(effect, other.probability, &cause->alternatives);
     }
   }
   const double unknown = none.probability * IncompleteProbability(none.evidence);
@@ -292,9 +296,7 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
         first.probability += fitted.probability;
       } else if (fitted.probability >= kNotable * best) {
         AddEquivalent(effect.Finding(), &first);
-        const Effect* finding = FindEffect(effect.Finding());
-        AddProbability(effect.Finding(), (finding != nullptr ? *finding : effect).title,
-                       fitted.probability, &first.alternatives);
+        AddFinding(effect, fitted.probability, &first.alternatives);
       }
       continue;
     }
@@ -308,6 +310,15 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
   }
   if (!causes.empty()) SortAndCut(&causes.front().alternatives);
   return causes;
+}
+
+std::vector<Alternative> TriedAlone(const Selection& selection) {
+  std::vector<Alternative> findings;
+  for (const FittedCandidate& trial : selection.trials.candidates) {
+    AddFinding(*trial.score.effect, trial.probability * trial.material, &findings);
+  }
+  SortAndCut(&findings);
+  return findings;
 }
 
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,

@@ -8,7 +8,6 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/distributions.h"
 #include "lyrefit/base/median.h"
-#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/device_findings.h"
 #include "lyrefit/diagnose/values.h"
@@ -130,10 +129,11 @@ void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidenc
                          values.at_lower.size(), values.lower_limit * scale.current_A));
   }
   if (!values.limited && !values.at_lower.empty()) {
-    clipping(values.at_lower,
-             fmt::format("{} readings stay at the smallest current while the voltage rises, and are "
-                         "left out",
-                         values.at_lower.size()));
+    clipping(
+        values.at_lower,
+        fmt::format("{} readings stay at the smallest current while the voltage rises, and are "
+                    "left out",
+                    values.at_lower.size()));
   }
   if (!values.at_voltage_limit.empty()) {
     clipping(
@@ -329,31 +329,6 @@ Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
   return cause;
 }
 
-// What else may act, of the effects tried with the base model alone: each finding that is notable.
-std::vector<Alternative> OthersOf(const Selection& selection) {
-  std::vector<Alternative> others;
-  for (const FittedCandidate& trial : selection.trials.candidates) {
-    const double probability = trial.probability * trial.material;
-    if (!(probability > 0)) continue;
-    const std::string id = trial.score.effect->Finding();
-    const auto at = std::find_if(others.begin(), others.end(),
-                                 [&](const Alternative& one) { return one.id == id; });
-    if (at != others.end()) {
-      at->probability += probability;
-    } else {
-      const Effect* finding = FindEffect(id);
-      others.push_back({id, (finding != nullptr ? finding : trial.score.effect)->title, probability});
-    }
-  }
-  others.erase(std::remove_if(others.begin(), others.end(),
-                              [](const Alternative& one) { return one.probability < kNotable; }),
-               others.end());
-  std::stable_sort(others.begin(), others.end(), [](const Alternative& a, const Alternative& b) {
-    return a.probability > b.probability;
-  });
-  return others;
-}
-
 }  // namespace
 
 double LeastIdeality(const WeightedData& weighted) {
@@ -387,7 +362,7 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   const bool alone = p < kSureAlone && probability > 0.8;
   if (!alone && !(p < kSure && probability > 0.5)) return {};
   Cause cause = Metadata("fit", probability);
-  if (weighted.path > 0) cause.alternatives = OthersOf(selection);
+  if (weighted.path > 0) cause.alternatives = TriedAlone(selection);
   const double z = StudentT95(Degrees(weighted, fit.law)) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false}};
   std::vector<std::string> needs;

@@ -134,10 +134,9 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
     candidate.statistic = (none.fit.sum - candidate.fit.sum) /
                           std::min(variance, NoiseVariance(weighted, candidate.fit));
   }
-  const Tempering tempering =
-      options.departure > 0
-          ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails}
-          : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws};
+  const Tempering tempering = options.departure > 0
+                                  ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails}
+                                  : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws};
   Temper(weighted, tempering, none.log_posterior, &candidates);
   double total = none.log_posterior;
   for (const FittedCandidate& candidate : candidates) {

@@ -132,7 +132,8 @@ bool StaysAfterABend(const Readings& readings, const std::vector<double>& added)
   constexpr double kBegun = 0.1, kHalf = 0.5, kDone = 0.9;  // of the largest change
   constexpr double kStays = 0.15;                           // likewise; near Voc Rs hides light
   constexpr double kKnee = 0.3;                             // of the largest current
-  constexpr double kBelow = 0.08, kAbove = 0.03;  // of Voc: groups give less at a current than at Voc
+  constexpr double kBelow = 0.08,
+                   kAbove = 0.03;  // of Voc: groups give less at a current than at Voc
   constexpr int kMostOfAModule = 4;
   const std::vector<Reading>& points = readings.points;
   const DataTraits& traits = readings.traits;
@@ -142,12 +143,12 @@ bool StaysAfterABend(const Readings& readings, const std::vector<double>& added)
   for (const Reading& point : points) most = std::max(most, point.current);
   if (!(std::fabs(added.back()) > kStays * largest)) return false;
   const auto first_of = [&](double part) {
-    const auto at = std::find_if(added.begin(), added.end(), [&](double change) {
-      return std::fabs(change) > part * largest;
-    });
+    const auto at = std::find_if(added.begin(), added.end(),
+                                 [&](double change) { return std::fabs(change) > part * largest; });
     return points[at - added.begin()];
   };
-  if (first_of(kBegun).current < kKnee * most || first_of(kDone).current < kKnee * most) return true;
+  if (first_of(kBegun).current < kKnee * most || first_of(kDone).current < kKnee * most)
+    return true;
   const double rise = points.back().voltage - points.front().voltage;
   const bool takes = (added.back() < 0) == (rise > 0);  // as the voltage rises; shade does
   if (!traits.module || !takes) return false;
@@ -157,9 +158,8 @@ bool StaysAfterABend(const Readings& readings, const std::vector<double>& added)
   const double part = first_of(kHalf).voltage / voc;
   std::vector<double> edges = {0.25, 0.5, 0.75};
   for (int j = 1; j < groups; ++j) edges.push_back(static_cast<double>(j) / groups);
-  return std::any_of(edges.begin(), edges.end(), [part](double edge) {
-    return part > edge - kBelow && part < edge + kAbove;
-  });
+  return std::any_of(edges.begin(), edges.end(),
+                     [part](double edge) { return part > edge - kBelow && part < edge + kAbove; });
 }
 
 }  // namespace

@@ -280,7 +280,8 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
         "Something is there that noise does not explain ({}), and none of the known causes fits.",
         OfIsc(verdict->remaining.value));
   } else if (!verdict->found) {
-    verdict->sentence = NothingSentence(*verdict, floors, selection.weighted, findings, probability);
+    verdict->sentence =
+        NothingSentence(*verdict, floors, selection.weighted, findings, probability);
   } else {
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }

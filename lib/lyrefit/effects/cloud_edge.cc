@@ -33,7 +33,8 @@ Effect CloudEdge() {
           .Between(-0.45, 0.45)
           .AboveLower()
           .BelowUpper(),
-      Parameter("w", "width", "how fast, part of the measurement: 4.4 w from a tenth to nine tenths")
+      Parameter("w", "width",
+                "how fast, part of the measurement: 4.4 w from a tenth to nine tenths")
           .Between(0.001, 0.03)
           .From(0.01)
           .BelowUpper(),

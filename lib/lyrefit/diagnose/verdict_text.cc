@@ -259,6 +259,9 @@ std::string NotShownBy(const DataTraits& traits) {
   if (traits.single && !traits.up_down && !traits.only_dark) {
     never.emplace_back("light that fades steadily");
   }
+  if (!traits.single && !traits.only_dark && traits.module) {
+    never.emplace_back("shade, unlike cells and light that moved, which each curve by itself shows");
+  }
   return Alternatives(never);
 }
 

@@ -171,6 +171,12 @@ TEST(CheckTemperatureAndCellsTest, SaysOnlyWhatIsPossible) {
   const Cause& cause = wrong.verdict.causes.front();
   EXPECT_THAT(cause.in_words.front(), HasSubstr("C instead of 110.0"));
   EXPECT_THAT(cause.in_words.front(), Not(HasSubstr("-4")));
+  // The number of bypass diodes is assumed: a shorted group stands behind.
+  ASSERT_FALSE(cause.alternatives.empty());
+  EXPECT_EQ(cause.alternatives.front().id, "bypass_short");
+  EXPECT_NEAR(cause.alternatives.front().probability / cause.probability, 0.4 / 0.6, 1e-9);
+  EXPECT_THAT(cause.sentence, HasSubstr("a group of cells is shorted, or"));
+  EXPECT_NEAR(wrong.verdict.probability_none, 1 - cause.probability / 0.6, 0.05);
   curve.conditions.cells_in_series = 150;
   curve.conditions.cell_temperature_K = 298.15;
   const Diagnosis impossible = DiagnoseOrFail(curve);

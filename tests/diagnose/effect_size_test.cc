@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "diagnose/synthetic_diagnosis.h"
 #include "lyrefit/diagnose/cause_text.h"
 #include "lyrefit/diagnose/choose_base.h"
@@ -213,6 +215,21 @@ TEST(DescribeRecoverableTest, IsALowerLimitWhereTheEffectHidesAPart) {
   EXPECT_TRUE(std::isnan(verdict.causes[0].recoverable_power_W.high_95));
   EXPECT_TRUE(std::isnan(verdict.recoverable_power_W.value));
   EXPECT_GT(verdict.recoverable_power_W.low_95, 0);
+}
+
+TEST(FieldDiagnosis, TheGainOfAStringIsLessCertain) {
+  double half[2] = {};
+  for (const int substrings : {3, 60}) {
+    ShadedFit shaded = FitShaded(1);
+    Readings readings = *shaded.made.weighted.readings;
+    readings.traits.substrings = substrings;
+    readings.traits.bypass_known = true;
+    shaded.made.weighted.readings = std::make_shared<const Readings>(readings);
+    shaded.made.weighted.path = 1e-3;
+    half[substrings > 3] = GainWithout(shaded.made.weighted, shaded.fit, 0).half_W;
+  }
+  EXPECT_GT(half[1], 1.1 * half[0]);
+  EXPECT_GT(half[0], 0);
 }
 
 TEST(ProbabilityAboveTest, APowerOfOneSweepCountsWhereTheEffectShows) {

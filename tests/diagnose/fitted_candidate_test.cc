@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -95,20 +97,41 @@ TEST(JudgeTest, PriorsWeighInOdds) {
   EXPECT_NEAR(odds(usual) - odds(rare), std::log(0.999 / 0.001), 1e-6);
 }
 
+// ln of the odds of the first cause over the second, as Judge tempers their evidence. `part`: at
+// most; `least`: of what the misfits do not show, over `pieces` of a sweep.
+double OddsOfFirst(const WeightedData& weighted, const Hypotheses& judged, double part,
+                   double least) {
+  const FittedCandidate *above = &judged.candidates[0], *below = &judged.candidates[1];
+  const bool turned = LogTotal(above->evidence) < LogTotal(below->evidence);
+  if (turned) std::swap(above, below);
+  const auto misfit = [&](const FittedCandidate& one) {
+    return std::log(MissedBy(weighted, one.fit));
+  };
+  const double evidence = LogTotal(above->evidence) - LogTotal(below->evidence);
+  const double none = LogTotal(judged.none.evidence);
+  const bool explains = LogTotal(below->evidence) - none > 0.5 * (LogTotal(above->evidence) - none);
+  const double shown = 6 * std::max(misfit(*below) - misfit(*above), 0.0);
+  const double counted =
+      explains ? std::min(part * evidence, least * evidence + shown) : part * evidence;
+  const double odds = above->log_prior - below->log_prior + counted;
+  return turned ? -odds : odds;
+}
+
 // Against none the evidence of all causes counts in full; between causes a part of it does, the
-// smaller where devices depart from their model.
+// smaller where devices depart from their model, and smaller still where both laws miss alike.
 TEST(JudgeTest, DifferencesBetweenCausesCountInPart) {
   JudgeOptions field;
   field.departure = kField;
   field.departure_width = 0.35;
-  for (const auto& [options, part] : {std::pair(JudgeOptions(), 0.6), std::pair(field, 0.3)}) {
-    const Hypotheses judged = Judged(WithStep(0.05), options);
+  const IvCurve curve = WithStep(0.05);
+  const SyntheticData made = OnTheData(curve);
+  for (const auto& [options, part, least] :
+       {std::tuple(JudgeOptions(), 0.6, 0.6), std::tuple(field, 0.3, 0.1)}) {
+    const Hypotheses judged = Judged(curve, options);
     const FittedCandidate& first = judged.candidates[0];
     const FittedCandidate& second = judged.candidates[1];
     EXPECT_NEAR(std::log(first.probability / second.probability),
-                first.log_prior - second.log_prior +
-                    part * (LogTotal(first.evidence) - LogTotal(second.evidence)),
-                1e-9);
+                OddsOfFirst(made.weighted, judged, part, least), 1e-9);
     const double causes = LogSum(LogTotal(first.evidence) + first.log_prior,
                                  LogTotal(second.evidence) + second.log_prior);
     EXPECT_NEAR(std::log((1 - judged.none.probability) / judged.none.probability),

@@ -35,6 +35,30 @@ TEST(ImitationTest, AStepOfTheLightJumps) {
   EXPECT_FALSE(Fits("irr_step", Weaker(12)));
 }
 
+// The edge of a cloud over a tenth of the sweep; in the knee a device bends, and where a bypass group
+// ends it may be shade.
+TEST(ImitationTest, ACloudStaysOffKneeAndBypassSteps) {
+  const auto fits = [](double part, int bypass_diodes) {
+    Recipe recipe;
+    recipe.points = 120;
+    recipe.cells = 60;
+    IvCurve curve = SyntheticCurve(recipe);
+    curve.notes.bypass_diodes = bypass_diodes;
+    const auto voc = std::find_if(curve.current_A.begin(), curve.current_A.end(),
+                                  [](double current) { return current < 0; });
+    const double centre = part * static_cast<double>(voc - curve.current_A.begin());
+    for (int k = 0; k < static_cast<int>(curve.size()); ++k) {
+      const double passed = 1 / (1 + std::exp((centre - k) / 2));
+      curve.current_A[k] -= 0.3 * curve.current_A.front() * passed;
+    }
+    return Fits("cloud_edge", curve);
+  };
+  EXPECT_TRUE(fits(0.35, 2));
+  EXPECT_TRUE(fits(0.85, 2));
+  EXPECT_FALSE(fits(0.47, 2));
+  EXPECT_FALSE(fits(0.99, 2));
+}
+
 // At 0 V a photodiode bends, whose current grows with the reverse voltage; at -1.5 V light dips.
 TEST(ImitationTest, NoMomentOfLightAtZeroOfASweepFromDeepReverse) {
   for (const double centre_V : {-1.5, 0.0}) {

@@ -125,6 +125,22 @@ TEST(LookAtValuesTest, FindsALowerLimitInReadingsOfItsLastDigits) {
   EXPECT_EQ(findings.at_lower.size(), 3U);
 }
 
+// An electronic load holds a limit with its noise. Such readings are left out without a cause, if the
+// voltage went on so far that the current would have fallen.
+TEST(LookAtValuesTest, LeavesOutANoisyLowerLimit) {
+  for (const double step_V : {0.5, 1e-4}) {
+    IvCurve curve = SyntheticCurve({});
+    const double limit = std::min(curve.current_A.back(), 0.0) - 0.4;
+    for (const double part : {0.999, 1.0, 1.002, 0.998, 1.001, 1.0}) {
+      curve.voltage_V.push_back(curve.voltage_V.back() + step_V);
+      curve.current_A.push_back(limit * part);
+    }
+    const ValueFindings findings = Look(curve);
+    EXPECT_FALSE(findings.HasLimits());
+    EXPECT_EQ(findings.at_lower.size(), step_V > 0.1 ? 6U : 0U);
+  }
+}
+
 TEST(LookAtValuesTest, ThreeRepeatsAreNoClipping) {
   IvCurve curve = SyntheticCurve({});
   for (const int k : {0, 1, 2}) curve.current_A[k] = 8.1;

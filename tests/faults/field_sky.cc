@@ -52,6 +52,10 @@ double Sky::Light(double time) const {
     return 1 + size * (time - 0.5 + skew * (time - 0.5) * (time - 0.5));
   }
   if (cloud == Cloud::kNone) return 1;
+  if (cloud == Cloud::kEdge) {
+    const double part = std::clamp((time - at) / width + 0.5, 0.0, 1.0);
+    return 1 + size * std::pow(std::sin(kTurn / 4 * part), 2);
+  }
   const double side = width * (time < at ? 1 - skew : 1 + skew);
   const double far = std::fabs(time - at) / side;
   return far < 1 ? 1 - size * std::pow(std::cos(kTurn / 4 * far), 2) : 1;

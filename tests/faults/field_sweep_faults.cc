@@ -35,13 +35,13 @@ Moment DrawMoment(Random* random, const Rig& rig) {
 }
 
 // The light step lowers the current with rising voltage, near a voltage where a bypass diode would.
-bool LooksLikeShade(const Rig& rig, double u) {
+bool LooksLikeShade(const Rig& rig, double u, double nearly) {
   const Tracer& tracer = rig.tracer;
   if (tracer.up_and_down || tracer.writes_times) return false;
   if ((rig.sky.size > 0) != tracer.down) return false;
   const double groups = static_cast<double>(rig.module.groups.size());
   const double nearest = std::round(u * groups) / groups;
-  return nearest > 0 && nearest < 1 && std::fabs(u - nearest) < 0.03;
+  return nearest > 0 && nearest < 1 && std::fabs(u - nearest) < nearly;
 }
 
 void LightStep(Random* random, Rig* rig, Truth* truth) {
@@ -51,9 +51,24 @@ void LightStep(Random* random, Rig* rig, Truth* truth) {
   rig->sky.at = moment.time;
   rig->sky.size = random->Sign() * random->LogUniform(0.03, 0.3);
   truth->accepted = {"irr_step"};
-  if (LooksLikeShade(*rig, moment.u)) {
+  if (LooksLikeShade(*rig, moment.u, 0.03)) {
     truth->accepted.push_back("substrings");
     truth->accepted.push_back("shading");
+  }
+  truth->figures = {{"step", rig->sky.size}};
+}
+
+// Edge of a cloud: the light goes over to another level within a part of the sweep.
+void LightEdge(Random* random, Rig* rig, Truth* truth) {
+  constexpr double kNearly = 0.08;  // of Voc: a slow step is placed no better
+  const Moment moment = DrawMoment(random, *rig);
+  rig->sky.cloud = Cloud::kEdge;
+  rig->sky.at = moment.time;
+  rig->sky.size = random->Sign() * random->LogUniform(0.08, 0.5);
+  rig->sky.width = random->LogUniform(0.02, 0.12);
+  truth->accepted = {"irr_step"};
+  if (LooksLikeShade(*rig, moment.u, kNearly)) {
+    truth->accepted.insert(truth->accepted.end(), {"substrings", "shading"});
   }
   truth->figures = {{"step", rig->sky.size}};
 }
@@ -133,7 +148,8 @@ const std::vector<Fault>& SweepFaults() {
                                              {"falling_hysteresis", FallingHysteresis},
                                              {"range_switch", RangeSwitch},
                                              {"voltage_bins", VoltageBins},
-                                             {"limits", Limits}};
+                                             {"limits", Limits},
+                                             {"light_edge", LightEdge}};
   return kFaults;
 }
 

@@ -119,15 +119,11 @@ Outcomes LaboratoryOutcomes(const StudyOptions& options, int number) {
 // Which effect a kind of the field world is an instance of.
 std::string EffectOf(const std::string& kind) {
   static const std::vector<std::pair<std::string, std::string>> kOther = {
-      {"snow", "shading"},
-      {"unlike_groups", "substrings"},
-      {"both_halves", "dim_cells"},
-      {"open_group", "open_substring"},
-      {"light_step", "irr_step"},
-      {"light_dip", "transient"},
-      {"light_drift", "drift"},
-      {"hysteresis", "capacitance"},
-      {"falling_hysteresis", "capacitance"}};
+      {"snow", "shading"},           {"unlike_groups", "substrings"},
+      {"both_halves", "dim_cells"},  {"open_group", "open_substring"},
+      {"light_step", "irr_step"},    {"light_edge", "cloud_edge"},
+      {"light_dip", "transient"},    {"light_drift", "drift"},
+      {"hysteresis", "capacitance"}, {"falling_hysteresis", "capacitance"}};
   for (const auto& [name, effect] : kOther) {
     if (name == kind) return effect;
   }

@@ -211,16 +211,26 @@ std::vector<std::string> OfStep(const Described& of) {
   return {};
 }
 
-std::vector<std::string> OfTransient(const Described& of) {
+// Voltage of the reading nearest to the moment that is the second parameter.
+double VoltageAtMoment(const Described& of) {
   const std::vector<Reading>& points = of.readings().points;
   const auto nearest =
       std::min_element(points.begin(), points.end(), [&of](const Reading& a, const Reading& b) {
         return std::fabs(a.x - of.p[1]) < std::fabs(b.x - of.p[1]);
       });
+  return VoltageOf(of, *nearest);
+}
+
+std::vector<std::string> OfEdge(const Described& of) {
+  return {fmt::format("near {:.4g} V the light went over to another level: it {}",
+                      VoltageAtMoment(of), LightChange(of.Of("s"), of.Most(0), " than before"))};
+}
+
+std::vector<std::string> OfTransient(const Described& of) {
   // The depth is a loss.
   const Sized depth = of.Of("a");
   return {fmt::format(
-      "near {:.4g} V the light {}", VoltageOf(of, *nearest),
+      "near {:.4g} V the light {}", VoltageAtMoment(of),
       LightChange({-depth.value, -depth.high_95, -depth.low_95}, of.Most(0), " for a moment"))};
 }
 
@@ -370,6 +380,7 @@ std::vector<std::string> InWords(const WeightedData& weighted, const LawFit& fit
   if (id == "hysteresis") return OfHysteresis(of);
   if (id == "bypass_open") return OfBypassOpen(of);
   if (id == "irr_step") return OfStep(of);
+  if (id == "cloud_edge") return OfEdge(of);
   if (id == "transient") return OfTransient(of);
   if (id == "drift") return OfDrift(of);
   if (id == "clip") return OfClip(of);

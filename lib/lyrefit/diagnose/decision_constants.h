@@ -26,6 +26,12 @@ inline constexpr double kUnknownDeparture = 1.5e-3;
 // JudgeTest.DifferencesBetweenCausesCountInPart.
 inline constexpr double kEvidencePartOfDevices = 0.3;
 inline constexpr double kEvidencePartOfLaws = 0.6;
+// With a departure, the part of a difference that counts beyond what the misfits show, and how many
+// independent pieces the departure of a device has in a sweep: laws that miss the readings alike are
+// told apart by their details, which are those of real devices in part only. Chosen on half of
+// curves of two-dimensional cells. JudgeTest.DifferencesBetweenCausesCountInPart.
+inline constexpr double kEvidencePartOfDetails = 0.1;
+inline constexpr double kPiecesOfSweep = 6;
 
 // Priors of the device's parameters, orders of magnitude: ideality and its width in ln, of cells
 // (heavy tails: thin films) and of modules; Rs Isc/Voc, Voc/(Rsh Isc), and the current of a second
@@ -71,6 +77,10 @@ inline constexpr double kMentionedPart = 0.1;
 // FieldDiagnosis.SaysTheLightOfASubstringAndThePowerToWin.
 inline constexpr double kCellsDiffer = 0.002;
 inline constexpr double kCausesDiffer = 0.03;
+// The same in strings of modules: how many cells are darker shows in the place of a step only, and
+// each of them has a light of its own. Chosen on half of strings of two-dimensional cells.
+// FieldDiagnosis.TheGainOfAStringIsLessCertain.
+inline constexpr double kCausesDifferInStrings = 0.08;
 
 // Probabilities of a white remainder below which something certainly remains, and below which it is
 // a finding by itself. FieldDiagnosis.WhatNoCauseExplainsIsNotSaidToBeReference.

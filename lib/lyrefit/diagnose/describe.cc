@@ -66,6 +66,13 @@ void SortAndCut(std::vector<Alternative>* list) {
   });
 }
 
+// Adds the probability of an effect to that of its finding.
+void AddFinding(const Effect& effect, double probability, std::vector<Alternative>* list) {
+  const Effect* finding = FindEffect(effect.Finding());  // null: of an effect of the user's
+  AddProbability(effect.Finding(), (finding != nullptr ? *finding : effect).title, probability,
+                 list);
+}
+
 // Probabilities of a cause: of the mechanisms of its finding, and of what else may stand in its
 // place.
 void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
@@ -82,10 +89,7 @@ void AddProbabilities(const ChosenCause& chosen, Cause* cause) {
       cause->probability += other.probability;
       AddProbability(effect.id, effect.title, other.probability, &cause->mechanisms);
     } else {
-      AddProbability(effect.Finding(),
-                     FindEffect(effect.Finding()) != nullptr ? FindEffect(effect.Finding())->title
-                                                             : effect.title,
-                     other.probability, &cause->alternatives);
+      AddFinding(effect, other.probability, &cause->alternatives);
     }
   }
   const double unknown = none.probability * IncompleteProbability(none.evidence);
@@ -278,13 +282,30 @@ void DescribeSize(const WeightedData& weighted, const LawFit& with, int index,
   }
 }
 
+// Widens the interval of a power to gain, that of one cause, to what the removal of an equivalent one
+// would give.
+void WidenPower(const WeightedData& weighted, const FittedCandidate& equivalent, Sized* power) {
+  if (!std::isfinite(power->value) || equivalent.score.effect->where != Where::kDevice) return;
+  const int last = static_cast<int>(equivalent.fit.law.effects.size()) - 1;
+  const double other = GainWithout(weighted, equivalent.fit, last).power_W;
+  if (!std::isfinite(other)) return;
+  power->low_95 = std::min(power->low_95, std::max(other, 0.0));
+  power->high_95 = std::max(power->high_95, other);
+}
+
 std::vector<Cause> DescribeBelow(const Selection& selection) {
   std::vector<Cause> causes;
   for (const FittedCandidate& fitted : selection.below.candidates) {
     const Effect& effect = *fitted.score.effect;
     if (!causes.empty()) {
+      Cause& first = causes.front();
       const double best = selection.below.candidates.front().probability;
-      if (fitted.probability >= kNotable * best) AddEquivalent(effect.Finding(), &causes.front());
+      if (effect.Finding() == first.id) {
+        first.probability += fitted.probability;
+      } else if (fitted.probability >= kNotable * best) {
+        AddEquivalent(effect.Finding(), &first);
+        AddFinding(effect, fitted.probability, &first.alternatives);
+      }
       continue;
     }
     Cause cause = MakeCause(effect, "fit", fitted.probability);
@@ -295,7 +316,17 @@ std::vector<Cause> DescribeBelow(const Selection& selection) {
     cause.recoverable_power_W = {};
     causes.push_back(std::move(cause));
   }
+  if (!causes.empty()) SortAndCut(&causes.front().alternatives);
   return causes;
+}
+
+std::vector<Alternative> TriedAlone(const Selection& selection) {
+  std::vector<Alternative> findings;
+  for (const FittedCandidate& trial : selection.trials.candidates) {
+    AddFinding(*trial.score.effect, trial.probability * trial.material, &findings);
+  }
+  SortAndCut(&findings);
+  return findings;
 }
 
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
@@ -311,6 +342,7 @@ std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& 
     AddProbabilities(chosen, &cause);
     if (!by_values && !StandsForAnother(effect)) AddEquivalent(effect.id, &cause);
     for (const FittedCandidate* fitted : EquivalentsOf(chosen)) {
+      WidenPower(weighted, *fitted, &cause.recoverable_power_W);
       const Effect& other = *fitted->score.effect;
       const bool by_id = other.Finding() == cause.id && !StandsForAnother(other);
       AddEquivalent(by_id ? other.id : other.Finding(), &cause);
@@ -387,7 +419,9 @@ void DescribeRecoverable(const Selection& selection, Verdict* verdict) {
       })) {
     return;
   }
-  verdict->recoverable_power_W = Recoverable(GainWithoutEffects(selection.weighted, fit));
+  verdict->recoverable_power_W = causes.size() == 1
+                                     ? causes.front().recoverable_power_W
+                                     : Recoverable(GainWithoutEffects(selection.weighted, fit));
   const auto limit = [](Sized* power) { *power = {kUnknown, power->low_95, kUnknown}; };
   bool any = false;
   for (Cause& cause : verdict->causes) {

@@ -28,6 +28,9 @@ Cause MakeCause(const Effect& effect, const char* evidence, double probability);
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
                                   const ValueFindings& values);
 
+// The findings of the effects that were tried with the base model alone, most probable first.
+std::vector<Alternative> TriedAlone(const Selection& selection);
+
 // Fills what the device would give more without the causes, all together, and whether that is a
 // lower limit. The causes are described.
 void DescribeRecoverable(const Selection& selection, Verdict* verdict);

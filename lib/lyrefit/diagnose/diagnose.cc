@@ -104,6 +104,7 @@ std::vector<DiagnosedPoint> DescribePoints(const CurveSet& set, const Measuremen
   }
   // The instrument limit applies to the base model's currents as well.
   for (const int k : measurement.values.at_lower) {
+    if (!measurement.values.limited) break;
     points[k].before_A = std::max(points[k].before_A, measurement.values.lower_limit * scale);
   }
   return points;

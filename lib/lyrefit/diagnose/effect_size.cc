@@ -154,7 +154,9 @@ PowerGain GainTo(const WeightedData& weighted, const LawFit& fit, const DeviceTe
   const double gain = then.power - now.power;
   double error = std::hypot(ErrorBy(weighted, fit, by), weighted.path * then.power);
   if (weighted.path > 0) {
-    double part = kCausesDiffer;
+    constexpr int kMostOfAModule = 4;  // substrings
+    const bool string = SubstringsOf(weighted.readings->traits) > kMostOfAModule;
+    double part = string ? kCausesDifferInStrings : kCausesDiffer;
     for (const Effect* effect : fit.law.effects) part = std::max(part, effect->gain_scatter);
     error = std::hypot(error, std::hypot(kCellsDiffer * then.power, part * gain));
   }

@@ -128,6 +128,13 @@ void AddValueFindings(const AtReadings& at, const ValueFindings& values, Evidenc
              fmt::format("{} readings repeat the smallest current, {:.6g} A, exactly",
                          values.at_lower.size(), values.lower_limit * scale.current_A));
   }
+  if (!values.limited && !values.at_lower.empty()) {
+    clipping(
+        values.at_lower,
+        fmt::format("{} readings stay at the smallest current while the voltage rises, and are "
+                    "left out",
+                    values.at_lower.size()));
+  }
   if (!values.at_voltage_limit.empty()) {
     clipping(
         values.at_voltage_limit,
@@ -283,25 +290,42 @@ Cause WrongCells(const Selection& selection) {
 // Whether n is plausible if one bypass group without voltage is not counted.
 bool LacksAGroup(const DataTraits& traits, double n) {
   constexpr double kLeast = 0.97, kMost = 1.5;
-  if (!traits.bypass_known || !traits.cells_known || traits.substrings < 2) return false;
-  const double without = n * traits.substrings / (traits.substrings - 1);
+  const int groups = SubstringsOf(traits);
+  if (!traits.cells_known || groups < 2) return false;
+  const double without = n * groups / (groups - 1);
   return without >= kLeast && without <= kMost;
 }
 
-// For one curve a shorted group is as plausible as a wrong number of cells.
+// For one curve a shorted group is as plausible as a wrong number of cells or temperature: they
+// share the probability of `metadata`. Where the number of groups is assumed, the group stands
+// behind.
 Cause ShortedGroup(const DataTraits& traits, double n, const Cause& metadata) {
+  constexpr double kPartIfStated = 0.85, kPartIfAssumed = 0.4;
   const Effect& effect = *FindEffect("bypass_short");
-  const int groups = traits.substrings;
-  Cause cause = MakeCause(effect, metadata.evidence.c_str(), metadata.probability);
-  cause.equivalents = {metadata.id};
+  const int groups = SubstringsOf(traits);
+  const double all = metadata.probability;
+  const double group = all * (traits.bypass_known ? kPartIfStated : kPartIfAssumed);
+  const std::string words = fmt::format("1 of {}{} bypass groups gives no voltage", groups,
+                                        traits.bypass_known ? "" : " (assumed)");
+  const std::string sentence = fmt::format(
+      "a group of cells is shorted, or the number of cells or the temperature is wrong: {}; "
+      "n = {:.2f} at {} cells, {:.2f} without that group",
+      words, n, traits.stated_cells, n * groups / (groups - 1));
+  Cause cause = metadata;
+  Alternative other = {effect.id, effect.title, group};
+  if (traits.bypass_known) {
+    cause = MakeCause(effect, metadata.evidence.c_str(), group);
+    cause.alternatives = metadata.alternatives;
+    cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},
+                      metadata.strength.front()};
+    cause.in_words = {words};
+    other = {metadata.id, metadata.title, all - group};
+  }
+  cause.probability = all - other.probability;
+  cause.alternatives.insert(cause.alternatives.begin(), other);
+  cause.equivalents = {other.id};
   cause.separate_by = {effect.separate_by, metadata.separate_by.front()};
-  cause.strength = {{"w", "share", "", 1.0 / groups, kUnknown, kUnknown, false},
-                    metadata.strength.front()};
-  cause.in_words = {fmt::format("1 of {} bypass groups gives no voltage", groups)};
-  cause.sentence = fmt::format(
-      "a group of cells is shorted, or the number of cells or the temperature is wrong: 1 of {} "
-      "bypass groups gives no voltage; n = {:.2f} at {} cells, {:.2f} without that group",
-      groups, n, traits.stated_cells, n * groups / (groups - 1));
+  cause.sentence = sentence;
   return cause;
 }
 
@@ -314,7 +338,7 @@ double LeastIdeality(const WeightedData& weighted) {
 
 std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool shorted) {
   // Above 3, the number of cells is rather wrong than the junction.
-  constexpr double kLargest = 3, kSure = 1e-4;
+  constexpr double kLargest = 3, kSure = 1e-4, kSureAlone = 0.01;
   const double smallest = LeastIdeality(selection.weighted);
   const LawFit& fit = selection.extended;
   const WeightedData& weighted = selection.weighted;
@@ -333,8 +357,12 @@ std::vector<Cause> CheckTemperatureAndCells(const Selection& selection, bool sho
   if (!(error > 0)) return {};
   const double distance = (n < smallest ? smallest - n : n - kLargest) / error;
   const double p = NormalTail(distance);
-  if (!(p < kSure)) return {};
-  Cause cause = Metadata("fit", 1 - p);
+  // Unlike cells lower n as well: what else may act shares the probability.
+  const double probability = (1 - p) * (weighted.path > 0 ? selection.none : 1);
+  const bool alone = p < kSureAlone && probability > 0.8;
+  if (!alone && !(p < kSure && probability > 0.5)) return {};
+  Cause cause = Metadata("fit", probability);
+  if (weighted.path > 0) cause.alternatives = TriedAlone(selection);
   const double z = StudentT95(Degrees(weighted, fit.law)) * error;
   cause.strength = {{"n", "n", "", n, n - z, n + z, false}};
   std::vector<std::string> needs;

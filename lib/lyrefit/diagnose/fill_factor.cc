@@ -48,11 +48,6 @@ bool Lowers(const Effect& effect) {
   return std::find(std::begin(kIds), std::end(kIds), effect.id) != std::end(kIds);
 }
 
-struct Member {
-  const Effect* effect;
-  LogEvidence evidence;
-};
-
 // The base model with one more effect: the trial of the selection, or a fit that starts from the base
 // model and from typical parameters, whichever is better.
 LawFit FitMember(const Selection& selection, const Effect& effect) {
@@ -124,22 +119,24 @@ std::optional<Cause> CauseOfFillFactor(const FillFactor& fill_factor, const Sele
     const bool most = finding.power_loss > kMostOfIt * fill_factor.lost.value;
     if (finding.id != "leak" && most) return {};  // shunts draw what aged contacts do
   }
-  std::vector<Member> members;
+  Hypotheses set;
+  set.none.fit = selection.base;
   if (!findings.empty()) {
-    members.push_back({FindEffect(EffectOf(findings.front().id)), selection.trials.none.evidence});
+    Score score;
+    score.effect = FindEffect(EffectOf(findings.front().id));
+    set.candidates.push_back({score, selection.base});
   }
   for (const Effect* effect : candidates) {
     if (!Lowers(*effect) || (resistance_is_known && effect->resistance)) continue;
-    const LawFit fit = FitMember(selection, *effect);
-    if (!fit.usable) continue;
-    members.push_back({effect, EvidenceOf(selection.base_weighted, selection.base, judge, fit)});
+    Score score;
+    score.effect = effect;
+    LawFit fit = FitMember(selection, *effect);
+    if (fit.usable) set.candidates.push_back({score, std::move(fit)});
   }
-  double top = -HUGE_VAL;
-  for (const Member& member : members) top = std::max(top, LogTotal(member.evidence));
+  Judge(selection.base_weighted, selection.base, judge, &set);
   std::map<std::string, double> weights;
-  for (const auto& [effect, evidence] : members) {
-    weights[effect->Finding()] += std::exp(kEvidencePartOfDevices * (LogTotal(evidence) - top) +
-                                           LogPriorOdds(*effect, judge));
+  for (const FittedCandidate& member : set.candidates) {
+    weights[member.score.effect->Finding()] += member.probability + member.as_slight;
   }
   if (weights.empty()) return {};
   double sum = 0;

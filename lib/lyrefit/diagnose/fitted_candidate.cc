@@ -49,17 +49,44 @@ double IncompleteProbability(const LogEvidence& evidence) {
 
 namespace {
 
-// Tempers the differences in evidence between causes; the sum of their probabilities stays.
-void Temper(double part, std::vector<FittedCandidate>* candidates) {
-  double top = -HUGE_VAL, sum = -HUGE_VAL, tempered = -HUGE_VAL;
+// How much of the differences in evidence between causes counts.
+struct Tempering {
+  double part = 1;        // at most
+  double least_part = 1;  // of what the plain misfit does not show
+};
+
+// Tempers the differences in evidence between causes; the sum of their probabilities stays. A law
+// that is wrong in its details misses smoothly, by a few independent pieces of a sweep, however many
+// readings it has and however often it is swept: a part of a difference counts as far as these
+// pieces show it, and a smaller one beyond. Both causes must explain most of what there is: one that
+// is hardly better than none misses alike only where the misfits show nothing.
+void Temper(const WeightedData& weighted, const Tempering& by, double none,
+            std::vector<FittedCandidate>* candidates) {
+  constexpr double kMost = 0.5;  // of what the best gains against none
+  const FittedCandidate* top = nullptr;
+  double sum = -HUGE_VAL, tempered = -HUGE_VAL;
+  const auto evidence_of = [](const FittedCandidate& candidate) {
+    return candidate.log_posterior - candidate.log_prior;
+  };
   for (const FittedCandidate& candidate : *candidates) {
     sum = LogSum(sum, candidate.log_posterior);
-    top = std::max(top, candidate.log_posterior - candidate.log_prior);
+    if (top == nullptr || evidence_of(candidate) > evidence_of(*top)) top = &candidate;
   }
-  if (!std::isfinite(top)) return;
+  if (top == nullptr || !std::isfinite(evidence_of(*top))) return;
+  const double best = evidence_of(*top);
+  const auto misfit_of = [&](const FittedCandidate& candidate) {
+    return std::log(std::max(MissedBy(weighted, candidate.fit), 1e-300));
+  };
+  const bool pieces = by.least_part < by.part;
+  const double least = pieces ? misfit_of(*top) : 0;
   for (FittedCandidate& candidate : *candidates) {
-    const double below = candidate.log_posterior - candidate.log_prior - top;
-    candidate.log_posterior = candidate.log_prior + part * below;
+    const double below = evidence_of(candidate) - best;
+    double counted = by.part * below;
+    if (pieces && evidence_of(candidate) - none > kMost * (best - none)) {
+      const double shown = kPiecesOfSweep * std::max(misfit_of(candidate) - least, 0.0);
+      counted = std::max(counted, by.least_part * below - shown);
+    }
+    candidate.log_posterior = candidate.log_prior + counted;
     tempered = LogSum(tempered, candidate.log_posterior);
   }
   for (FittedCandidate& candidate : *candidates) candidate.log_posterior += sum - tempered;
@@ -107,7 +134,10 @@ void Judge(const WeightedData& weighted, const LawFit& base, const JudgeOptions&
     candidate.statistic = (none.fit.sum - candidate.fit.sum) /
                           std::min(variance, NoiseVariance(weighted, candidate.fit));
   }
-  Temper(options.departure > 0 ? kEvidencePartOfDevices : kEvidencePartOfLaws, &candidates);
+  const Tempering tempering = options.departure > 0
+                                  ? Tempering{kEvidencePartOfDevices, kEvidencePartOfDetails}
+                                  : Tempering{kEvidencePartOfLaws, kEvidencePartOfLaws};
+  Temper(weighted, tempering, none.log_posterior, &candidates);
   double total = none.log_posterior;
   for (const FittedCandidate& candidate : candidates) {
     total = LogSum(total, candidate.log_posterior);

@@ -138,6 +138,43 @@ bool LiesAtABend(const Readings& readings, const std::vector<double>& added, int
   return false;
 }
 
+// Whether an effect by which the light stays at another level acts where a device bends by itself:
+// in the knee, or where shade makes a step, near the edge of a bypass group, of equal ones or with
+// half of the cells in the middle one. In strings of modules an edge is near everywhere.
+bool StaysAfterABend(const Readings& readings, const std::vector<double>& added) {
+  constexpr double kBegun = 0.1, kHalf = 0.5, kDone = 0.9;  // of the largest change
+  constexpr double kStays = 0.15;                           // likewise; near Voc Rs hides light
+  constexpr double kKnee = 0.3;                             // of the largest current
+  constexpr double kBelow = 0.08,
+                   kAbove = 0.03;  // of Voc: groups give less at a current than at Voc
+  constexpr int kMostOfAModule = 4;
+  const std::vector<Reading>& points = readings.points;
+  const DataTraits& traits = readings.traits;
+  if (!traits.turns.empty() || added.size() != points.size()) return false;
+  double largest = 0, most = 0;
+  for (const double change : added) largest = std::max(largest, std::fabs(change));
+  for (const Reading& point : points) most = std::max(most, point.current);
+  if (!(std::fabs(added.back()) > kStays * largest)) return false;
+  const auto first_of = [&](double part) {
+    const auto at = std::find_if(added.begin(), added.end(),
+                                 [&](double change) { return std::fabs(change) > part * largest; });
+    return points[at - added.begin()];
+  };
+  if (first_of(kBegun).current < kKnee * most || first_of(kDone).current < kKnee * most)
+    return true;
+  const double rise = points.back().voltage - points.front().voltage;
+  const bool takes = (added.back() < 0) == (rise > 0);  // as the voltage rises; shade does
+  if (!traits.module || !takes) return false;
+  const int groups = SubstringsOf(traits);
+  if (groups > kMostOfAModule) return true;
+  const double voc = traits.open_circuit > 0 ? traits.open_circuit : traits.highest_voltage;
+  const double part = first_of(kHalf).voltage / voc;
+  std::vector<double> edges = {0.25, 0.5, 0.75};
+  for (int j = 1; j < groups; ++j) edges.push_back(static_cast<double>(j) / groups);
+  return std::any_of(edges.begin(), edges.end(),
+                     [part](double edge) { return part > edge - kBelow && part < edge + kAbove; });
+}
+
 }  // namespace
 
 bool IsItself(const WeightedData& weighted, const LawFit& fit) {
@@ -154,6 +191,7 @@ bool IsItself(const WeightedData& weighted, const LawFit& fit) {
   // No junction has more: what bends such a curve is of the device.
   constexpr double kMostIdeality = 2.2;
   if (effect.momentary && Ideality(fit) > kMostIdeality) return false;
+  if (effect.momentary && jump < 0 && StaysAfterABend(readings, added)) return false;
   const bool at_moment = effect.momentary || jump >= 0;
   return !(at_moment && LiesAtABend(readings, added, jump));
 }

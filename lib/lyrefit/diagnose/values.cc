@@ -69,20 +69,49 @@ void AddEnd(const std::vector<Reading>& points, std::size_t first, std::size_t l
   for (int i = end; i != k; i += inwards) at->push_back(i);
 }
 
+// Appends the readings at the high-voltage end of a monotone stretch, beyond open circuit, that stay
+// near the smallest current, as a noisy limit does, while the voltage goes on by so much that the
+// current would fall by far more.
+void AddNoisyEnd(const std::vector<Reading>& points, std::size_t first, std::size_t last,
+                 double smallest, std::vector<int>* at) {
+  constexpr double kHeld = 0.007, kLeast = -0.01;  // of the limit; the limit itself, in scales
+  constexpr int kFewest = 5;
+  constexpr double kMore = 10;  // times the slack
+  if (!(smallest < kLeast)) return;
+  const bool rising = points[last].voltage > points[first].voltage;
+  const int inwards = rising ? -1 : 1;
+  const int end = static_cast<int>(rising ? last : first);
+  const int stop = static_cast<int>(rising ? first : last) + inwards;
+  const double slack = kHeld * std::fabs(smallest);
+  int k = end;
+  while (k != stop && points[k].current <= smallest + slack) k += inwards;
+  if (std::abs(k - end) < kFewest || k == stop || k + inwards == stop) return;
+  const Reading &before = points[k], &earlier = points[k + inwards];
+  const double rise = before.voltage - earlier.voltage;
+  const double slope = rise > 0 ? (earlier.current - before.current) / rise : 0;
+  if (!(slope * (points[end].voltage - points[k - inwards].voltage) > kMore * slack)) return;
+  for (int i = end; i != k; i += inwards) at->push_back(i);
+}
+
 // Finds readings at the smallest current that follow each other at the high-voltage end of a
-// stretch.
+// stretch. Those of a noisy limit are only left out: it shows beyond open circuit alone, and is
+// nothing to act on.
 void FindLowerLimit(const Readings& readings, double step, ValueFindings* findings) {
   const std::vector<Reading>& points = readings.points;
   double smallest = points.front().current;
   for (const Reading& r : points) smallest = std::min(smallest, r.current);
-  std::vector<int> at;
+  std::vector<int> at, noisy;
   for (std::size_t first = 0; first < points.size();) {
     std::size_t last = first;
     while (last + 1 < points.size() && points[last + 1].segment == points[first].segment) ++last;
     AddEnd(points, first, last, smallest, step, &at);
+    AddNoisyEnd(points, first, last, smallest, &noisy);
     first = last + 1;
   }
-  if (at.empty()) return;
+  if (at.empty()) {
+    findings->at_lower = noisy;
+    return;
+  }
   findings->limited = true;
   findings->lower_limit = smallest;
   findings->at_lower = at;

@@ -20,7 +20,7 @@ struct ValueFindings {
   std::vector<int> clipped;   // readings
   bool limited = false;       // whether there is a lower limit too, such as a compliance limit
   double lower_limit = 0;     // in scales
-  std::vector<int> at_lower;  // readings
+  std::vector<int> at_lower;  // readings; without `limited`: of a noisy limit, left out
   std::vector<int> at_voltage_limit;  // readings at the largest voltage while the current falls on
   double voltage_limit = 0;           // that voltage, per cell, V
   std::vector<double> rounding;  // standard deviation of rounding to the current grid, per reading

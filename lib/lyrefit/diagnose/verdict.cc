@@ -53,6 +53,16 @@ Cause UnknownCause(const Selection& selection, double whiteness_after) {
   return cause;
 }
 
+// Probability of a cause and of those that draw the same curve by another wrong number.
+double ProbabilityOfSet(const Cause& cause) {
+  double sum = cause.probability;
+  for (const Alternative& other : cause.alternatives) {
+    const std::vector<std::string>& same = cause.equivalents;
+    if (std::find(same.begin(), same.end(), other.id) != same.end()) sum += other.probability;
+  }
+  return sum;
+}
+
 // Whether the residuals of the extended model are certainly not noise.
 bool Remains(const Selection& selection, double whiteness_after) {
   return selection.incomplete > 0.5 || whiteness_after < kRemains ||
@@ -89,11 +99,13 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
   const Sized left = LeftBy(selection.weighted, selection.extended);
   const bool exceeds = options.floor_current > 0 ? left.low_95 > options.floor_current : true;
   // n is meaningful only if the shape of the curve is explained: unexplained structure changes n.
+  double none = selection.none;
   const bool understood =
       options.floor_current > 0 ? left.value <= options.floor_current : verdict.causes.empty();
   if (understood && IsWanted(*FindEffect("temperature_or_cells"), options)) {
     const bool shorted = IsWanted(*FindEffect("bypass_short"), options);
     for (Cause& cause : CheckTemperatureAndCells(selection, shorted)) {
+      none = std::max(none - ProbabilityOfSet(cause), 0.0);
       verdict.causes.push_back(cause);
     }
   }
@@ -109,7 +121,7 @@ Verdict Decide(const Measurement& measurement, const Selection& selection, const
     verdict.causes.push_back(UnknownCause(selection, whiteness_after));
   }
   verdict.found = !verdict.causes.empty();
-  verdict.probability_none = selection.none;
+  verdict.probability_none = none;
   if (verdict.found && exceeds && Remains(selection, whiteness_after)) verdict.unexplained = true;
   const Floors floors{options.floor_current, options.floor_power};
   if (!verdict.found && MissesTooMuch(verdict, floors)) verdict.unexplained = true;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lyrefit/base/median.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/select.h"
 #include "lyrefit/effects/catalogue.h"
 
@@ -53,10 +54,14 @@ std::string Alternatives(const std::vector<std::string>& texts) {
   return text;
 }
 
-std::string BelowText(const Verdict& verdict, const Floors& floors) {
+// What is too small to act on, by the name of each that it may be.
+std::string BelowText(const Verdict& verdict, const Floors& floors, double probability) {
   if (verdict.below_floor.empty()) return "";
+  const Cause& cause = verdict.below_floor.front();
+  std::vector<std::string> titles = {cause.title};
+  for (const Alternative& one : SaidBeside(cause, probability)) titles.push_back(one.title);
   return fmt::format("present, but not certainly above {:g} % of Isc or {:g} % of Pmax: {}",
-                     100 * floors.current, 100 * floors.power, verdict.below_floor.front().title);
+                     100 * floors.current, 100 * floors.power, Alternatives(titles));
 }
 
 // "One sweep", "These curves"
@@ -95,7 +100,7 @@ std::string EarlyEnd(const Readings& readings) {
 // device, and what the readings cannot show.
 std::string NothingSentence(const Verdict& verdict, const Floors& floors,
                             const WeightedData& weighted,
-                            const std::vector<DeviceFinding>& findings) {
+                            const std::vector<DeviceFinding>& findings, double probability) {
   const int curves = weighted.readings->traits.curves;
   if (!floors.Any() && findings.empty()) {
     return "Nothing to find: what the base model leaves is noise.";
@@ -105,7 +110,7 @@ std::string NothingSentence(const Verdict& verdict, const Floors& floors,
       verdict.not_shown.empty()
           ? "."
           : fmt::format(". {} cannot show {}.", Measured(curves), verdict.not_shown);
-  std::string present = BelowText(verdict, floors);
+  std::string present = BelowText(verdict, floors, probability);
   if (MissesTooMuch(verdict, floors)) {
     present = present.empty() ? ", and no cause of the catalogue explains it" : "; " + present;
     return fmt::format(
@@ -233,10 +238,8 @@ Sized LeftBy(const WeightedData& weighted, const LawFit& fit) {
   noise /= std::max(count, 1.0);
   const double lack_of_fit = MissedBy(weighted, fit);
   const double left = std::sqrt(std::max(lack_of_fit * lack_of_fit - noise, 0.0));
-  // A rough path has about six independent pieces in a sweep, so its size is known to about a
-  // third.
-  constexpr double kPieces = 6;
-  const double half = left * kNormal95 / std::sqrt(2 * kPieces);
+  // Of so few pieces the size is known to about a third.
+  const double half = left * kNormal95 / std::sqrt(2 * kPiecesOfSweep);
   return {left, left - half, left + half};
 }
 
@@ -257,6 +260,10 @@ std::string NotShownBy(const DataTraits& traits) {
   const bool flash = traits.setup == Setup::kFlash;
   if (traits.single && !traits.up_down && !traits.only_dark && !flash) {
     never.emplace_back("light that fades steadily");
+  }
+  if (!traits.single && !traits.only_dark && traits.module) {
+    never.emplace_back(
+        "shade, unlike cells and light that moved, which each curve by itself shows");
   }
   return Alternatives(never);
 }
@@ -279,7 +286,8 @@ void DescribeVerdict(const Selection& selection, const Floors& floors,
         "Something is there that noise does not explain ({}), and none of the known causes fits.",
         OfIsc(verdict->remaining.value));
   } else if (!verdict->found) {
-    verdict->sentence = NothingSentence(*verdict, floors, selection.weighted, findings);
+    verdict->sentence =
+        NothingSentence(*verdict, floors, selection.weighted, findings, probability);
   } else {
     verdict->sentence = CausesSentence(*verdict, floors, probability);
   }

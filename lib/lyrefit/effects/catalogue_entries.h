@@ -30,6 +30,7 @@ namespace lyrefit {
   ENTRY(OpenSubstring)             \
   ENTRY(Drift)                     \
   ENTRY(IrradianceStep)            \
+  ENTRY(CloudEdge)                 \
   ENTRY(Transient)                 \
   ENTRY(TemperatureDrift)          \
   ENTRY(Hysteresis)                \

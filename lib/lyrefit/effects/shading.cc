@@ -89,7 +89,10 @@ Effect Shading() {
   e.needs = "a curve of a module; the number of bypass diodes helps";
   e.acts = "at a step of the current, at a fixed voltage";
   e.confused_with = {"irr_step", "transient", "mismatch"};
-  e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
+  e.separate_by =
+      "repeat the sweep: shading stays at the same voltage, a cloud does not; a leaking bypass "
+      "diode "
+      "does too, and is found in the junction box, in the dark";
   e.action = "look for shade, snow or dirt on the darker part and clear it";
   e.fact_sheet = "PVFS 3-3";
   e.parameters = ShadingParameters();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -16,8 +17,12 @@
 #include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/diagnose/decision_constants.h"
 #include "lyrefit/diagnose/diagnose.h"
+#include "lyrefit/diagnose/known_effects.h"
+#include "lyrefit/diagnose/select.h"
 #include "lyrefit/effects/catalogue.h"
+#include "lyrefit/estimate/refine/error_sizes.h"
 #include "lyrefit/read/read_curve_set.h"
 
 namespace lyrefit {
@@ -101,6 +106,45 @@ TEST(RealCurvesTest, CleanSweepsAreLeftAloneAndFaultsAreNamed) {
   EXPECT_EQ(faults, 20);
   EXPECT_LE(alarms, 2);
   EXPECT_GE(right, 16);
+}
+
+Selection SelectionOf(const CurveSet& measured, bool thorough) {
+  Measurement measurement = *MakeMeasurement(measured);
+  const DiagnoseOptions usual;
+  measurement.errors = usual.noise;
+  SelectOptions options;
+  options.thorough = thorough;
+  options.judge.departure = UsualErrors(1, 1).center.path;
+  options.judge.departure_width = kDepartureWidth;
+  options.judge.module = measurement.readings.traits.module;
+  options.floors = {usual.floor_current, usual.floor_power};
+  options.candidates = Candidates(Catalogue(), measurement.readings.traits, usual);
+  options.judge.candidates = options.candidates;
+  const std::vector<char> used(measurement.readings.points.size(), 1);
+  Selection selection = SelectCauses(measurement, used, 0, options);
+  if (selection.base.usable) FindAlternatives(measurement, options, &selection);
+  return selection;
+}
+
+// After a wrong reading is left out candidates are fitted from where the earlier fits ended. From all
+// starts the same causes are found.
+TEST(RealCurvesTest, WhatEarlierFitsSaveChangesNoVerdict) {
+  constexpr double kAlike = 0.02;
+  const std::vector<Labelled> labels = ReadLabels();
+  std::vector<std::string> differs(labels.size());
+  ParallelFor(static_cast<int>(labels.size()), 0, [&](int k) {
+    if (labels[k].label != "fault" && k % 4 != 0) return;
+    const auto measured = ReadMeasurement(kField + "single/" + labels[k].name + ".csv");
+    ASSERT_TRUE(measured) << labels[k].name;
+    const Selection quick = SelectionOf(*measured, false), thorough = SelectionOf(*measured, true);
+    bool same = quick.causes.size() == thorough.causes.size();
+    for (std::size_t c = 0; same && c < quick.causes.size(); ++c) {
+      const ChosenCause &a = quick.causes[c], &b = thorough.causes[c];
+      same = a.effect == b.effect && std::fabs(a.probability - b.probability) < kAlike;
+    }
+    if (!same || quick.outliers != thorough.outliers) differs[k] = labels[k].name;
+  });
+  for (const std::string& name : differs) EXPECT_EQ(name, "");
 }
 
 // Counts the first cause named for each sweep of a folder. Sweeps with a largest current below 0.5

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <cstring>
 
 #include "draw.h"
 #include "lyrefit/base/random.h"
+#include "lyrefit/model/kernel.h"
 #include "repeats.h"
 
 namespace lyrefit {
@@ -266,13 +268,16 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
   const Readings readings;
   const EvaluationContext<Pack> context =
       MakeEvaluationContext(law, readings, static_cast<const Pack*>(nullptr));
+  const StringEffects effects = EffectsOf(context);
   double worst = 0;
   int wrong = 0;
   for (int k = 0; k < Repeats(12500, 500); ++k) {
     const Strings strings(&random);
     const StringLimits limits = LimitsOf(strings.cell());
     StringState state = ColdStart(strings, limits);
-    const StringRoot root = SolveString(context, strings.cell(), limits, strings.voltage(), &state);
+    StringRoot root;
+    SolveString(effects, strings.cell(), limits, strings.voltage(), GiveUp::kNever,
+                Wanted::kCurrent, &state, &root);
     for (int lane = 0; lane < kLanes; ++lane) {
       ASSERT_TRUE(std::isfinite(root.current[lane])) << k;
       const double error =
@@ -291,6 +296,126 @@ TEST(StringTest, ReachesTheRootOfRandomStrings) {
   }
   EXPECT_EQ(wrong, 0);
   RecordProperty("worst", std::to_string(worst * 1e12) + "e-12");
+}
+
+// The numbers of a root with its slopes.
+std::vector<double> NumbersOf(const Cell<Pack>& cell, const StringState& state,
+                              const StringRoot& root) {
+  std::vector<double> numbers;
+  const auto add = [&](const Pack& pack) {
+    for (int lane = 0; lane < kLanes; ++lane) numbers.push_back(pack[lane]);
+  };
+  add(root.current);
+  for (int s = 0; s < cell.strings; ++s) add(state.current[s]);
+  for (const FieldSlopes* slopes : {&root.fields, &root.first_group}) {
+    for (const Pack* one :
+         {&slopes->photocurrent, &slopes->conductance, &slopes->resistance, &slopes->voltage,
+          &slopes->reverse_strength, &slopes->reverse_voltage, &slopes->reverse_exponent,
+          &slopes->bypass, &slopes->bypass_ideality, &slopes->thermal_voltage, &slopes->far_share,
+          &slopes->far_resistance}) {
+      add(*one);
+    }
+    for (int d = 0; d < cell.diodes; ++d) {
+      add(slopes->saturation[d]);
+      add(slopes->inverse_n_vt[d]);
+    }
+    for (int g = 0; g < cell.groups; ++g) {
+      add(slopes->light[g]);
+      add(slopes->leak[g]);
+      add(slopes->share[g]);
+    }
+  }
+  return numbers;
+}
+
+TEST(StringTest, RegistersOfAllWidthsGiveTheSameBits) {
+  RandomStream random(20261129);
+  const Law law;
+  const Readings readings;
+  const EvaluationContext<Pack> context =
+      MakeEvaluationContext(law, readings, static_cast<const Pack*>(nullptr));
+  const StringEffects effects = EffectsOf(context);
+  EXPECT_EQ(StringKernels().size(), AvailableKernels().size());
+  for (int k = 0; k < Repeats(4000, 400); ++k) {
+    const Strings strings(&random);
+    const Cell<Pack>& cell = strings.cell();
+    const StringLimits limits = LimitsOf(cell);
+    std::vector<double> portable;
+    for (const StringKernel& kernel : StringKernels()) {
+      StringState state = ColdStart(strings, limits);
+      StringRoot root;
+      kernel.solve(effects, &cell, &limits, &strings.voltage(), GiveUp::kNever,
+                   Wanted::kJunctionSlopes, &state, &root);
+      const std::vector<double> numbers = NumbersOf(cell, state, root);
+      if (portable.empty()) portable = numbers;
+      ASSERT_EQ(std::memcmp(numbers.data(), portable.data(), numbers.size() * sizeof(double)), 0)
+          << kernel.name << " " << k;
+    }
+  }
+}
+
+TEST(StringTest, SlopesByTheFieldsAreThoseOfDifferences) {
+  RandomStream random(7);
+  const Law law;
+  const Readings readings;
+  const EvaluationContext<Pack> context =
+      MakeEvaluationContext(law, readings, static_cast<const Pack*>(nullptr));
+  const StringEffects effects = EffectsOf(context);
+  int compared = 0;
+  for (int k = 0; k < Repeats(400, 60); ++k) {
+    const Strings strings(&random);
+    Cell<Pack> cell = strings.cell();
+    const StringLimits limits = LimitsOf(cell);
+    const auto solved = [&](StringRoot* root) {
+      StringState state = ColdStart(strings, limits);
+      SolveString(effects, cell, limits, strings.voltage(), GiveUp::kNever, Wanted::kSlopes, &state,
+                  root);
+    };
+    StringRoot root, up, down;
+    solved(&root);
+    const auto compare = [&](Pack* field, const Pack& slope, const char* name) {
+      constexpr double kStep = 1e-6;
+      const Pack before = *field, step = kStep * (1e-3 + abs(before));
+      *field = before + step;
+      solved(&up);
+      *field = before - step;
+      solved(&down);
+      *field = before;
+      const Pack found = (up.current - down.current) / (2.0 * step);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double rise = up.current[lane] - root.current[lane],
+                     fall = root.current[lane] - down.current[lane];
+        const bool bends = std::fabs(rise - fall) > 1e-4 * (std::fabs(rise) + std::fabs(fall));
+        if (bends || std::fabs(root.current[lane]) > 50) continue;  // differences mislead
+        const double size = 1 + std::fabs(slope[lane]);
+        EXPECT_NEAR(found[lane], slope[lane], 1e-3 * size) << name << " " << k << " " << lane;
+        ++compared;
+      }
+    };
+    compare(&cell.photocurrent, root.fields.photocurrent, "photocurrent");
+    compare(&cell.conductance, root.fields.conductance, "conductance");
+    compare(&cell.resistance, root.fields.resistance, "resistance");
+    if (cell.reverse == ReverseLaw::kBishop)
+      compare(&cell.reverse_strength, root.fields.reverse_strength, "reverse strength");
+    if (cell.reverse != ReverseLaw::kShunt) {
+      compare(&cell.reverse_voltage, root.fields.reverse_voltage, "reverse voltage");
+      compare(&cell.reverse_exponent, root.fields.reverse_exponent, "reverse exponent");
+    }
+    for (int g = 0; cell.groups > 1 && g < cell.groups; ++g) {
+      compare(&cell.group[g].light, root.fields.light[g], "light");
+      compare(&cell.group[g].leak, root.fields.leak[g], "leak");
+    }
+    if (std::any_of(cell.substring, cell.substring + cell.substrings,
+                    [](const Substring& one) { return one.bypassed; })) {
+      compare(&cell.bypass, root.fields.bypass, "bypass");
+      compare(&cell.bypass_ideality, root.fields.bypass_ideality, "bypass ideality");
+    }
+    if (cell.two_parts) {
+      compare(&cell.far_share, root.fields.far_share, "far share");
+      compare(&cell.far_resistance, root.fields.far_resistance, "far resistance");
+    }
+  }
+  EXPECT_GT(compared, 1000);
 }
 
 }  // namespace

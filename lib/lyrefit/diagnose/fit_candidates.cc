@@ -14,16 +14,25 @@
 namespace lyrefit {
 namespace {
 
-// An earlier fit with this effect, of the selection that is repeated. Null if the law already has
-// effects or if a parameter is selected on a grid, which must be repeated.
+bool IsSearched(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& parameter) { return parameter.searched; });
+}
+
+// An earlier fit with this effect beside the causes of the law, of the selection that is repeated or
+// of the last step. Null if a parameter is selected on a grid, which must be repeated.
 const LawFit* FindMet(const SelectionState& now, const Effect& effect) {
-  const auto searched = [](const EffectParameter& parameter) { return parameter.searched; };
-  const std::vector<FittedCandidate>* met = now.options.met;
-  if (met == nullptr || !now.fit.law.effects.empty()) return nullptr;
-  if (std::any_of(effect.parameters.begin(), effect.parameters.end(), searched)) return nullptr;
-  const auto at = std::find_if(met->begin(), met->end(),
-                               [&](const FittedCandidate& r) { return r.score.effect == &effect; });
-  return at != met->end() && at->fit.usable ? &at->fit : nullptr;
+  if (IsSearched(effect)) return nullptr;
+  std::vector<const Effect*> causes = now.fit.law.effects;
+  causes.push_back(&effect);
+  const auto* const repeated = now.fit.law.effects.empty() ? now.options.met : nullptr;
+  for (const std::vector<FittedCandidate>* met : {repeated, &now.earlier}) {
+    if (met == nullptr) continue;
+    for (const FittedCandidate& one : *met) {
+      if (one.fit.usable && one.fit.law.effects == causes) return &one.fit;
+    }
+  }
+  return nullptr;
 }
 
 // A fit from the parameters of an earlier one; unusable if that has not this effect.
@@ -182,8 +191,8 @@ std::vector<const FittedCandidate*> EquivalentsOf(const ChosenCause& cause) {
 namespace {
 
 // The fit of an effect in the first step, with the base model alone. Null if there is none.
-const FittedCandidate* TrialOf(const Selection& selection, const Effect* effect) {
-  const std::vector<FittedCandidate>& trials = selection.trials.candidates;
+const FittedCandidate* TrialOf(const Hypotheses& first_step, const Effect* effect) {
+  const std::vector<FittedCandidate>& trials = first_step.candidates;
   const auto at = std::find_if(trials.begin(), trials.end(), [&](const FittedCandidate& trial) {
     return trial.score.effect == effect && trial.fit.usable;
   });
@@ -192,7 +201,7 @@ const FittedCandidate* TrialOf(const Selection& selection, const Effect* effect)
 
 // Whether an effect was a notable alternative of the first step, to one of the causes.
 bool WasNotable(const Selection& selection, const Effect* effect) {
-  const FittedCandidate* trial = TrialOf(selection, effect);
+  const FittedCandidate* trial = TrialOf(selection.trials, effect);
   const double best =
       selection.trials.candidates.empty() ? 0 : selection.trials.candidates.front().probability;
   return trial != nullptr && trial->probability >= kNotable * best;
@@ -200,7 +209,7 @@ bool WasNotable(const Selection& selection, const Effect* effect) {
 
 // Fits an effect in a place. In the place of the only cause the fit of the first step goes on.
 LawFit FitInPlace(const Selection& selection, const LawFit& without, const Score& score) {
-  const FittedCandidate* trial = TrialOf(selection, score.effect);
+  const FittedCandidate* trial = TrialOf(selection.trials, score.effect);
   if (trial != nullptr && without.law.effects.empty()) {
     LawFit fit = FitOnwards(selection.weighted, trial->fit);
     if (fit.usable) return fit;

@@ -294,7 +294,12 @@ void Extend(SelectionState* now) {
       now->trials.candidates = WithUntried(std::move(now->trials.candidates), scores);
     }
     if (now->weighted.progress.Stopped()) return;
-    if (LeaveOutWrong(scores, step, now)) continue;
+    if (LeaveOutWrong(scores, step, now)) {
+      if (!now->options.thorough && !now->options.repeats)
+        now->earlier = std::move(step.candidates);
+      continue;
+    }
+    now->earlier.clear();
     if (step.candidates.empty() || static_cast<int>(now->causes.size()) >= most) return;
     const FittedCandidate& best = *MostProbable(step.candidates);
     if (!(best.LogComplete() > step.none.LogComplete() + least)) return;

@@ -21,6 +21,7 @@ struct SelectOptions {
   std::vector<double> start;       // parameters of `base`, which is then final; empty: unknown
   bool repeats = false;            // repeats a selection on fewer readings: fits start from the
                                    // best probe only, no cause is swapped, no stage is reported
+  bool thorough = false;           // no fit is saved: the same verdict, for tests of that
   int most_fitted_candidates = 0;  // number of effects fitted in a step, by score; 0: all
   LawFit hint;                     // earlier fit with effects, as further start; may be unusable
   const std::vector<FittedCandidate>* met = nullptr;  // earlier fits of each effect with `base`

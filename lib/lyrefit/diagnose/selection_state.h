@@ -22,6 +22,9 @@ struct SelectionState {
   WrongReadings wrong;
   Hypotheses trials = {}, below = {};  // see Selection, as `none`
   double none = 1;
+  // Fits of the last step, of which some readings are left out since: fits with the same causes go
+  // on from there.
+  std::vector<FittedCandidate> earlier = {};
 };
 
 // Receives the stages. Repetitions of the selection report to nobody.

@@ -68,26 +68,16 @@ ErrorModel ErrorsOf(const WeightedData& weighted) {
 
 namespace {
 
-// Whitens in place, row by row. Rows of left-out readings become 0.
-void WhitenRows(const WeightedData& weighted, Eigen::Ref<RowMatrix> rows) {
-  if (weighted.correlation != 0 || weighted.path != 0) {
-    Whiten(ErrorsOf(weighted), weighted.used, rows);
-    return;
-  }
-  for (int k = 0; k < rows.rows(); ++k) {
-    if (weighted.used[k] == 0) {
-      rows.row(k).setZero();
-    } else {
-      rows.row(k) *= 1 / std::sqrt(weighted.sigma[k] * weighted.sigma[k]);
-    }
-  }
+Whitening WhiteningOf(const WeightedData& weighted) {
+  return Whitening(ErrorsOf(weighted), weighted.used);
 }
 
 // Evaluates whitened residuals and derivatives. The solver accepts failed residuals of a step, but
 // not missing derivatives, so these become 0 if they cannot be evaluated.
-bool EvaluateWhitened(const WeightedData& weighted, const LawCoordinates& law,
-                      const std::vector<char>& fixed, const double* theta, LawWorkspace* workspace,
-                      std::vector<double>* current, double* residuals, double* jacobian) {
+bool EvaluateWhitened(const WeightedData& weighted, const Whitening& whitening,
+                      const LawCoordinates& law, const std::vector<char>& fixed,
+                      const double* theta, LawWorkspace* workspace, std::vector<double>* current,
+                      double* residuals, double* jacobian) {
   const Readings& readings = *weighted.readings;
   const int count = static_cast<int>(readings.points.size());
   const int size = static_cast<int>(fixed.size());
@@ -99,11 +89,11 @@ bool EvaluateWhitened(const WeightedData& weighted, const LawCoordinates& law,
   }
   Eigen::Map<RowMatrix> r(residuals, count, 1);
   for (int k = 0; k < count; ++k) r(k, 0) = (*current)[k] - readings.points[k].current;
-  WhitenRows(weighted, r);
+  whitening.Apply(r);
   if (!std::isfinite(r.squaredNorm())) return false;
   if (jacobian == nullptr) return true;
   Eigen::Map<RowMatrix> rows(jacobian, count, size);
-  WhitenRows(weighted, rows);
+  whitening.Apply(rows);
   if (!std::isfinite(rows.squaredNorm())) rows.setZero();
   return true;
 }
@@ -112,10 +102,11 @@ LeastSquaresProblem MakeProblem(const WeightedData& weighted, const LawCoordinat
                                 LawWorkspace* workspace, std::vector<double>* current) {
   LeastSquaresProblem problem = coordinates.Problem();
   current->resize(problem.residuals);
-  problem.evaluate = [&weighted, &coordinates, fixed = problem.fixed, workspace, current](
-                         const double* theta, double* residuals, double* jacobian) {
-    return EvaluateWhitened(weighted, coordinates, fixed, theta, workspace, current, residuals,
-                            jacobian);
+  problem.evaluate = [&weighted, whitening = WhiteningOf(weighted), &coordinates,
+                      fixed = problem.fixed, workspace,
+                      current](const double* theta, double* residuals, double* jacobian) {
+    return EvaluateWhitened(weighted, whitening, coordinates, fixed, theta, workspace, current,
+                            residuals, jacobian);
   };
   return problem;
 }
@@ -150,13 +141,13 @@ int WeightedData::count() const {
 
 Eigen::VectorXd Whiten(const WeightedData& weighted, const Eigen::VectorXd& values) {
   RowMatrix rows = values;
-  WhitenRows(weighted, rows);
+  WhiteningOf(weighted).Apply(rows);
   return rows.col(0);
 }
 
 Eigen::MatrixXd WhitenColumns(const WeightedData& weighted, const Eigen::MatrixXd& columns) {
   RowMatrix rows = columns;
-  WhitenRows(weighted, rows);
+  WhiteningOf(weighted).Apply(rows);
   return rows;
 }
 

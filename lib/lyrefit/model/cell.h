@@ -172,41 +172,48 @@ T Cut(const T& exponent) {
   return Smaller(exponent, T(kLargestExponent));
 }
 
-// Current that a cell adds in reverse beside its shunt current, in current scales.
+// The fields of a cell that the reverse law depends on.
 template <class S>
-Tangent<S> ReverseCurrent(const Cell<S>& cell, const Tangent<S>& voltage) {
-  using T = Tangent<S>;
-  constexpr double kLeast = 1e-9;  // of reverse_voltage; smaller depths count as this
+struct ReverseTerms {
+  ReverseLaw law;
+  S photocurrent;
+  S conductance;
+  S strength;
+  S voltage;
+  S exponent;
+};
+
+// Current that a cell adds in reverse beside its shunt current, in current scales.
+template <class S, class T>
+T ReverseCurrent(const ReverseTerms<S>& cell, const T& voltage) {
+  constexpr double kLeast = 1e-9;  // of `voltage`; smaller depths count as this
   if (!Any(voltage < 0.0)) return T(0.0);
-  const T depth = Larger(-voltage * (1.0 / cell.reverse_voltage), kLeast);
-  if (cell.reverse == ReverseLaw::kSoft) {
-    const T current = exp(log(depth) * cell.reverse_exponent) * cell.photocurrent;
+  const T depth = Larger(-voltage * (1.0 / cell.voltage), kLeast);
+  if (cell.law == ReverseLaw::kSoft) {
+    const T current = exp(log(depth) * cell.exponent) * cell.photocurrent;
     return Choose(voltage < 0.0, current, T(0.0));
   }
   constexpr double kClosest = 0.02;  // above 1 - this depth a tangent replaces the pole
   const T gap = Larger(1.0 - depth, kClosest);
-  const T edge = -(1.0 - gap) * cell.reverse_voltage;  // limited to the tangent's start
-  const T factor = exp(-log(gap) * cell.reverse_exponent);
-  const T slope = factor * (1.0 - edge * (cell.reverse_exponent / cell.reverse_voltage) / gap);
+  const T edge = -(1.0 - gap) * cell.voltage;  // limited to the tangent's start
+  const T factor = exp(-log(gap) * cell.exponent);
+  const T slope = factor * (1.0 - edge * (cell.exponent / cell.voltage) / gap);
   const T current =
-      -(edge * factor + (voltage - edge) * slope) * S(cell.conductance * cell.reverse_strength);
+      -(edge * factor + (voltage - edge) * slope) * S(cell.conductance * cell.strength);
   return Choose(voltage < 0.0, current, T(0.0));
 }
-
-// Whether the junction has terms beside photocurrent, diodes and shunt.
-template <class S>
-bool HasMore(const EvaluationContext<S>& context, const Cell<S>& cell) {
-  if (cell.reverse != ReverseLaw::kShunt) return true;
-  for (const Effect* effect : context.law.effects) {
-    if (effect->ChangesJunction()) return true;
-  }
-  return false;
+template <class S, class T>
+T ReverseCurrent(const Cell<S>& cell, const T& voltage) {
+  return ReverseCurrent(
+      ReverseTerms<S>{cell.reverse, cell.photocurrent, cell.conductance, cell.reverse_strength,
+                      cell.reverse_voltage, cell.reverse_exponent},
+      voltage);
 }
+
+// Adds the terms of effects to a current of the junction.
 template <class S>
-Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
-                       const S& photocurrent, const Tangent<S>& voltage) {
-  Tangent<S> current = 0.0;
-  if (cell.reverse != ReverseLaw::kShunt) current = ReverseCurrent(cell, voltage);
+Tangent<S> AddEffects(const EvaluationContext<S>& context, const Cell<S>& cell,
+                      const S& photocurrent, const Tangent<S>& voltage, Tangent<S> current) {
   for (std::size_t e = 0; e < context.law.effects.size(); ++e) {
     const Effect& effect = *context.law.effects[e];
     const S* const p = context.p + context.offsets[e];
@@ -217,20 +224,6 @@ Tangent<S> MoreCurrent(const EvaluationContext<S>& context, const Cell<S>& cell,
         current + CallStage(effect.plain_junction, effect.size(), p, cell, photocurrent, voltage);
   }
   return current;
-}
-
-// F(Vj): the current that one cell group delivers at its junction voltage, with its slope.
-inline Dual<1, Pack> JunctionCurrent(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
-                                     int group, const Dual<1, Pack>& voltage) {
-  const bool alike = cell.groups == 1;
-  const Pack light = alike ? cell.photocurrent : cell.photocurrent * cell.group[group].light;
-  const Pack leak = alike ? Pack(kLeastConductance) : cell.group[group].leak + kLeastLeak;
-  Dual<1, Pack> current = light - voltage * (cell.conductance + leak);
-  for (int d = 0; d < cell.diodes; ++d) {
-    const Diode<Pack>& diode = cell.diode[d];
-    current = current + DiodeCurrent(diode.saturation, diode.inverse_n_vt, voltage);
-  }
-  return HasMore(context, cell) ? current + MoreCurrent(context, cell, light, voltage) : current;
 }
 
 // Whether the series drop D(I) has terms beside I Rs.
@@ -257,19 +250,19 @@ Tangent<S> MoreDrop(const EvaluationContext<S>& context, const Cell<S>& cell,
   }
   return drop;
 }
-inline Dual<1, Pack> SeriesDrop(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
-                                const Dual<1, Pack>& current) {
-  const Dual<1, Pack> drop = current * cell.resistance;
-  return HasMoreDrop(context, cell) ? drop + MoreDrop(context, cell, current) : drop;
-}
 
-// Current through the bypass diode beside a substring of `cells` cells, in current scales.
-// `reverse`: reverse voltage per cell, in V.
-template <class S>
-Tangent<S> BypassCurrent(const Cell<S>& cell, double cells, const Tangent<S>& reverse) {
-  const S inverse = (1.0 / cell.bypass_ideality) / cell.thermal_voltage;
-  const S start = exp(-(cell.bypass * inverse));
-  return exp(Cut(Tangent<S>((reverse * cells - cell.bypass) * inverse))) - start;
+// Current through the bypass diode beside a substring of `cells` cells, in current scales. `turn_on`:
+// its voltage at one current scale. `reverse`: reverse voltage per cell, in V.
+template <class S, class T>
+T BypassCurrent(const S& turn_on, const S& ideality, const S& thermal_voltage, double cells,
+                const T& reverse) {
+  const S inverse = (1.0 / ideality) / thermal_voltage;
+  const S start = exp(-(turn_on * inverse));
+  return exp(Cut(T((reverse * cells - turn_on) * inverse))) - start;
+}
+template <class S, class T>
+T BypassCurrent(const Cell<S>& cell, double cells, const T& reverse) {
+  return BypassCurrent(cell.bypass, cell.bypass_ideality, cell.thermal_voltage, cells, reverse);
 }
 
 }  // namespace lyrefit

@@ -7,7 +7,7 @@
 
 #include "lyrefit/model/cell.h"
 #include "lyrefit/model/reading_blocks.h"
-#include "lyrefit/model/string.h"
+#include "lyrefit/model/string_cell_group.h"
 
 namespace lyrefit {
 namespace {
@@ -151,10 +151,8 @@ bool StartBeside(const ReadingBlock& before, const StringState& there, const Rea
 }
 
 bool HasInstrument(const Law& law) {
-  for (const Effect* effect : law.effects) {
-    if (effect->instrument) return true;
-  }
-  return false;
+  return std::any_of(law.effects.begin(), law.effects.end(),
+                     [](const Effect* e) { return static_cast<bool>(e->instrument); });
 }
 
 // Adds `factor` times the derivatives of x to `sum`.
@@ -167,43 +165,68 @@ void Add(const Pack& factor, const Dual<N, Pack>& x, Dual<N, Pack>* sum) {
 template <class S>
 struct Place {
   const EvaluationContext<S>& context;
+  const StringEffects& effects;
   const Cell<S>& cell;
   const Cell<Pack>& plain;
+  int size;                             // number of derivatives
+  const std::vector<SlopeTerm>& terms;  // of the delivered current, at any root
 };
 
-// Adds `factor` times the derivatives of F of a cell group, at a fixed junction voltage.
-template <class S>
-void AddJunction(const Place<S>& at, int group, const Pack& voltage, const Pack& factor, S* sum) {
-  const Cell<S>& cell = at.cell;
-  const bool alike = at.plain.groups == 1;
-  S light = cell.photocurrent;
-  if (!alike) light = light * cell.group[group].light;
-  Add(factor, light, sum);
-  Add(-factor * voltage, cell.conductance, sum);
-  if (!alike) Add(-factor * voltage, cell.group[group].leak, sum);
-  for (int d = 0; d < cell.diodes; ++d) {
-    using OfTwo = Dual<2, Pack>;
-    const Diode<Pack>& diode = at.plain.diode[d];
-    const OfTwo current =
-        DiodeCurrent(OfTwo(diode.saturation, 0), OfTwo(diode.inverse_n_vt, 1), OfTwo(voltage));
-    Add(factor * current.v[0], cell.diode[d].saturation, sum);
-    Add(factor * current.v[1], cell.diode[d].inverse_n_vt, sum);
-  }
-  if (HasMore(at.context, cell)) Add(factor, MoreCurrent(at.context, cell, light, S(voltage)), sum);
+template <int N>
+bool HasDerivatives(const Dual<N, Pack>& a, int size) {
+  return std::any_of(a.v, a.v + size, [](const Pack& v) { return !All(abs(v) < 1e-300); });
 }
 
-// Adds `factor` times the derivatives of a cell group's current, of both parts where cells have
-// two.
+// The slopes of a current by the fields of a cell that have derivatives, of which there are `size`.
 template <class S>
-void AddGroup(const Place<S>& at, const StringState& state, const GroupPoint& point, int group,
-              const Pack& factor, S* sum) {
-  if (!at.plain.two_parts) return AddJunction(at, group, state.u[group], factor, sum);
-  const Pack near = (1.0 - at.plain.far_share) * factor;
-  AddJunction(at, group, state.u[group], near, sum);
-  const Pack far = at.plain.far_share * factor * point.follows;
-  AddJunction(at, group, state.far[group], far, sum);
-  Add(far * point.far.v[0] * point.far.a, at.cell.far_resistance, sum);
-  Add(factor * factor / near * (point.far.a - point.current.a), at.cell.far_share, sum);
+std::vector<SlopeTerm> TermsOf(const FieldSlopes& slopes, const Cell<S>& cell, int size) {
+  std::vector<SlopeTerm> terms;
+  const auto add = [&](const Pack& slope, const S& by) {
+    if (HasDerivatives(by, size)) terms.push_back({&slope, &by});
+  };
+  add(slopes.photocurrent, cell.photocurrent);
+  add(slopes.conductance, cell.conductance);
+  add(slopes.resistance, cell.resistance);
+  for (int d = 0; d < cell.diodes; ++d) {
+    add(slopes.saturation[d], cell.diode[d].saturation);
+    add(slopes.inverse_n_vt[d], cell.diode[d].inverse_n_vt);
+  }
+  for (int g = 0; cell.groups > 1 && g < cell.groups; ++g) {
+    add(slopes.light[g], cell.group[g].light);
+    add(slopes.leak[g], cell.group[g].leak);
+    add(slopes.share[g], cell.group[g].share);
+  }
+  if (cell.reverse == ReverseLaw::kBishop) add(slopes.reverse_strength, cell.reverse_strength);
+  if (cell.reverse != ReverseLaw::kShunt) {
+    add(slopes.reverse_voltage, cell.reverse_voltage);
+    add(slopes.reverse_exponent, cell.reverse_exponent);
+  }
+  const bool bypassed = std::any_of(cell.substring, cell.substring + cell.substrings,
+                                    [](const Substring& one) { return one.bypassed; });
+  if (bypassed) {
+    add(slopes.bypass, cell.bypass);
+    add(slopes.bypass_ideality, cell.bypass_ideality);
+    add(slopes.thermal_voltage, cell.thermal_voltage);
+  }
+  if (cell.two_parts) {
+    add(slopes.far_share, cell.far_share);
+    add(slopes.far_resistance, cell.far_resistance);
+  }
+  return terms;
+}
+
+// Adds `factor` times the derivatives of the terms that effects add to a cell group's current.
+template <class S>
+void AddEffectTerms(const Place<S>& at, const StringState& state, const GroupPoint& point,
+                    int group, const Pack& factor, S* sum) {
+  S light = at.cell.photocurrent;
+  if (at.plain.groups > 1) light = light * at.cell.group[group].light;
+  const auto add = [&](const Pack& voltage, const Pack& by) {
+    Add(by, AddEffects(at.context, at.cell, light, S(voltage), S(0.0)), sum);
+  };
+  if (!at.plain.two_parts) return add(state.u[group], factor);
+  add(state.u[group], (1.0 - at.plain.far_share) * factor);
+  add(state.far[group], at.plain.far_share * factor * point.follows);
 }
 
 // The delivered current with its derivatives, from the slopes at the root.
@@ -213,27 +236,18 @@ S DifferentiateCurrent(const Place<S>& at, const S& voltage, const StringState& 
   const StringSlopes& slopes = root.slopes;
   const Cell<Pack>& plain = at.plain;
   S current = root.current;
-  for (int g = 0; g < plain.groups; ++g) {
-    AddGroup(at, state, root.group[g], g, slopes.by_current[g], &current);
-    if (plain.groups > 1) Add(slopes.by_share[g], at.cell.group[g].share, &current);
-    if (plain.groups == 1 || !plain.substring[plain.group[g].substring].parallel) continue;
-    const Pack& carried = root.group[g].current.a;
-    Add(slopes.by_chain_drop[g] * carried, at.cell.resistance, &current);
-    if (HasMoreDrop(at.context, at.cell)) {
-      Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(carried)), &current);
-    }
+  AddSlopes(at.terms, at.size, &current);
+  Add(root.fields.voltage, voltage, &current);
+  for (int g = 0; at.effects.junction && g < plain.groups; ++g)
+    AddEffectTerms(at, state, root.group[g], g, slopes.by_current[g], &current);
+  if (!at.effects.series || plain.suns_voc) return current;
+  for (int g = 0; plain.groups > 1 && g < plain.groups; ++g) {
+    if (!plain.substring[plain.group[g].substring].parallel) continue;
+    Add(slopes.by_chain_drop[g], MoreDrop(at.context, at.cell, S(root.group[g].current.a)),
+        &current);
   }
-  for (int s = 0; s < plain.strings; ++s) {
-    Add(slopes.by_drop[s] * state.current[s], at.cell.resistance, &current);
-    Add(slopes.by_terminal[s], voltage, &current);
-    if (!HasMoreDrop(at.context, at.cell)) continue;
+  for (int s = 0; s < plain.strings; ++s)
     Add(slopes.by_drop[s], MoreDrop(at.context, at.cell, S(state.current[s])), &current);
-  }
-  for (int p = 0; p < plain.substrings; ++p) {
-    if (!plain.substring[p].bypassed) continue;
-    Add(slopes.by_bypass[p],
-        BypassCurrent(at.cell, plain.substring[p].cells, S(-state.substring_voltage[p])), &current);
-  }
   return current;
 }
 
@@ -245,7 +259,10 @@ S DifferentiateJunction(const Place<S>& at, const StringState& state, const Stri
   const Pack slope = 1.0 / point.current.v[0];
   S junction = state.u[0];
   Add(slope, current, &junction);
-  AddGroup(at, state, point, 0, -slope, &junction);
+  S group = 0.0;
+  AddSlopes(TermsOf(root.first_group, at.cell, at.size), at.size, &group);
+  if (at.effects.junction) AddEffectTerms(at, state, point, 0, Pack(1.0), &group);
+  Add(-slope, group, &junction);
   return junction;
 }
 
@@ -303,6 +320,7 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
       MakeEvaluationContext(law, readings, static_cast<const Pack*>(plain_values.data()));
   std::vector<S> duals;
   if constexpr (kDerivatives) {
+    duals.reserve(size);
     for (int k = 0; k < size; ++k) duals.push_back(S(Pack(values[k])));
     for (int i = 0; i < moved; ++i) duals[free[i]] = S(Pack(values[free[i]]), i);
   }
@@ -314,6 +332,9 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
   LawWorkspace::State& state = *workspace->Of(readings);
   StringLimits limits;
   StringState unkept;
+  const StringEffects effects = EffectsOf(plain);
+  StringRoot root;
+  std::vector<SlopeTerm> terms;
   for (std::size_t b = 0; b < state.blocks->size(); ++b) {
     const ReadingBlock& block = (*state.blocks)[b];
     if (plain_cells.Settle(block)) limits = LimitsOf(plain_cells.cell());
@@ -329,16 +350,19 @@ bool Evaluate(const Law& law, const Readings& readings, const double* values,
         fresh && b > 0 &&
         StartBeside((*state.blocks)[b - 1], kept ? state.strings[b - 1] : unkept, block, cell, &at);
     if (!follows) Start(cell, limits, block, voltage, fresh, &at);
-    const StringRoot root = SolveString(plain, cell, limits, voltage, &at, state.give_up);
     const bool recorded_otherwise = instrument && !block.suns_voc;
+    const Wanted wanted = !kDerivatives        ? Wanted::kCurrent
+                          : recorded_otherwise ? Wanted::kJunctionSlopes
+                                               : Wanted::kSlopes;
+    SolveString(effects, cell, limits, voltage, state.give_up, wanted, &at, &root);
     if constexpr (!kDerivatives) {
       const Pack recorded =
           recorded_otherwise ? Recorded(plain, block, cell, root.current, at.u[0]) : root.current;
       if (!AllFinite(recorded)) return false;
       StoreRows(recorded, block, 1, current);
     } else {
-      cells.Settle(block);
-      const Place<S> place{context, cells.cell(), cell};
+      if (cells.Settle(block)) terms = TermsOf(root.fields, cells.cell(), moved);
+      const Place<S> place{context, effects, cells.cell(), cell, moved, terms};
       S recorded = DifferentiateCurrent(place, cells.conditions().voltage, at, root);
       if (recorded_otherwise) {
         const S junction = DifferentiateJunction(place, at, root, recorded);

@@ -27,7 +27,6 @@ inline Pack sqrt(const Pack& a) {
   return Load(block);
 }
 inline const Pack& ValueOf(const Pack& a) { return a; }
-inline bool Any(const Mask& mask) { return !All(!mask); }
 // Infinity and NaN times 0 are NaN, and every comparison with NaN is false.
 inline bool AllFinite(const Pack& a) { return All(-1.0 < a * 0.0); }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lyrefit/model/cell.h"
 
 // Solves unlike cells in series, and such strings in parallel: finds the current at a given
@@ -24,62 +26,135 @@ namespace lyrefit {
 // State of the iteration for eight readings: junction voltages of the cell groups, voltages of the
 // substrings, currents of the strings. In cells of two parts `u` is the near part's and `far` the
 // far part's voltage. Voltages and currents of a string are scaled as if all cells were in that string.
-struct StringState {
-  Pack u[kMostGroups];
-  Pack far[kMostGroups];
-  Pack substring_voltage[kMostGroups];
-  Pack current[kMostGroups];
+template <class P>
+struct StringStateOf {
+  P u[kMostGroups];
+  P far[kMostGroups];
+  P substring_voltage[kMostGroups];
+  P current[kMostGroups];
   int groups = 0;  // numbers of valid entries
   int substrings = 0;
   int strings = 0;
 
-  bool Fits(const Cell<Pack>& cell) const {
+  bool Fits(const Cell<P>& cell) const {
     return groups == cell.groups && substrings == cell.substrings && strings == cell.strings;
   }
 };
 
 // Voltages at which exponentials dominate: steps beyond them are logarithmic.
-struct StringLimits {
-  Pack voltage;  // of an unknown
-  Pack n_vt;
-  Pack reverse;  // of a bypass diode, at its own voltage
-  Pack bypass_vt;
+template <class P>
+struct StringLimitsOf {
+  P voltage;  // of an unknown
+  P n_vt;
+  P reverse;  // of a bypass diode, at its own voltage
+  P bypass_vt;
 };
-StringLimits LimitsOf(const Cell<Pack>& cell);
 
 // Current of a cell group at its junction voltage. With two parts, I = (1 - a) F(u) + a F(f) and
 // f = u + R F(f). The far part is linearised, so that the current depends on u alone.
-struct GroupPoint {
-  Dual<1, Pack> current;  // with its slope by u
-  Dual<1, Pack> far;      // two parts: F(f), with its slope
-  Pack follows;           // two parts: df/du
-  Pack behind;            // two parts: residual of the equation for f
+template <class P>
+struct GroupPointOf {
+  Dual<1, P> current;  // with its slope by u
+  Dual<1, P> far;      // two parts: F(f), with its slope
+  P follows;           // two parts: df/du
+  P behind;            // two parts: residual of the equation for f
 };
 
 // Derivatives of the delivered current by each term of the equations, at the root.
-struct StringSlopes {
-  Pack by_current[kMostGroups];  // F of each cell group
-  Pack by_share[kMostGroups];
-  Pack by_bypass[kMostGroups];      // B of each substring
-  Pack by_drop[kMostGroups];        // D of each string
-  Pack by_chain_drop[kMostGroups];  // D of the group's chain (parallel), else 0
-  Pack by_terminal[kMostGroups];    // V, in each string
+template <class P>
+struct StringSlopesOf {
+  P by_current[kMostGroups];  // F of each cell group
+  P by_share[kMostGroups];
+  P by_bypass[kMostGroups];      // B of each substring
+  P by_drop[kMostGroups];        // D of each string
+  P by_chain_drop[kMostGroups];  // D of the group's chain (parallel), else 0
+  P by_terminal[kMostGroups];    // V, in each string
 };
 
-struct StringRoot {
-  Pack current;  // delivered by all strings
-  GroupPoint group[kMostGroups];
-  StringSlopes slopes;
+// Derivatives of a current by the fields of a cell, without those by the terms of effects.
+template <class P>
+struct FieldSlopesOf {
+  P photocurrent;
+  P conductance;
+  P resistance;
+  P voltage;  // at the terminals
+  P saturation[Cell<P>::kMostDiodes];
+  P inverse_n_vt[Cell<P>::kMostDiodes];
+  P light[kMostGroups];
+  P leak[kMostGroups];
+  P share[kMostGroups];
+  P reverse_strength;
+  P reverse_voltage;
+  P reverse_exponent;
+  P bypass;
+  P bypass_ideality;
+  P thermal_voltage;  // of bypass diodes
+  P far_share;
+  P far_resistance;
 };
+
+// What is wanted beside the current.
+enum class Wanted {
+  kCurrent,
+  kSlopes,         // StringRoot::slopes and `fields`
+  kJunctionSlopes  // `first_group` as well
+};
+
+template <class P>
+struct StringRootOf {
+  P current;  // delivered by all strings
+  GroupPointOf<P> group[kMostGroups];
+  StringSlopesOf<P> slopes;
+  FieldSlopesOf<P> fields;       // of the delivered current
+  FieldSlopesOf<P> first_group;  // of the first group's current, at a fixed junction voltage
+};
+
+using StringState = StringStateOf<Pack>;
+using StringLimits = StringLimitsOf<Pack>;
+using GroupPoint = GroupPointOf<Pack>;
+using StringSlopes = StringSlopesOf<Pack>;
+using FieldSlopes = FieldSlopesOf<Pack>;
+using StringRoot = StringRootOf<Pack>;
+
+StringLimits LimitsOf(const Cell<Pack>& cell);
 
 // Start state from a guess `current`.
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state);
 
-// Solves the string at `voltage` per cell from `state`, which is moved to the root. The current is
-// NaN in lanes where the iteration was given up.
-StringRoot SolveString(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
-                       const StringLimits& limits, const Pack& voltage, StringState* state,
-                       GiveUp give_up = GiveUp::kNever);
+// Law and parameters of a string whose effects add terms to the junction or the series drop. Their
+// stages are for packs of every processor.
+struct StringEffects {
+  const EvaluationContext<Pack>* context;
+  bool junction;
+  bool series;
+};
+StringEffects EffectsOf(const EvaluationContext<Pack>& context);
+
+// Solves the string at `voltage` per cell from `state`, which is moved to the root, with the widest
+// registers of this processor. The current is NaN in lanes where the iteration was given up.
+void SolveString(const StringEffects& effects, const Cell<Pack>& cell, const StringLimits& limits,
+                 const Pack& voltage, GiveUp give_up, Wanted wanted, StringState* state,
+                 StringRoot* root);
+
+// A slope and what it is by: a dual of packs, whose derivatives follow its value.
+struct SlopeTerm {
+  const Pack* slope;
+  const void* by;
+};
+// Adds the product of each slope and the first `size` derivatives of its dual to those of the dual
+// `sum`, in the order of the terms.
+void AddSlopes(const std::vector<SlopeTerm>& terms, int size, void* sum);
+
+// A solver for registers of one width: string_solve.h in the types of a processor. All give the same
+// bits. They are SolveString and AddSlopes for packs as they are in memory.
+struct StringKernel {
+  const char* name;  // "portable", "avx2", "avx512"
+  void (*solve)(const StringEffects& effects, const void* cell, const void* limits,
+                const void* voltage, GiveUp give_up, Wanted wanted, void* state, void* root);
+  void (*add_slopes)(const SlopeTerm* terms, int count, int size, void* sum);
+};
+// Every one that this processor can run, slowest ("portable") first.
+const std::vector<StringKernel>& StringKernels();
 
 }  // namespace lyrefit

@@ -7,9 +7,8 @@ namespace {
 
 class Bracketed {
  public:
-  Bracketed(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
-            const StringLimits& limits)
-      : context_(context), cell_(cell), limits_(limits) {}
+  Bracketed(const StringEffects& effects, const Cell<Pack>& cell, const StringLimits& limits)
+      : effects_(effects), cell_(cell), limits_(limits) {}
 
   void Solve(const Pack& voltage, StringState* state) const {
     for (int s = 0; s < cell_.strings; ++s) {
@@ -67,7 +66,7 @@ class Bracketed {
 
   // Sum of share x voltage over a string's substrings at a current; updates the state.
   Pack VoltageOf(int string, const Pack& current, StringState* state) const {
-    const Pack drop = SeriesDrop(context_, cell_, Dual<1, Pack>(current, 0)).a;
+    const Pack drop = SeriesDrop(effects_, cell_, current).a;
     Pack sum = 0.0;
     for (int p = 0; p < cell_.substrings; ++p) {
       if (cell_.substring[p].string != string) continue;
@@ -93,9 +92,7 @@ class Bracketed {
     return sum;
   }
 
-  Pack DropAt(const Pack& current) const {
-    return SeriesDrop(context_, cell_, Dual<1, Pack>(current, 0)).a;
-  }
+  Pack DropAt(const Pack& current) const { return SeriesDrop(effects_, cell_, current).a; }
 
   // Voltage of a substring of two parallel chains. `excess` rises: the current of the group beside
   // falls as its voltage rises, so the other chain carries more and its voltage falls.
@@ -105,7 +102,7 @@ class Bracketed {
     Pack voltage = 0.0;
     const auto excess = [&](const Pack& junction) {  // rises with the junction voltage
       state->u[beside] = junction;
-      const Pack own = PointOf(context_, cell_, beside, *state).current.a;
+      const Pack own = PointOf(effects_, cell_, beside, *state).current.a;
       voltage = junction - DropAt(own);
       Pack others = 2.0 * current - own;
       if (cell_.substring[substring].bypassed) {
@@ -137,7 +134,7 @@ class Bracketed {
     constexpr double kFar = 1e6;
     Pack low = -kFar, high = kFar;  // the current falls as the voltage rises
     for (int k = 0; k < kSteps; ++k) {
-      const GroupPoint point = PointOf(context_, cell_, group, *state);
+      const GroupPoint point = PointOf(effects_, cell_, group, *state);
       const Pack missing = carried - point.current.a, u = state->u[group];
       const Mask too_high = 0.0 < missing;
       high = Choose(too_high, Smaller(high, u), high);
@@ -158,16 +155,16 @@ class Bracketed {
     }
   }
 
-  const EvaluationContext<Pack>& context_;
+  const StringEffects& effects_;
   const Cell<Pack>& cell_;
   const StringLimits& limits_;
 };
 
 }  // namespace
 
-void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+void SolveByBrackets(const StringEffects& effects, const Cell<Pack>& cell,
                      const StringLimits& limits, const Pack& voltage, StringState* state) {
-  Bracketed(context, cell, limits).Solve(voltage, state);
+  Bracketed(effects, cell, limits).Solve(voltage, state);
 }
 
 }  // namespace lyrefit

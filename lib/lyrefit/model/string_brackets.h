@@ -8,7 +8,7 @@ namespace lyrefit {
 // lanes in which Newton's steps cycle. The search is safe because two functions are monotone: the
 // voltage of a string falls as its current rises, and the cell current of a substring rises with
 // the string current.
-void SolveByBrackets(const EvaluationContext<Pack>& context, const Cell<Pack>& cell,
+void SolveByBrackets(const StringEffects& effects, const Cell<Pack>& cell,
                      const StringLimits& limits, const Pack& voltage, StringState* state);
 
 }  // namespace lyrefit

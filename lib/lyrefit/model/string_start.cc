@@ -1,7 +1,21 @@
 #include "lyrefit/model/string.h"
-#include "lyrefit/model/string_cell_group.h"
 
 namespace lyrefit {
+
+StringLimits LimitsOf(const Cell<Pack>& cell) {
+  StringLimits limits;
+  limits.n_vt = 1.0 / cell.diode[0].inverse_n_vt;
+  limits.voltage = 1e3;
+  for (int d = 0; d < cell.diodes; ++d) {
+    const Pack n_vt = 1.0 / cell.diode[d].inverse_n_vt;
+    limits.n_vt = Smaller(limits.n_vt, n_vt);
+    const Pack ratio = (abs(cell.photocurrent) + 1.0) / Larger(cell.diode[d].saturation, 1e-300);
+    limits.voltage = Smaller(limits.voltage, n_vt * LogUpperBound(1.0 + ratio));
+  }
+  limits.bypass_vt = cell.bypass_ideality * cell.thermal_voltage;
+  limits.reverse = cell.bypass;
+  return limits;
+}
 
 void StartString(const Cell<Pack>& cell, const StringLimits& limits, const Pack& voltage,
                  const Pack& current, StringState* state) {

@@ -16,34 +16,50 @@ double OwnVariance(const ErrorModel& errors, int k) {
 
 }  // namespace
 
-double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
-  const bool has_path = !errors.path.empty();
-  const Eigen::Index columns = rows.cols();
-  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // prediction of the path
+Whitening::Whitening(const ErrorModel& errors, const std::vector<char>& used)
+    : has_path_(!errors.path.empty()) {
   PathFilter filter;
-  double logs = 0;
   int before = -1;
   for (int place = 0; place < errors.size(); ++place) {
     const int k = errors.order.empty() ? place : errors.order[place];
     if (!used.empty() && used[k] == 0) {
-      rows.row(k).setZero();
+      left_out_.push_back(k);
       continue;
     }
-    const double own = OwnVariance(errors, k);
-    if (!has_path) {
-      logs += std::log(own);
-      rows.row(k) *= 1 / std::sqrt(own);
-      continue;
+    FilterStep step;
+    step.total = OwnVariance(errors, k);
+    if (has_path_) {
+      const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
+      const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
+      step = filter.Next(step.total, errors.path[k], kept);
     }
-    const bool follows = before >= 0 && errors.chain[before] == errors.chain[k];
-    const double kept = follows ? std::exp(errors.position[before] - errors.position[k]) : 0.0;
-    const FilterStep step = filter.Next(own, errors.path[k], kept);
-    logs += std::log(step.total);
-    double* const row = rows.data() + k * rows.outerStride();
-    step.Whiten(columns, row, state.data(), row);
+    log_determinant_ += std::log(step.total);
+    order_.push_back(k);
+    steps_.push_back(step);
     before = k;
   }
-  return logs;
+}
+
+void Whitening::Apply(Eigen::Ref<RowMatrix> rows) const {
+  const Eigen::Index columns = rows.cols();
+  Eigen::RowVectorXd state = Eigen::RowVectorXd::Zero(columns);  // prediction of the path
+  for (const int k : left_out_) rows.row(k).setZero();
+  for (std::size_t place = 0; place < order_.size(); ++place) {
+    const FilterStep& step = steps_[place];
+    double* const row = rows.data() + order_[place] * rows.outerStride();
+    if (has_path_) {
+      step.Whiten(columns, row, state.data(), row);
+      continue;
+    }
+    const double scale = 1 / std::sqrt(step.total);
+    for (Eigen::Index c = 0; c < columns; ++c) row[c] *= scale;
+  }
+}
+
+double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
+  const Whitening whitening(errors, used);
+  whitening.Apply(rows);
+  return whitening.log_determinant();
 }
 
 RowMatrix CovarianceTimes(const ErrorModel& errors, const RowMatrix& rows) {

@@ -65,6 +65,23 @@ class PathFilter {
   double variance_ = 1;
 };
 
+// What whitens rows of one error model: its filter, which does not depend on the rows.
+class Whitening {
+ public:
+  // Rows that are not `used` become 0; empty: all are used.
+  Whitening(const ErrorModel& errors, const std::vector<char>& used);
+  // See Whiten.
+  void Apply(Eigen::Ref<RowMatrix> rows) const;
+  double log_determinant() const { return log_determinant_; }
+
+ private:
+  bool has_path_;
+  std::vector<int> order_;         // used rows, along the chains
+  std::vector<int> left_out_;      // the others
+  std::vector<FilterStep> steps_;  // of the used rows in that order
+  double log_determinant_ = 0;
+};
+
 // Whitens the rows in place to independent errors of unit variance. The path is a first-order
 // state: each row becomes its Kalman innovation, its difference from the prediction by earlier rows
 // of its chain. Exact, and linear in the rows. Rows that are not `used` become 0; empty: all are

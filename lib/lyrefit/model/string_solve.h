@@ -93,6 +93,7 @@ void FindRoot(const StringEffects& effects, const Cell<P>& cell, const StringLim
 template <class P>
 void FindRootInMemory(const StringEffects& effects, const void* cell, const void* limits,
                       const void* voltage, GiveUp give_up, Wanted wanted, void* state, void* root) {
+  // NOLINTNEXTLINE(misc-redundant-expression): P is Pack itself in one of the widths
   static_assert(sizeof(P) == sizeof(Pack) && alignof(P) == alignof(Pack));
   static_assert(sizeof(Cell<P>) == sizeof(Cell<Pack>) &&
                 sizeof(StringStateOf<P>) == sizeof(StringState) &&

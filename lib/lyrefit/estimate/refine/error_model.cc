@@ -56,6 +56,7 @@ void Whitening::Apply(Eigen::Ref<RowMatrix> rows) const {
   }
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a view
 double Whiten(const ErrorModel& errors, const std::vector<char>& used, Eigen::Ref<RowMatrix> rows) {
   const Whitening whitening(errors, used);
   whitening.Apply(rows);

@@ -136,6 +136,21 @@ TEST(ResistanceLoss, OfANewModuleIsNoCause) {
   EXPECT_LT(d.verdict.resistance_loss->rise, 0.01);
 }
 
+// Parts of a cell differ in new modules too. Their resistance shows, and is no loss to gain.
+TEST(ResistanceLoss, WithinThatOfNewModulesGainsNothing) {
+  SKIP_IF_SANITIZED();
+  FlashedModule module;
+  module.near = 0.03;
+  module.far = 0.12;
+  const FlashTest flash = FlashOf(module);
+  EXPECT_LT(flash.lost(), kMostResistanceLoss);
+  const Diagnosis d = DiagnoseOrFail(flash.with_trace);
+  EXPECT_FALSE(NamesResistance(d)) << d.verdict.sentence;
+  ASSERT_FALSE(d.verdict.below_floor.empty()) << d.verdict.sentence;
+  EXPECT_TRUE(IsResistance(d.verdict.below_floor.front()));
+  EXPECT_TRUE(std::isnan(d.verdict.recoverable_power_W.value));
+}
+
 TEST(ResistanceLoss, OfAConnectorIsNamedWithItsWatts) {
   SKIP_IF_SANITIZED();
   FlashedModule module;

@@ -24,6 +24,9 @@ std::vector<Trial> DescribeTrials(const Readings& readings, const Selection& sel
 // A cause without size and place. `evidence`: "fit" or "values".
 Cause MakeCause(const Effect& effect, const char* evidence, double probability);
 
+// A size whose interval does not go below 0.
+Sized NotBelowZero(const Sized& size);
+
 // The causes found, their equivalents and the readings at which they act.
 std::vector<Cause> DescribeCauses(const Selection& selection, const AtReadings& at,
                                   const ValueFindings& values);

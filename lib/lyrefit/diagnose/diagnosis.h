@@ -167,7 +167,7 @@ struct ResistanceLoss {
   Sized part;               // of the fill factor: pseudo fill factor less fill factor
   double usual = kUnknown;  // of new modules under the same light
   double most = kUnknown;   // the most that new ones lose
-  Sized beyond_W;           // of Pmax, beyond what new ones lose; below 0: they lose more
+  Sized beyond_W;           // of Pmax, beyond what new ones lose; below 0: it loses less
   // Largest height by which a chord over the sweep exceeds a reading, in Isc. Diodes and resistances
   // give none: where there is one, a bypass diode or a cell in breakdown conducts.
   double rise = 0;

@@ -67,12 +67,6 @@ double RelativeError(const WeightedData& weighted) {
   return std::max(kLeast, weighted.path);
 }
 
-// The power lost, with an interval that does not go below 0.
-Sized LostPower(const FillFactor& fill_factor) {
-  const Sized& lost = fill_factor.lost_W;
-  return {lost.value, std::max(lost.low_95, 0.0), lost.high_95};
-}
-
 // None for cells and thin films, and before the knee.
 std::optional<FillFactor> FindFillFactor(const Selection& selection,
                                          const std::string& technology) {
@@ -90,8 +84,7 @@ std::optional<FillFactor> FindFillFactor(const Selection& selection,
   }
   const KeyPoints own = DeviceKeyPoints(weighted, with_resistance);
   if (!(own.fill_factor > 0)) return {};
-  double light = 0;
-  for (const Reading& reading : readings.points) light = std::max(light, reading.irradiance);
+  const double light = InBrightestLight(readings).points.front().irradiance;
   const double thermal_V = ThermalVoltage(readings.reference_temperature_K) * readings.scale.cells;
   FillFactor fill;
   const double half = kNormal95 * RelativeError(weighted) * own.fill_factor;
@@ -178,17 +171,20 @@ std::optional<Cause> CauseOfFillFactor(const FillFactor& fill_factor, const Sele
       "before any work a measurement that decides, as each of them asks for another: a Suns-Voc "
       "trace or a dark curve, or the sweep at a third of the light";
   cause.fact_sheet.clear();
-  cause.recoverable_power_W = LostPower(fill_factor);
+  cause.recoverable_power_W = NotBelowZero(fill_factor.lost_W);
   return cause;
 }
 
 // What all causes cost, where one of them is sized against modules without a fault: their sum.
+// Unknown without a cause of known power.
 void AddUpRecoverable(Verdict* verdict) {
-  Sized sum = {0, 0, 0};
+  Sized sum;
   for (const Cause& cause : verdict->causes) {
     const Sized& one = cause.recoverable_power_W;
     if (!std::isfinite(one.low_95)) continue;
-    sum = {sum.value + one.value, sum.low_95 + one.low_95, sum.high_95 + one.high_95};
+    const bool first = !std::isfinite(sum.low_95);
+    sum = first ? one
+                : Sized{sum.value + one.value, sum.low_95 + one.low_95, sum.high_95 + one.high_95};
   }
   verdict->recoverable_power_W = sum;
 }
@@ -201,18 +197,20 @@ void JudgeFillFactor(const Selection& selection, const std::string& technology,
                      const DiagnoseOptions& options, Verdict* verdict) {
   verdict->resistance_loss = FindResistanceLoss(selection, technology);
   verdict->fill_factor = FindFillFactor(selection, technology);
+  const std::vector<Cause>& causes = verdict->causes;
+  const auto any = [&] { return std::any_of(causes.begin(), causes.end(), IsResistance); };
+  const bool before = any();
   if (!(options.floor_power > 0)) return;
   if (verdict->resistance_loss) {
     const bool wanted = IsWanted(*FindEffect("series_resistance"), options);
     JudgeResistance(*verdict->resistance_loss, selection, wanted, verdict);
   } else if (verdict->fill_factor) {
     for (Cause& cause : verdict->causes) {
-      if (IsResistance(cause)) cause.recoverable_power_W = LostPower(*verdict->fill_factor);
+      if (IsResistance(cause))
+        cause.recoverable_power_W = NotBelowZero(verdict->fill_factor->lost_W);
     }
   }
-  const std::vector<Cause>& causes = verdict->causes;
-  const bool any = std::any_of(causes.begin(), causes.end(), IsResistance);
-  if (any && verdict->fill_factor) AddUpRecoverable(verdict);
+  if ((before || any()) && verdict->fill_factor) AddUpRecoverable(verdict);
 }
 
 void NameFillFactor(const Selection& selection, const std::vector<DeviceFinding>& findings,

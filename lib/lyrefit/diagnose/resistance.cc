@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "lyrefit/base/median.h"
@@ -63,20 +64,33 @@ double VoltageAt(const std::vector<Point>& points, double current) {
   return kUnknown;
 }
 
-// Largest height of a chord over a reading, in Isc. A reading at open circuit was often taken apart.
+// Largest height of a chord over a reading, in Isc: that of the concave hull. A reading at open circuit
+// was often taken apart.
 double RiseOf(const std::vector<Point>& points, double isc) {
   constexpr double kApart = 0.03;  // of Isc
-  double rise = 0;
-  for (std::size_t a = 0; a < points.size(); ++a) {
-    for (std::size_t c = a + 2; c < points.size(); ++c) {
-      const double span = points[c].voltage - points[a].voltage;
-      if (!(span > 0) || points[c].current < kApart * isc) continue;
-      const double slope = (points[c].current - points[a].current) / span;
-      for (std::size_t b = a + 1; b < c; ++b) {
-        const double chord = points[a].current + slope * (points[b].voltage - points[a].voltage);
-        rise = std::max(rise, (chord - points[b].current) / isc);
-      }
+  std::vector<Point> taken, hull;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(taken),
+               [&](const Point& point) { return point.current >= kApart * isc; });
+  const auto lies_below = [](const Point& b, const Point& a, const Point& c) {
+    return (b.current - a.current) * (c.voltage - a.voltage) <=
+           (c.current - a.current) * (b.voltage - a.voltage);
+  };
+  for (const Point& point : taken) {
+    while (hull.size() > 1 && lies_below(hull.back(), hull[hull.size() - 2], point)) {
+      hull.pop_back();
     }
+    hull.push_back(point);
+  }
+  double rise = 0;
+  std::size_t k = 1;
+  for (const Point& point : taken) {
+    while (k + 1 < hull.size() && hull[k].voltage < point.voltage) ++k;
+    if (k >= hull.size()) break;
+    const Point &a = hull[k - 1], &c = hull[k];
+    const double span = c.voltage - a.voltage;
+    if (!(span > 0)) continue;
+    const double chord = a.current + (c.current - a.current) * (point.voltage - a.voltage) / span;
+    rise = std::max(rise, (chord - point.current) / isc);
   }
   return rise;
 }
@@ -145,8 +159,7 @@ std::optional<ResistanceLoss> FindResistanceLoss(const Selection& selection,
   const double product = device.short_circuit_current_A * device.open_circuit_voltage_V;
   if (!(product > 0)) return {};
   const std::vector<Point> sweep = PointsOf(weighted, false);
-  double light = 0;
-  for (const Reading& reading : readings.points) light = std::max(light, reading.irradiance);
+  const double light = InBrightestLight(readings).points.front().irradiance;
   const double isc = device.short_circuit_current_A / readings.scale.current_A;
   const double photo = selection.extended.p[kIph] * light / readings.scale.current_A;
   const double shown = KeyPointsOf(sweep).open_circuit_voltage_V;
@@ -189,7 +202,7 @@ void JudgeResistance(const ResistanceLoss& loss, const Selection& selection, boo
       continue;
     }
     if (!named) {
-      cause.recoverable_power_W = loss.beyond_W;
+      cause.recoverable_power_W = NotBelowZero(loss.beyond_W);
       cause.in_words.push_back(LossWords(loss));
       cause.sentence += "; " + cause.in_words.back();
     }
@@ -209,7 +222,7 @@ void JudgeResistance(const ResistanceLoss& loss, const Selection& selection, boo
   cause.separate_by = {effect.separate_by};
   cause.in_words = {LossWords(loss)};
   cause.sentence += "; " + cause.in_words.front();
-  cause.recoverable_power_W = loss.beyond_W;
+  cause.recoverable_power_W = NotBelowZero(loss.beyond_W);
   const double gain = loss.beyond_W.value / DevicePower(selection.weighted, selection.extended);
   cause.power_effect.value = gain;
   // What no known cause explains is this resistance, or beside it.

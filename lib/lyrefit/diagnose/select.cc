@@ -123,8 +123,8 @@ double NothingMaterial(const Hypotheses& step) {
 }
 
 // Least current by which one more cause must change a sweep. In one direction unlike cells or parts
-// of cells and light that moves are described in part, in both a device that depends on its past, which settles in time
-// as well: what is small beside them may be how they are in detail.
+// of cells and light that moves are described in part, in both a device that depends on its past,
+// which settles in time as well: what is small beside them may be how they are in detail.
 double LeastOfAnother(const SelectionState& now) {
   const DataTraits& traits = now.weighted.readings->traits;
   const bool both = !traits.turns.empty();

@@ -228,6 +228,19 @@ TEST(FillFactor, OfOneSweepIsASetWithItsLoss) {
   EXPECT_EQ(cause.recoverable_power_W.value, fill.lost_W.value);
 }
 
+// Light scales what resistance takes, and cells the voltage of each.
+TEST(FillFactor, IsUnknownWhereLightOrCellsAreNotStated) {
+  SKIP_IF_SANITIZED();
+  FlashedModule module;
+  module.far = 0.9;
+  IvCurve curve = FlashOf(module).load();
+  curve.irradiance_known = false;
+  EXPECT_FALSE(DiagnoseOrFail(curve).verdict.fill_factor.has_value());
+  curve.irradiance_known = true;
+  curve.cells_known = false;
+  EXPECT_FALSE(DiagnoseOrFail(curve).verdict.fill_factor.has_value());
+}
+
 TEST(FillFactor, OfAHealthyModuleIsNotLowUnderAnyLight) {
   SKIP_IF_SANITIZED();
   const FlashTest flash = FlashOf({});

@@ -13,12 +13,6 @@ namespace lyrefit {
 // Whether the lit readings reach past the knee, near enough to open circuit to determine n and Rs.
 bool ReachesPastKnee(const Readings& readings);
 
-// What is known of the device and its conditions beside the readings.
-struct DeviceKind {
-  std::string technology;        // as the curve states it; may be empty
-  bool irradiance_known = true;  // false: a default is used
-};
-
 // Leak, ideality and series resistance of the extended model under standard light, where the whole
 // interval lies above what devices without a fault have and the loss of Pmax is material, the
 // largest loss first. Empty if the model misses the readings by more than the floor of the current,

@@ -346,10 +346,10 @@ Diagnosis Describe(const PreparedDiagnosis& prepared, const SelectedCauses& sele
   DescribeRecoverable(found, &diagnosis.verdict);
   Verdict& verdict = diagnosis.verdict;
   const IvCurve& curve = prepared.set.curves.front();
-  JudgeFillFactor(found, curve.notes.technology, prepared.options, &verdict);
+  const DeviceKind kind = {curve.notes.technology, curve.irradiance_known};
+  JudgeFillFactor(found, kind, prepared.options, &verdict);
   const Floors floors = {prepared.options.floor_current, prepared.options.floor_power};
-  diagnosis.device_findings = FindDeviceFindings(
-      found, {curve.notes.technology, curve.irradiance_known}, verdict.causes, floors);
+  diagnosis.device_findings = FindDeviceFindings(found, kind, verdict.causes, floors);
   NameFillFactor(found, diagnosis.device_findings, selected.candidates,
                  JudgeOptionsOf(measurement, prepared.options.priors), prepared.options, &verdict);
   AddFillFactor(verdict.fill_factor, verdict.causes, &diagnosis.device_findings);

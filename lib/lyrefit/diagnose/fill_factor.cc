@@ -67,14 +67,14 @@ double RelativeError(const WeightedData& weighted) {
   return std::max(kLeast, weighted.path);
 }
 
-// None for cells and thin films, and before the knee.
-std::optional<FillFactor> FindFillFactor(const Selection& selection,
-                                         const std::string& technology) {
+// None for cells and thin films, before the knee, and where light or cells are not stated.
+std::optional<FillFactor> FindFillFactor(const Selection& selection, const DeviceKind& kind) {
   const WeightedData& weighted = selection.weighted;
   const Readings& readings = *weighted.readings;
   const DataTraits& traits = readings.traits;
-  if (!traits.module || traits.only_dark || !traits.single || IsThinFilm(technology) ||
-      !ReachesPastKnee(readings)) {
+  const bool counted = traits.cells_known && traits.cells == traits.stated_cells;
+  if (!traits.module || traits.only_dark || !traits.single || !counted || !kind.irradiance_known ||
+      IsThinFilm(kind.technology) || !ReachesPastKnee(readings)) {
     return {};
   }
   LawFit with_resistance = selection.extended;
@@ -92,7 +92,7 @@ std::optional<FillFactor> FindFillFactor(const Selection& selection,
   fill.usual = GreenFillFactor(own.open_circuit_voltage_V, kUsualIdeality * thermal_V) -
                kUsualResistanceLoss * light;
   fill.least = fill.usual - kDeviations * kScatter;
-  fill.if_silicon = technology.empty() && own.fill_factor > kLeastOfFilms;
+  fill.if_silicon = kind.technology.empty() && own.fill_factor > kLeastOfFilms;
   const double product = own.short_circuit_current_A * own.open_circuit_voltage_V;
   const double lost = fill.usual - own.fill_factor;
   const double reach = std::hypot(half, kNormal95 * kScatter);
@@ -193,10 +193,10 @@ void AddUpRecoverable(Verdict* verdict) {
 
 bool IsLow(const FillFactor& fill_factor) { return fill_factor.value.high_95 < fill_factor.least; }
 
-void JudgeFillFactor(const Selection& selection, const std::string& technology,
+void JudgeFillFactor(const Selection& selection, const DeviceKind& kind,
                      const DiagnoseOptions& options, Verdict* verdict) {
-  verdict->resistance_loss = FindResistanceLoss(selection, technology);
-  verdict->fill_factor = FindFillFactor(selection, technology);
+  verdict->resistance_loss = FindResistanceLoss(selection, kind.technology);
+  verdict->fill_factor = FindFillFactor(selection, kind);
   const std::vector<Cause>& causes = verdict->causes;
   const auto any = [&] { return std::any_of(causes.begin(), causes.end(), IsResistance); };
   const bool before = any();

@@ -9,12 +9,19 @@
 
 namespace lyrefit {
 
+// What is known of the device and its conditions beside the readings.
+struct DeviceKind {
+  std::string technology;        // as the curve states it; may be empty
+  bool irradiance_known = true;  // false: a default is used
+};
+
 // Whether a fill factor is certainly below that of modules without a fault.
 bool IsLow(const FillFactor& fill_factor);
 
-// Adds the fill factor of a module of silicon in one sweep and what a Suns-Voc trace shows of its
-// resistance (resistance.h), and judges the resistances among the causes by them.
-void JudgeFillFactor(const Selection& selection, const std::string& technology,
+// Adds the fill factor of a module of silicon in one sweep under known light, whose cells are counted,
+// and what a Suns-Voc trace shows of its resistance (resistance.h). Judges the resistances among the
+// causes by them.
+void JudgeFillFactor(const Selection& selection, const DeviceKind& kind,
                      const DiagnoseOptions& options, Verdict* verdict);
 
 // Where the fill factor is low and nothing is named, names the set of causes that draw curves alike,

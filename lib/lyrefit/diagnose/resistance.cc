@@ -151,7 +151,8 @@ std::optional<ResistanceLoss> FindResistanceLoss(const Selection& selection,
   const WeightedData& weighted = selection.weighted;
   const Readings& readings = *weighted.readings;
   const DataTraits& traits = readings.traits;
-  if (!traits.suns_voc || !traits.module || !traits.single || IsThinFilm(technology) ||
+  const bool same = traits.irradiance_levels < 2 && traits.temperature_levels < 2;
+  if (!traits.suns_voc || !traits.module || !same || IsThinFilm(technology) ||
       !ReachesPastKnee(readings)) {
     return {};
   }

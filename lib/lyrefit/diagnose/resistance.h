@@ -23,7 +23,8 @@ bool IsNoted(const ResistanceLoss& loss);
 // Whether a cause is a series resistance.
 bool IsResistance(const Cause& cause);
 
-// Of a module of silicon with a Suns-Voc trace beside one sweep: from the maximum powers of trace and
+// Of a module of silicon with a Suns-Voc trace beside a sweep, and no sweep under another light or at
+// another temperature (a dark one may be there): from the maximum powers of trace and
 // sweep where the sweep has no rise, else from the voltages between them at small currents, which
 // every cell still gives. None for others, and if the readings do not reach the knee.
 std::optional<ResistanceLoss> FindResistanceLoss(const Selection& selection,

@@ -170,14 +170,18 @@ TEST(SelectCausesTest, NamesNoMoreThanAsked) {
   EXPECT_LE(SelectFor(curve, options).selection.causes.size(), 2U);
 }
 
-// Causes of a sweep whose light steps by 0.8 A of 8 A and dips by `dip_A` earlier.
+// Findings of a sweep whose light steps by 0.8 A of 8 A and dips by `dip_A` earlier.
 std::vector<std::string> StepAndDip(double dip_A, const Floors& floors) {
   IvCurve curve = SyntheticCurve({});
   for (std::size_t k = 26; k < curve.size(); ++k) curve.current_A[k] += 0.8;
   for (int k = 8; k < 16; ++k) curve.current_A[k] -= dip_A;
   SelectOptions options;
   options.floors = floors;
-  return SelectFor(curve, options).Ids();
+  std::vector<std::string> findings;
+  for (const ChosenCause& cause : SelectFor(curve, options).selection.causes) {
+    findings.emplace_back(cause.effect->Finding());
+  }
+  return findings;
 }
 
 // With floors, as in the field, causes are described in part only: what is small beside a large

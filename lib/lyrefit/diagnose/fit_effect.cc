@@ -56,10 +56,11 @@ std::vector<double> Scaled(const Effect& effect, const Probe& probe, const Direc
   return p;
 }
 
-// Tolerances: kBriefly for every start, kForRanking for the best of them. The selected candidate is
-// fitted again with its own noise.
+// Tolerances: kBriefly for every start, kForRanking for the best of them, which goes to the end: where
+// parameters are correlated, a fit that stops early stops elsewhere on every processor. The selected
+// candidate is fitted again with its own noise.
 const LeastSquaresOptions kBriefly = UpTo(20, 1e-5);
-const LeastSquaresOptions kForRanking = UpTo(40, 1e-6);
+const LeastSquaresOptions kForRanking = UpTo(200, 1e-12);
 
 // Sum of squares plus the penalty for freed parameters.
 double Penalised(const WeightedData& weighted, const LawFit& fit) {

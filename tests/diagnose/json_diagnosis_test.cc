@@ -133,8 +133,9 @@ TEST(DiagnosisJson, TellsPowerAndAlternativesAndWhatTheDeviceLacks) {
   EXPECT_EQ(cause["group"], "device");
   EXPECT_EQ(cause["fact_sheet"], "PVFS 3-3");
   const json& finding = j["device_findings"][0];
-  EXPECT_EQ(Keys(finding), (Set{"id", "symbol", "value", "low_95", "high_95", "healthy_limit",
-                                "power_loss", "sentence"}));
+  EXPECT_EQ(Keys(finding),
+            (Set{"id", "symbol", "value", "low_95", "high_95", "healthy_limit", "power_loss",
+                 "sentence", "title", "about", "action", "separate_by", "recoverable_power_W"}));
   EXPECT_EQ(finding["value"], 0.031);
 }
 

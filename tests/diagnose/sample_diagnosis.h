@@ -188,7 +188,9 @@ inline DeviceFinding SampleLeak() {
           0.016,
           0.04,
           "leaks 3.1 % (2.9 to 3.3) of Isc at Voc, twice what healthy modules do (at most 1.6 %)"
-          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge"};
+          ": -4.0 % of Pmax; potential-induced degradation, a shunted cell or an edge",
+          false,
+          {10.2, 9.2, 11.3}};
 }
 
 // One sweep with an irradiance step, which was found.

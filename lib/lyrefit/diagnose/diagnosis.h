@@ -160,6 +160,7 @@ struct DeviceFinding {
   double power_loss = kUnknown;     // part of Pmax that the healthy limit would give more
   std::string sentence;             // without its subject: "leaks 3.1 % ..."
   bool if_silicon = false;          // within range of other technologies; nobody stated which it is
+  Sized recoverable_power_W;        // additional Pmax of the device with the healthy limit
 };
 
 // What a module loses of its fill factor to series resistance.
@@ -272,5 +273,15 @@ struct Diagnosis {
   double seconds = 0;
   bool interrupted = false;
 };
+
+// A parameter out of range as a cause: with id, title, sentence, group ("device"; "conditions" of an ideality
+// below that of any junction, whose id is then "low_ideality"), action and what would separate it.
+Cause CauseOf(const DeviceFinding& finding);
+
+// The one cause that a row, a summary or a page of many curves names: the first of the verdict that
+// belongs to the device, else of the findings, unless the light or the conditions changed, else the
+// first of the verdict. Its group is what it belongs to: "device"; "sweep", "instrument" or
+// "conditions", which call for a new measurement; or "unknown". An empty id: neither.
+Cause MainCause(const Diagnosis& diagnosis);
 
 }  // namespace lyrefit

@@ -308,6 +308,7 @@ Section WholeSection(const Diagnosis& diagnosis) {
              : finding.if_silicon ? "if silicon"
                                   : "out of range",
              "it " + finding.sentence, &section);
+    AddIfAny("to do", CauseOf(finding).action, &section);
   }
   if (verdict.found) AddIfAny("not shown", verdict.not_shown, &section);
   return section;

@@ -109,6 +109,12 @@ void to_json(Json& j, const DeviceFinding& finding) {
        {"healthy_limit", finding.healthy_limit},
        {"power_loss", finding.power_loss},
        {"sentence", finding.sentence}};
+  const Cause cause = CauseOf(finding);
+  j["title"] = cause.title;
+  j["about"] = cause.group;
+  j["action"] = cause.action;
+  j["separate_by"] = cause.separate_by;
+  j["recoverable_power_W"] = finding.recoverable_power_W;
 }
 
 void to_json(Json& j, const ParameterShift& shift) {

@@ -210,17 +210,6 @@ inline Diagnosis SampleDiagnosis() {
   return d;
 }
 
-// Further measurements that distinguish two causes.
-inline Plan SamplePlan() {
-  return {{"irr_step", "drift"},
-          {{"reverse_sweep",
-            "the sweep backwards",
-            "noise as measured",
-            0.97,
-            {{"irr_step", 0.96, 3.5, "drift"}, {"drift", 0.98, kUnknown, "irr_step"}}}},
-          "take the sweep backwards"};
-}
-
 inline Diagnosis SampleUpDown() {
   Diagnosis d = SampleDiagnosisHead();
   d.name = "up_down";

@@ -10,7 +10,6 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/diagnose/plan.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 
@@ -260,7 +259,6 @@ struct Diagnosis {
   Verdict verdict;                             // conclusion
   std::vector<DeviceFinding> device_findings;  // parameters of the device that are out of range
   Gain gain;                                   // improvement by the causes
-  std::optional<Plan> plan;                    // if requested
   // The extended model (the base model if nothing was found) as a FitReport. With
   // DiagnoseOptions::extend it is searched and polished. Otherwise only `model`, `estimates`,
   // `causes`, `curves`, `usable`, `nNsVth` and the refined RMSE are filled, and `device` is empty:

@@ -137,21 +137,6 @@ void to_json(Json& j, const Gain& gain) {
        {"parameter_shift", gain.shifts}};
 }
 
-void to_json(Json& j, const PlannedMeasurement& measurement) {
-  j = {{"id", measurement.id},
-       {"title", measurement.title},
-       {"taken", measurement.taken},
-       {"probability", measurement.probability},
-       {"causes", Json::object()}};
-  for (const PlannedCause& cause : measurement.causes) {
-    j["causes"][cause.id] = {{"probability", cause.probability},
-                             {"separation", cause.separation},
-                             {"nearest", cause.nearest}};
-  }
-}
-
-LYREFIT_JSON_FIELDS(Plan, causes, sentence, measurements)
-
 void to_json(Json& j, const JudgedSetup& setup) {
   j = {{"name", ToText(setup.setup)}, {"from", setup.from}, {"source", setup.source}};
 }
@@ -201,7 +186,6 @@ void to_json(Json& j, const Diagnosis& diagnosis) {
        {"verdict", diagnosis.verdict},
        {"device_findings", diagnosis.device_findings},
        {"gain", diagnosis.gain}};
-  if (diagnosis.plan) j["plan"] = *diagnosis.plan;
   j["evidence"] = diagnosis.evidence;
   j["trials"] = diagnosis.trials;
   j["non_default_options"] = diagnosis.non_default_options;

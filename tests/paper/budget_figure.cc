@@ -1,9 +1,11 @@
+#include "paper/budget_figure.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "lyrefit/study/report/compare_script.h"
+#include "lyrefit/report/figure.h"
 
 namespace lyrefit {
 namespace {
@@ -28,6 +30,26 @@ std::vector<std::string> Algorithms(const ProblemResult& problem) {
     }
   }
   return names;
+}
+
+// Coincident lines stay visible: the first is drawn widest.
+Series ShareLine(const std::string& name, int index, double width) {
+  Series series{SeriesKind::kLineAndPoints, LookOf(index), width, 1 + 0.15 * width};
+  series.name = name;
+  return series;
+}
+
+Axis BudgetAxis(double low, double high) {
+  Axis axis{"Evaluations of the search", low, high};
+  axis.log = true;
+  return axis;
+}
+
+Axis ShareAxis() {
+  Axis axis{"Runs that hit (%)", -4, 104};
+  axis.first_tick = 0;
+  axis.tick_step = 20;
+  return axis;
 }
 
 Panel BudgetPanel(const ProblemResult& problem, const std::vector<std::string>& algorithms,
@@ -55,27 +77,6 @@ Panel BudgetPanel(const ProblemResult& problem, const std::vector<std::string>& 
   return panel;
 }
 
-}  // namespace
-
-Series ShareLine(const std::string& name, int index, double width) {
-  Series series{SeriesKind::kLineAndPoints, LookOf(index), width, 1 + 0.15 * width};
-  series.name = name;
-  return series;
-}
-
-Axis BudgetAxis(double low, double high) {
-  Axis axis{"Evaluations of the search", low, high};
-  axis.log = true;
-  return axis;
-}
-
-Axis ShareAxis() {
-  Axis axis{"Runs that hit (%)", -4, 104};
-  axis.first_tick = 0;
-  axis.tick_step = 20;
-  return axis;
-}
-
 Figure BudgetFigure(const Comparison& comparison) {
   const std::vector<std::string> algorithms = Algorithms(comparison.problems[0]);
   Figure figure{fmt::format("Share of {} runs that hit: within 1e-6 of the reference (search "
@@ -89,6 +90,13 @@ Figure BudgetFigure(const Comparison& comparison) {
     }
   }
   return figure;
+}
+
+}  // namespace
+
+Expected<void> PlotBudget(const Comparison& comparison, const std::string& path) {
+  if (comparison.problems.empty()) return Fail("no problem was completed: nothing to draw", path);
+  return DrawFigure(BudgetFigure(comparison), path);
 }
 
 }  // namespace lyrefit

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 
+#include "compare_flags.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/read/nearest_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/read_curve_set.h"
-#include "study_flags.h"
 
 namespace lyrefit {
 namespace {
+
+// One pair of irradiance and temperature.
+struct StudyCondition {
+  double irradiance_W_m2 = 0;
+  double temperature_C = 0;
+};
 
 Expected<StudyCondition> ParseStudyCondition(const std::string& text) {
   const std::size_t cross = text.find('x');
@@ -22,6 +28,17 @@ Expected<StudyCondition> ParseStudyCondition(const std::string& text) {
   }
   return Fail(fmt::format("--at: expected irradiance and temperature such as 1000x25, found {}",
                           Quoted(text)));
+}
+
+// "1000x25,200x25", given to --at.
+Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text) {
+  TRY(const auto parts, ParseList("--at", text));
+  std::vector<StudyCondition> conditions;
+  for (const std::string& part : parts) {
+    TRY(const auto condition, ParseStudyCondition(part));
+    conditions.push_back(condition);
+  }
+  return conditions;
 }
 
 // Adds a curve of the set to `chosen`, once.
@@ -36,7 +53,7 @@ Expected<void> Choose(const CurveSet& set, std::size_t curve, const std::string&
 }
 
 // Indices of the curves selected by the flags, in the order of the flags.
-Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const StudyFlags& flags) {
+Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const CompareFlags& flags) {
   std::vector<std::size_t> chosen;
   if (!flags.curve_ids.empty()) {
     TRY(const auto ids, ParseList("--curves", flags.curve_ids));
@@ -55,7 +72,7 @@ Expected<std::vector<std::size_t>> ChosenCurves(const CurveSet& set, const Study
   return chosen;
 }
 
-Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& flags,
+Expected<void> Add(IvCurve curve, const std::string& file, const CompareFlags& flags,
                    std::vector<CompareCurve>* curves) {
   TRY(BoundsSpec bounds, FlaggedBounds(flags.bounds, file));
   for (const auto& [name, range] : flags.ranges) bounds.overrides[name] = range;
@@ -63,7 +80,7 @@ Expected<void> Add(IvCurve curve, const std::string& file, const StudyFlags& fla
   return {};
 }
 
-Expected<void> AddFromSet(const std::string& file, const StudyFlags& flags,
+Expected<void> AddFromSet(const std::string& file, const CompareFlags& flags,
                           std::vector<CompareCurve>* curves) {
   TRY(const auto set, ReadCurveSet(file));
   TRY(const auto chosen, ChosenCurves(set, flags));
@@ -76,7 +93,7 @@ Expected<void> AddFromSet(const std::string& file, const StudyFlags& flags,
   return {};
 }
 
-Expected<void> AddCurve(const std::string& file, const StudyFlags& flags,
+Expected<void> AddCurve(const std::string& file, const CompareFlags& flags,
                         std::vector<CompareCurve>* curves) {
   Expected<IvCurve> curve = ReadCurve(file, {});
   if (!curve && HoldsCurveSet(file)) {
@@ -90,17 +107,13 @@ Expected<void> AddCurve(const std::string& file, const StudyFlags& flags,
 
 }  // namespace
 
-Expected<std::vector<StudyCondition>> ParseStudyConditions(const std::string& text) {
-  TRY(const auto parts, ParseList("--at", text));
-  std::vector<StudyCondition> conditions;
-  for (const std::string& part : parts) {
-    TRY(const auto condition, ParseStudyCondition(part));
-    conditions.push_back(condition);
-  }
-  return conditions;
+Expected<std::vector<std::string>> ParseList(const std::string& flag, const std::string& text) {
+  const auto parts = SplitList(text);
+  if (!parts) return Fail(flag + ": " + parts.error().message);
+  return *parts;
 }
 
-Expected<std::vector<CompareCurve>> ReadStudyCurves(const StudyFlags& flags) {
+Expected<std::vector<CompareCurve>> ReadComparedCurves(const CompareFlags& flags) {
   const bool choosing = !flags.at.empty() || !flags.curve_ids.empty();
   std::vector<CompareCurve> curves;
   for (const std::string& file : flags.curve_files) {

@@ -1,4 +1,4 @@
-#include "lyrefit/read/device_column.h"
+#include "lyrefit/read/table_layout.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

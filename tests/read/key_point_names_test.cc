@@ -1,4 +1,4 @@
-#include "lyrefit/read/key_point_names.h"
+#include "lyrefit/read/key_point_table.h"
 
 #include <gtest/gtest.h>
 

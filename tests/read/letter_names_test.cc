@@ -1,4 +1,4 @@
-#include "lyrefit/read/letter_names.h"
+#include "lyrefit/read/guess_columns.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/read/operating_log.h"
+#include "lyrefit/read/table_view.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/read/select_sweep.h"
+#include "lyrefit/read/table_curve.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

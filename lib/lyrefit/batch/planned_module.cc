@@ -8,7 +8,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/module_json.h"
 #include "lyrefit/read/read_module.h"
 
 namespace lyrefit {

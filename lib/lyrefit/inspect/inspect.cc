@@ -14,9 +14,9 @@
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/multi_flash.h"
-#include "lyrefit/read/operating_log.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_curve.h"
+#include "lyrefit/read/table_view.h"
 
 namespace lyrefit {
 namespace {

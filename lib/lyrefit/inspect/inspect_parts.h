@@ -4,7 +4,7 @@
 
 #include "lyrefit/curve/curve_set.h"
 #include "lyrefit/inspect/inspect.h"
-#include "lyrefit/read/list_columns.h"
+#include "lyrefit/read/table_view.h"
 #include "lyrefit/read/text_encoding.h"
 
 namespace lyrefit {

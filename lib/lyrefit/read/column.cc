@@ -9,9 +9,7 @@
 
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/read/column_names.h"
-#include "lyrefit/read/column_tag.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {

@@ -66,7 +66,7 @@ struct Column {
   double offset = 0;
   std::string refusal;  // why the column cannot be used; empty if it can
   ColumnTag tag;        // of one of several voltages or currents
-  bool light = false;   // light of a Suns-Voc trace in place of a current; see suns_voc.h
+  bool light = false;   // light of a Suns-Voc trace in place of a current; see join_sweeps.h
 };
 
 // Recognises labels such as "Voltage (mV)", "I_mA", "U [V]", "Amps", "Current 2 (A)". Case and

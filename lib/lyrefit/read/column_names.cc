@@ -1,5 +1,10 @@
 #include "lyrefit/read/column_names.h"
 
+#include <optional>
+#include <utility>
+
+#include "lyrefit/base/number_text.h"
+
 namespace lyrefit {
 namespace {
 
@@ -122,6 +127,167 @@ std::string TakeNumber(std::vector<LabelWord>* words) {
   if (kept.empty()) return "";
   *words = kept;
   return number;
+}
+
+namespace {
+
+// Directions, lights and averages, as labels name them. "up" and "down" also stand alone.
+constexpr std::pair<std::string_view, SweepDirection> kDirections[] = {
+    {"forward", SweepDirection::kForward},  {"fwd", SweepDirection::kForward},
+    {"for", SweepDirection::kForward},      {"fw", SweepDirection::kForward},
+    {"up", SweepDirection::kForward},       {"reverse", SweepDirection::kReverse},
+    {"backward", SweepDirection::kReverse}, {"back", SweepDirection::kReverse},
+    {"bwd", SweepDirection::kReverse},      {"rev", SweepDirection::kReverse},
+    {"rv", SweepDirection::kReverse},       {"down", SweepDirection::kReverse}};
+constexpr std::pair<std::string_view, SweepLight> kLights[] = {
+    {"dark", SweepLight::kDark},          {"light", SweepLight::kLight},
+    {"lit", SweepLight::kLight},          {"illuminated", SweepLight::kLight},
+    {"illumination", SweepLight::kLight}, {"sunsvoc", SweepLight::kSunsVoc},
+    {"pseudo", SweepLight::kSunsVoc}};
+constexpr std::string_view kLamps[] = {"light", "lamp", "illumination", "led", "sun", "laser"};
+constexpr std::string_view kAverages[] = {"average", "averaged", "avg", "mean"};
+
+template <class T, std::size_t N>
+const T* FindWord(const std::pair<std::string_view, T> (&list)[N], std::string_view text) {
+  for (const auto& [word, value] : list) {
+    if (word == text) return &value;
+  }
+  return nullptr;
+}
+
+// Records one word of a tag; false if it is none. "forD" is a direction with the letter of a light.
+bool TakeTagWord(const LabelWord& word, ColumnTag* tag) {
+  if (const auto* direction = FindWord(kDirections, word.text)) {
+    tag->direction = *direction;
+    return true;
+  }
+  if (const auto* light = FindWord(kLights, word.text)) {
+    tag->light = *light;
+    return true;
+  }
+  if (IsAmong(kAverages, word.text)) return tag->average = true;
+  const std::string_view original = word.original;
+  if (original.size() < 3 || (original.back() != 'D' && original.back() != 'L')) return false;
+  const auto* direction = FindWord(kDirections, word.text.substr(0, word.text.size() - 1));
+  if (direction == nullptr) return false;
+  tag->direction = *direction;
+  tag->light = original.back() == 'D' ? SweepLight::kDark : SweepLight::kLight;
+  return true;
+}
+
+}  // namespace
+
+ColumnTag TakeTag(std::vector<LabelWord>* words) {
+  ColumnTag tag;
+  std::vector<LabelWord> kept;
+  for (std::size_t i = 0; i < words->size(); ++i) {
+    LabelWord word = (*words)[i];
+    const std::string_view next = i + 1 < words->size() ? (*words)[i + 1].text : std::string_view();
+    const bool suns_voc = word.text == "suns" && !word.marked_as_unit && next == "voc";
+    const bool switched = IsAmong(kLamps, word.text) && (next == "on" || next == "off");
+    if (suns_voc) word = {"sunsvoc", "SunsVoc", false};
+    if (switched) word = {next == "on" ? "lit" : "dark", word.original, false};
+    if (suns_voc || switched) ++i;
+    if (TakeTagWord(word, &tag)) continue;
+    const ColumnName* letter = FindName(std::string_view(word.text).substr(0, 1));
+    const bool electrical = letter != nullptr && IsElectrical(letter->kind);
+    if (electrical && word.text.size() > 3 && FindName(word.text) == nullptr &&
+        TakeTagWord({word.text.substr(1), word.original.substr(1), false}, &tag)) {
+      word.text.resize(1);
+      word.original.resize(1);
+    }
+    kept.push_back(word);
+  }
+  *words = kept;
+  return tag;
+}
+
+ColumnTag ReadTag(std::string_view text) {
+  std::vector<LabelWord> words = SplitLabel(text);
+  ColumnTag tag = TakeTag(&words);
+  for (const LabelWord& word : words) {
+    if (word.text == "txt" || word.text == "csv" || word.text == "dat") continue;
+    tag.device += (tag.device.empty() ? "" : " ") + word.original;
+  }
+  return tag;
+}
+
+namespace {
+
+bool IsLetter(char c) { return c >= 'a' && c <= 'z'; }
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// A number from `at` on, with a point or a comma, and where it ends.
+struct NumberAt {
+  double value = 0;
+  std::size_t end = 0;
+};
+
+std::optional<NumberAt> ReadNumberAt(std::string_view text, std::size_t at) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789.,", at), text.size());
+  const auto number = ParseNumber(text.substr(at, end - at), true);
+  if (!number) return std::nullopt;
+  return NumberAt{*number, end};
+}
+
+std::optional<double> AsScale(double number) {
+  for (const double scale : {0.1, 0.01, 0.001}) {
+    if (number == scale || number * scale == 1) return scale;
+  }
+  return std::nullopt;
+}
+
+ScaledLabel Without(std::string_view label, std::size_t begin, std::size_t end, double scale) {
+  return {std::string(label.substr(0, begin)) + std::string(label.substr(end)), scale};
+}
+
+// "gain 10", "scale: 0.1", "factor=0.01". A gain is what the register multiplies by.
+std::optional<ScaledLabel> ByWord(std::string_view label, std::string_view lower) {
+  for (const std::string_view word : {"gain", "scale", "factor", "multiplier", "resolution"}) {
+    const std::size_t at = lower.find(word);
+    if (at == std::string_view::npos || (at > 0 && IsLetter(lower[at - 1]))) continue;
+    const std::size_t digit = lower.find_first_not_of(" =:_", at + word.size());
+    if (digit == std::string_view::npos || !IsDigit(lower[digit])) continue;
+    const auto number = ReadNumberAt(lower, digit);
+    const auto scale = number ? AsScale(number->value) : std::nullopt;
+    const bool fits = scale && (word == "gain" || number->value < 1);
+    if (fits) return Without(label, at, number->end, *scale);
+  }
+  return std::nullopt;
+}
+
+// "0.1V", "x0.01 A": a power of ten right before a volt or an ampere.
+std::optional<ScaledLabel> BeforeUnit(std::string_view label, std::string_view lower) {
+  for (std::size_t at = lower.find('0'); at != std::string_view::npos;
+       at = lower.find('0', at + 1)) {
+    std::size_t begin = at;
+    if (begin > 0 && (lower[begin - 1] == 'x' || lower[begin - 1] == '*')) --begin;
+    const char before = begin == 0 ? ' ' : lower[begin - 1];
+    if (IsLetter(before) || IsDigit(before) || before == '.' || before == ',') continue;
+    const auto number = ReadNumberAt(lower, at);
+    if (!number || !(number->value < 1)) continue;
+    const auto scale = AsScale(number->value);
+    const std::size_t unit = lower.find_first_not_of(' ', number->end);
+    if (!scale || unit == std::string_view::npos) continue;
+    const bool known = lower[unit] == 'v' || lower[unit] == 'a';
+    const char after = unit + 1 < lower.size() ? lower[unit + 1] : ' ';
+    if (!known || IsLetter(after) || IsDigit(after) || after == '/') continue;
+    return Without(label, begin, unit, *scale);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ScaledLabel TakeScale(std::string_view label) {
+  constexpr std::size_t kLongest = 300;
+  if (label.size() > kLongest || label.find_first_of("01") == std::string_view::npos) {
+    return {std::string(label)};
+  }
+  const std::string lower = LowerCase(label);
+  if (const auto scaled = ByWord(label, lower)) return *scaled;
+  if (const auto scaled = BeforeUnit(label, lower)) return *scaled;
+  return {std::string(label)};
 }
 
 }  // namespace lyrefit

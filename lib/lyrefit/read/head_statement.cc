@@ -1,4 +1,4 @@
-#include "lyrefit/read/head_statement.h"
+#include "lyrefit/read/table_head.h"
 
 #include <fmt/format.h>
 

@@ -19,10 +19,9 @@
 #include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/json_text.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/make_curve.h"
+#include "lyrefit/read/records.h"
 #include "lyrefit/read/register_dump.h"
 #include "lyrefit/read/stated_results.h"
-#include "lyrefit/read/suns_voc.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_head.h"
 

@@ -6,6 +6,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/table_curve.h"
 
@@ -26,5 +27,19 @@ struct JsonCurves {
 // or no valid one. `path` is only used in errors.
 Expected<JsonCurves> FindJsonCurves(const nlohmann::json& document, const std::string& path,
                                     const ReadOptions& options);
+
+// A curve of an ivcurves file, or the reason why it could not be read.
+struct IvCurvesEntry {
+  std::string id;  // the Index; the place in the file if the Index is no number
+  Expected<IvCurve> curve;
+};
+
+// Whether a JSON document is an ivcurves file, by its key "IV Curves".
+bool IsIvCurves(const nlohmann::json& document);
+
+// All entries of an ivcurves file, including invalid ones. Error: an Index that occurs twice.
+// `path` is only used in errors and names.
+Expected<std::vector<IvCurvesEntry>> ReadIvCurvesEntries(const nlohmann::json& document,
+                                                         const std::string& path);
 
 }  // namespace lyrefit

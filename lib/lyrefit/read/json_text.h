@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -59,5 +60,15 @@ std::string MemberText(const nlohmann::ordered_json& object, const std::string& 
 
 // A JSON number, or a text that holds one, as in ivcurves files. nullopt if not finite.
 std::optional<double> NumberOrText(const nlohmann::json& value);
+
+// The sheet of a module in JSON, and its text for the places of errors.
+struct ModuleJson {  // NOLINT(bugprone-exception-escape): nlohmann's destructor
+  std::string text;
+  nlohmann::json json;
+};
+
+// Reads a sheet. Errors: no JSON object, a key that no sheet has; the message lists all that are
+// known.
+Expected<ModuleJson> ReadModuleJson(const std::string& file);
 
 }  // namespace lyrefit

@@ -3,8 +3,6 @@
 #include <optional>
 #include <utility>
 
-#include "lyrefit/read/vocabulary.h"
-
 namespace lyrefit {
 namespace {
 

@@ -15,7 +15,7 @@ struct LabelWord {
   bool marked_as_unit;   // preceded by a bracket, slash or comma
 };
 
-// The words of a label, translated (vocabulary.h); none if the text is too long for a label. Words
+// The words of a label, translated (label.h); none if the text is too long for a label. Words
 // after "vs." are dropped: they name the reference of a potential.
 std::vector<LabelWord> SplitLabel(std::string_view text);
 
@@ -40,5 +40,14 @@ const Unit* FindUnitHeader(std::string_view text);
 
 // Accepted units as text, for errors.
 std::string_view ExpectedUnits(ColumnKind kind);
+
+// `text` with full-width punctuation, letters and digits as their ASCII forms: "（mV）" is "(mV)".
+std::string HalfWidth(std::string_view text);
+
+// Replaces words of German, French, Spanish, Italian, Portuguese, Russian, Chinese, Japanese and
+// Korean by their English ones, in small letters and whatever their accents: "Zelltemperatur" is
+// "cell temperature", "电压" is "voltage". Chinese words need no blanks between them. Articles and
+// prepositions before a further word of the name are dropped: "température de la cellule".
+void Translate(std::vector<LabelWord>* words);
 
 }  // namespace lyrefit

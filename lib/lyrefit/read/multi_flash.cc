@@ -7,11 +7,12 @@
 #include <map>
 #include <utility>
 
+#include "lyrefit/base/byte_input.h"
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/read/suns_voc.h"
+#include "lyrefit/read/join_sweeps.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {

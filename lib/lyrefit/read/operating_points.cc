@@ -14,7 +14,7 @@
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
-#include "lyrefit/read/table_row.h"
+#include "lyrefit/read/table_reading.h"
 #include "lyrefit/read/text_encoding.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/read/read_ivcurves_json.h"
+#include "lyrefit/read/json_curves.h"
 
 #include <fmt/format.h>
 

@@ -11,14 +11,13 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/equal_readings.h"
 #include "lyrefit/read/join_sweeps.h"
-#include "lyrefit/read/make_curve.h"
-#include "lyrefit/read/settle_table.h"
+#include "lyrefit/read/records.h"
 #include "lyrefit/read/stated_results.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_layout.h"
 #include "lyrefit/read/table_lines.h"
 #include "lyrefit/read/table_reading.h"
-#include "lyrefit/read/table_row.h"
+#include "lyrefit/read/table_view.h"
 
 namespace lyrefit {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/column_names.h"
 #include "lyrefit/read/label.h"
-#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {

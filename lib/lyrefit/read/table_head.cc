@@ -11,11 +11,9 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/curve/left_temperature.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/read/head_statement.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
-#include "lyrefit/read/vocabulary.h"
 
 namespace lyrefit {
 namespace {

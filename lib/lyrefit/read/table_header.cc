@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "lyrefit/base/number_text.h"
+#include "lyrefit/read/column_names.h"
 #include "lyrefit/read/guess_columns.h"
 #include "lyrefit/read/label.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_lines.h"
-#include "lyrefit/read/unit_scale.h"
 
 namespace lyrefit {
 namespace {

@@ -9,11 +9,8 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/stoppable_reads.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/read/device_column.h"
-#include "lyrefit/read/header_layout.h"
-#include "lyrefit/read/key_point_names.h"
+#include "lyrefit/read/key_point_table.h"
 #include "lyrefit/read/results_above.h"
-#include "lyrefit/read/side_heads.h"
 #include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lyrefit/base/error.h"
@@ -10,6 +11,7 @@
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/table_columns.h"
 #include "lyrefit/read/table_head.h"
+#include "lyrefit/read/table_header.h"
 #include "lyrefit/read/table_lines.h"
 
 namespace lyrefit {
@@ -31,7 +33,7 @@ struct TableLayout {
   int sweep = kNoColumn;  // a `sweep` or `curve` column
   int irradiance = kNoColumn;
   int temperature = kNoColumn;
-  int device_column = kNoColumn;     // tells several devices apart: see device_column.h
+  int device_column = kNoColumn;     // tells several devices apart: see FindDevices
   std::vector<std::string> devices;  // its values
   std::string device;                // the one that is read
   TableHead head;                    // statements of the lines before the header
@@ -59,5 +61,41 @@ Expected<TableLayout> FindNextLayout(LineReader lines, const std::string& file,
 // The measurements of a table, channels side by side or devices one below the other, by the values
 // of ReadOptions::column that choose them.
 std::vector<std::string> MeasurementsOf(const TableLayout& layout);
+
+// Position of a header or first row, for errors.
+struct HeaderPlace {
+  const std::string& file;
+  int line;
+  std::string_view text;
+  char delimiter;
+
+  tl::unexpected<Error> Refuse(std::string message, int column) const {
+    return Fail(std::move(message), file, line, FieldColumn(text, delimiter, column));
+  }
+};
+
+// Interprets the columns of a header. `next_line` is the line below it. The caller sets where the
+// rows begin.
+Expected<TableLayout> LayoutOfHeader(const TableLine& header, const HeaderPlace& place,
+                                     std::string_view next_line, const ReadOptions& options);
+
+// Builds the layout of a table without a header from its first row.
+Expected<TableLayout> LayoutWithoutHeader(const TableLine& row, const HeaderPlace& place,
+                                          const ReadOptions& options);
+
+// Adds the sentence on the columns that are not used.
+void SayWhatIsNotUsed(TableLayout* layout);
+
+// Whether values of this column are read.
+bool IsUsed(const TableLayout& layout, int column);
+
+// The names as "'a', 'b'"; of many names only the first ones.
+std::string ListOf(const Fields& names);
+
+// Finds a column that tells devices apart ("Channel", "Pixel", "DUT") among those that are not used,
+// and its values. They are few, and the rows of each cover at least half of all voltages, as the
+// curve of a device does; a counter of samples does not. `rows` stands at the first row. Nothing is
+// set where there is none, or one device alone.
+void FindDevices(LineReader rows, TableLayout* layout);
 
 }  // namespace lyrefit

@@ -1,4 +1,4 @@
-#include "lyrefit/read/table_row.h"
+#include "lyrefit/read/table_reading.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/read/vocabulary.h"
+#include "lyrefit/read/label.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "lyrefit/base/try.h"
+#include "lyrefit/read/json_curves.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/read_ivcurves_json.h"
 #include "lyrefit/stream/batch_input.h"
 #include "lyrefit/stream/json_elements.h"
 #include "lyrefit/stream/json_row.h"

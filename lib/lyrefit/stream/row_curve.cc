@@ -14,7 +14,6 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/current_sign.h"
 #include "lyrefit/read/guess_columns.h"
-#include "lyrefit/read/select_sweep.h"
 #include "lyrefit/read/settle_conditions.h"
 #include "lyrefit/read/sidecar.h"
 #include "lyrefit/read/table_columns.h"

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/read/make_curve.h"
 #include "lyrefit/read/read_curve.h"
 #include "lyrefit/read/records.h"
 #include "lyrefit/stream/batch_source.h"

@@ -10,7 +10,6 @@
 #include "lyrefit/base/number_text.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/read/json_text.h"
-#include "lyrefit/read/module_json.h"
 #include "lyrefit/read/read_module.h"
 #include "lyrefit/translate/take_coefficients.h"
 

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/order_alike.h"
+#include "lyrefit/estimate/fit/polish.h"
 
 #include <gtest/gtest.h>
 

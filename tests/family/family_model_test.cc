@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "family/synthetic_family.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 
 namespace lyrefit {
 namespace {

@@ -15,7 +15,7 @@
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/device_effects.h"
 #include "lyrefit/model/kernel.h"

@@ -7,9 +7,7 @@
 #include <map>
 
 #include "lyrefit/effects/catalogue.h"
-#include "lyrefit/estimate/fit/descent_starts.h"
 #include "lyrefit/estimate/fit/prepare_fit.h"
-#include "lyrefit/estimate/fit/variant_problem.h"
 #include "lyrefit/model/reporting_units.h"
 #include "studies/landscape.h"
 

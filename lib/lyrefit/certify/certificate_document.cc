@@ -6,7 +6,7 @@
 #include "lyrefit/certify/certificate_documents.h"
 #include "lyrefit/certify/certificate_parts.h"
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/estimate/fit/steep_diodes.h"
+#include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"

@@ -19,7 +19,7 @@
 #include "lyrefit/certify/upper_bound.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/estimate/fit/order_alike.h"
+#include "lyrefit/estimate/fit/polish.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

@@ -11,7 +11,7 @@
 #include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/estimate/refine/newton_ascent.h"
+#include "lyrefit/estimate/refine/error_sizes.h"
 
 namespace lyrefit {
 namespace {

@@ -6,7 +6,7 @@
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/family/family_error_sizes.h"
 #include "lyrefit/family/family_model.h"
 

@@ -9,7 +9,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/dual.h"
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/model/extended_set.h"
 
 namespace lyrefit {

@@ -5,7 +5,6 @@
 
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/estimate/fit/check_candidates.h"
 #include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/kernel.h"

@@ -4,7 +4,7 @@
 
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/certify/floor.h"
-#include "lyrefit/estimate/fit/steep_diodes.h"
+#include "lyrefit/estimate/fit/usable.h"
 
 namespace lyrefit {
 namespace {

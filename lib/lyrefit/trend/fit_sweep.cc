@@ -6,7 +6,7 @@
 
 #include "lyrefit/curve/key_points.h"
 #include "lyrefit/estimate/refine/least_squares.h"
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 
 namespace lyrefit {
 namespace {

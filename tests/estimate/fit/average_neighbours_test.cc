@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/average_neighbours.h"
+#include "lyrefit/estimate/fit/reading_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/distinct_readings.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

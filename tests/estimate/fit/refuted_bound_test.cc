@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/refuted_bound.h"
+#include "lyrefit/estimate/fit/judge_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

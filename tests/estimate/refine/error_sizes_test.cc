@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/estimate/refine/newton_ascent.h"
 
 namespace lyrefit {
 namespace {

@@ -1,11 +1,11 @@
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "estimate/refine/test_curves.h"
-#include "lyrefit/estimate/refine/curve_model.h"
+#include "lyrefit/estimate/refine/refine.h"
 
 namespace lyrefit {
 namespace {

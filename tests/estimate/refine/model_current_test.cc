@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 
 #include <gtest/gtest.h>
 

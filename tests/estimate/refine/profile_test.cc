@@ -6,7 +6,6 @@
 
 #include "estimate/refine/test_curves.h"
 #include "family/synthetic_family.h"
-#include "lyrefit/estimate/refine/curve_model.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 #include "lyrefit/family/family_model.h"

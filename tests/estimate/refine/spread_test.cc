@@ -7,8 +7,7 @@
 
 #include "estimate/refine/test_curves.h"
 #include "family/synthetic_family.h"
-#include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/family/joint.h"
 

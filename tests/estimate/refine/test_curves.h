@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/estimate/refine/curve_model.h"
 #include "lyrefit/estimate/refine/problem.h"
+#include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/spread.h"
 #include "lyrefit/model/kernel.h"
 

@@ -4,14 +4,137 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
-#include "lyrefit/estimate/fit/error_degrees.h"
+#include "lyrefit/base/distributions.h"
 #include "lyrefit/estimate/fit/estimate_parameters.h"
-#include "lyrefit/estimate/fit/order_alike.h"
+#include "lyrefit/estimate/fit/polish.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
+#include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {
+namespace {
+
+constexpr double kRefutedAt = 0.05;
+
+// Whether the bounds of a parameter are a choice that readings may refute: those of an ideality, and
+// all that are not lyrefit's own.
+bool AreAChoice(const PreparedFit& fit, int i) {
+  const ParameterBounds& bounds = fit.bounds[i];
+  if (fit.problem.fixed(i)) return false;
+  if (fit.device.parameters[i].kind == ParameterKind::kIdeality) return true;
+  const Device device = MakeDevice(fit.options.model, fit.curve.conditions, fit.options.constants);
+  const auto own = MakeBounds({}, device, fit.curve);
+  return own && ((*own)[i].lower != bounds.lower || (*own)[i].upper != bounds.upper);
+}
+
+// Indices of the diodes' parameters at a bound that can be widened. Below `steepest_n` a diode is a
+// step in the current (model/term.h), and nothing is below 0, so these bounds are excluded.
+std::vector<int> AtBound(const PreparedFit& fit, const RefineEnd& end) {
+  const int diodes = DiodeCount(fit.device);
+  std::vector<bool> absent(fit.device.size(), false);
+  for (int d = 0; d < diodes; ++d) {
+    absent[IdealityIndex(d)] = !(end.p[SaturationCurrentIndex(d)] > 0);
+  }
+  std::vector<int> found;
+  for (int i = 0; i < 3 + 2 * diodes; ++i) {
+    const double lower = fit.bounds[i].lower;
+    const bool low = end.p[i] <= lower && lower > 0 && lower != fit.steepest_n;
+    const bool at_bound = low || end.p[i] >= fit.bounds[i].upper;
+    if (at_bound && !absent[i] && AreAChoice(fit, i)) found.push_back(i);
+  }
+  return found;
+}
+
+// Saturation currents and shunts span decades.
+RefineProblem WithRoom(RefineProblem problem, const std::vector<int>& at_bound, double steepest) {
+  for (const int i : at_bound) {
+    const ParameterKind kind = problem.device.parameters[i].kind;
+    const bool decades = kind == ParameterKind::kSaturation || kind == ParameterKind::kShunt;
+    const double room = decades ? 1e6 : 4;
+    problem.lower[i] /= room;
+    if (kind == ParameterKind::kIdeality && steepest > 0) {
+      problem.lower[i] = std::max(problem.lower[i], steepest);
+    }
+    problem.upper[i] *= room;
+  }
+  return problem;
+}
+
+// p-value of a decrease of the mean square from `bound` to `free` in one problem.
+double PValue(const RefineProblem& problem, double bound, double free, int extra, int spare) {
+  if (problem.errors == nullptr) return FTestPValue(bound, free, extra, spare);
+  const double squares =
+      (bound - free) * static_cast<double>(problem.voltage_V.size()) / std::pow(problem.noise_A, 2);
+  return FisherTail(squares / extra, extra, spare);
+}
+
+// p-value with both ends refitted under the errors estimated from the wider fit; `p` if these show
+// no correlated errors.
+double UnderTheirErrors(const RefinedFit& refined, const RefineProblem& wide, const RefineEnd& free,
+                        const RefineOptions& how, int extra, int spare, double p) {
+  const PreparedFit& fit = refined.prepared;
+  const std::optional<FoundErrors> found = FindErrors(wide, fit.fitted(), free, true);
+  if (!found || found->gain <= kGainToBelieve) return p;
+  const RefineProblem beyond =
+      WeighByErrors(wide, fit.fitted(), {ErrorKind::kField, found->sizes, "field"}, free.p);
+  RefineProblem within = beyond;
+  within.lower = fit.problem.lower;
+  within.upper = fit.problem.upper;
+  const RefineEnd bound = Refine(within, refined.end.p, how);
+  const double lowest =
+      std::min(Refine(beyond, free.p, how).mean_square, Refine(beyond, bound.p, how).mean_square);
+  return PValue(beyond, bound.mean_square, lowest, extra, spare);
+}
+
+}  // namespace
+
+RefutedBounds FindRefutedBounds(const RefinedFit& refined, const ProgressReporter& progress) {
+  if (progress.stop().requested()) return {};
+  const PreparedFit& fit = refined.prepared;
+  const RefineEnd& end = refined.end;
+  const std::vector<int> at_bound = AtBound(fit, end);
+  if (at_bound.empty()) return {};
+  const RefineProblem wide = WithRoom(refined.problem, at_bound, fit.steepest_n);
+  RefineOptions how;
+  how.stop = progress.stop();
+  RefineEnd free = Refine(wide, end.p, how);
+  if (!free.converged) {  // it may creep
+    RefineEnd other = RefineFrom(wide, end.p, how);
+    if (other.mean_square < free.mean_square) free = std::move(other);
+  }
+  const int extra = static_cast<int>(at_bound.size());
+  const int spare = fit.readings() - fit.free_parameters;
+  double p = PValue(wide, end.mean_square, free.mean_square, extra, spare);
+  if (p < kRefutedAt && refined.problem.errors == nullptr) {
+    p = UnderTheirErrors(refined, wide, free, how, extra, spare, p);
+  }
+  if (!(p < kRefutedAt)) return {};
+  RefutedBounds refuted;
+  std::string where, room;
+  for (const int i : at_bound) {
+    const ParameterBounds& bounds = fit.bounds[i];
+    const std::string& symbol = fit.device.parameters[i].symbol;
+    const bool low = end.p[i] <= bounds.lower;
+    where += fmt::format("{}{} = {:g}, its {} bound", where.empty() ? "" : ", ", symbol, end.p[i],
+                         low ? "lower" : "upper");
+    const std::pair<double, double> wider = {low ? wide.lower[i] : bounds.lower,
+                                             low ? bounds.upper : wide.upper[i]};
+    room += fmt::format("{}--bound {}={:g}:{:g}", room.empty() ? "" : " ", symbol, wider.first,
+                        wider.second);
+    refuted.wider[symbol] = wider;
+  }
+  refuted.test = fmt::format(
+      "the readings refute {} (with more room the RMSE falls from {:.3g} to {:.3g} A, p = {:.1g})",
+      where, std::sqrt(end.mean_square), std::sqrt(free.mean_square), p);
+  refuted.because = fmt::format(
+      "{}: the other parameters make up for it, and no interval would hold the truth; allow more "
+      "with {}, or check temperature, number of cells and model",
+      refuted.test, room);
+  return refuted;
+}
+
 namespace {
 
 std::string TooFewReadings(const PreparedFit& fit) {

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/estimate/fit/descent_starts.h"
-#include "lyrefit/estimate/fit/probe_starts.h"
+#include "lyrefit/estimate/fit/descents.h"
 #include "lyrefit/estimate/fit/statistics.h"
 
 namespace lyrefit {

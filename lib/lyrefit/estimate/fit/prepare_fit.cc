@@ -2,22 +2,73 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/curve/check_readings.h"
-#include "lyrefit/estimate/fit/distinct_readings.h"
+#include "lyrefit/curve/keep_readings.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
-#include "lyrefit/estimate/fit/steep_diodes.h"
-#include "lyrefit/estimate/fit/variant_problem.h"
+#include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/model/current.h"
 #include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {
+
+DistinctReadings FindDistinctReadings(const IvCurve& curve) {
+  const auto at = [](const std::vector<double>& column, int k) {
+    return column.empty() ? 0 : column[k];
+  };
+  const auto key = [&](int k) {
+    return std::make_tuple(curve.voltage_V[k], curve.current_A[k], at(curve.sigma_A, k),
+                           at(curve.time_s, k));
+  };
+  const int readings = static_cast<int>(curve.size());
+  std::vector<int> order(readings);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  std::vector<double> copies(readings, 0);
+  int first = 0, distinct = 0;
+  for (int k = 0; k < readings; ++k) {
+    if (k == 0 || key(order[k]) != key(first)) {
+      first = order[k];
+      ++distinct;
+    }
+    ++copies[first];
+  }
+  DistinctReadings found{curve, {}};
+  if (distinct == readings) return found;
+  std::vector<int> kept;
+  for (int k = 0; k < readings; ++k) {
+    if (copies[k] > 0) kept.push_back(k);
+  }
+  KeepValues(kept, &copies);
+  found.copies = std::move(copies);
+  KeepReadings(kept, &found.curve);
+  return found;
+}
+
+RefineProblem InVariant(const RefineProblem& problem, const Variant& variant,
+                        const std::vector<double>& p) {
+  RefineProblem own = problem;
+  const std::size_t first = p.size() - variant.bounds.size();
+  for (std::size_t k = 0; k < variant.bounds.size(); ++k) {
+    const ParameterBounds& bounds = variant.bounds[k];
+    const bool whole = bounds.whole > 0;
+    own.lower[first + k] = whole ? p[first + k] : bounds.lower;
+    own.upper[first + k] = whole ? p[first + k] : bounds.upper;
+  }
+  return own;
+}
+
+double VariantPenalty(const RefineProblem& problem, const Variant& variant) {
+  const double points = static_cast<double>(problem.voltage_V.size());
+  return std::exp(0.5 * variant.free * std::log(points) / points);
+}
 
 Expected<void> CheckObjectiveOfEffects(Objective objective) {
   if (objective == Objective::kSolvedCurrent) return {};

@@ -5,13 +5,34 @@
 #include <vector>
 
 #include "lyrefit/base/error.h"
+#include "lyrefit/curve/iv_curve.h"
 #include "lyrefit/estimate/fit/fit_options.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/estimate/fit/search_space.h"
+#include "lyrefit/estimate/refine/problem.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/model/variants.h"
 
 namespace lyrefit {
+
+// A curve without duplicate readings. An exact copy of a reading adds no information about the
+// device.
+struct DistinctReadings {
+  IvCurve curve;               // in order of first occurrence
+  std::vector<double> copies;  // multiplicity of each reading; empty: all 1
+};
+
+// Copies have equal voltage, current, sigma and time. Repeated measurements of one point differ in
+// their noise and are all kept.
+DistinctReadings FindDistinctReadings(const IvCurve& curve);
+
+// The problem with its effects in one variant and integer parameters fixed at their values in `p`.
+RefineProblem InVariant(const RefineProblem& problem, const Variant& variant,
+                        const std::vector<double>& p);
+
+// Penalty factor on the RMSE for the free parameters of a variant. The logarithms of the squared
+// penalised RMSEs rank variants as BIC does.
+double VariantPenalty(const RefineProblem& problem, const Variant& variant);
 
 // First stage of a fit: its readings, its device and the least-squares problem of both. The options
 // must outlive it.

@@ -1,4 +1,4 @@
-#include "lyrefit/estimate/fit/probe_starts.h"
+#include "lyrefit/estimate/fit/descents.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -6,9 +6,8 @@
 #include <set>
 
 #include "lyrefit/base/dense.h"
-#include "lyrefit/estimate/fit/variant_problem.h"
-#include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/estimate/refine/separable.h"
 #include "lyrefit/model/device_effects.h"

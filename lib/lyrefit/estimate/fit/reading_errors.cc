@@ -3,15 +3,141 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/estimate/fit/average_neighbours.h"
-#include "lyrefit/estimate/refine/curve_model.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coarsen.h"
+#include "lyrefit/estimate/refine/coordinates.h"
+#include "lyrefit/estimate/refine/refine.h"
 #include "lyrefit/model/current.h"
 
 namespace lyrefit {
+namespace {
+
+constexpr double kWidest = 0.01;  // largest width of a group, in units of Voc
+
+using Values = std::vector<double>;
+
+// Width of each group along the path, at most kWidest: the distance of its mean to the nearer
+// neighbouring mean. `position` has the means.
+Values WidthsOf(const Values& position) {
+  Values widths(position.size(), kWidest);
+  for (std::size_t g = 0; g < position.size(); ++g) {
+    if (g > 0) widths[g] = std::min(widths[g], position[g] - position[g - 1]);
+    if (g + 1 < position.size()) widths[g] = std::min(widths[g], position[g + 1] - position[g]);
+  }
+  return widths;
+}
+
+// Relative loss of path variance by averaging within each group, times the path length l. For m
+// readings at equal distances d, averaging multiplies the variance by the mean of exp(-|x - x'| /
+// l) over all pairs. That is 1 - d (m^2 - 1) / (3 m l) where d m is much less than l.
+Values AveragedAway(const Grouping& first, const Values& position) {
+  Values parts = WidthsOf(position);
+  for (std::size_t g = 0; g < parts.size(); ++g) {
+    const double m = first[g + 1] - first[g];
+    parts[g] *= (m * m - 1) / (3 * m * m);
+  }
+  return parts;
+}
+
+}  // namespace
+
+Grouping GroupNeighbours(const std::vector<double>& voltage_V, double open_circuit_V) {
+  const int readings = static_cast<int>(voltage_V.size());
+  return GroupByRule(
+      readings,
+      {(readings + kFewPoints - 1) / kFewPoints, voltage_V, kWidest * open_circuit_V, {}});
+}
+
+ErrorShape AverageShape(const Grouping& first, const ErrorShape& shape) {
+  ErrorShape means;
+  means.current = MeanErrors(first, shape.current);
+  means.voltage = MeanErrors(first, shape.voltage);
+  means.stated = MeanErrors(first, shape.stated);
+  means.part = MeanErrors(first, shape.part);
+  means.path = Means(first, shape.path);
+  means.position = Means(first, shape.position);
+  if (first.size() <= shape.position.size()) {
+    means.averaged_away = AveragedAway(first, means.position);
+  }
+  for (int g = 0; g < GroupCount(first); ++g) means.chain.push_back(shape.chain[first[g]]);
+  return means;
+}
+
+Differences DifferencesWithin(const Grouping& first, const ErrorShape& shape,
+                              const Eigen::VectorXd& residual) {
+  Differences differences;
+  const Values widths = WidthsOf(Means(first, shape.position));
+  // The standard deviation of a difference is sqrt(2) times that of a typical reading.
+  const auto append = [](const Values& errors, int begin, int end, Values* to) {
+    double squares = 0;
+    for (int k = begin; k < end && !errors.empty(); ++k) squares += errors[k] * errors[k];
+    if (!errors.empty()) to->push_back(std::sqrt(2 * squares / (end - begin)));
+  };
+  for (int g = 0; g < GroupCount(first); ++g) {
+    const int begin = first[g], count = first[g + 1] - begin, pairs = count / 2;
+    if (pairs == 0) continue;
+    const int end = begin + 2 * pairs;
+    double squares = 0;
+    for (int k = begin; k < end; k += 2) squares += std::pow(residual[k + 1] - residual[k], 2);
+    append(shape.current, begin, end, &differences.shape.current);
+    append(shape.voltage, begin, end, &differences.shape.voltage);
+    append(shape.stated, begin, end, &differences.shape.stated);
+    append(shape.part, begin, end, &differences.shape.part);
+    append(shape.path, begin, end, &differences.shape.path);
+    differences.shape.position.push_back(widths[g] / count);
+    differences.count.push_back(pairs);
+    differences.mean_square.push_back(squares / pairs);
+  }
+  return differences;
+}
+
+RefineProblem AverageProblem(const Grouping& first, const RefineProblem& problem,
+                             const std::vector<double>& p) {
+  const auto model = [&](const Values& voltage_V, const Values& near_A) {
+    return SolveCurrents(problem.device, p.data(), MakePointSet(voltage_V, near_A));
+  };
+  Values distance = problem.current_A;
+  const Values fitted = model(problem.voltage_V, problem.current_A);
+  for (std::size_t k = 0; k < distance.size(); ++k) distance[k] -= fitted[k];
+  Values voltage = Means(first, problem.voltage_V), current = Means(first, distance);
+  const Values there = model(voltage, Means(first, problem.current_A));
+  for (std::size_t g = 0; g < current.size(); ++g) current[g] += there[g];
+  return WithPoints(problem, std::move(voltage), std::move(current), {});
+}
+
+std::vector<int> FindDegrees(const FoundErrors& found, const StandardErrorsAt& standard_errors,
+                             int most) {
+  constexpr double kStep = 0.1;  // step of ln size
+  constexpr int kFewest = 3;
+  constexpr double ErrorSizes::*kSizes[] = {&ErrorSizes::current_A, &ErrorSizes::voltage_V,
+                                            &ErrorSizes::path, &ErrorSizes::length,
+                                            &ErrorSizes::current_part};
+  using Slopes = Eigen::Matrix<double, 5, 1>;
+  std::vector<Slopes> slopes;  // d ln variance / d ln sizes, per estimate
+  for (int j = 0; j < 5; ++j) {
+    if (!(found.sizes.*kSizes[j] > 0)) continue;
+    const auto beside = [&](double step) {
+      ErrorSizes there = found.sizes;
+      there.*kSizes[j] *= std::exp(step);
+      return standard_errors(there);
+    };
+    const std::vector<double> up = beside(kStep), down = beside(-kStep);
+    slopes.resize(up.size(), Slopes::Zero());
+    for (std::size_t i = 0; i < up.size(); ++i) slopes[i][j] = std::log(up[i] / down[i]) / kStep;
+  }
+  std::vector<int> degrees;
+  for (const Slopes& slope : slopes) {
+    const double variance = slope.dot(found.uncertainty * slope);  // variance of ln variance
+    const bool well_known = !std::isfinite(variance) || variance * most < 2;
+    const int few = std::min(kFewest, most);
+    degrees.push_back(well_known ? most : std::max(static_cast<int>(2 / variance), few));
+  }
+  return degrees;
+}
+
 namespace {
 
 constexpr int kSpare = 3;  // least excess of readings over parameters, for three sizes

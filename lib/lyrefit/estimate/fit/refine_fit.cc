@@ -8,14 +8,13 @@
 
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/seconds.h"
-#include "lyrefit/estimate/fit/error_degrees.h"
 #include "lyrefit/estimate/fit/intervals.h"
-#include "lyrefit/estimate/fit/order_alike.h"
+#include "lyrefit/estimate/fit/polish.h"
 #include "lyrefit/estimate/fit/polish_extended.h"
+#include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/fit/variant_problem.h"
-#include "lyrefit/estimate/refine/model_current.h"
+#include "lyrefit/estimate/refine/problem.h"
 
 namespace lyrefit {
 namespace {

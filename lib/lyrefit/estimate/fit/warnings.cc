@@ -7,7 +7,7 @@
 
 #include "lyrefit/curve/dark.h"
 #include "lyrefit/estimate/fit/statistics.h"
-#include "lyrefit/estimate/fit/steep_diodes.h"
+#include "lyrefit/estimate/fit/usable.h"
 
 namespace lyrefit {
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/drop_diode.h"
-#include "lyrefit/estimate/refine/linearize.h"
 #include "lyrefit/estimate/refine/solve.h"
 
 namespace lyrefit {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "lyrefit/base/dense.h"
 #include "lyrefit/estimate/refine/model.h"
 
 namespace lyrefit {
@@ -71,5 +75,34 @@ class Coordinates {
 
 // Bounds of a parameter, the others at `p`. Those of a dark shunt are relative to its shunt.
 ParameterRange BoundsAt(const ModelShape& shape, int i, const std::vector<double>& p);
+
+// Ceres writes to the log if it receives a number that is not finite; this check comes before.
+inline bool AllFinite(const double* x, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!std::isfinite(x[k])) return false;
+  }
+  return true;
+}
+
+// Residuals of a block in units of `unit_A` at the coordinates `theta`. If requested, also their
+// derivatives row by row by the coordinates (`slopes`) and by the block's local unknowns
+// (`local_slopes`). False if the model cannot be evaluated or a number is not finite.
+bool EvaluateBlock(const FitModel& model, const Coordinates& coordinates, int block,
+                   const double* theta, const double* local, double unit_A, double* residuals,
+                   double* slopes, double* local_slopes);
+
+// All residuals of a model in ampere and their derivatives at a point. Blocks that cannot be
+// evaluated are 0.
+struct Linearization {
+  Eigen::VectorXd residual;
+  RowMatrix jacobian;             // residuals x coordinates of the free parameters
+  std::vector<RowMatrix> local;   // of each block: its residuals x its local unknowns
+  std::vector<int> first_row;     // of each block
+  std::vector<int> parameter;     // parameter of each column of `jacobian`
+  Eigen::MatrixXd natural_slope;  // derivatives of the parameters by the coordinates
+};
+
+Linearization Linearize(const FitModel& model, const FitPoint& point,
+                        const std::vector<bool>& active);
 
 }  // namespace lyrefit

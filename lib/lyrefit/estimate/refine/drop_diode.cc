@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 
 namespace lyrefit {
 namespace {

@@ -8,9 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "lyrefit/estimate/refine/finite.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/least_squares.h"
-#include "lyrefit/estimate/refine/linearize.h"
 
 namespace lyrefit {
 namespace {

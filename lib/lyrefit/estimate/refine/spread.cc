@@ -5,7 +5,7 @@
 
 #include "lyrefit/base/dense.h"
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/estimate/refine/linearize.h"
+#include "lyrefit/estimate/refine/coordinates.h"
 
 namespace lyrefit {
 namespace {

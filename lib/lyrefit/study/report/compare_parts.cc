@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/certify/certify.h"
-#include "lyrefit/estimate/fit/steep_diodes.h"
+#include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
 

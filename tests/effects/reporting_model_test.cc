@@ -7,7 +7,7 @@
 
 #include "effects/synthetic_use.h"
 #include "estimate/refine/test_curves.h"
-#include "lyrefit/estimate/refine/curve_model.h"
+#include "lyrefit/estimate/refine/refine.h"
 
 namespace lyrefit {
 namespace {

@@ -14,8 +14,8 @@
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/devices/family_of_sheet.h"
 #include "lyrefit/family/key_point_solver.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -8,9 +8,9 @@
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/other_optima.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/extended_set.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/refine/active_set.h"
 #include "lyrefit/estimate/refine/spread.h"
-#include "lyrefit/model/key_point_slopes.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 
 namespace lyrefit {

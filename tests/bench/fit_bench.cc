@@ -17,7 +17,7 @@
 #include "lyrefit/base/median.h"
 #include "lyrefit/base/random.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "peer.h"
 
 namespace lyrefit::bench {

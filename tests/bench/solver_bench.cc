@@ -9,7 +9,7 @@
 #include "bench_support.h"
 #include "benchmarks.h"
 #include "claims.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certify/made.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/random.h"
 #include "lyrefit/devices/data_sheet.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 #include "repeats.h"
 

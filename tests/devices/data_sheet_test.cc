@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

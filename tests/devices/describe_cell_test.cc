@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lyrefit/devices/series_resistance.h"
+#include "lyrefit/devices/cell_figures.h"
 #include "made_cell.h"
 
 namespace lyrefit {

@@ -4,12 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "lyrefit/base/constants.h"
-#include "lyrefit/devices/compare_directions.h"
+#include "lyrefit/devices/cell_figures.h"
 #include "lyrefit/devices/compare_stated.h"
 #include "lyrefit/devices/describe_sweep.h"
-#include "lyrefit/devices/fill_factor_losses.h"
-#include "lyrefit/devices/ideality_over_light.h"
-#include "lyrefit/devices/series_resistance.h"
 #include "made_cell.h"
 
 namespace lyrefit {

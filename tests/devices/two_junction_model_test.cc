@@ -1,4 +1,4 @@
-#include "lyrefit/devices/two_junction_model.h"
+#include "lyrefit/devices/two_junction_problem.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/family/curve_subset.h"
+#include "lyrefit/family/family_members.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_error_sizes.h"
+#include "lyrefit/family/family_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lyrefit/family/family_weights.h"
+#include "lyrefit/family/joint_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

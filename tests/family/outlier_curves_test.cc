@@ -1,4 +1,4 @@
-#include "lyrefit/family/outlier_curves.h"
+#include "lyrefit/family/joint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lyrefit/family/family_documents.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
 #include "lyrefit/report/json.h"
 #include "model/synthetic_translation.h"

@@ -1,4 +1,4 @@
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

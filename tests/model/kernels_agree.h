@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 

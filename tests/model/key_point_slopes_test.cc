@@ -1,4 +1,4 @@
-#include "lyrefit/model/key_point_slopes.h"
+#include "lyrefit/model/model_points.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

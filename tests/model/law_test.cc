@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "effects/synthetic_readings.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 
 namespace lyrefit {

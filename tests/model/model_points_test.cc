@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/model/current.h"
-
 namespace lyrefit {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "model/synthetic_translation.h"
 
 namespace lyrefit {

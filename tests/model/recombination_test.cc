@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/dual.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/kernel.h"
 #include "lyrefit/model/model_points.h"
 #include "model/kernels_agree.h"

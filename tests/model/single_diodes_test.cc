@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

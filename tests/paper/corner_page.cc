@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/term.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/study/report/documents.h"

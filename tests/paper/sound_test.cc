@@ -6,7 +6,7 @@
 
 #include "cli/run_app.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "paper/held_tables.h"
 #include "paper/planted.h"
 #include "paper/sound_study.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "error_of.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 #include "lyrefit/read/read_module.h"
 #include "read/pan_text.h"
 #include "temp_folder.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "error_of.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/read/read_module.h"
 #include "model/synthetic_translation.h"
 #include "temp_folder.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "lyrefit/estimate/fit/fit_report.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 

@@ -9,7 +9,7 @@
 
 #include "audit_rows_text.h"
 #include "error_of.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "repeats.h"
 
 namespace lyrefit {

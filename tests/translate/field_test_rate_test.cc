@@ -16,7 +16,7 @@
 #include "../repeats.h"
 #include "lyrefit/base/parallel.h"
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/translate/field_inputs.h"
 #include "lyrefit/translate/prepare.h"

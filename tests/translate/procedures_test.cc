@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 #include "synthetic_string.h"
 

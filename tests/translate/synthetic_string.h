@@ -5,7 +5,6 @@
 #include "lyrefit/base/constants.h"
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/curve/iv_curve.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 #include "lyrefit/translate/device_coefficients.h"

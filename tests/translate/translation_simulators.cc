@@ -6,7 +6,6 @@
 
 #include "faults/field_case.h"
 #include "lyrefit/base/constants.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 

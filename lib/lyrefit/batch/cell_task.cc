@@ -8,7 +8,7 @@
 #include "lyrefit/batch/batch_task.h"
 #include "lyrefit/batch/pixel_state.h"
 #include "lyrefit/curve/dark.h"
-#include "lyrefit/devices/cell_fields.h"
+#include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/describe_cell.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/read/cells.h"

@@ -10,8 +10,8 @@
 #include "lyrefit/certify/certify.h"
 #include "lyrefit/curve/beyond_voc.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/device.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

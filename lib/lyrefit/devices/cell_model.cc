@@ -1,4 +1,4 @@
-#include "lyrefit/devices/cell_model.h"
+#include "lyrefit/devices/joint_problem.h"
 
 #include <glog/logging.h>
 

@@ -1,21 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lyrefit/devices/cell_report.h"
 #include "lyrefit/report/document.h"
 
 // Functions shared by the document, tables and pictures of a cell.
+
 namespace lyrefit {
 
 // The result in a few sentences: efficiency, hysteresis, ideality, largest loss of fill factor.
 std::string CellVerdict(const CellReport& report);
 
-// cell_losses_document.cc: the resistances, the fill factor and its losses, superposition.
+// cell_sections.cc: the resistances, the fill factor and its losses, superposition.
 Section SeriesResistanceSection(const CellReport& report);
 Section FillFactorSection(const CellReport& report);
 Section SuperpositionSection(const CellReport& report);
-// cell_joint_document.cc: one model for all measurements, and what each of them adds.
+// cell_sections.cc: one model for all measurements, and what each of them adds.
 Section JointSection(const CellReport& report);
 
 // "12.3 %" of a fraction; "-" for NaN.
@@ -25,5 +27,19 @@ std::string RangedText(const Ranged& ranged, int digits = 4);
 
 // cell_plot.cc: the picture for pages.
 block::Figure FigureBlock(const CellReport& report);
+
+// A number that tables have of one sweep of a cell.
+struct CellField {
+  const char* name;  // of its column
+  const char* unit;
+  const char* doc;
+  double (*value)(const CellSweep& sweep);  // NaN: unknown, or void
+};
+
+// Key points, resistances and the fit's parameters of a sweep, in the order of the columns.
+const std::vector<CellField>& CellFields();
+
+// Why n and Rs of the fit of a sweep are void, joined with "; ".
+std::string VoidReasons(const CellSweep& sweep);
 
 }  // namespace lyrefit

@@ -13,10 +13,9 @@
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/curve/technology.h"
 #include "lyrefit/devices/family_of_sheet.h"
-#include "lyrefit/family/key_point_curve.h"
 #include "lyrefit/family/key_point_solver.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -10,9 +10,8 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/devices/family_of_sheet.h"
-#include "lyrefit/model/coefficients.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -10,16 +10,12 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
-#include "lyrefit/devices/cell_fields.h"
+#include "lyrefit/devices/cell_figures.h"
+#include "lyrefit/devices/cell_parts.h"
 #include "lyrefit/devices/choose_sweeps.h"
-#include "lyrefit/devices/compare_directions.h"
 #include "lyrefit/devices/describe_sweep.h"
-#include "lyrefit/devices/fill_factor_losses.h"
-#include "lyrefit/devices/ideality_over_light.h"
 #include "lyrefit/devices/joint_estimate.h"
 #include "lyrefit/devices/joint_problem.h"
-#include "lyrefit/devices/series_resistance.h"
-#include "lyrefit/devices/superposition.h"
 #include "lyrefit/read/cells.h"
 
 namespace lyrefit {

@@ -5,7 +5,7 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/devices/data_sheet.h"
 #include "lyrefit/devices/data_sheet_family.h"
-#include "lyrefit/family/key_point_curve.h"
+#include "lyrefit/family/key_point_solver.h"
 #include "lyrefit/model/translation.h"
 
 namespace lyrefit {

@@ -1,4 +1,4 @@
-#include "lyrefit/devices/fill_factor_losses.h"
+#include "lyrefit/devices/cell_figures.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "lyrefit/curve/key_points.h"
-#include "lyrefit/devices/series_resistance.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/term.h"
 

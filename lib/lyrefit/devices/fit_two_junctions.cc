@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/devices/two_junction_problem.h"
-#include "lyrefit/devices/two_junction_starts.h"
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 
 namespace lyrefit {

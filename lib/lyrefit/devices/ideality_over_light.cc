@@ -1,4 +1,4 @@
-#include "lyrefit/devices/ideality_over_light.h"
+#include "lyrefit/devices/cell_figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include "lyrefit/estimate/fit/estimate_parameters.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/family/family_judge.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "lyrefit/base/numbers.h"
-#include "lyrefit/devices/ideality_over_light.h"
-#include "lyrefit/devices/series_resistance.h"
+#include "lyrefit/devices/cell_figures.h"
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/statistics.h"
 #include "lyrefit/estimate/refine/coordinates.h"

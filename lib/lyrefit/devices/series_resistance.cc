@@ -1,4 +1,4 @@
-#include "lyrefit/devices/series_resistance.h"
+#include "lyrefit/devices/cell_figures.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "lyrefit/base/roots.h"
 #include "lyrefit/devices/describe_sweep.h"
-#include "lyrefit/devices/ideality_over_light.h"
 
 namespace lyrefit {
 namespace {

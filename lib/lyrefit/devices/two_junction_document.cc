@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "lyrefit/base/constants.h"
 #include "lyrefit/devices/device_documents.h"
 #include "lyrefit/devices/two_junction_report.h"
 #include "lyrefit/model/two_junctions.h"
 #include "lyrefit/report/documents.h"
 #include "lyrefit/report/estimate_parts.h"
+#include "lyrefit/report/json_parts.h"
 #include "lyrefit/report/plots.h"
 #include "lyrefit/report/text_layout.h"
 #include "lyrefit/report/text_parts.h"
@@ -118,6 +121,110 @@ std::string BriefTwoJunctions(const TwoJunctionReport& report) {
   return fmt::format("{}: two junctions, {}{}\n", report.name, TwoJunctionVerdict(report),
                      BriefMarks(report.interrupted, report.usable, report.warnings.size(),
                                 report.not_usable_because));
+}
+
+namespace {
+
+constexpr int kJunctionModelPoints = 300;
+
+Series ModelLine(const TwoJunctionReport& report, const TwoJunctionCurveReport& one,
+                 const Look& look) {
+  Series line{SeriesKind::kLine, look, 1.5};
+  line.name = one.curve.name;
+  const std::vector<double>& voltage = one.curve.voltage_V;
+  const auto [low, high] = std::minmax_element(voltage.begin(), voltage.end());
+  const double thermal_V = ThermalVoltage(report.temperature_K, report.constants);
+  for (int k = 0; k < kJunctionModelPoints; ++k) {
+    const double at = *low + (*high - *low) * k / (kJunctionModelPoints - 1);
+    line.Add(at, TwoJunctionCurrent(thermal_V, one.parameters.data(), at));
+  }
+  return line;
+}
+
+}  // namespace
+
+Figure TwoJunctionFigure(const TwoJunctionReport& report) {
+  Figure figure;
+  figure.title = fmt::format("{}, two junctions: RMSE {:.4g} A solved-current", report.name,
+                             report.rmse.refined.solved_current_A);
+  Panel curves{"Measured points and model", {"Voltage (V)"}, {"Current (A)"}};
+  Panel residuals{"Residuals, solved-current", {"Voltage (V)"}, {"Model - measured (A)"}};
+  curves.zero_line = residuals.zero_line = true;
+  residuals.height = 200;
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < report.curves.size(); ++c) {
+    const TwoJunctionCurveReport& one = report.curves[c];
+    const Look look = LookOf(static_cast<int>(c));
+    names.push_back(one.curve.name);
+    Series points{SeriesKind::kPoints, look, 1, 0.7};
+    Series misfit{SeriesKind::kLineAndPoints, look, 0.7, 0.5};
+    points.name = misfit.name = one.curve.name;
+    for (std::size_t k = 0; k < one.curve.size(); ++k) {
+      points.Add(one.curve.voltage_V[k], one.curve.current_A[k]);
+      misfit.Add(one.curve.voltage_V[k], one.model_A[k] - one.curve.current_A[k]);
+    }
+    curves.series.push_back(std::move(points));
+    curves.series.push_back(ModelLine(report, one, look));
+    residuals.series.push_back(std::move(misfit));
+  }
+  figure.legend = LegendOf(names, LegendMark::kLineAndPoint);
+  figure.panels = {std::move(curves), std::move(residuals)};
+  figure.panel_width = 684;
+  return figure;
+}
+
+Expected<void> PlotTwoJunctions(const TwoJunctionReport& report, const std::string& path,
+                                PlotPoints points) {
+  return DrawFigure(TwoJunctionFigure(report), path, points);
+}
+
+void to_json(Json& j, const StatedLight& light) {
+  j = {{"top", light.top}, {"bottom", light.bottom}};
+}
+
+void to_json(Json& j, const TwoJunctionCurveReport& one) {
+  Json parameters = Json::object();
+  const std::vector<ParameterInfo> infos = TwoJunctionInfos();
+  for (std::size_t i = 0; i < infos.size(); ++i) parameters[infos[i].name] = one.parameters[i];
+  std::vector<double> residual_A(one.model_A.size());
+  std::transform(one.model_A.begin(), one.model_A.end(), one.curve.current_A.begin(),
+                 residual_A.begin(),
+                 [](double model, double measured) { return model - measured; });
+  j = {{"id", one.curve.name},
+       {"curve", one.curve},
+       {"light", one.light},
+       {"limiting", one.limiting},
+       {"parameters", parameters},
+       {"rmse", RmsePair{kUnknown, one.rmse_A}},
+       {"key_points", {{"measured", one.measured}, {"simulated", one.simulated}}},
+       {"data",
+        {{"voltage_V", one.curve.voltage_V},
+         {"current_A", one.curve.current_A},
+         {"model_current_A", one.model_A},
+         {"residual_A", residual_A}}}};
+}
+
+std::string TwoJunctionJson(const TwoJunctionReport& report) {
+  Json parameters = Json::object();
+  for (const Estimate& e : report.estimates) parameters[ParameterKey(e.info)] = e;
+  Json j = {{"lyrefit_version", report.version},
+            {"name", report.name},
+            {"junctions", 2},
+            {"objective", ToText(Objective::kSolvedCurrent)},
+            {"constants", report.constants},
+            {"cell_temperature_C", RoundCelsius(report.temperature_K - kZeroCelsius_K)},
+            {"interchangeable", report.interchangeable},
+            {"parameters", parameters},
+            {"decided_by", report.decided_by},
+            {"rmse", {{"searched", report.rmse.searched}, {"refined", report.rmse.refined}}},
+            {"curves", report.curves}};
+  j.update(CourseJson(report));
+  j.update(Json({{"options", report.non_default_options},
+                 {"usable", report.usable},
+                 {"not_usable_because", report.not_usable_because},
+                 {"interrupted", report.interrupted},
+                 {"warnings", report.warnings}}));
+  return Dump(j);
 }
 
 }  // namespace lyrefit

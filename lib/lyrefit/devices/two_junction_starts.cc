@@ -1,4 +1,4 @@
-#include "lyrefit/devices/two_junction_starts.h"
+#include "lyrefit/devices/two_junction_problem.h"
 
 #include <algorithm>
 #include <array>

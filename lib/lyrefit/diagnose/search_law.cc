@@ -3,7 +3,7 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/diagnose/describe.h"
 #include "lyrefit/diagnose/law_coordinates.h"
-#include "lyrefit/model/reading_blocks.h"
+#include "lyrefit/model/make_readings.h"
 
 namespace lyrefit {
 namespace {

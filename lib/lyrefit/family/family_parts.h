@@ -33,7 +33,7 @@ inline std::vector<ParameterInfo> FreeInfos(const FamilyReport& report) {
   return infos;
 }
 
-// family_verdict.cc: the conclusion in one or two sentences.
+// family_document.cc: the conclusion in one or two sentences.
 std::string FamilyVerdict(const FamilyReport& report);
 
 // family_plot.cc: the picture for pages, with a caption and a table of its numbers. A figure without

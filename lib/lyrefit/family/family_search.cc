@@ -6,8 +6,8 @@
 #include "lyrefit/base/seconds.h"
 #include "lyrefit/base/try.h"
 #include "lyrefit/estimate/fit/search_space.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/kernel.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/search/search.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 #include "lyrefit/base/observer.h"
 #include "lyrefit/estimate/refine/active_set.h"
 #include "lyrefit/estimate/refine/spread.h"
-#include "lyrefit/model/key_point_slopes.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/translation.h"
 
 namespace lyrefit {
@@ -130,5 +130,12 @@ JointSpread FindJointSpread(const JointProblem& problem, const JointEnd& end, do
 // FindJointSpread in the units of `model`, which is a FamilyModel or wraps one, and of `end`.
 JointSpread FindJointSpread(const JointProblem& problem, const FitModel& model,
                             const RefineEnd& end, double variance);
+
+// Finds curves that do not belong to the device of the others (positions among the problem's
+// curves). A robust fit misses such a curve by far more than the other curves, by a visible amount,
+// and by more than ordinary errors of its irradiance and temperature explain. `stop` is polled
+// as in JointOptions; after a stop the result is meaningless.
+std::vector<int> FindOutlierCurves(const JointProblem& problem, const JointEnd& end,
+                                   const StopToken& stop = {});
 
 }  // namespace lyrefit

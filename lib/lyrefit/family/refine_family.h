@@ -6,7 +6,6 @@
 #include "lyrefit/base/error.h"
 #include "lyrefit/base/observer.h"
 #include "lyrefit/family/family_search.h"
-#include "lyrefit/family/family_weights.h"
 #include "lyrefit/family/individual_fits.h"
 #include "lyrefit/family/joint_fit.h"
 

@@ -10,7 +10,7 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/effect_ranges.h"
 #include "lyrefit/model/extended_set.h"
-#include "lyrefit/model/reading_blocks.h"
+#include "lyrefit/model/make_readings.h"
 
 namespace lyrefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <glog/logging.h>
 
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 

@@ -7,7 +7,6 @@
 
 #include "lyrefit/base/try.h"
 #include "lyrefit/model/make_readings.h"
-#include "lyrefit/model/reading_blocks.h"
 
 namespace lyrefit {
 namespace {

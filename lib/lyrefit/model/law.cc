@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lyrefit/model/cell.h"
-#include "lyrefit/model/reading_blocks.h"
+#include "lyrefit/model/make_readings.h"
 #include "lyrefit/model/string_cell_group.h"
 
 namespace lyrefit {

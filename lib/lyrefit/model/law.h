@@ -67,7 +67,7 @@ class LawWorkspace {
  public:
   // Empty: the first evaluation fills it.
   explicit LawWorkspace(GiveUp give_up = GiveUp::kAbsurd);
-  // Uses existing blocks (reading_blocks.h) that must outlive this object. Every evaluation starts
+  // Uses existing blocks (make_readings.h) that must outlive this object. Every evaluation starts
   // from a guess, and none stops early.
   explicit LawWorkspace(const std::vector<ReadingBlock>& blocks);
   ~LawWorkspace();

@@ -5,6 +5,7 @@
 
 #include "lyrefit/base/error.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/model/effect.h"
 #include "lyrefit/model/reading.h"
 
 namespace lyrefit {
@@ -21,5 +22,9 @@ void SetStepTimes(Readings* readings);
 // Sets traits.range_currents: the currents at which a measuring range may end, between two readings
 // of a sweep. They are at least 1 % of the scale apart, none near the plateau or zero.
 void SetRangeCurrents(Readings* readings);
+
+// Readings in blocks of eight. Readings at the same irradiance and temperature form their own block
+// if they fill at least half of one.
+std::vector<ReadingBlock> BlocksOf(const Readings& readings);
 
 }  // namespace lyrefit

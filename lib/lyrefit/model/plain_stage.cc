@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lyrefit/model/call_stage.h"
+#include "lyrefit/model/cell.h"
 
 namespace lyrefit {
 namespace {

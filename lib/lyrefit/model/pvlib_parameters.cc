@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/model_points.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

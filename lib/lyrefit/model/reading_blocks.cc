@@ -1,4 +1,4 @@
-#include "lyrefit/model/reading_blocks.h"
+#include "lyrefit/model/make_readings.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include "lyrefit/model/string.h"
 
 // Functions of one cell group, for the Newton solver (string_solve.h) and the bracketed one
-// (string_brackets.cc). P: a pack.
+// (string.cc). P: a pack.
 namespace lyrefit {
 
 template <class P>

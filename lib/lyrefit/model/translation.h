@@ -176,4 +176,18 @@ struct TranslatedDevice {
 TranslatedDevice TranslateTo(const Translation& translation, const std::vector<double>& shared,
                              double irradiance_W_m2, double temperature_K);
 
+// Temperature coefficients of a device's key points at the reference conditions (1000 W/m2, 25 C),
+// as data sheets state them.
+struct TemperatureCoefficients {
+  double alpha_sc_A_K;
+  double beta_oc_V_K;
+  double gamma_pmp_percent_K;  // percent of the maximum power at the reference, per K
+};
+
+// Computes the coefficients as central differences of the model's own key points, `half_step_K` on
+// either side of the reference temperature. NaN for a device that gives no power.
+TemperatureCoefficients CoefficientsAtReference(const Translation& translation,
+                                                const std::vector<double>& shared,
+                                                double half_step_K = 1);
+
 }  // namespace lyrefit

@@ -10,10 +10,10 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/curve/data_sheet_values.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
+#include "lyrefit/model/translation.h"
 #include "lyrefit/read/pan_object.h"
 
 namespace lyrefit {

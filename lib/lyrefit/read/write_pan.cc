@@ -9,10 +9,10 @@
 #include "lyrefit/base/try.h"
 #include "lyrefit/base/version.h"
 #include "lyrefit/curve/technology.h"
-#include "lyrefit/model/coefficients.h"
 #include "lyrefit/model/default_values.h"
 #include "lyrefit/model/model_points.h"
 #include "lyrefit/model/pvlib_parameters.h"
+#include "lyrefit/model/translation.h"
 
 namespace lyrefit {
 namespace {

@@ -4,7 +4,7 @@
 #include "lyrefit/estimate/fit/prepare_fit.h"
 #include "lyrefit/estimate/fit/search_space.h"
 #include "lyrefit/family/fit_family.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {

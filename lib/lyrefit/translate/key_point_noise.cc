@@ -5,8 +5,8 @@
 #include <string>
 
 #include "lyrefit/base/random.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/device.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

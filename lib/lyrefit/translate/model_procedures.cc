@@ -7,7 +7,6 @@
 #include "lyrefit/base/numbers.h"
 #include "lyrefit/base/roots.h"
 #include "lyrefit/base/try.h"
-#include "lyrefit/model/current.h"
 #include "lyrefit/model/model_points.h"
 
 namespace lyrefit {

@@ -8,7 +8,7 @@
 
 #include "error_of.h"
 #include "lyrefit/estimate/fit/fit.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/read/read_curve.h"
 #include "temp_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -14,7 +14,7 @@
 #include "lyrefit/estimate/fit/reading_errors.h"
 #include "lyrefit/estimate/fit/usable.h"
 #include "lyrefit/estimate/refine/coarsen.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 #include "lyrefit/model/reporting_units.h"
 
 namespace lyrefit {

@@ -10,7 +10,7 @@
 #include "lyrefit/estimate/refine/coarsen.h"
 #include "lyrefit/estimate/refine/coordinates.h"
 #include "lyrefit/estimate/refine/refine.h"
-#include "lyrefit/model/current.h"
+#include "lyrefit/model/model_points.h"
 
 namespace lyrefit {
 namespace {

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
 
@@ -102,9 +101,6 @@ Effect BypassOpen() {
   };
   e.cell = [](const auto* p, auto* cell) { SetBypassOpen(p, cell); };
   e.groups = true;
-  e.covered = [](double* p, int which, int groups) {
-    return p[kOpenCells] > 0 ? GoneWithTheFirst(p, which, groups) : SecondIsShare(p, which, groups);
-  };
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

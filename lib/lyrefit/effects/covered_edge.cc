@@ -45,14 +45,6 @@ void SetCoveredEdge(const S* p, Cell<S>* cell) {
   cell->reverse_exponent = S(kEdgeExponent);
 }
 
-// Without substring `which`, those after it move up.
-bool CoveredEdgeLeft(double* p, int which, int groups) {
-  for (int k = which; k + 1 < std::min(groups, kMostEdges); ++k) {
-    std::copy(p + 2 * k + 2, p + 2 * k + 4, p + 2 * k);
-  }
-  return true;
-}
-
 // Substrings, the brightest first: share of the cells and position among the parameters.
 struct EdgeOrder {
   std::vector<double> shares;
@@ -194,7 +186,6 @@ Effect CoveredEdge() {
     return missing;
   };
   e.slight_is = "scatter";
-  e.covered = CoveredEdgeLeft;
   e.starts = [](const CurveShape& shape, const DataTraits& traits, const auto&) {
     return CoveredEdgeStarts(shape, traits);
   };

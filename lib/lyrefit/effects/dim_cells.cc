@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/dim_places.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
@@ -158,7 +157,6 @@ Effect DimCells() {
   e.parameters = DimCellsParameters();
   e.cell = [](const auto* p, auto* cell) { SetDimCells(p, cell); };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     return std::vector<Probe>{{0.3, 0.15, 0, 0, 0, 1, 1, 3.2, 3.4, 0.5, 1},

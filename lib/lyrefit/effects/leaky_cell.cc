@@ -1,5 +1,4 @@
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
 
@@ -43,7 +42,6 @@ Effect LeakyCell() {
     cell->bypass = p[2];
   };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

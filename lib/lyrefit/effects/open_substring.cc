@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 
 namespace lyrefit {
@@ -88,10 +87,6 @@ Effect OpenSubstring() {
     cell->bypass_ideality = p[2];
   };
   e.groups = true;
-  e.covered = [](double* p, int which, int groups) {
-    p[0] = ShareLeft(p[0], which, groups);
-    return p[0] > 1e-3;
-  };
   e.why_not = [](const DataTraits& traits) {
     auto why = NeedsBypassedModule(traits);
     return why ? why : NeedsBypassDiodes(traits);

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
@@ -114,7 +113,6 @@ Effect Shading() {
     return SubstringsOf(traits) == 2 ? p[0] : kUnknown;
   };
   e.slight_is = "scatter";
-  e.covered = SecondIsShare;
   e.why_not = NeedsBypassDiodes;
   e.probes = [](const DataTraits& traits) {
     std::vector<Probe> probes;

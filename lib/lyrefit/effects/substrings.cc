@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
@@ -162,25 +161,6 @@ void SetSubstrings(const S* p, Cell<S>* cell) {
   cell->bypass = p[kDrop];
 }
 
-bool SubstringsCovered(double* p, int which, int groups) {
-  int darkest_first[kGroups];
-  std::iota(darkest_first, darkest_first + kGroups, 0);
-  std::stable_sort(darkest_first, darkest_first + kGroups,
-                   [p](int a, int b) { return p[2 * a] > p[2 * b]; });
-  double before = 0, left = 0;
-  for (const int k : darkest_first) {
-    double& share = p[2 * k + 1];
-    const int first = static_cast<int>(std::lround(before * groups));
-    before += share;
-    share = ShareLeft(share, which, groups, first);
-    if (share < 1e-3) share = 0;
-    left += share;
-  }
-  constexpr double kMost = 0.999;
-  for (int k = 0; k < kGroups; ++k) p[2 * k + 1] *= left > kMost ? kMost / left : 1;
-  return left > 0;
-}
-
 // Whether lights fall from substring to substring down to a single brightest one, which may be
 // covered as well.
 bool LeavesOneBright(const double* p, const DataTraits& traits) {
@@ -241,7 +221,6 @@ Effect Substrings() {
   };
   e.slight_is = "scatter";
   e.hides = LeavesOneBright;
-  e.covered = SubstringsCovered;
   e.starts = SubstringStarts;
   e.why_not = [](const DataTraits& traits) {
     auto why = NeedsBypassedModule(traits);

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "lyrefit/effects/catalogue_entries.h"
-#include "lyrefit/effects/covered.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
 
@@ -115,7 +114,6 @@ Effect WeakCell() {
     cell->reverse_exponent = p[kExponent];
   };
   e.groups = true;
-  e.covered = GoneWithTheFirst;
   e.why_not = NeedsBypassedModule;
   e.probes = [](const DataTraits&) {
     std::vector<Probe> probes;

@@ -378,10 +378,6 @@ struct Effect {
   // Standard deviation of the power to gain, in parts of it, where the curve never shows the cells
   // that would give it. 0: that of other causes.
   double gain_scatter = 0;
-  // Transforms the parameters for a measurement in which bypass group `which` of `groups` is
-  // covered and only the other groups generate. The effect begins in the first group. Returns false
-  // if the effect vanishes. Null: the effect is the same in all cells.
-  bool (*covered)(double* p, int which, int groups) = nullptr;
 
   FoundBy found_by = FoundBy::kFit;
   // Divides the cells into cell groups: only one effect of a law may.

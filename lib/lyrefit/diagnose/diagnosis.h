@@ -10,6 +10,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
+#include "lyrefit/effects/fitted_effect.h"
 #include "lyrefit/estimate/fit/fit_report.h"
 #include "lyrefit/model/device.h"
 
@@ -69,17 +70,6 @@ struct Evidence {
   std::vector<Finding> findings;
 };
 
-// A fitted parameter of an effect.
-struct CauseParameter {
-  std::string symbol;
-  std::string name;  // name in code and JSON
-  std::string unit;
-  double value = kUnknown;  // in `unit`
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
-  bool at_bound = false;
-};
-
 // Result of trying one effect of the catalogue.
 struct Trial {
   std::string effect;  // its id
@@ -96,13 +86,6 @@ struct Trial {
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // fraction of the effect's signature that the base model cannot absorb
   std::vector<CauseParameter> parameters;  // fitted together with the base model
-};
-
-// A size with its 95 % interval.
-struct Sized {
-  double value = kUnknown;  // in the unit of the field
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
 };
 
 // A hypothesis that could stand in the place of a cause.

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
 namespace lyrefit {
@@ -151,6 +154,18 @@ std::vector<EffectParameter> CoveredEdgeParameters() {
   return parameters;
 }
 
+Phrases CoveredEdgeInWords(const FittedEffect& of) {
+  Phrases words;
+  const int substrings = std::clamp(SubstringsOf(of.readings.traits), 2, kMostEdges);
+  words.reserve(substrings);
+  for (int k = 0; k < substrings; ++k) {
+    words.push_back(fmt::format(
+        "{:.0f} % of a substring's cells have {} of the others' {}", 100 * of.p[2 * k + 1],
+        LightLeft(of.p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light()));
+  }
+  return words;
+}
+
 }  // namespace
 
 Effect CoveredEdge() {
@@ -177,6 +192,8 @@ Effect CoveredEdge() {
   e.separate_by = "clean the module, or compare the short-circuit current with the light";
   e.fact_sheet = "PVFS 3-3";
   e.action = "look for snow, dirt or a shadow along an edge of the module and clear it";
+  e.prior = {0.08, 0.08, kShadePrior};
+  e.in_words = CoveredEdgeInWords;
   e.parameters = CoveredEdgeParameters();
   e.cell = [](const auto* p, auto* cell) { SetCoveredEdge(p, cell); };
   e.groups = true;

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
 #include "lyrefit/effects/odd_cells.h"
+#include "lyrefit/effects/phrases.h"
 
 namespace lyrefit {
 
@@ -19,6 +22,12 @@ Effect LeakyCell() {
   e.action =
       "look at the module with a thermal camera: the leaking cell is warmer or colder than the "
       "others";
+  e.prior = {0.01, 0.01, kFaultPrior};
+  e.in_words = [](const FittedEffect& of) -> Phrases {
+    const double* p = of.p;
+    const std::string each = p[1] > 1.5 ? fmt::format("each of {:.0f} cells", p[1]) : "the cell";
+    return {fmt::format("at 0.5 V {} loses {:.2g} % of Isc", each, 100 * (0.5 * p[0]))};
+  };
   e.parameters = {
       Parameter("g", "leak", "conductance of the cell beside that of the others")
           .Unit("S")

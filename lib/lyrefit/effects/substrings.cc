@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -6,6 +8,7 @@
 
 #include "lyrefit/effects/catalogue_entries.h"
 #include "lyrefit/effects/needs.h"
+#include "lyrefit/effects/phrases.h"
 #include "lyrefit/effects/unlike_substrings.h"
 
 namespace lyrefit {
@@ -188,6 +191,19 @@ std::vector<ShapeStart> SubstringStarts(const CurveShape& shape, const DataTrait
   return starts;
 }
 
+Phrases SubstringsInWords(const FittedEffect& of) {
+  Phrases words;
+  const double* p = of.p;
+  for (int k = 0; k < kGroups; ++k) {
+    if (!(p[2 * k + 1] > 0)) continue;
+    words.push_back(fmt::format("{} under {} of the brightest's {}{}",
+                                PartOfCells(of.readings, p[2 * k + 1]),
+                                LightLeft(p[2 * k], of.Of(fmt::format("d{}", k + 1))), of.light(),
+                                CoveredPart(p[kCovered])));
+  }
+  return words;
+}
+
 }  // namespace
 
 Effect Substrings() {
@@ -207,6 +223,8 @@ Effect Substrings() {
   e.separate_by = "repeat the sweep: shading stays at the same voltage, a cloud does not";
   e.action = "look for shade, snow or dirt on the darker parts and clear it";
   e.fact_sheet = "PVFS 3-3";
+  e.prior = {0.08, 0.08, kShadePrior};
+  e.in_words = SubstringsInWords;
   e.parameters = SubstringParameters();
   for (int k = 0; k < kGroups; ++k) e.alike.push_back({2 * k, 2 * k + 1});
   e.cell = [](const auto* p, auto* cell) { SetSubstrings(p, cell); };

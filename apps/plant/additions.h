@@ -54,6 +54,8 @@ struct PlantResults {
 //   samples     samples.csv and samples.jsonl with the statistics of each sample and direction, for
 //               rows of task `cell` (samples.h)
 //   campaign    strings with themselves in earlier results, and campaign.json (campaign.h)
+//   verdict     one verdict a string, of all of these together, on its row and its page
+//               (string_verdict.h)
 // `results`, unless it is null, is set when the results of a run are written. Shards are merged with
 // any options: those of their runs stand in their heads.
 BatchAdditions PlantAdditions(const PlantOptions& options = {}, PlantResults* results = nullptr);

@@ -134,12 +134,13 @@ void CampaignAddition::EndLearning() {
   state_->campaign = CompareCampaigns(state_->earlier.strings, state_->later, state_->level);
 }
 
-void CampaignAddition::Add(RowGroup* group) {
-  if (!state_) return;
+Expected<void> CampaignAddition::Add(RowGroup* group) {
+  if (!state_) return {};
   for (ResultRow& row : group->rows) {
     Append(CampaignCells(state_->campaign, state_->earlier.strings, state_->later, state_->next++),
            &row.cells);
   }
+  return {};
 }
 
 CampaignSummary CampaignAddition::Summary() const {

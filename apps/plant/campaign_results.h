@@ -72,7 +72,7 @@ class CampaignAddition final : public BatchAddition {
   std::vector<ResultColumn> Columns() const override;
   void Learn(const RowGroup& group) override;
   void EndLearning() override;
-  void Add(RowGroup* group) override;
+  Expected<void> Add(RowGroup* group) override;
   AddedReport Report() const override;
   std::vector<ResultFile> Files() const override;
 

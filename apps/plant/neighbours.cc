@@ -174,7 +174,7 @@ void NeighbourAddition::Learn(const RowGroup& group) {
   if (group.together) state_.scatter.Add(Deviations(group));
 }
 
-void NeighbourAddition::Add(RowGroup* group) {
+Expected<void> NeighbourAddition::Add(RowGroup* group) {
   const auto deviations = Deviations(*group);
   std::array<double, kNeighbourQuantities> limits{};
   if (group->together) limits = state_.scatter.Limits(deviations, state_.level);
@@ -186,6 +186,7 @@ void NeighbourAddition::Add(RowGroup* group) {
     }
     Append(std::move(cells), &group->rows[i].cells);
   }
+  return {};
 }
 
 AddedReport NeighbourAddition::Report() const {

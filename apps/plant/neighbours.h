@@ -83,7 +83,7 @@ class NeighbourAddition final : public BatchAddition {
   Expected<void> Open(const RowsInput& input) override;
   std::vector<ResultColumn> Columns() const override { return NeighbourColumns(); }
   void Learn(const RowGroup& group) override;
-  void Add(RowGroup* group) override;
+  Expected<void> Add(RowGroup* group) override;
   AddedReport Report() const override;
 
  private:

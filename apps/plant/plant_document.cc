@@ -19,6 +19,8 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "page",
                                          "status",
                                          "zone",
+                                         "string_to_do",
+                                         "string_cause_title",
                                          "cause_title",
                                          "onset_date",
                                          "loss_total_percent",
@@ -29,6 +31,7 @@ constexpr const char* kFirstColumns[] = {"id",
                                          "performance_factor",
                                          "Pmax_stc_W",
                                          "group_deviation_percent",
+                                         "string_lost_W",
                                          "recoverable_power_W",
                                          "change_lost_W",
                                          "change_kind",
@@ -106,16 +109,18 @@ block::Table WithoutEmptyColumns(block::Table table) {
 
 block::Table WorstTable(const PlantSummary& summary, const std::string& results) {
   block::Table table = {
-      "lrrlrlllr",
-      {{"string", "performance factor", "Pmax at STC (W)", "zone", "power lost now (%)",
-        "mostly by", "since", "cause", "power to recover (W)"}}};
+      "llrrrlrllww",
+      {{"string", "to do", "lost (W)", "performance factor", "Pmax at STC (W)", "zone",
+        "power lost now (%)", "mostly by", "since", "what is seen", "what to do"}}};
   table.caption = fmt::format("The {} worst strings, by {}", summary.worst.size(),
                               ColumnInWords(summary.worst_by));
   for (const PlantRow& row : summary.worst) {
-    table.rows.push_back({row.id, Number(row.performance_factor, 3), Number(row.Pmax_stc_W, 0),
-                          row.zone, Number(row.lost_now_percent, 2), row.largest_loss,
-                          row.onset_date, row.cause_title.empty() ? row.cause : row.cause_title,
-                          Number(row.recoverable_power_W, 0)});
+    const bool judged = row.verdict.NeedsAVisit();
+    table.rows.push_back({row.id, judged ? std::string(ToText(row.verdict.to_do)) : "",
+                          Number(row.lost_W(), 0), Number(row.performance_factor, 3),
+                          Number(row.Pmax_stc_W, 0), row.verdict.zone,
+                          Number(row.lost_now_percent, 2), row.largest_loss, row.onset_date,
+                          judged ? SeenOf(row.verdict) : "", row.verdict.action});
     table.links.push_back(LinkOf(row, results));
   }
   return WithoutEmptyColumns(std::move(table));
@@ -125,44 +130,12 @@ block::Table OutliersTable(const PlantSummary& summary, const std::string& resul
   block::Table table = {"lw", {{"string", "differs in"}}};
   table.caption = "Strings that differ most from those of the same combiner";
   for (const PlantRow& row : summary.outliers) {
-    table.rows.push_back(
-        {row.id, row.outlier.empty() ? Number(row.deviation_percent, 2) + " %" : row.outlier});
+    table.rows.push_back({row.id, row.verdict.outlier.empty()
+                                      ? Number(row.deviation_percent, 2) + " %"
+                                      : row.verdict.outlier});
     table.links.push_back(LinkOf(row, results));
   }
   return table;
-}
-
-// Names of causes as words: "light_sensor" as "light sensor".
-std::string InWords(std::string names) {
-  std::replace(names.begin(), names.end(), ' ', ',');
-  std::replace(names.begin(), names.end(), '_', ' ');
-  std::string text;
-  for (const char c : names) text += c == ',' ? ", or " : std::string(1, c);
-  return text;
-}
-
-// Strings that differ from their plan in scale, with what to do.
-Section AgainstThePlan(const PlantSummary& summary, const std::string& results) {
-  Section section = {"Against the plan"};
-  if (summary.scaled.empty()) return section;
-  block::Table table = {"lrww", {{"string", "lost (W)", "what is seen", "what to do"}}};
-  std::int64_t all = 0;
-  for (const auto& [cause, share] : summary.plan_causes) all += share.rows;
-  const auto listed = static_cast<std::int64_t>(summary.scaled.size());
-  table.caption =
-      (listed < all ? fmt::format("The {} strings that lose most, of {} that differ from the plan.",
-                                  listed, Counted(all))
-                    : "All strings that differ from the plan.") +
-      " The power lost is that in the light of the sweep.";
-  for (const PlantRow& row : summary.scaled) {
-    const std::string others =
-        row.plan_equivalents.empty() ? "" : "; or " + InWords(row.plan_equivalents);
-    table.rows.push_back({row.id, Number(row.plan_lost_W, 0),
-                          row.cause_title + others + ". " + row.plan_sentence, row.plan_action});
-    table.links.push_back(LinkOf(row, results));
-  }
-  AddTable(std::move(table), &section);
-  return section;
 }
 
 Section NotJudged(const PlantSummary& summary) {
@@ -256,7 +229,7 @@ Document PlantDocument(const PlantContent& content) {
   Section neighbours = {"Against the neighbours"};
   if (!summary.outliers.empty()) AddTable(OutliersTable(summary, content.results), &neighbours);
   AddFigure(NeighboursFigure(summary), &neighbours);
-  AddSections({found, losses, AgainstThePlan(summary, content.results)}, &document);
+  AddSections({found, losses}, &document);
   AddSections(std::move(since), &document);
   AddSections({worst, all, spreads, neighbours, NotJudged(summary), AboutPage(content)}, &document);
   return document;

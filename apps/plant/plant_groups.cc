@@ -87,12 +87,6 @@ std::vector<double> LossesOf(const PlantNode& node, const std::vector<std::strin
   return losses;
 }
 
-// Whether a title is of a cause by the plan.
-bool IsOfPlan(const std::string& title, const PlantSummary& summary) {
-  return std::any_of(summary.plan_causes.begin(), summary.plan_causes.end(),
-                     [&](const auto& cause) { return cause.second.title == title; });
-}
-
 // One bar on the other: bars from zero to each sum, the largest behind the others. Their filters name
 // the column of the cause.
 Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::string>& causes,
@@ -104,9 +98,10 @@ Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::s
     bars.kind = SeriesKind::kBars;
     bars.look = LookOf(static_cast<int>(c));
     bars.width = 0.8;
-    const bool of_plan = IsOfPlan(causes[c], summary);
-    bars.filter_columns = {"id", "status", "zone", of_plan ? "plan_cause_title" : by};
+    const bool to_do = summary.tells_what_to_do;
+    bars.filter_columns = {"id", "status", to_do ? "string_to_do" : "zone", by};
     const bool others = causes[c] == "others" || (causes[c] == kNoCause && by == "cause");
+    const std::string needs = !to_do ? "!pass" : causes[c] == kNoCause ? "=work" : "!inspect";
     const std::string title = others ? "" : causes[c] == kNoCause ? "=" : "=" + causes[c];
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::vector<double> losses = LossesOf(groups[g].second, causes, loss);
@@ -114,7 +109,7 @@ Panel StackedBars(const std::vector<NamedNode>& groups, const std::vector<std::s
       double sum = 0;
       for (std::size_t below = 0; below <= c; ++below) sum += losses[below];
       bars.Add(static_cast<double>(g), sum);
-      bars.filters.push_back({"^" + groups[g].first + "/", "=fine", "!pass", title});
+      bars.filters.push_back({"^" + groups[g].first + "/", "=fine", needs, title});
       bars.texts.push_back(
           fmt::format("{}: {}, {}", groups[g].first, causes[c], loss.Text(losses[c])));
     }

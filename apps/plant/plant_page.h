@@ -19,16 +19,17 @@ namespace LYREFIT_PUBLIC lyrefit {
 // Any columns are allowed. These names have a meaning if they exist:
 //   id                       '/' separates the levels of the plant's tree
 //   status                   "fine" or another status, with its reason in `reason`
-//   zone                     begins with "pass", or the string needs work; without this column a
-//                            string with a cause needs work
-//   cause, cause_title
-//   cause_about              sweep, instrument or conditions: the string needs no work, but a
-//                            repeated measurement; any other value is a cause of the plant
+//   zone                     "pass...", "undecided" or "fail...": against the rating
+//   cause, cause_title, cause_about, cause_sentence, action, probability, equivalents, separate_by
+//   plan_cause, plan_cause_title, ...
+//                            what the curve shows, and what plan and neighbours show: together
+//                            one verdict (string_verdict.h)
 //   date                     ISO 8601
 //   first, last              times of a trend
 //   loss_..._percent, reference_power_W, loss_now_total_percent, largest_loss, onset_date
 //                            energy that a trend says is lost, by part, to what most, and since when
-//   performance_factor, else loss_now_total_percent, group_deviation_percent,
+//   with a zone or a plan, the strings that need a visit rank by what they lose; else
+//   performance_factor, loss_now_total_percent, group_deviation_percent,
 //   recoverable_power_W, lack_of_fit_percent
 //                            the column that ranks the worst strings
 //   Pmax_stc_W, recoverable_power_W, below_rating_W
@@ -36,8 +37,6 @@ namespace LYREFIT_PUBLIC lyrefit {
 //                            whether and how a string differs from those of the same combiner
 //   change_lost_W, change_kind
 //                            what changed since earlier results; campaign.json has the rest
-//   plan_cause, plan_cause_title, plan_cause_about, plan_sentence, plan_equivalents, plan_action,
-//   plan_lost_W              a fault of the scale, which takes the place of `cause`
 //   sparkline                the curve, by Sparkline()
 //   page                     the string's own page: a path from the folder of the results
 Expected<std::int64_t> WritePlantPage(const std::string& folder, const std::string& file,

@@ -11,6 +11,7 @@
 #include "lyrefit/batch/result_row.h"
 #include "plant/plant_losses.h"
 #include "plant/plant_sample.h"
+#include "plant/string_verdict.h"
 
 namespace lyrefit {
 
@@ -19,17 +20,16 @@ namespace lyrefit {
 
 // A row as listed in the tables that need no script.
 struct PlantRow {
-  std::string id, zone, cause, cause_title, reason, page, outlier, sparkline, onset_date,
-      largest_loss;
+  std::string id, reason, page, sparkline, onset_date, largest_loss;
+  StringVerdict verdict;
   double performance_factor = kUnknown;
   double Pmax_stc_W = kUnknown;
-  double recoverable_power_W = kUnknown;
   double below_rating_W = kUnknown;
   double deviation_percent = kUnknown;
-  // Of the comparison with the plan: what the string loses, in a sentence, and what to do.
-  double plan_lost_W = kUnknown;
-  std::string plan_sentence, plan_action, plan_equivalents;
   double lost_now_percent = kUnknown;  // of a trend
+
+  // What the string gives less by its cause, else than its rating.
+  double lost_W() const { return LostBy(verdict, below_rating_W); }
 };
 
 struct PlantShare {
@@ -49,16 +49,16 @@ struct PlantNode {
 
 struct PlantSummary {
   std::int64_t rows = 0;
-  std::int64_t fine = 0;     // number of rows with the status "fine"
-  std::int64_t passed = 0;   // number of rows with a passing zone
-  std::int64_t in_need = 0;  // number of rows that need work: see NeedsWork
-  // Number of rows with a cause of the measurement alone that do not fail.
-  std::int64_t to_repeat = 0;
+  std::int64_t fine = 0;           // number of rows with the status "fine"
+  std::int64_t passed = 0;         // number of rows with a passing zone
+  std::int64_t in_need = 0;        // number of rows that need work, or their plan
+  std::int64_t to_repeat = 0;      // number of rows with a cause of the measurement alone
   double recoverable_power_W = 0;  // sum over rows that need work
   double below_rating_W = 0;       // shortfall of rows that need work and are below their rating
   double power_W = 0;              // sum of the known power at standard conditions over all rows
   std::string judged_by;           // the column that determines who needs work: zone, cause or none
-  std::string titled_by;           // the column of the causes' titles: cause_title, cause or none
+  std::string titled_by;           // the column of the causes' titles, or none
+  bool tells_what_to_do = false;   // whether there is a column string_to_do
   std::map<std::string, PlantShare> status, zones, causes;  // causes of rows that need work
   std::map<std::string, PlantShare> causes_of_passed;
   std::map<std::string, PlantShare> causes_to_repeat;
@@ -66,13 +66,9 @@ struct PlantSummary {
   // Number of rows that need no work but differ from their neighbours.
   std::int64_t passed_outlier = 0;
   std::string first_date, last_date;
-  std::vector<PlantRow> worst;   // at most kPlantWorst, the worst first
-  std::string worst_by;          // the column that ranks them
-  std::vector<PlantRow> broken;  // the first kPlantListed rows that are not fine
-  // At most kPlantScaled that differ from their plan in scale, those that lose most first.
-  std::vector<PlantRow> scaled;
-  std::map<std::string, PlantShare> plan_causes;  // of all of these
-  double plan_lost_W = 0;                         // of all of these
+  std::vector<PlantRow> worst;     // at most kPlantWorst, the worst first
+  std::string worst_by;            // the column that ranks them
+  std::vector<PlantRow> broken;    // the first kPlantListed rows that are not fine
   std::vector<PlantRow> outliers;  // at most kPlantListed that differ from their neighbours, those
                                    // that differ most first
   // Nodes by depth: [0] the first levels of the ids, [1] the first two, ... A depth with more than
@@ -84,7 +80,6 @@ struct PlantSummary {
 
 constexpr std::size_t kPlantWorst = 100;
 constexpr std::size_t kPlantListed = 25;
-constexpr std::size_t kPlantScaled = 100;
 constexpr std::size_t kPlantMostNodes = 2000;
 // Different statuses, causes, ...; further ones are counted as "others".
 constexpr std::size_t kPlantMostWords = 200;
@@ -108,7 +103,8 @@ class PlantCounter {
     kZone,
     kCause,
     kCauseTitle,
-    kCauseAbout,
+    kStringTitle,
+    kToDo,
     kPerformance,
     kPower,
     kRecoverable,
@@ -117,15 +113,8 @@ class PlantCounter {
     kPage,
     kBelow,
     kDiffers,
-    kOutlier,
     kSparkline,
     kPlanCause,
-    kPlanTitle,
-    kPlanAbout,
-    kPlanSentence,
-    kPlanEquivalents,
-    kPlanAction,
-    kPlanLost,
     kLostNow,
     kOnset,
     kLargestLoss,
@@ -133,30 +122,28 @@ class PlantCounter {
     kLast,
     kColumns
   };
-  // Rows with a key, a heap with the smallest on top.
-  using Ranked = std::vector<std::pair<double, PlantRow>>;
+  // Rows with what ranks them, the first of it first; a heap with the smallest on top.
+  using Rank = std::array<double, 3>;
+  using Ranked = std::vector<std::pair<Rank, PlantRow>>;
   std::string Text(const ResultRow& row, Known column) const;
   double Number(const ResultRow& row, Known column) const;
   bool Has(Known column) const { return places_[column] >= 0; }
-  bool NeedsWork(const std::string& zone, const std::string& cause) const;
-  bool ToRepeat(const std::string& about, const std::string& zone) const;
-  PlantRow WithPlan(PlantRow named, const ResultRow& row) const;
   bool Differs(const ResultRow& row) const;
   double Badness(const ResultRow& row) const;
-  void CountWords(const PlantRow& row, const std::string& status, bool needs_work, bool to_repeat);
+  void CountWords(const PlantRow& row, const std::string& status);
   void CountDate(const std::string& date);
-  void CountTree(const PlantRow& row, bool needs_work);
+  void CountTree(const PlantRow& row);
+  static void Keep(Rank rank, const PlantRow& row, std::size_t most, Ranked* ranked);
+  static std::vector<PlantRow> InOrder(Ranked ranked);
 
   std::array<int, kColumns> places_{};
+  StringJudge judge_;
   PlantSummary sum_;
   std::map<std::string, std::string> first_reasons_;  // of each kind (base/reasons.h)
   std::size_t deepest_ = 8;                           // number of tree levels that are counted
-  Ranked worst_, outliers_, scaled_;
+  Ranked worst_, outliers_;
   PlantSampler sampler_;
   PlantLossCounter losses_;
 };
-
-// True if `cause` means that no cause was found, in any of its notations.
-bool IsNoCause(const std::string& cause);
 
 }  // namespace lyrefit

@@ -208,9 +208,10 @@ Expected<void> SampleAddition::Open(const RowsInput& input) {
   return {};
 }
 
-void SampleAddition::Add(RowGroup* group) {
-  if (!counter_) return;
+Expected<void> SampleAddition::Add(RowGroup* group) {
+  if (!counter_) return {};
   for (const ResultRow& row : group->rows) counter_->Count(row);
+  return {};
 }
 
 AddedReport SampleAddition::Report() const {

@@ -62,7 +62,7 @@ class SampleAddition final : public BatchAddition {
 
   std::vector<std::string> FileNames() const override;
   Expected<void> Open(const RowsInput& input) override;
-  void Add(RowGroup* group) override;
+  Expected<void> Add(RowGroup* group) override;
   AddedReport Report() const override;
   std::vector<ResultFile> Files() const override;
   void AddToSchema(BatchJson* schema) const override;

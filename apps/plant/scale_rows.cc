@@ -70,9 +70,11 @@ ScaleMember ScaleReader::Read(const ResultRow& row) const {
   member.strings = count(kStrings, 0);
   member.bypass_diodes = count(kDiodes, 3);
   member.module = text(kModule);
-  // Fewer cells in series are a fault of the scale, of which the plan says more than one curve.
+  // Fewer cells in series, a resistance and what a fill factor lacks may be faults of the scale, of
+  // which the plan says more than one curve.
   const std::string cause = text(kCause);
-  if (text(kAbout) == "device" && cause != "bypass_short") member.own_cause = cause;
+  const bool own = cause != "bypass_short" && !MayBeOfScale(cause);
+  if (text(kAbout) == "device" && own) member.own_cause = cause;
   return member;
 }
 
@@ -105,9 +107,9 @@ void ScaleAddition::Learn(const RowGroup& group) {
   for (const auto& members : MembersOf(group)) scatter_.Add(ScaleResiduals(members));
 }
 
-void ScaleAddition::Add(RowGroup* group) {
+Expected<void> ScaleAddition::Add(RowGroup* group) {
   rows_ += static_cast<std::int64_t>(group->rows.size());
-  if (!reader_) return;
+  if (!reader_) return {};
   const std::vector<ResultColumn> columns = ScaleColumns();
   const std::size_t cause_place = ColumnPlace(columns, "plan_cause");
   std::size_t i = 0;
@@ -120,6 +122,7 @@ void ScaleAddition::Add(RowGroup* group) {
       Append(std::move(cells), &group->rows[i++].cells);
     }
   }
+  return {};
 }
 
 AddedReport ScaleAddition::Report() const {

@@ -58,7 +58,7 @@ class ScaleAddition final : public BatchAddition {
   Expected<void> Open(const RowsInput& input) override;
   std::vector<ResultColumn> Columns() const override;
   void Learn(const RowGroup& group) override;
-  void Add(RowGroup* group) override;
+  Expected<void> Add(RowGroup* group) override;
   AddedReport Report() const override;
 
  private:

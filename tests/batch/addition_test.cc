@@ -26,13 +26,14 @@ class CountAddition final : public BatchAddition {
             {"all_rows", "", CellType::kWhole, "all rows"}};
   }
   void Learn(const RowGroup& group) override { all_ += static_cast<int>(group.rows.size()); }
-  void Add(RowGroup* group) override {
+  Expected<void> Add(RowGroup* group) override {
     const auto size = static_cast<std::int64_t>(group->rows.size());
     for (ResultRow& row : group->rows) {
       row.cells.emplace_back(group->together ? size : 0);
       row.cells.emplace_back(std::int64_t{all_});
       ++seen_;
     }
+    return {};
   }
   AddedReport Report() const override { return {{{"counted", std::to_string(seen_)}}, {}, {}}; }
   std::vector<ResultFile> Files() const override { return {{"count.txt", std::to_string(all_)}}; }

@@ -131,7 +131,7 @@ TEST(PlanTask, PageListsTheFaultWithWattsAndWhatToDo) {
   ASSERT_TRUE(RunOn(input, WithPlan(CountTask(), plan), IntoPlant(folder.Path("out"))));
   ASSERT_TRUE(WritePlantPage(folder.Path("out"), folder.Path("page.html"), "Oak"));
   const std::string page = FileText(folder.Path("page.html"));
-  EXPECT_THAT(page, HasSubstr("Against the plan"));
+  EXPECT_THAT(page, HasSubstr("Which strings to visit first"));
   EXPECT_THAT(page, HasSubstr("1 need"));
   EXPECT_THAT(page, HasSubstr("module missing or shorted"));
   EXPECT_THAT(page, HasSubstr("has the voltage of 1 module of 8 too few"));

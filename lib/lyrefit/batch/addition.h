@@ -30,6 +30,8 @@ struct RowsInput {
   const CheckpointHead& head;                // of the last checkpoint file
   const std::vector<ResultColumn>& columns;  // of the checkpoint files
   const std::vector<std::string>& parts;     // the checkpoint files
+  const std::vector<ResultColumn>& so_far;   // with those of the additions before
+  const std::string& folder;                 // of the results and their pages
 };
 
 // What is added to the results of a run besides the rows of its task. The rows are read twice: all
@@ -60,7 +62,7 @@ class BatchAddition {
   virtual void Learn(const RowGroup& /*group*/) {}
   virtual void EndLearning() {}  // after the last row
   // Adds the cells of Columns() to each row. The groups come in the same order again.
-  virtual void Add(RowGroup* /*group*/) {}
+  virtual Expected<void> Add(RowGroup* /*group*/) { return {}; }
   // After the last row.
   virtual AddedReport Report() const { return {}; }
   virtual std::vector<ResultFile> Files() const { return {}; }

@@ -101,15 +101,18 @@ std::string SchemaJson(const CheckpointHead& head, const std::vector<ResultColum
 }
 
 // Opens the additions, which learn from all rows. Returns the columns of the results.
-Expected<std::vector<ResultColumn>> Learn(const RowsInput& input, const BatchAdditions& additions,
-                                          RowProgress* passed) {
-  std::vector<ResultColumn> columns = input.columns;
+Expected<std::vector<ResultColumn>> Learn(const CheckpointHead& head,
+                                          const std::vector<ResultColumn>& rows,
+                                          const std::vector<std::string>& parts,
+                                          const std::string& folder,
+                                          const BatchAdditions& additions, RowProgress* passed) {
+  std::vector<ResultColumn> columns = rows;
   for (const auto& addition : additions) {
-    TRY(addition->Open(input));
+    TRY(addition->Open({head, rows, parts, columns, folder}));
     Append(addition->Columns(), &columns);
   }
   if (additions.empty()) return columns;
-  TRY(ForGroups(input.parts, input.columns, [&](const RowGroup& group) -> Expected<void> {
+  TRY(ForGroups(parts, rows, [&](const RowGroup& group) -> Expected<void> {
     for (const auto& addition : additions) addition->Learn(group);
     return Pass(group.rows.size(), passed);
   }));
@@ -140,7 +143,7 @@ Expected<BatchResults> WriteAllResults(const std::vector<std::string>& parts,
   TRY(const CheckpointReader last, CheckpointReader::Open(parts.back()));
   TRY(const auto rows, ColumnsOf(last.head(), parts.back()));
   BatchResults results;
-  TRY(results.columns, Learn({last.head(), rows, parts}, additions, passed));
+  TRY(results.columns, Learn(last.head(), rows, parts, folder, additions, passed));
   const bool raw = last.head().at("options").value("raw-csv", false);
   const CsvTexts texts = raw ? CsvTexts::kRaw : CsvTexts::kSafe;
   const fs::path base(folder);
@@ -151,7 +154,7 @@ Expected<BatchResults> WriteAllResults(const std::vector<std::string>& parts,
   TRY(csv.Write(HeadCsv(results.columns)));
   RowCounter counter(results.columns);
   TRY(ForGroups(parts, rows, [&](RowGroup& group) -> Expected<void> {
-    for (const auto& addition : additions) addition->Add(&group);
+    for (const auto& addition : additions) TRY(addition->Add(&group));
     for (const ResultRow& row : group.rows) {
       TRY(csv.Write(RowCsv(row, texts)));
       TRY(lines.Write(RowJson(results.columns, row) + "\n"));

@@ -133,7 +133,7 @@ TEST(FindTrend, FindsAStepOfTheSeriesResistance) {
   EXPECT_TRUE(Holds(change.size, 0.15));
   ASSERT_EQ(report.onsets.size(), 1U);
   EXPECT_EQ(report.onsets[0].quantity, "resistance_series");
-  EXPECT_EQ(report.onsets[0].cause, "a step of the series resistance");
+  EXPECT_EQ(report.onsets[0].cause.title, "a step of the series resistance");
   EXPECT_GT(report.onsets[0].lost_percent, 1);
   const Ranged lost = EnergyLost(report, "resistance_series");
   EXPECT_GT(lost.value, 0.3);
@@ -187,7 +187,7 @@ TEST(FindTrend, FindsAShuntAndRecombinationThatGrowTogether) {
   const TrendReport report = ReportOf(year);
   ASSERT_FALSE(report.onsets.empty());
   for (const TrendOnset& onset : report.onsets) {
-    EXPECT_EQ(onset.cause, "potential-induced degradation");
+    EXPECT_EQ(onset.cause.title, "potential-induced degradation");
     EXPECT_GT(DayOf(onset.latest_s), 55);
   }
   EXPECT_NEAR(DayOf(report.onsets.front().time_s), 60, 10);
@@ -204,7 +204,7 @@ TEST(FindTrend, FindsASubstringThatIsLost) {
   };
   const TrendReport report = ReportOf(year);
   ASSERT_EQ(report.onsets.size(), 1U);
-  EXPECT_EQ(report.onsets[0].cause, "1 of 3 substrings without voltage");
+  EXPECT_EQ(report.onsets[0].cause.title, "1 of 3 substrings without voltage");
   EXPECT_NEAR(DayOf(report.onsets[0].time_s), 50.5, 1);
   EXPECT_NEAR(DayOf(report.onsets[0].earliest_s), 49.5, 1);
   EXPECT_NEAR(report.onsets[0].lost_percent, 100 / 3.0, 1.5);

@@ -151,7 +151,8 @@ double LostBy(const std::string& cause, const std::vector<TrendOnset>& onsets) {
   std::set<std::string> counted;
   double lost = 0;
   for (const TrendOnset& onset : onsets) {
-    if (onset.id == cause && counted.insert(onset.quantity).second) lost += onset.lost_percent;
+    if (onset.cause.id == cause && counted.insert(onset.quantity).second)
+      lost += onset.lost_percent;
   }
   return lost;
 }
@@ -161,7 +162,7 @@ const TrendOnset* CostliestOnset(const std::vector<TrendOnset>& onsets) {
   const TrendOnset* costliest = nullptr;
   double most = -kInfinity;
   for (const TrendOnset& onset : onsets) {
-    const double lost = LostBy(onset.id, onsets);
+    const double lost = LostBy(onset.cause.id, onsets);
     if (costliest != nullptr && !(lost > most)) continue;
     costliest = &onset;
     most = std::isfinite(lost) ? lost : -kInfinity;
@@ -176,17 +177,17 @@ ResultCell DateCell(double time_s) {
 void AddOnset(const TrendReport& report, std::vector<ResultCell>* cells) {
   const TrendOnset* const found = CostliestOnset(report.onsets);
   const TrendOnset onset = found == nullptr ? TrendOnset() : *found;
-  const double lost = found == nullptr ? kUnknown : LostBy(onset.id, report.onsets);
+  const double lost = found == nullptr ? kUnknown : LostBy(onset.cause.id, report.onsets);
   const double recoverable_W = std::max(lost, 0.0) / 100 * report.reference_power_W;
   std::vector<std::string> ids;
-  for (const TrendOnset& one : report.onsets) ids.push_back(one.id);
+  for (const TrendOnset& one : report.onsets) ids.push_back(one.cause.id);
   for (ResultCell cell : std::vector<ResultCell>{
-           static_cast<std::int64_t>(report.onsets.size()), TextCell(onset.id),
-           TextCell(onset.cause), found == nullptr ? ResultCell() : TextCell("device"),
-           TextCell(onset.what), TextCell(onset.action), DateCell(onset.time_s),
-           DateCell(onset.earliest_s), DateCell(onset.latest_s), NumberCell(lost),
-           NumberCell(recoverable_W), ListCell(ids), TextCell(report.verdict),
-           ListCell(report.not_decided), ListCell(report.warnings, "; ")}) {
+           static_cast<std::int64_t>(report.onsets.size()), TextCell(onset.cause.id),
+           TextCell(onset.cause.title), TextCell(onset.cause.group), TextCell(onset.cause.sentence),
+           TextCell(onset.cause.action), DateCell(onset.time_s), DateCell(onset.earliest_s),
+           DateCell(onset.latest_s), NumberCell(lost), NumberCell(recoverable_W), ListCell(ids),
+           TextCell(report.verdict), ListCell(report.not_decided),
+           ListCell(report.warnings, "; ")}) {
     cells->push_back(std::move(cell));
   }
 }

@@ -10,8 +10,8 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/curve/curve_set.h"
-#include "lyrefit/effects/fitted_effect.h"
 #include "lyrefit/estimate/fit/fit_report.h"
+#include "lyrefit/model/cause.h"
 #include "lyrefit/model/device.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
@@ -86,39 +86,6 @@ struct Trial {
   double held_out_rmse_A = kUnknown;
   double kept = kUnknown;  // fraction of the effect's signature that the base model cannot absorb
   std::vector<CauseParameter> parameters;  // fitted together with the base model
-};
-
-// A hypothesis that could stand in the place of a cause.
-struct Alternative {
-  std::string id;  // of an effect; "none": no cause; "unknown_structure": none of the known
-  std::string title;
-  double probability = kUnknown;  // those of a cause and of all its alternatives add up to 1
-};
-
-// An effect that explains a deviation of the data from the base model.
-struct Cause {
-  std::string id;      // of the finding, which may have several mechanisms
-  std::string effect;  // id of the effect that is fitted: its most probable mechanism
-  std::string title;
-  std::string sentence;                   // for a technician, with size
-  std::vector<std::string> in_words;      // meaning here: light in %, heat of a hot cell in W
-  Sized current_effect;                   // on the curve, root mean square, fraction of Isc
-  Sized power_effect;                     // relative error of Pmax of a model without the effect
-  Sized recoverable_power_W;              // additional Pmax of the device without the effect
-  bool at_least = false;                  // that power is a lower limit: only low_95 is known
-  double probability = kUnknown;          // of the finding, against the alternatives
-  std::vector<Alternative> alternatives;  // above 0.5 %, most probable first
-  std::vector<Alternative> mechanisms;    // effects of the same finding, likewise; empty: only one
-  std::string group;                      // "device", "wiring", "sweep", "instrument", "unknown"
-  std::string action;                     // the next thing to do about it
-  std::string fact_sheet;                 // of IEA-PVPS T13-30:2025; may be empty
-  std::vector<std::string>
-      equivalents;  // ids that these data cannot separate from it, with its mechanisms
-  std::vector<std::string> separate_by;  // measurements that would separate them
-  std::vector<CauseParameter> strength;  // its parameters with intervals
-  std::string evidence;                  // "fit" or "values"
-  std::string acts;                      // region of the curve in which it acts, as text
-  std::vector<int> points;               // where it acts most: positions in Diagnosis::points
 };
 
 // The alternatives that the verdict's sentence says beside a cause, most probable first: as many as

@@ -5,29 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "lyrefit/base/numbers.h"
 #include "lyrefit/base/public.h"
+#include "lyrefit/model/cause.h"
 #include "lyrefit/model/law.h"
 
 namespace LYREFIT_PUBLIC lyrefit {
-
-// A size with its 95 % interval.
-struct Sized {
-  double value = kUnknown;  // in the unit of the field
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
-};
-
-// A fitted parameter of an effect.
-struct CauseParameter {
-  std::string symbol;
-  std::string name;  // name in code and JSON
-  std::string unit;
-  double value = kUnknown;  // in `unit`
-  double low_95 = kUnknown;
-  double high_95 = kUnknown;
-  bool at_bound = false;
-};
 
 // An effect of a fitted law, of which Effect::in_words says how large it is.
 struct FittedEffect {

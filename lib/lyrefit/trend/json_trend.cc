@@ -47,8 +47,8 @@ Json OnsetJson(const TrendOnset& onset) {
           {"date_low", DateJson(onset.earliest_s)},
           {"date_high", DateJson(onset.latest_s)},
           {"quantity", onset.quantity},
-          {"id", onset.id},
-          {"cause", onset.cause},
+          {"id", onset.cause.id},
+          {"cause", onset.cause.title},
           {"lost_percent", onset.lost_percent},
           {"sentence", onset.sentence()}};
 }

@@ -36,48 +36,52 @@ bool HasOnsetNear(const TrendReport& report, const std::string& quantity, double
   return false;
 }
 
-struct CauseWords {
-  std::string id;
-  std::string cause;
-  std::string what;
-  std::string action;
-};
+Cause DeviceCause(const char* id, std::string title, const char* sentence, const char* action) {
+  Cause cause;
+  cause.id = id;
+  cause.title = std::move(title);
+  cause.sentence = sentence;
+  cause.group = "device";
+  cause.action = action;
+  return cause;
+}
 
-CauseWords WordsOf(const TrendReport& report, const TrendQuantity& quantity,
-                   const TrendChange& change) {
+Cause CauseOf(const TrendReport& report, const TrendQuantity& quantity, const TrendChange& change) {
   if (quantity.name == "mismatch") {
-    return {"growing_mismatch", "growing mismatch",
-            "power is lost that neither light nor resistances explain: shade, dirt or snow on a "
-            "part, broken cells",
-            "look at the module at the time of its losses; diagnose one of the sweeps"};
+    return DeviceCause(
+        "growing_mismatch", "growing mismatch",
+        "power is lost that neither light nor resistances explain: shade, dirt or snow on a "
+        "part, broken cells",
+        "look at the module at the time of its losses; diagnose one of the sweeps");
   }
   if (quantity.name == "resistance_series") {
-    return change.onset ? CauseWords{"growing_series_resistance", "growing series resistance",
-                                     "solder joints or interconnects age, or a contact corrodes",
-                                     "thermography under load"}
-                        : CauseWords{"series_resistance_step", "a step of the series resistance",
-                                     "a connector, a clamp or an interconnect changed",
-                                     "check connectors and the junction box, thermography under "
-                                     "load"};
+    return change.onset ? DeviceCause("growing_series_resistance", "growing series resistance",
+                                      "solder joints or interconnects age, or a contact corrodes",
+                                      "thermography under load")
+                        : DeviceCause("series_resistance_step", "a step of the series resistance",
+                                      "a connector, a clamp or an interconnect changed",
+                                      "check connectors and the junction box, thermography under "
+                                      "load");
   }
   const std::string other =
       quantity.name == "recombination" ? "conductance_shunt" : "recombination";
   if (HasOnsetNear(report, other, change.time_s)) {
-    return {
+    return DeviceCause(
         "potential_induced_degradation", "potential-induced degradation",
         "shunt and recombination grow together, as by potential-induced degradation (PID)",
         "measure the string's potential to ground and its insulation; electroluminescence shows "
-        "dark cells at the negative end"};
+        "dark cells at the negative end");
   }
   if (quantity.name == "recombination") {
-    return {"growing_recombination", "growing recombination",
-            "the voltage falls by more than light and temperature explain: degradation of the "
-            "cells, or an error of the temperature sensor",
-            "compare the sensor with another one; electroluminescence"};
+    return DeviceCause(
+        "growing_recombination", "growing recombination",
+        "the voltage falls by more than light and temperature explain: degradation of the "
+        "cells, or an error of the temperature sensor",
+        "compare the sensor with another one; electroluminescence");
   }
-  return {"growing_shunt", "growing shunt conductance",
-          "cells leak: PID in its beginning, cracks or hot spots",
-          "thermography; electroluminescence at low current"};
+  return DeviceCause("growing_shunt", "growing shunt conductance",
+                     "cells leak: PID in its beginning, cracks or hot spots",
+                     "thermography; electroluminescence at low current");
 }
 
 // Lost substrings of each block, by the median of its sweeps; -1: no sweep.
@@ -118,14 +122,12 @@ std::vector<TrendOnset> OnsetsOfSubstrings(const TrendBlocks& blocks, const Tren
       onset.time_s = onset.latest_s = blocks.time_s[b];
       onset.earliest_s = last_s;
       onset.lost_percent = LostNow(report, "mismatch");
-      onset.id = "lost_substrings";
-      onset.cause =
-          fmt::format("{} of {} substrings without voltage", lost[b], blocks.device->substrings);
-      onset.what =
+      onset.cause = DeviceCause(
+          "lost_substrings",
+          fmt::format("{} of {} substrings without voltage", lost[b], blocks.device->substrings),
           "Voc is lower by whole substrings: a bypass diode is shorted, or a cell string is open "
-          "and bypassed";
-      onset.action =
-          "measure the voltage of each substring at the junction box and replace the diode";
+          "and bypassed",
+          "measure the voltage of each substring at the junction box and replace the diode");
       onsets.push_back(std::move(onset));
       before = lost[b];
     } else if (lost[b] < before) {
@@ -165,10 +167,8 @@ std::vector<TrendOnset> FindOnsets(const TrendBlocks& blocks, const TrendReport&
     if (!quantity.monitored) continue;
     for (const TrendChange& change : quantity.changes) {
       if (!(change.size.value > 0)) continue;  // to the better, or the end of a growth
-      const CauseWords words = WordsOf(report, quantity, change);
       onsets.push_back({quantity.name, change.time_s, change.earliest_s, change.latest_s,
-                        LostNow(report, quantity.name), words.id, words.cause, words.what,
-                        words.action});
+                        LostNow(report, quantity.name), CauseOf(report, quantity, change)});
     }
   }
   Append(OnsetsOfSubstrings(blocks, report), &onsets);

@@ -127,10 +127,10 @@ Section ChangeSection(const TrendReport& report) {
   }
   if (!table.rows.empty()) AddTable(std::move(table), &section);
   for (const TrendOnset& onset : report.onsets) {
-    section.blocks.emplace_back(
-        block::Entry{fmt::format("{}, from {} ({} .. {})", onset.cause, DateText(onset.time_s),
-                                 DateText(onset.earliest_s), DateText(onset.latest_s)),
-                     {onset.sentence()}});
+    section.blocks.emplace_back(block::Entry{
+        fmt::format("{}, from {} ({} .. {})", onset.cause.title, DateText(onset.time_s),
+                    DateText(onset.earliest_s), DateText(onset.latest_s)),
+        {onset.sentence()}});
   }
   return section;
 }

@@ -11,6 +11,7 @@
 #include "lyrefit/base/option.h"
 #include "lyrefit/base/public.h"
 #include "lyrefit/estimate/refine/estimate.h"
+#include "lyrefit/model/cause.h"
 
 // Records of a trend: what changed in a device over time. Times are seconds since 1970-01-01 of the
 // clock of the logger (curve/date_time.h). Unknown values are NaN.
@@ -154,13 +155,11 @@ struct TrendOnset {
   double earliest_s = kUnknown;    // 95 % range
   double latest_s = kUnknown;      // its other end
   double lost_percent = kUnknown;  // of power, over the last 30 days, by this part
-  std::string id;                  // of the cause: "growing_series_resistance"
-  std::string cause;               // the same in a few words: "growing series resistance"
-  std::string what;                // what it may be, in a sentence without its end
-  std::string action;              // what to do, in the same form
+  // Its id ("growing_series_resistance"), title, sentence and action, both without their ends.
+  Cause cause;
 
-  // Both.
-  std::string sentence() const { return what + ". To do: " + action + "."; }
+  // Both sentences.
+  std::string sentence() const { return cause.sentence + ". To do: " + cause.action + "."; }
 };
 
 // Result of FindTrend.

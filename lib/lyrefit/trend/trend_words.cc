@@ -45,7 +45,7 @@ std::string PowerVerdict(const TrendReport& report) {
 std::string OnsetVerdict(const TrendReport& report) {
   std::string text;
   for (const TrendOnset& onset : report.onsets) {
-    text += fmt::format(" From {}: {}.", DateText(onset.time_s), onset.cause);
+    text += fmt::format(" From {}: {}.", DateText(onset.time_s), onset.cause.title);
   }
   return text;
 }
